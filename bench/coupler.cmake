@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+add_executable(coupler_bench coupler_bench.cpp)
+target_link_libraries(coupler_bench PRIVATE polargrain_pool benchmark::benchmark benchmark::benchmark_main)

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+add_executable(fem_bench fem_bench.cpp)
+target_link_libraries(fem_bench PRIVATE polargrain_fem benchmark::benchmark)

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace polargrain {
+
+/// One fault in something the user wrote.
+struct Fault {
+  std::string file;     ///< the user's file as they named it; empty when the fault is on the command line
+  int line = 0;         ///< first line is 1; 0 when the whole file is meant
+  std::string message;  ///< what is wrong, what was expected and what to do about it
+
+  /// "file:line: message", the form that editors and terminals understand.
+  [[nodiscard]] std::string text() const;
+};
+
+/// The input is wrong: nothing has been run and nothing written. Ends the program with exit status 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Fault> faults);
+  explicit InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
+  [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+/// A run that was well posed could not be carried to its end. Ends the program with exit status 1.
+class RunError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace polargrain

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+
+namespace polargrain {
+
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+
+/// Order of the components of every strain and stress vector (mechanics A.4, but unscaled: curvatures in 1/m,
+/// couple stresses in N/m). First index of a stress: normal of the face; second: direction of the force.
+enum Component : int { k11 = 0, k22 = 1, k33 = 2, k12 = 3, k21 = 4, kCurvature1 = 5, kCurvature2 = 6 };
+
+/// The change over a load step of what a material point feels, counted from the start of the step.
+struct Increment {
+  /// h(i,j) = d u_i / d x_j, dimensionless.
+  Eigen::Matrix2d displacement_gradient = Eigen::Matrix2d::Zero();
+  /// Change of the micro-rotation about e_3, counter-clockwise positive, in rad.
+  double micro_rotation = 0.0;
+  /// kappa_i = d w / d x_i, in rad/m.
+  Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
+
+  /// Cosserat strain (mechanics A.1): eps_12 = h21 - w, eps_21 = h12 + w, eps_33 = 0 (plane strain).
+  [[nodiscard]] Vector7 strain() const {
+    Vector7 e;
+    e << displacement_gradient(0, 0), displacement_gradient(1, 1), 0.0,
+        displacement_gradient(1, 0) - micro_rotation, displacement_gradient(0, 1) + micro_rotation,
+        curvature(0), curvature(1);
+    return e;
+  }
+};
+
+}  // namespace polargrain

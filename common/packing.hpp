@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "common/state.hpp"
+
+namespace polargrain {
+
+/// A disc (or, with a radius of its own out of plane, a sphere in a single layer).
+struct Grain {
+  std::int64_t id = 0;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
+  double radius = 0.0;                                 ///< m
+  double mass = 0.0;                                   ///< kg
+  double moment_of_inertia = 0.0;                      ///< kg m^2, about e_3
+};
+
+/// The prepared initial state of a cell: grains in a periodic box.
+struct Packing {
+  /// Columns are the base vectors of the periodic box, m.
+  Eigen::Matrix2d box = Eigen::Matrix2d::Zero();
+  /// Out-of-plane thickness, m; stresses are per this true thickness.
+  double thickness = 0.0;
+  std::vector<Grain> grains;
+  /// Velocities and contact histories of a packing made with friction, as dem/ keeps them: what lies ready in
+  /// its tangential springs belongs to its equilibrium. Null: grains at rest, no tangential forces.
+  StatePointer state;
+
+  [[nodiscard]] double volume() const { return box.determinant() * thickness; }
+};
+
+/// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first line `# cell ... xx=... xy=... yx=... yy=... z=...` with the base
+/// vectors as columns (xy: x component of the second vector), a line of column names `id,x,y,r,mass,Izz`,
+/// then one grain a line.
+/// @throws InputError naming file and line when the file is missing, a number does not parse, a radius or
+/// mass is not positive, the box has no area, or two grains share an id.
+Packing read_packing(const std::filesystem::path& file);
+
+}  // namespace polargrain

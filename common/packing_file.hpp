@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+
+#include "common/packing_specification.hpp"
+
+namespace polargrain {
+
+/// Writes a packing as HDF5 (docs/file_formats.md); complete or not at all. Equal packings give equal bytes.
+/// @throws RunError when the file cannot be written.
+void write_packing_file(const std::filesystem::path& file, const PreparedPacking& packing);
+
+/// Reads what write_packing_file wrote. A hash over the content finds damage.
+/// @throws InputError naming the file when it is missing, no packing, of a version not known, or damaged.
+PreparedPacking read_packing_file(const std::filesystem::path& file);
+
+}  // namespace polargrain

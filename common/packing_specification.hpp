@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/packing.hpp"
+
+namespace polargrain {
+
+/// How large the grains of a packing are.
+struct SizeLaw {
+  enum class Kind {
+    uniform,    ///< radii = {least, largest}, each equally likely by number
+    lognormal,  ///< radii = {least, median, largest}: the logarithm of the radius is normal, cut at both ends
+    list,       ///< radii with their shares by number
+    sieve       ///< radii ascending with the share by mass that is smaller: 0 ... 1 (grading curve)
+  };
+  Kind kind = Kind::uniform;
+  std::vector<double> radii;   ///< m
+  std::vector<double> shares;  ///< list: by number, any sum; sieve: ascending from 0 to 1
+  double deviation = 0.0;      ///< lognormal: standard deviation of the logarithm
+};
+
+/// What `polargrain pack` is asked for: discs in a periodic box, compressed isotropically.
+struct PackingSpecification {
+  std::string text;         ///< the user's file, kept with the packing
+  std::string script_file;  ///< for messages
+  std::string script;       ///< input script of a cell: contact model, time step
+  int grains = 0;
+  SizeLaw sizes;
+  double density = 0.0;    ///< of the grains, kg/m^3
+  double thickness = 0.0;  ///< m
+  double pressure = 0.0;   ///< Pa, positive in compression
+  /// Sliding friction while the packing is made: 0 gives the densest one.
+  double friction = 0.0;
+  /// When given, the friction is looked for that leads to this void ratio, between 0 and `friction`.
+  std::optional<double> void_ratio;
+  double void_ratio_tolerance = 2e-3;
+  std::uint64_t seed = 1;
+  double pressure_tolerance = 1e-3;      ///< relative, for the normal stress of each axis
+  double unbalanced_force_ratio = 1e-3;  ///< mean unbalanced force over mean contact force; moments alike
+  double inertial_number = 1e-3;         ///< greatest rate of compression, under the pressure aimed at
+  double damping = 0.01;                 ///< as CellControl::damping; more holds the slow motions up
+  std::int64_t most_steps = 2'000'000;
+};
+
+/// What a packing came to. No times: equal specifications give equal files.
+struct PackingReached {
+  double void_ratio = 0.0;           ///< in plane
+  double coordination_number = 0.0;  ///< 2 contacts / grains
+  double rattlers = 0.0;             ///< grains without a contact / grains
+  double pressure = 0.0;             ///< mean of both axes, Pa
+  double anisotropy = 0.0;           ///< (s11 - s22) / (s11 + s22)
+  double shear = 0.0;                ///< (s12 + s21) / (s11 + s22)
+  double unbalanced_force_ratio = 0.0;
+  double unbalanced_moment_ratio = 0.0;
+  double friction = 0.0;   ///< while it was made
+  double dem_steps = 0.0;  ///< of the last compression
+};
+
+struct PreparedPacking {
+  Packing packing;
+  PackingReached reached;
+  std::string specification;  ///< text of the user's specification
+};
+
+/// Makes a packing. @param progress called now and then with what is reached so far; may be empty
+using PackingMaker = std::function<PreparedPacking(
+    const PackingSpecification& specification, const std::function<void(const PackingReached&)>& progress)>;
+
+}  // namespace polargrain

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupler/case/expression.hpp"
+#include "coupler/case/material_model.hpp"
+#include "fem/solver/problem.hpp"
+#include "fem/solver/solver.hpp"
+
+namespace polargrain::coupler {
+
+/// A value that is followed through a run: measured on the mesh, or computed from others by a formula.
+struct Monitor {
+  enum class Kind { reaction, displacement, formula };
+  std::string name;
+  Kind kind = Kind::formula;
+  std::string on;                     ///< boundary or node set; not of a formula
+  fem::Dof dof = fem::Dof::u1;        ///< not of a formula
+  std::optional<Expression> formula;  ///< of names that stand before it, and of built_in_values()
+};
+
+/// Names that every formula may use: time, volume_strain, external_work, internal_work.
+const std::vector<std::string>& built_in_values();
+
+/// What one step of a run is to reach.
+struct StepTarget {
+  enum class Control {
+    time,       ///< a loading time
+    measure,    ///< growth of a measure of the displacements, at whatever loading time
+    arc_length  ///< a way along the path of equilibrium
+  };
+  Control control = Control::time;
+  double amount = 0.0;  ///< the time itself; the growth; the length (m)
+  fem::DisplacementMeasure measure;
+};
+
+/// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.
+struct Case {
+  std::filesystem::path file;
+  std::string title;
+  /// Mesh, supports and loads; its materials are null until a run makes them from the recipes.
+  fem::Problem problem;
+  std::map<std::string, std::shared_ptr<const MaterialRecipe>> materials;  ///< by name
+  std::map<std::string, std::string> regions;                              ///< region: name of its material
+  std::vector<StepTarget> plan;                                            ///< the steps, in their order
+  fem::SolverOptions solver;
+  std::vector<Monitor> monitors;
+  std::vector<std::string> table;  ///< monitors and built-in values shown at the end
+  int output_every = 1;            ///< steps between two .vtu files
+
+  /// The number of steps.
+  [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }
+  [[nodiscard]] bool needs_workers() const;
+};
+
+/// Reads and checks a case file; runs nothing and writes nothing.
+/// @param settings "key=value" of --set, put into the document before it is read
+/// @throws InputError with all faults, in the order of the file
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/data_files.hpp"
+
+#include <cstdlib>
+
+namespace polargrain::coupler {
+
+std::vector<std::filesystem::path> data_places(const std::filesystem::path& case_directory) {
+  std::vector<std::filesystem::path> places{case_directory};
+  if (const char* data = std::getenv("POLARGRAIN_DATA"); data != nullptr && *data != '\0')
+    places.emplace_back(data);
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) places.push_back(program.parent_path().parent_path() / "share" / "polargrain");
+  places.emplace_back(POLARGRAIN_SOURCE_DIRECTORY);
+  return places;
+}
+
+std::optional<std::filesystem::path> find_data_file(const std::string& name,
+                                                    const std::filesystem::path& case_directory) {
+  std::error_code error;
+  for (const std::filesystem::path& place : data_places(case_directory)) {
+    for (const std::filesystem::path& file : {place / name, place / "liggghts_inputs" / name}) {
+      if (std::filesystem::is_regular_file(file, error)) return file;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/document.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace polargrain::coupler {
+namespace {
+
+// Bounds on what is read: aliases of aliases can make a short file describe an endless one.
+constexpr std::size_t kMostEntries = 100000;
+constexpr std::size_t kDeepest = 20;
+constexpr std::uintmax_t kLargestFile = 10'000'000;
+
+/// Builds the tree of entries from the parser's events.
+class Builder : public YAML::EventHandler {
+ public:
+  explicit Builder(std::string file) : file_(std::move(file)) {}
+
+  Entry root;
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    leaf(Entry::Kind::nothing, "", mark, anchor);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                const std::string& text) override {
+    leaf(Entry::Kind::scalar, text, mark, anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto known = anchors_.find(anchor);
+    // An alias inside its own anchor has no value yet.
+    if (known == anchors_.end()) refuse(mark, "an alias (*name) stands before the end of what it repeats");
+    count(mark, known->second.second);
+    add(Entry(known->second.first), known->second.second, mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(Entry::Kind::sequence, mark, anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(Entry::Kind::map, mark, anchor);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    Entry entry;
+    YAML::anchor_t anchor;
+    YAML::Mark mark;
+    std::size_t entries_before;
+    bool awaits_value = false;  ///< a map has its next key and waits for the value
+  };
+
+  [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& message) const {
+    throw InputError({file_, mark.line + 1, message});
+  }
+
+  void count(const YAML::Mark& mark, std::size_t entries) {
+    entries_ += entries;
+    if (entries_ > kMostEntries)
+      refuse(mark, fmt::format("more than {} values; this is no case file", kMostEntries));
+  }
+
+  Entry made(Entry::Kind kind, const YAML::Mark& mark) const {
+    Entry entry;
+    entry.kind = kind;
+    entry.file = file_;
+    entry.line = mark.line + 1;
+    return entry;
+  }
+
+  void leaf(Entry::Kind kind, const std::string& text, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    count(mark, 1);
+    Entry entry = made(kind, mark);
+    entry.text = text;
+    if (anchor != YAML::NullAnchor) anchors_[anchor] = {entry, 1};
+    add(std::move(entry), 1, mark);
+  }
+
+  void open(Entry::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (open_.size() >= kDeepest) refuse(mark, fmt::format("nested deeper than {} levels", kDeepest));
+    if (!open_.empty() && open_.back().entry.kind == Entry::Kind::map && !open_.back().awaits_value) {
+      refuse(mark, "a key must be a plain word, here stands a map or a list");
+    }
+    count(mark, 1);
+    open_.push_back({made(kind, mark), anchor, mark, entries_ - 1});
+  }
+
+  void close() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    const std::size_t entries = entries_ - done.entries_before;
+    if (done.anchor != YAML::NullAnchor) anchors_[done.anchor] = {done.entry, entries};
+    add(std::move(done.entry), entries, done.mark);
+  }
+
+  void add(Entry entry, std::size_t, const YAML::Mark& mark) {
+    if (open_.empty()) {
+      root = std::move(entry);
+      return;
+    }
+    Open& parent = open_.back();
+    if (parent.entry.kind == Entry::Kind::sequence) {
+      parent.entry.items.push_back(std::move(entry));
+    } else if (!parent.awaits_value) {
+      if (entry.kind != Entry::Kind::scalar) refuse(mark, "a key must be a plain word");
+      parent.entry.members.push_back({entry.text, entry.line, {}});
+      parent.awaits_value = true;
+    } else {
+      parent.entry.members.back().value = std::move(entry);
+      parent.awaits_value = false;
+    }
+  }
+
+  std::string file_;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, std::pair<Entry, std::size_t>> anchors_;
+  std::size_t entries_ = 0;
+};
+
+Entry parse(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
+  Builder builder(file);
+  try {
+    YAML::Parser parser(in);
+    parser.HandleNextDocument(builder);
+  } catch (const YAML::Exception& error) {
+    throw InputError({file, error.mark.is_null() ? 0 : error.mark.line + 1, "this is no YAML: " + error.msg});
+  }
+  return std::move(builder.root);
+}
+
+/// Line numbers mean nothing in the value of an option.
+void forget_lines(Entry& entry) {
+  entry.line = 0;
+  for (Entry& item : entry.items) forget_lines(item);
+  for (Entry::Member& member : entry.members) {
+    member.line = 0;
+    forget_lines(member.value);
+  }
+}
+
+Entry* step_into(Entry& from, const std::string& key, const Fault& no_such_place) {
+  if (from.kind == Entry::Kind::sequence) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+    if (error != std::errc() || end != key.data() + key.size() || index >= from.items.size()) {
+      throw InputError(no_such_place);
+    }
+    return &from.items[index];
+  }
+  if (from.kind == Entry::Kind::nothing) from.kind = Entry::Kind::map;
+  if (from.kind != Entry::Kind::map) throw InputError(no_such_place);
+  for (auto member = from.members.rbegin(); member != from.members.rend(); ++member) {
+    if (member->key == key) return &member->value;
+  }
+  from.members.push_back({key, 0, {}});
+  from.members.back().value.file = no_such_place.file;
+  return &from.members.back().value;
+}
+
+}  // namespace
+
+const Entry* Entry::find(const std::string& key) const {
+  for (auto member = members.rbegin(); member != members.rend(); ++member) {
+    if (member->key == key) return &member->value;
+  }
+  return nullptr;
+}
+
+Entry load_document(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::string name = file.string();
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError({name, 0, "there is no such file; give the path of a case file (case.yaml)"});
+  }
+  if (std::filesystem::file_size(file, error) > kLargestFile) {
+    throw InputError({name, 0, fmt::format("larger than {} bytes; this is no case file", kLargestFile)});
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw InputError({name, 0, "cannot be read; check its permissions"});
+  return parse(text.str(), name);
+}
+
+void apply_setting(Entry& document, const std::string& setting) {
+  const std::string file = "--set " + setting;
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError({file, 0, "expected key=value, for example --set steps.count=10"});
+  }
+  Entry value = parse(setting.substr(equals + 1), file);
+  forget_lines(value);
+  value.file = file;
+  Entry* place = &document;
+  std::istringstream way(setting.substr(0, equals));
+  std::string so_far;
+  for (std::string key; std::getline(way, key, '.');) {
+    const Fault fault{file, 0,
+                      fmt::format("there is no '{}' in {}; items of a list are numbered from 0", key,
+                                  so_far.empty() ? "the case" : "'" + so_far + "'")};
+    place = step_into(*place, key, fault);
+    so_far += (so_far.empty() ? "" : ".") + key;
+  }
+  *place = std::move(value);
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace polargrain::coupler {
+
+/// A formula of a monitor: numbers (with units, turned into SI), names of other values, + - * / and
+/// parentheses. For example `-top_force / (40 mm * 100 kPa)`.
+class Expression {
+ public:
+  /// @throws std::invalid_argument saying what is wrong and where
+  explicit Expression(const std::string& text);
+
+  /// Names that appear in it, each once, in order.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+  /// @param value_of gives the value of a name. @returns the value; a division by zero gives what IEEE says.
+  [[nodiscard]] double evaluate(const std::function<double(const std::string&)>& value_of) const;
+
+ private:
+  friend class ExpressionParser;
+  /// In postfix order: operands before their operator.
+  struct Step {
+    char operation;  ///< '+', '-', '*', '/', '~' (change of sign), 'n' (number), 'v' (name)
+    double number = 0.0;
+    std::string name = {};
+  };
+  std::vector<Step> steps_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/case/section.hpp"
+#include "coupler/pool/pool.hpp"
+#include "fem/material/material.hpp"
+
+namespace polargrain::coupler {
+
+/// A material of a case, read and checked: makes the fem::Material when a run begins.
+class MaterialRecipe {
+ public:
+  virtual ~MaterialRecipe() = default;
+  /// @param pool never null when needs_workers(); must outlive the material
+  [[nodiscard]] virtual std::shared_ptr<fem::Material> make(Pool* pool) const = 0;
+  /// Whether the material asks cells, so that the run needs workers.
+  [[nodiscard]] virtual bool needs_workers() const { return false; }
+  /// Whether the material resists a micro-rotation relative to the continuum (Gc > 0).
+  [[nodiscard]] virtual bool holds_micro_rotations() const { return true; }
+};
+
+/// A material model a case can name. To add one: a file in models/ that defines a function like those below,
+/// and its line in material_models.cpp.
+struct MaterialModel {
+  std::string name;     ///< what `model:` says
+  std::string summary;  ///< one line for the help
+  /// Reads the parameters from the material's section, puts what is wrong on its list of faults, and calls
+  /// nothing of its finish(). @param material name in the case @param directory of the case file
+  /// @returns null only when there were faults
+  std::unique_ptr<MaterialRecipe> (*read)(const std::string& material, Section& section, Faults& faults,
+                                          const std::filesystem::path& directory);
+};
+
+/// All models, in the order of the help.
+const std::vector<MaterialModel>& material_models();
+
+MaterialModel elastic_model();
+MaterialModel elastoplastic_model();
+MaterialModel cell_model();
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/material_model.hpp"
+
+namespace polargrain::coupler {
+
+const std::vector<MaterialModel>& material_models() {
+  static const std::vector<MaterialModel> models{elastic_model(), elastoplastic_model(), cell_model()};
+  return models;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupler/case/case.hpp"
+#include "coupler/case/section.hpp"
+
+namespace polargrain::coupler {
+
+/// u1, u2, w
+const std::vector<std::string>& dof_names();
+/// @param name one of dof_names()
+fem::Dof dof_of(const std::string& name);
+/// Of a prescribed value: a length, or an angle.
+Dimension dimension_of(fem::Dof dof);
+
+/// What the readers of the parts of a case share.
+struct CaseParts {
+  std::filesystem::path directory;  ///< of the case file
+  Case result;
+  bool has_mesh = false;  ///< while it is false, names of boundaries and regions cannot be checked
+  Faults& faults;
+
+  /// "a, b, c" of the keys of a map, for messages.
+  template <class Map>
+  static std::string names_of(const Map& map) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : map) keys.push_back(key);
+    return listed(keys);
+  }
+
+  /// That the mesh has places of these names (given by key `key` of the section), and boundaries where a load
+  /// needs edges. @param edge_load what needs them, "a pressure"; empty when nothing does
+  void check_places(Section& section, const std::string& key, const std::vector<std::string>& places,
+                    const std::string& edge_load = "");
+  /// The region of `key`, checked; empty (all of the body) when the key is not there.
+  std::string region(Section& section, const std::string& key);
+};
+
+// Each reads one part of a case into parts.result and lists what is wrong with it.
+void read_mesh(const Entry& entry, CaseParts& parts);
+void read_boundary(const Entry& entry, CaseParts& parts);
+void read_body_loads(const Entry& entry, CaseParts& parts);
+void read_initial_stress(const Entry& entry, CaseParts& parts);
+void read_steps(const Entry& entry, CaseParts& parts);
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace polargrain::coupler {
+namespace {
+
+struct Unit {
+  Dimension dimension;
+  std::string_view name;
+  double factor;
+};
+
+constexpr std::array<Unit, 21> kUnits{{
+    {Dimension::number, "%", 1e-2},
+    {Dimension::length, "m", 1.0},
+    {Dimension::length, "mm", 1e-3},
+    {Dimension::length, "cm", 1e-2},
+    {Dimension::length, "um", 1e-6},
+    {Dimension::length, "km", 1e3},
+    {Dimension::pressure, "Pa", 1.0},
+    {Dimension::pressure, "kPa", 1e3},
+    {Dimension::pressure, "MPa", 1e6},
+    {Dimension::pressure, "GPa", 1e9},
+    {Dimension::angle, "rad", 1.0},
+    {Dimension::angle, "deg", std::numbers::pi / 180.0},
+    {Dimension::angle, "mrad", 1e-3},
+    {Dimension::force, "N", 1.0},
+    {Dimension::force, "kN", 1e3},
+    {Dimension::force_per_length, "N/m", 1.0},
+    {Dimension::force_per_length, "kN/m", 1e3},
+    {Dimension::force_per_length, "MN/m", 1e6},
+    {Dimension::unit_weight, "N/m3", 1.0},
+    {Dimension::unit_weight, "kN/m3", 1e3},
+    {Dimension::unit_weight, "MN/m3", 1e6},
+}};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string units_of(Dimension dimension) {
+  std::string list;
+  for (const Unit& unit : kUnits) {
+    if (unit.dimension != dimension) continue;
+    if (!list.empty()) list += ", ";
+    list += unit.name;
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string expectation(Dimension dimension) {
+  const std::string units = units_of(dimension);
+  switch (dimension) {
+    case Dimension::length:
+      return "a length in m, or with one of the units " + units;
+    case Dimension::pressure:
+      return "a pressure in Pa, or with one of the units " + units;
+    case Dimension::angle:
+      return "an angle in rad, or with one of the units " + units;
+    case Dimension::force:
+      return "a force in N, or with one of the units " + units;
+    case Dimension::force_per_length:
+      return "a force per thickness in N/m, or with one of the units " + units;
+    case Dimension::unit_weight:
+      return "a force per volume in N/m3, or with one of the units " + units;
+    case Dimension::number:
+      break;
+  }
+  return "a number without a unit (% is allowed)";
+}
+
+std::optional<double> parse_quantity(std::string_view text, Dimension dimension) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  const std::string_view unit = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  if (unit.empty()) return value;
+  for (const Unit& known : kUnits) {
+    if (known.dimension == dimension && known.name == unit) return value * known.factor;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> unit_factor(std::string_view unit) {
+  for (const Unit& known : kUnits) {
+    if (known.name == unit) return known.factor;
+  }
+  return std::nullopt;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "coupler/case/case.hpp"
+#include "coupler/case/document.hpp"
+#include "coupler/case/parts.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Reads one case; each function one section of it.
+class CaseReader {
+ public:
+  CaseReader(const std::filesystem::path& file, const Entry& document, Faults& faults)
+      : document_(document), faults_(faults), parts_{file.parent_path(), {}, false, faults} {
+    case_.file = file;
+  }
+
+  Case read() {
+    Section top(document_, "case", faults_);
+    case_.title = top.text("title", "a line that says what the case is");
+    case_.problem.continuum = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy"
+                                  ? fem::Continuum::cauchy
+                                  : fem::Continuum::cosserat;
+    case_.problem.deformation = top.choice_or("deformation", {"small", "large"}, "small") == "large"
+                                    ? fem::Deformation::large
+                                    : fem::Deformation::small;
+    if (const Entry* entry = top.require("mesh", "a map with the mesh")) read_mesh(*entry, parts_);
+    if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
+    if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
+    boundary_ = top.require("boundary", "a list of supports and loads");
+    if (boundary_ != nullptr) read_boundary(*boundary_, parts_);
+    if (const Entry* entry = top.find("body")) read_body_loads(*entry, parts_);
+    if (const Entry* entry = top.find("initial_stress")) {
+      read_initial_stress(*entry, parts_);
+      check_initial_stress(*entry);
+    }
+    if (const Entry* entry = top.require("steps", "a map with at least 'count'")) read_steps(*entry, parts_);
+    if (const Entry* entry = top.find("monitors")) read_monitors(*entry);
+    if (const Entry* entry = top.find("output")) read_output(*entry);
+    top.finish();
+    if (faults_.empty()) check_micro_rotations();
+    if (faults_.empty()) check_whole();
+    return std::move(case_);
+  }
+
+ private:
+  void read_materials(const Entry& entry) {
+    Section materials(entry, "materials", faults_);
+    std::vector<std::string> models;
+    for (const MaterialModel& model : material_models()) models.push_back(model.name);
+    for (const Entry::Member& member : entry.members) {
+      materials.find(member.key);
+      Section section(member.value, fmt::format("material '{}'", member.key), faults_);
+      const std::string name = section.choice("model", models);
+      material_lines_[member.key] = &member;
+      for (const MaterialModel& model : material_models()) {
+        if (model.name != name) continue;
+        case_.materials[member.key] = model.read(member.key, section, faults_, parts_.directory);
+        section.finish();
+      }
+    }
+    materials.finish();
+    if (entry.kind == Entry::Kind::map && entry.members.empty()) {
+      faults_.push_back(entry.fault("materials: there is none; give at least one"));
+    }
+  }
+
+  void read_regions(const Entry& entry) {
+    Section regions(entry, "regions", faults_);
+    std::set<std::string> used;
+    for (const Entry::Member& member : entry.members) {
+      const std::string material = regions.text(member.key, "the name of a material");
+      if (parts_.has_mesh && !case_.problem.mesh.regions.contains(member.key)) {
+        faults_.push_back(
+            member.value.fault(fmt::format("regions: the mesh has no region '{}'; it has {}", member.key,
+                                           CaseParts::names_of(case_.problem.mesh.regions))));
+      }
+      if (!material.empty() && !material_lines_.contains(material)) {
+        const std::string guess = nearest(material, keys_of(material_lines_));
+        regions.fault(member.key, fmt::format("{}: there is no material '{}'; {}", member.key, material,
+                                              guess.empty() ? "give it below 'materials'"
+                                                            : "did you mean '" + guess + "'?"));
+      }
+      case_.regions[member.key] = material;
+      case_.problem.materials[member.key] = nullptr;
+      used.insert(material);
+    }
+    regions.finish();
+    for (const auto& [name, member] : material_lines_) {
+      if (used.contains(name)) continue;
+      faults_.push_back(
+          {member->value.file, member->line,
+           fmt::format("material '{}': no region is made of it; remove it or name it below 'regions'",
+                       name)});
+    }
+  }
+
+  /// A cell brings the stress of its packing.
+  void check_initial_stress(const Entry& entry) {
+    for (const fem::InitialStress& initial : case_.problem.initial_stresses) {
+      for (const auto& [region, material] : case_.regions) {
+        const auto recipe = case_.materials.find(material);
+        if (recipe == case_.materials.end() || !recipe->second || !recipe->second->needs_workers()) continue;
+        if (!initial.region.empty() && initial.region != region) continue;
+        faults_.push_back(entry.fault(fmt::format(
+            "initial_stress: region '{}' is made of cells, which bring the stress of their packing; "
+            "name another region",
+            region)));
+      }
+    }
+  }
+
+  void read_monitors(const Entry& entry) {
+    Section monitors(entry, "monitors", faults_);
+    for (const Entry::Member& member : entry.members) {
+      monitors.find(member.key);
+      const bool taken = std::find(built_in_values().begin(), built_in_values().end(), member.key) !=
+                         built_in_values().end();
+      if (taken)
+        monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
+      Monitor monitor;
+      monitor.name = member.key;
+      if (member.value.kind == Entry::Kind::scalar) {
+        read_formula(member, monitor);
+      } else {
+        read_measurement(member.value, monitor);
+      }
+      case_.monitors.push_back(monitor);
+    }
+    monitors.finish();
+  }
+
+  void read_formula(const Entry::Member& member, Monitor& monitor) {
+    try {
+      monitor.formula.emplace(member.value.text);
+    } catch (const std::invalid_argument& error) {
+      faults_.push_back(member.value.fault(fmt::format("monitor '{}': {}", member.key, error.what())));
+      return;
+    }
+    const std::vector<std::string> known = known_values();
+    for (const std::string& name : monitor.formula->names()) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      const std::string guess = nearest(name, known);
+      faults_.push_back(member.value.fault(
+          fmt::format("monitor '{}': there is no value '{}' before it; {}", member.key, name,
+                      guess.empty() ? "it may use " + listed(known) : "did you mean '" + guess + "'?")));
+    }
+  }
+
+  void read_measurement(const Entry& entry, Monitor& monitor) {
+    Section section(entry, fmt::format("monitor '{}'", monitor.name), faults_);
+    const std::string on = section.text("on", "the name of a boundary or node set");
+    const bool reaction = section.find("reaction") != nullptr;
+    const bool displacement = section.find("displacement") != nullptr;
+    if (reaction == displacement && entry.kind == Entry::Kind::map) {
+      faults_.push_back(
+          entry.fault(section.name() +
+                      ": expected either 'reaction' or 'displacement', each one of u1, u2, w, or a formula"));
+    } else {
+      monitor.kind = reaction ? Monitor::Kind::reaction : Monitor::Kind::displacement;
+      const std::string dof = section.choice(reaction ? "reaction" : "displacement", dof_names());
+      if (!dof.empty()) monitor.dof = dof_of(dof);
+    }
+    section.finish();
+    monitor.on = on;
+    if (!on.empty()) parts_.check_places(section, "on", {on});
+  }
+
+  void read_output(const Entry& entry) {
+    Section output(entry, "output", faults_);
+    case_.output_every = output.whole_or("every", 1, 1);
+    if (output.find("table") != nullptr) {
+      case_.table = output.words("table", "a list of monitors");
+      const std::vector<std::string> known = known_values();
+      for (const std::string& name : case_.table) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::string guess = nearest(name, known);
+        output.fault("table", fmt::format("table: there is no monitor '{}'; {}", name,
+                                          guess.empty() ? "there are " + listed(known)
+                                                        : "did you mean '" + guess + "'?"));
+      }
+    }
+    output.finish();
+  }
+
+  /// Without Gc nothing ties the micro-rotations to the continuum: a uniform one costs nothing.
+  void check_micro_rotations() {
+    if (case_.problem.continuum == fem::Continuum::cauchy) return;
+    for (const fem::PrescribedDof& item : case_.problem.prescribed) {
+      if (item.dof == fem::Dof::w) return;
+    }
+    for (const auto& [name, recipe] : case_.materials) {
+      if (recipe->holds_micro_rotations()) return;
+    }
+    faults_.push_back(document_.find("materials")
+                          ->fault("materials: Gc is zero everywhere and no boundary fixes w, so nothing "
+                                  "holds the micro-rotations; "
+                                  "set 'continuum: cauchy', give Gc, or fix w"));
+  }
+
+  /// What the finite elements have to say about the whole.
+  void check_whole() {
+    for (const std::string& message : fem::faults(case_.problem)) {
+      faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> known_values() const {
+    std::vector<std::string> known = built_in_values();
+    for (const Monitor& monitor : case_.monitors) known.push_back(monitor.name);
+    return known;
+  }
+
+  template <class Map>
+  static std::vector<std::string> keys_of(const Map& map) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : map) keys.push_back(key);
+    return keys;
+  }
+  const Entry& document_;
+  Faults& faults_;
+  CaseParts parts_;
+  Case& case_ = parts_.result;
+  const Entry* boundary_ = nullptr;
+  std::map<std::string, const Entry::Member*> material_lines_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& built_in_values() {
+  static const std::vector<std::string> names{"time", "volume_strain", "external_work", "internal_work"};
+  return names;
+}
+
+bool Case::needs_workers() const {
+  return std::any_of(materials.begin(), materials.end(), [](const auto& material) {
+    return material.second && material.second->needs_workers();
+  });
+}
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  Entry document = load_document(file);
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  Faults faults;
+  Case result = CaseReader(file, document, faults).read();
+  // In the order of the file; faults of options and of other files keep their order behind it.
+  std::stable_sort(faults.begin(), faults.end(), [&](const Fault& a, const Fault& b) {
+    const auto rank = [&](const Fault& fault) {
+      return fault.file == file.string() ? fault.line : INT32_MAX;
+    };
+    return rank(a) < rank(b);
+  });
+  if (!faults.empty()) throw InputError(faults);
+  return result;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Supports, loads on boundaries and nodes, loads on the body, initial stresses.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "coupler/case/parts.hpp"
+#include "fem/solver/geostatic.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// What a single value means in place of a table.
+enum class Single {
+  constant,  ///< at all times
+  ramp       ///< reached in a straight line from 0 at time 0 to time 1
+};
+
+/// A value, or a list of [time, value]: straight between them, constant outside.
+fem::TimeTable time_table(Section& section, const std::string& key, Dimension dimension, Single single) {
+  const Entry* entry = section.find(key);
+  if (entry == nullptr || entry->kind != Entry::Kind::sequence) {
+    const double value = section.quantity(key, dimension, Limit::any);
+    return single == Single::ramp ? fem::TimeTable::ramp(value) : fem::TimeTable::constant(value);
+  }
+  std::vector<fem::TimeTable::Point> points;
+  for (const auto& [time, value] : section.pairs(key, Dimension::number, dimension, Limit::any)) {
+    points.push_back({time, value});
+  }
+  return points.empty() ? fem::TimeTable::constant(0.0) : fem::TimeTable(std::move(points));
+}
+
+/// Calls take(dof, table) for each of u1, u2, w that the map below `key` gives. @returns whether it is there
+bool dof_tables(Section& section, const std::string& key, const std::function<Dimension(fem::Dof)>& dimension,
+                Single single, Faults& faults,
+                const std::function<void(fem::Dof, const fem::TimeTable&)>& take) {
+  const Entry* entry = section.find(key);
+  if (entry == nullptr) return false;
+  Section values(*entry, section.name() + ": " + key, faults);
+  for (const std::string& name : dof_names()) {
+    if (values.find(name) == nullptr) continue;
+    const fem::Dof dof = dof_of(name);
+    take(dof, time_table(values, name, dimension(dof), single));
+  }
+  values.finish();
+  return true;
+}
+
+bool read_supports(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
+  std::vector<fem::PrescribedDof>& prescribed = parts.result.problem.prescribed;
+  const auto prescribe = [&](fem::Dof dof, const fem::TimeTable& value) {
+    for (const std::string& place : places) prescribed.push_back({place, dof, value, {}});
+  };
+  bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts.faults, prescribe);
+  if (item.find("fix") == nullptr) return found;
+  for (const std::string& name : item.words("fix", "a list of u1, u2, w")) {
+    if (std::find(dof_names().begin(), dof_names().end(), name) == dof_names().end()) {
+      item.fault("fix", fmt::format("fix: expected u1, u2 or w, found '{}'", name));
+    } else {
+      prescribe(dof_of(name), fem::TimeTable::constant(0.0));
+    }
+  }
+  return true;
+}
+
+bool read_tractions(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
+  fem::EdgeLoad load;
+  const bool pressure = item.find("pressure") != nullptr;
+  if (pressure) load.pressure = time_table(item, "pressure", Dimension::pressure, Single::constant);
+  const auto dimension = [](fem::Dof dof) {
+    return dof == fem::Dof::w ? Dimension::force_per_length : Dimension::pressure;
+  };
+  const bool traction = dof_tables(item, "traction", dimension, Single::constant, parts.faults,
+                                   [&](fem::Dof dof, const fem::TimeTable& value) {
+                                     (dof == fem::Dof::u1   ? load.traction1
+                                      : dof == fem::Dof::u2 ? load.traction2
+                                                            : load.couple_traction) = value;
+                                   });
+  if (!pressure && !traction) return false;
+  for (const std::string& place : places) {
+    load.on = place;
+    parts.result.problem.edge_loads.push_back(load);
+  }
+  parts.check_places(item, "on", places, pressure ? "a pressure" : "a traction");
+  return true;
+}
+
+bool read_node_forces(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
+  const auto dimension = [](fem::Dof dof) {
+    return dof == fem::Dof::w ? Dimension::force : Dimension::force_per_length;
+  };
+  return dof_tables(item, "node_force", dimension, Single::constant, parts.faults,
+                    [&](fem::Dof dof, const fem::TimeTable& value) {
+                      for (const std::string& place : places) {
+                        parts.result.problem.node_loads.push_back({place, dof, value});
+                      }
+                    });
+}
+
+void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& parts) {
+  Section item(entry, name, parts.faults);
+  const std::vector<std::string> places =
+      item.words("on", "the name of a boundary or node set, or a list of them");
+  const bool supports = read_supports(item, places, parts);
+  const bool tractions = read_tractions(item, places, parts);
+  const bool forces = read_node_forces(item, places, parts);
+  item.finish();
+  if (!tractions) parts.check_places(item, "on", places);
+  if (!supports && !tractions && !forces && entry.kind == Entry::Kind::map) {
+    parts.faults.push_back(
+        entry.fault(name + ": does nothing; give fix, move, pressure, traction or node_force"));
+  }
+}
+
+/// Whether `entry` is a list; a fault with the example when it is not.
+bool is_list(const Entry& entry, const std::string& key, const std::string& example, Faults& faults) {
+  if (entry.kind == Entry::Kind::sequence) return true;
+  faults.push_back(entry.fault(fmt::format("{}: expected a list, each item a map such as {}", key, example)));
+  return false;
+}
+
+void read_body_item(const Entry& entry, const std::string& name, CaseParts& parts) {
+  Section item(entry, name, parts.faults);
+  const std::string region = parts.region(item, "region");
+  const fem::TimeTable factor = item.find("factor") == nullptr
+                                    ? fem::TimeTable::constant(1.0)
+                                    : time_table(item, "factor", Dimension::number, Single::constant);
+  const bool weight = item.find("unit_weight") != nullptr;
+  const bool force = item.find("force") != nullptr;
+  if (weight == force && entry.kind == Entry::Kind::map) {
+    parts.faults.push_back(entry.fault(
+        name +
+        ": expected either 'unit_weight', for example 18 kN/m3, or 'force', a list of its two components"));
+  } else if (weight) {
+    const double value = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
+    parts.result.problem.body_loads.push_back(fem::gravity(value, factor, region));
+  } else {
+    const std::vector<double> b = item.quantities("force", 2, Dimension::unit_weight, Limit::any);
+    const Eigen::Vector3d density(b[0], b[1], 0.0);
+    parts.result.problem.body_loads.push_back(
+        {[density](const Eigen::Vector2d&) { return density; }, factor, region});
+  }
+  item.finish();
+}
+
+void read_initial_stress_item(const Entry& entry, const std::string& name, CaseParts& parts) {
+  Section item(entry, name, parts.faults);
+  const std::string region = parts.region(item, "region");
+  const bool given = item.find("stress") != nullptr;
+  const bool ground = item.find("surface") != nullptr;
+  if (given == ground && entry.kind == Entry::Kind::map) {
+    parts.faults.push_back(entry.fault(name + ": expected either 'stress', a list of s11, s22, s33, s12, or "
+                                              "'surface', the height of level ground"));
+  } else if (given) {
+    const std::vector<double> s = item.quantities("stress", 4, Dimension::pressure, Limit::any);
+    Vector7 stress = Vector7::Zero();
+    stress(k11) = s[0];
+    stress(k22) = s[1];
+    stress(k33) = s[2];
+    stress(k12) = stress(k21) = s[3];
+    parts.result.problem.initial_stresses.push_back(
+        {[stress](const Eigen::Vector2d&) { return stress; }, region});
+  } else {
+    fem::Ground level;
+    level.surface_height = item.quantity("surface", Dimension::length, Limit::any);
+    level.unit_weight = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
+    level.earth_pressure_ratio = item.quantity("K0", Dimension::number, Limit::not_negative);
+    level.surcharge = item.quantity_or("surcharge", Dimension::pressure, Limit::any, 0.0);
+    parts.result.problem.initial_stresses.push_back(fem::geostatic_stress(level, region));
+  }
+  item.finish();
+}
+
+}  // namespace
+
+void read_boundary(const Entry& entry, CaseParts& parts) {
+  const std::size_t faults_before = parts.faults.size();
+  if (!is_list(entry, "boundary", "{on: bottom, fix: [u2]}", parts.faults)) return;
+  for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    read_boundary_item(entry.items[i], fmt::format("boundary item {}", i + 1), parts);
+  }
+  if (!parts.has_mesh || parts.faults.size() != faults_before) return;
+  const fem::Problem& problem = parts.result.problem;
+  for (const std::string& motion :
+       fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed)) {
+    parts.faults.push_back(
+        entry.fault(fmt::format("boundary: nothing holds the body against a rigid motion ({}); fix or move a "
+                                "displacement that stops it",
+                                motion)));
+  }
+}
+
+void read_body_loads(const Entry& entry, CaseParts& parts) {
+  if (!is_list(entry, "body", "{unit_weight: 18 kN/m3}", parts.faults)) return;
+  for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    read_body_item(entry.items[i], fmt::format("body item {}", i + 1), parts);
+  }
+}
+
+void read_initial_stress(const Entry& entry, CaseParts& parts) {
+  const std::string example = "{surface: 10 m, unit_weight: 18 kN/m3, K0: 0.5}";
+  if (!is_list(entry, "initial_stress", example, parts.faults)) return;
+  for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    read_initial_stress_item(entry.items[i], fmt::format("initial_stress item {}", i + 1), parts);
+  }
+}
+
+}  // namespace polargrain::coupler

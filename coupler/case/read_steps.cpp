@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include "coupler/case/parts.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Mean of a dof over the nodes of a place, less its mean over another.
+fem::DisplacementMeasure read_measure(const Entry& entry, const std::string& name, CaseParts& parts) {
+  Section section(entry, name + ": measure", parts.faults);
+  fem::DisplacementMeasure measure;
+  const std::string on = section.text("on", "the name of a boundary or node set");
+  const std::string from = section.text_or("from", "");
+  const std::string dof = section.choice("displacement", dof_names());
+  section.finish();
+  const fem::Mesh& mesh = parts.result.problem.mesh;
+  const auto add_mean = [&](const std::string& key, const std::string& place, double sign) {
+    if (place.empty()) return;
+    parts.check_places(section, key, {place});
+    if (!parts.has_mesh || !mesh.has_nodes_on(place) || dof.empty()) return;
+    const std::vector<int> nodes = mesh.nodes_on(place);
+    for (const int node : nodes) {
+      measure.terms.push_back({node, dof_of(dof), sign / static_cast<double>(nodes.size())});
+    }
+  };
+  add_mean("on", on, 1.0);
+  add_mean("from", from, -1.0);
+  return measure;
+}
+
+/// Adds the steps of one stage to the plan. @param time when the stage begins, moved on to its end
+void read_stage(const Entry& entry, const std::string& name, double& time, CaseParts& parts) {
+  Section stage(entry, name, parts.faults);
+  std::vector<StepTarget>& plan = parts.result.plan;
+  const int count = stage.whole("count", 1);
+  const bool until = stage.find("until") != nullptr;
+  const Entry* measure = stage.find("measure");
+  const bool arc = stage.find("arc_length") != nullptr;
+  if (until + (measure != nullptr) + arc != 1 && entry.kind == Entry::Kind::map) {
+    parts.faults.push_back(entry.fault(name + ": expected one of until, measure (with grow) and arc_length"));
+  } else if (until) {
+    const double end = stage.quantity("until", Dimension::number, Limit::positive);
+    if (!plan.empty() && plan.back().control != StepTarget::Control::time) {
+      stage.fault("until",
+                  "until: the time is not known after a stage that follows a measure or the arc length; "
+                  "put stages under time before them");
+    } else if (end <= time) {
+      stage.fault("until", fmt::format("until: must be later than the end of the stage before, {}", time));
+    }
+    for (int i = 1; i <= count; ++i) {
+      plan.push_back({StepTarget::Control::time, i == count ? end : time + (end - time) * i / count, {}});
+    }
+    time = end;
+  } else if (measure != nullptr) {
+    const fem::DisplacementMeasure of = read_measure(*measure, name, parts);
+    const double grow = stage.quantity("grow", Dimension::length, Limit::any);
+    if (grow == 0.0) stage.fault("grow", "grow: must not be zero");
+    for (int i = 0; i < count; ++i) plan.push_back({StepTarget::Control::measure, grow / count, of});
+  } else if (arc) {
+    const double length = stage.quantity("arc_length", Dimension::length, Limit::positive);
+    if (plan.empty()) {
+      stage.fault("arc_length",
+                  "arc_length: its direction is that of the step before; begin with a stage 'until'");
+    }
+    for (int i = 0; i < count; ++i) plan.push_back({StepTarget::Control::arc_length, length / count, {}});
+  }
+  stage.finish();
+}
+
+void read_stages(const Entry& entry, CaseParts& parts) {
+  if (entry.kind != Entry::Kind::sequence || entry.items.empty()) {
+    parts.faults.push_back(
+        entry.fault("steps: stages: expected a list, each item a map such as {until: 1, count: 10}"));
+    return;
+  }
+  double time = 0.0;
+  for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    read_stage(entry.items[i], fmt::format("stage {}", i + 1), time, parts);
+  }
+}
+
+}  // namespace
+
+void read_steps(const Entry& entry, CaseParts& parts) {
+  Section steps(entry, "steps", parts.faults);
+  std::vector<StepTarget>& plan = parts.result.plan;
+  const Entry* stages = steps.find("stages");
+  if (stages == nullptr) {
+    const int count = steps.whole("count", 1);
+    for (int i = 1; i <= count; ++i) {
+      plan.push_back({StepTarget::Control::time, static_cast<double>(i) / count, {}});
+    }
+  } else {
+    if (steps.find("count") != nullptr) {
+      steps.fault("count", "count: each stage has its own; remove it or the stages");
+    }
+    read_stages(*stages, parts);
+  }
+  fem::SolverOptions& solver = parts.result.solver;
+  solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);
+  solver.most_iterations = steps.whole_or("iterations", 1, solver.most_iterations);
+  // Grains answer with noise: a case without cells may well ask for less.
+  solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive, 1e-3);
+  solver.moment_tolerance =
+      steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
+  // A residual that grows within the noise of the grains is no reason to ask all of them again.
+  solver.most_line_search_halvings =
+      steps.whole_or("line_search", 0, parts.result.needs_workers() ? 0 : solver.most_line_search_halvings);
+  steps.finish();
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <numeric>
+
+namespace polargrain::coupler {
+namespace {
+
+/// Levenshtein's distance.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+std::string kind_in_words(const Entry& entry) {
+  switch (entry.kind) {
+    case Entry::Kind::nothing:
+      return "nothing";
+    case Entry::Kind::sequence:
+      return "a list";
+    case Entry::Kind::map:
+      return "a map";
+    case Entry::Kind::scalar:
+      break;
+  }
+  return "'" + entry.text + "'";
+}
+
+}  // namespace
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  std::string best;
+  // Two letters in the wrong order count two; more than that, or than a third of the letters, is no slip.
+  const std::size_t most = word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
+  std::size_t least = most + 1;
+  for (const std::string& candidate : known) {
+    const std::size_t d = distance(word, candidate);
+    if (d < least) {
+      least = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+Section::Section(const Entry& entry, std::string name, Faults& faults)
+    : entry_(entry), name_(std::move(name)), faults_(faults) {
+  if (entry.kind != Entry::Kind::map) {
+    faults_.push_back(entry.fault(
+        fmt::format("{}: expected a map of keys and values, found {}", name_, kind_in_words(entry))));
+  }
+}
+
+const Entry* Section::find(const std::string& key) {
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
+  return entry_.find(key);
+}
+
+const Entry* Section::require(const std::string& key, const std::string& expected) {
+  const Entry* entry = find(key);
+  // A section that is no map has had its fault; missing keys would only repeat it.
+  if (entry == nullptr && entry_.kind == Entry::Kind::map) {
+    faults_.push_back(
+        entry_.fault(fmt::format("{}: the key '{}' is missing; give {}", name_, key, expected)));
+  }
+  return entry;
+}
+
+std::string Section::scalar(const Entry& entry, const std::string& key, const std::string& expected) {
+  if (entry.kind == Entry::Kind::scalar && !entry.text.empty()) return entry.text;
+  faults_.push_back(
+      entry.fault(fmt::format("{}: {}: expected {}, found {}", name_, key, expected,
+                              entry.kind == Entry::Kind::scalar ? "nothing" : kind_in_words(entry))));
+  return {};
+}
+
+double Section::number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit) {
+  const std::string text = scalar(entry, key, expectation(dimension));
+  if (text.empty()) return 1.0;
+  const std::optional<double> value = parse_quantity(text, dimension);
+  if (!value) {
+    faults_.push_back(entry.fault(
+        fmt::format("{}: {}: expected {}, found '{}'", name_, key, expectation(dimension), text)));
+    return 1.0;
+  }
+  const bool fits = limit == Limit::any || *value > 0.0 || (limit == Limit::not_negative && *value == 0.0);
+  if (fits) return *value;
+  faults_.push_back(
+      entry.fault(fmt::format("{}: {}: must be {}, found '{}'", name_, key,
+                              limit == Limit::positive ? "greater than zero" : "zero or greater", text)));
+  return 1.0;
+}
+
+double Section::quantity(const std::string& key, Dimension dimension, Limit limit) {
+  const Entry* entry = require(key, expectation(dimension));
+  return entry == nullptr ? 1.0 : number_of(*entry, key, dimension, limit);
+}
+
+double Section::quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise) {
+  const Entry* entry = find(key);
+  return entry == nullptr ? otherwise : number_of(*entry, key, dimension, limit);
+}
+
+int Section::whole_of(const Entry& entry, const std::string& key, int least) {
+  const std::string expected = fmt::format("a whole number of at least {}", least);
+  const std::string text = scalar(entry, key, expected);
+  if (text.empty()) return least;
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value >= least) return value;
+  faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'", name_, key, expected, text)));
+  return least;
+}
+
+int Section::whole(const std::string& key, int least) {
+  const Entry* entry = require(key, fmt::format("a whole number of at least {}", least));
+  return entry == nullptr ? least : whole_of(*entry, key, least);
+}
+
+int Section::whole_or(const std::string& key, int least, int otherwise) {
+  const Entry* entry = find(key);
+  return entry == nullptr ? otherwise : whole_of(*entry, key, least);
+}
+
+const Entry* Section::list(const std::string& key, std::size_t count, const std::string& expected) {
+  const std::string whole = fmt::format("a list of {}, each {}", count, expected);
+  const Entry* entry = require(key, whole);
+  if (entry == nullptr || (entry->kind == Entry::Kind::sequence && entry->items.size() == count))
+    return entry;
+  const std::string found = entry->kind == Entry::Kind::sequence
+                                ? fmt::format("a list of {}", entry->items.size())
+                                : kind_in_words(*entry);
+  faults_.push_back(entry->fault(fmt::format("{}: {}: expected {}, found {}", name_, key, whole, found)));
+  return nullptr;
+}
+
+std::vector<double> Section::quantities(const std::string& key, std::size_t count, Dimension dimension,
+                                        Limit limit) {
+  std::vector<double> values(count, 1.0);
+  if (const Entry* entry = list(key, count, expectation(dimension))) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = number_of(entry->items[i], key, dimension, limit);
+  }
+  return values;
+}
+
+std::vector<int> Section::wholes(const std::string& key, std::size_t count, int least) {
+  std::vector<int> values(count, least);
+  if (const Entry* entry = list(key, count, fmt::format("a whole number of at least {}", least))) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = whole_of(entry->items[i], key, least);
+  }
+  return values;
+}
+
+std::vector<std::pair<double, double>> Section::pairs(const std::string& key, Dimension first,
+                                                      Dimension second, Limit limit_of_second) {
+  std::vector<std::pair<double, double>> values;
+  const Entry* entry = find(key);
+  if (entry == nullptr || entry->kind != Entry::Kind::sequence || entry->items.empty()) {
+    fault(key, fmt::format("{}: expected a list of pairs, such as [[0, 1], [1, 2]]", key));
+    return values;
+  }
+  for (const Entry& item : entry->items) {
+    if (item.kind != Entry::Kind::sequence || item.items.size() != 2) {
+      faults_.push_back(item.fault(fmt::format("{}: {}: expected a pair of values, such as [0, 1], found {}",
+                                               name_, key, kind_in_words(item))));
+      continue;
+    }
+    const double x = number_of(item.items[0], key, first, Limit::any);
+    const double y = number_of(item.items[1], key, second, limit_of_second);
+    if (!values.empty() && x <= values.back().first) {
+      faults_.push_back(
+          item.fault(fmt::format("{}: {}: the first value of a pair must be larger than that of the "
+                                 "pair before, {}; found {}",
+                                 name_, key, values.back().first, x)));
+      continue;
+    }
+    values.emplace_back(x, y);
+  }
+  return values;
+}
+
+std::string Section::text(const std::string& key, const std::string& expected) {
+  const Entry* entry = require(key, expected);
+  return entry == nullptr ? std::string() : scalar(*entry, key, expected);
+}
+
+std::string Section::text_or(const std::string& key, const std::string& otherwise) {
+  const Entry* entry = find(key);
+  return entry == nullptr ? otherwise : scalar(*entry, key, "a text");
+}
+
+std::string Section::choice_of(const Entry& entry, const std::string& key,
+                               const std::vector<std::string>& words) {
+  const std::string expected = "one of " + listed(words);
+  const std::string text = scalar(entry, key, expected);
+  if (text.empty() || std::find(words.begin(), words.end(), text) != words.end()) return text;
+  const std::string guess = nearest(text, words);
+  faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'{}", name_, key, expected, text,
+                                            guess.empty() ? "" : "; did you mean '" + guess + "'?")));
+  return {};
+}
+
+std::string Section::choice(const std::string& key, const std::vector<std::string>& words) {
+  const Entry* entry = require(key, "one of " + listed(words));
+  return entry == nullptr ? std::string() : choice_of(*entry, key, words);
+}
+
+std::string Section::choice_or(const std::string& key, const std::vector<std::string>& words,
+                               const std::string& otherwise) {
+  const Entry* entry = find(key);
+  return entry == nullptr ? otherwise : choice_of(*entry, key, words);
+}
+
+std::vector<std::string> Section::words(const std::string& key, const std::string& expected) {
+  const Entry* entry = require(key, expected);
+  if (entry == nullptr) return {};
+  if (entry->kind != Entry::Kind::sequence) {
+    const std::string word = scalar(*entry, key, expected);
+    return word.empty() ? std::vector<std::string>{} : std::vector<std::string>{word};
+  }
+  std::vector<std::string> found;
+  for (const Entry& item : entry->items) {
+    if (std::string word = scalar(item, key, expected); !word.empty()) found.push_back(std::move(word));
+  }
+  if (entry->items.empty()) fault(key, fmt::format("{}: expected {}, found an empty list", key, expected));
+  return found;
+}
+
+void Section::fault(const std::string& key, const std::string& message) {
+  const Entry* entry = entry_.find(key);
+  faults_.push_back((entry != nullptr ? *entry : entry_).fault(name_ + ": " + message));
+}
+
+void Section::finish() {
+  std::map<std::string, int> lines;
+  for (const Entry::Member& member : entry_.members) {
+    const auto [first, is_new] = lines.emplace(member.key, member.line);
+    const std::string& file = member.line > 0 ? entry_.file : member.value.file;
+    if (!is_new) {
+      faults_.push_back({file, member.line,
+                         fmt::format("{}: the key '{}' was given before, in line {}; remove one of them",
+                                     name_, member.key, first->second)});
+    } else if (std::find(asked_.begin(), asked_.end(), member.key) == asked_.end()) {
+      const std::string guess = nearest(member.key, asked_);
+      faults_.push_back({file, member.line,
+                         fmt::format("{}: unknown key '{}'; {}", name_, member.key,
+                                     guess.empty() ? "known keys are " + listed(asked_)
+                                                   : "did you mean '" + guess + "'?")});
+    }
+  }
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupler/case/document.hpp"
+#include "coupler/case/quantity.hpp"
+
+namespace polargrain::coupler {
+
+using Faults = std::vector<Fault>;
+
+/// What a number must be beyond finite.
+enum class Limit { any, positive, not_negative };
+
+/// The known word that `word` was most likely meant to be; empty when none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+/// "a, b, c"
+std::string listed(const std::vector<std::string>& words);
+
+/// One map of a case while it is read. Every getter notes the key it asks for, checks what it finds and puts
+/// a fault on the list when that is wrong or missing; reading then goes on, so that all faults show at once.
+/// What a getter returns after a fault is only fit for reading on. finish() reports keys nobody asked for.
+class Section {
+ public:
+  /// @param name how messages call this map, for example "material 'sand'"
+  /// A fault when `entry` is no map.
+  Section(const Entry& entry, std::string name, Faults& faults);
+
+  /// The entry of a key; null when it is not there.
+  const Entry* find(const std::string& key);
+  /// The same, with a fault when it is not there. @param expected "a length ...", for the message
+  const Entry* require(const std::string& key, const std::string& expected);
+
+  double quantity(const std::string& key, Dimension dimension, Limit limit);
+  double quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise);
+  int whole(const std::string& key, int least);
+  int whole_or(const std::string& key, int least, int otherwise);
+  /// A list of so many quantities, or of so many whole numbers.
+  std::vector<double> quantities(const std::string& key, std::size_t count, Dimension dimension, Limit limit);
+  std::vector<int> wholes(const std::string& key, std::size_t count, int least);
+  /// A list of at least one [first, second]: the first ones rise.
+  std::vector<std::pair<double, double>> pairs(const std::string& key, Dimension first, Dimension second,
+                                               Limit limit_of_second);
+  std::string text(const std::string& key, const std::string& expected);
+  std::string text_or(const std::string& key, const std::string& otherwise);
+  /// One of the words given.
+  std::string choice(const std::string& key, const std::vector<std::string>& words);
+  std::string choice_or(const std::string& key, const std::vector<std::string>& words,
+                        const std::string& otherwise);
+  /// A list of words; a single word counts as a list of one.
+  std::vector<std::string> words(const std::string& key, const std::string& expected);
+
+  /// Puts a fault at the place of a key (of the whole section when the key is not there).
+  void fault(const std::string& key, const std::string& message);
+
+  /// To be called when all keys have been asked for.
+  void finish();
+
+  [[nodiscard]] const Entry& entry() const { return entry_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
+  const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
+  double number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit);
+  int whole_of(const Entry& entry, const std::string& key, int least);
+  std::string choice_of(const Entry& entry, const std::string& key, const std::vector<std::string>& words);
+
+  const Entry& entry_;
+  std::string name_;
+  Faults& faults_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/commands/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <thread>
+
+#include "common/error.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/commands/pack.hpp"
+#include "coupler/commands/point.hpp"
+#include "coupler/commands/run.hpp"
+#include "coupler/pool/worker.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+constexpr int kRunFailed = 1;
+constexpr int kInputWrong = 2;
+
+constexpr const char* kIntroduction = R"(polargrain - granular materials on two scales
+A Cosserat finite element model whose material, where you want it, is a box of grains run by LIGGGHTS.)";
+
+constexpr const char* kExamples = R"(
+Try:
+  polargrain check cases/biaxial/case.yaml          all faults of a case at once, nothing is run
+  polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
+  polargrain run case.yaml --set steps.count=10     change a value for one run
+  polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
+  polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
+
+A run writes history.csv (a row a step), fields.pvd (open it in ParaView), costs.csv, summary.json and run.log.
+Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or written).
+The case file is described in docs/user_guide.md.
+)";
+
+int default_workers() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+struct WorkerOptions {
+  std::string url;
+  std::string log;
+};
+
+int work(const WorkerOptions& options, const WorkerEngine& engine) {
+  for (std::FILE* stream : {stdout, stderr}) {
+    if (!options.log.empty() && std::freopen(options.log.c_str(), "a", stream) == nullptr) {
+      throw RunError(fmt::format("the log {} cannot be written", options.log));
+    }
+  }
+  try {
+    engine.start_process();
+    serve(options.url, engine.make_service);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ERROR: {}\n", error.what());
+    return kRunFailed;
+  }
+  return 0;
+}
+
+int check(const std::string& file, const std::vector<std::string>& settings) {
+  const Case the_case = read_case(file, settings);
+  fmt::print("{}: no faults; {} elements, {} nodes, {} steps, {}\n", file,
+             the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
+             the_case.needs_workers() ? "needs workers" : "needs no workers");
+  return 0;
+}
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kInputWrong;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return kRunFailed;
+  }
+}
+
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+  command
+      .add_option("--set", settings,
+                  "Change a value of the case, for example steps.count=10; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+int command_line(int count, char** arguments, const WorkerEngine& engine, const PackingTools& packing_tools) {
+  CLI::App app(kIntroduction, "polargrain");
+  app.set_version_flag("--version", "polargrain " POLARGRAIN_VERSION);
+  app.footer(kExamples);
+  app.require_subcommand(1);
+
+  RunOptions run_options;
+  run_options.workers = default_workers();
+  CLI::App* run_command = app.add_subcommand("run", "Run a case");
+  run_command->add_option("CASE", run_options.case_file, "Case file (YAML)")->required();
+  run_command->add_option("-o,--output", run_options.directory, "Result directory [results/NAME]")
+      ->type_name("DIR");
+  run_command->add_option("-w,--workers", run_options.workers, "Worker processes [one a core]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  run_command->add_flag("--quiet", run_options.quiet, "Print nothing but errors");
+  add_settings(*run_command, run_options.settings);
+
+  std::string check_file;
+  std::vector<std::string> check_settings;
+  CLI::App* check_command = app.add_subcommand("check", "Report all faults of a case; run nothing");
+  check_command->add_option("CASE", check_file, "Case file (YAML)")->required();
+  add_settings(*check_command, check_settings);
+
+  PointOptions point_options;
+  CLI::App* point_command = app.add_subcommand("point", "Take one point of a material along a path");
+  point_command->add_option("CASE", point_options.case_file, "Case file (YAML)")->required();
+  point_command->add_option("MATERIAL", point_options.material, "Name of a material of the case")->required();
+  point_command
+      ->add_option("PATH", point_options.path_file, "CSV: an increment a row, h11,h12,h21,h22,w,k1,k2")
+      ->required();
+  point_command->add_option("-o,--output", point_options.output, "CSV to write [standard output]")
+      ->type_name("FILE");
+  add_settings(*point_command, point_options.settings);
+
+  PackOptions pack_options;
+  CLI::App* pack_command = app.add_subcommand("pack", "Make a packing of grains, or export one");
+  pack_command
+      ->add_option("SPEC", pack_options.specification_file, "What to make (YAML), or a packing to export")
+      ->required();
+  CLI::Option* pack_output =
+      pack_command->add_option("-o,--output", pack_options.output, "Packing to write (HDF5)")
+          ->type_name("FILE.h5");
+  CLI::Option* pack_export = pack_command
+                                 ->add_option("--export", pack_options.export_file,
+                                              "Write the packing SPEC as a LIGGGHTS data file instead")
+                                 ->type_name("FILE.data");
+  pack_output->excludes(pack_export);
+  pack_command->add_flag("--quiet", pack_options.quiet, "Print nothing but errors");
+  add_settings(*pack_command, pack_options.settings);
+
+  WorkerOptions worker_options;
+  CLI::App* worker_command = app.add_subcommand("worker", "Serve cells to a coordinator (started by run)");
+  worker_command->add_option("--connect", worker_options.url, "The coordinator's endpoint")
+      ->required()
+      ->type_name("URL");
+  worker_command->add_option("--log", worker_options.log, "Append all output to this file")
+      ->type_name("FILE");
+
+  for (CLI::App* command : {run_command, check_command, point_command, pack_command, worker_command})
+    command->footer("");
+
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kInputWrong;
+  }
+  return guarded([&] {
+    if (run_command->parsed()) return run(run_options);
+    if (check_command->parsed()) return check(check_file, check_settings);
+    if (point_command->parsed()) return point(point_options);
+    if (pack_command->parsed()) return pack(pack_options, packing_tools);
+    return work(worker_options, engine);
+  });
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/commands/interrupt.hpp"
+
+#include <signal.h>
+
+#include "common/error.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+volatile sig_atomic_t noted = 0;
+
+void note(int) {
+  noted = 1;
+}
+
+}  // namespace
+
+void note_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESETHAND;  // the second one does what it always does
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+void stop_if_interrupted() {
+  if (noted != 0) throw RunError("stopped by a signal before the end; what was committed is written");
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace polargrain::coupler {
+
+struct RunOptions {
+  std::filesystem::path case_file;
+  std::filesystem::path directory;  ///< empty: default_result_directory
+  int workers = 1;
+  bool quiet = false;
+  std::vector<std::string> settings;  ///< of --set
+};
+
+/// Runs a case from its start to its end and writes the result directory (docs/file_formats.md). Input is
+/// checked whole before anything is written or started.
+/// @returns 0 when the last step is committed, 1 when a step did not converge
+/// @throws InputError, RunError; after a RunError what was committed is in the result directory
+int run(const RunOptions& options);
+
+}  // namespace polargrain::coupler

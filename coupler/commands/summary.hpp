@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupler/commands/costs.hpp"
+#include "coupler/commands/monitor_values.hpp"
+
+namespace polargrain::coupler {
+
+/// A committed step as the table and the summary need it.
+struct CommittedStep {
+  int step = 0;
+  fem::StepReport report;
+  MonitorValues values;
+};
+
+/// All that is known of a run when it ends.
+struct RunRecord {
+  std::string status = "running";  ///< then "done" or "failed"
+  std::string message;             ///< why it failed
+  int workers = 0;                 ///< 0: no material needed any
+  std::vector<CommittedStep> steps;
+  long evaluations = 0;
+  int iterations = 0;
+  int cuts = 0;
+  PoolCounts pool;
+  Costs costs;
+};
+
+/// Writes summary.json: status, figures of cost and error, last values of the monitors.
+/// @throws RunError when it cannot be written
+void write_summary(const std::filesystem::path& file, const Case& the_case, const RunRecord& record);
+
+/// The table a run ends with: at most some twenty steps, evenly spaced, the last one always.
+std::string table_text(const Case& the_case, const RunRecord& record);
+
+/// Where the time went and what the cells cost.
+std::string costs_text(const RunRecord& record);
+
+}  // namespace polargrain::coupler

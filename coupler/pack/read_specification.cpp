@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/pack/read_specification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "common/error.hpp"
+#include "coupler/case/data_files.hpp"
+#include "coupler/case/document.hpp"
+#include "coupler/case/section.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Placing the grains takes the square of their number; the engine's share grows with the number alone.
+constexpr int kMostGrains = 20000;
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// How many items the list of a key has; at least one, so that its length can be asked for.
+std::size_t length_of(Section& section, const std::string& key) {
+  const Entry* entry = section.find(key);
+  return entry != nullptr && entry->kind == Entry::Kind::sequence
+             ? std::max<std::size_t>(1, entry->items.size())
+             : 1;
+}
+
+void require_ascending(Section& section, const std::string& key, const std::vector<double>& values) {
+  if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>()))
+    section.fault(key, fmt::format("{}: each value must be greater than the one before", key));
+}
+
+SizeLaw read_sizes(const Entry& entry, Faults& faults) {
+  Section section(entry, "sizes", faults);
+  SizeLaw law;
+  const std::string name = section.choice("law", {"uniform", "lognormal", "list", "sieve"});
+  const auto radii = [&](const std::string& key, std::size_t count) {
+    law.radii = section.quantities(key, count, Dimension::length, Limit::positive);
+  };
+  if (name == "uniform") {
+    radii("radius", 2);
+    if (law.radii[0] > law.radii[1]) section.fault("radius", "radius: the first must be the smaller one");
+  } else if (name == "lognormal") {
+    law.kind = SizeLaw::Kind::lognormal;
+    radii("radius", 3);
+    law.deviation = section.quantity("deviation", Dimension::number, Limit::positive);
+    require_ascending(section, "radius", law.radii);
+  } else if (name == "list") {
+    law.kind = SizeLaw::Kind::list;
+    radii("radius", length_of(section, "radius"));
+    law.shares = section.quantities("share", law.radii.size(), Dimension::number, Limit::positive);
+  } else if (name == "sieve") {
+    law.kind = SizeLaw::Kind::sieve;
+    radii("diameter", std::max<std::size_t>(2, length_of(section, "diameter")));
+    for (double& size : law.radii) size *= 0.5;
+    law.shares = section.quantities("passing", law.radii.size(), Dimension::number, Limit::not_negative);
+    require_ascending(section, "diameter", law.radii);
+    if (law.shares.front() != 0.0 || law.shares.back() != 1.0 ||
+        !std::is_sorted(law.shares.begin(), law.shares.end()))
+      section.fault("passing", "passing: must rise from 0 to 100 % (parts of the mass that pass each sieve)");
+  }
+  section.finish();
+  return law;
+}
+
+void read_script(Section& top, const std::filesystem::path& directory, PackingSpecification& specification) {
+  const std::string name = top.text("script", "the path of a LIGGGHTS input script for cells");
+  if (name.empty()) return;
+  const auto file = find_data_file(name, directory);
+  if (!file) {
+    top.fault("script",
+              fmt::format("script: there is no file '{}', neither beside the specification nor below "
+                          "liggghts_inputs/; correct the path or put the file there",
+                          name));
+    return;
+  }
+  specification.script_file = file->lexically_normal().string();
+  specification.script = content_of(*file);
+  if (specification.script.empty()) top.fault("script", "script: the file is empty or cannot be read");
+}
+
+}  // namespace
+
+PackingSpecification read_packing_specification(const std::filesystem::path& file,
+                                                const std::vector<std::string>& settings) {
+  Entry document = load_document(file);
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  Faults faults;
+  PackingSpecification specification;
+  specification.text = content_of(file);
+  for (const std::string& setting : settings) specification.text += fmt::format("# --set {}\n", setting);
+  Section top(document, "packing", faults);
+  top.text_or("title", "");
+  specification.grains = top.whole("grains", 4);
+  if (specification.grains > kMostGrains) top.fault("grains", fmt::format("grains: at most {}", kMostGrains));
+  if (const Entry* entry = top.require("sizes", "a map with the size law"))
+    specification.sizes = read_sizes(*entry, faults);
+  specification.density = top.quantity("density", Dimension::number, Limit::positive);
+  specification.thickness = top.quantity("thickness", Dimension::length, Limit::positive);
+  specification.pressure = top.quantity("pressure", Dimension::pressure, Limit::positive);
+  specification.friction = top.quantity("friction", Dimension::number, Limit::not_negative);
+  if (top.find("void_ratio") != nullptr)
+    specification.void_ratio = top.quantity("void_ratio", Dimension::number, Limit::positive);
+  specification.seed = static_cast<std::uint64_t>(top.whole("seed", 0));
+  const auto positive = [&top](const char* key, double& value) {
+    value = top.quantity_or(key, Dimension::number, Limit::positive, value);
+  };
+  positive("void_ratio_tolerance", specification.void_ratio_tolerance);
+  positive("pressure_tolerance", specification.pressure_tolerance);
+  positive("unbalanced_force_ratio", specification.unbalanced_force_ratio);
+  positive("inertial_number", specification.inertial_number);
+  positive("damping", specification.damping);
+  if (specification.damping >= 1.0) top.fault("damping", "damping: must be less than 1");
+  specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
+  read_script(top, file.parent_path(), specification);
+  top.finish();
+  if (!faults.empty()) throw InputError(faults);
+  return specification;
+}
+
+}  // namespace polargrain::coupler

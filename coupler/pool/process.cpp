@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/pool/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/error.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+std::string described(int status) {
+  if (WIFSIGNALED(status)) {
+    return fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  }
+  return fmt::format("exit status {}", WEXITSTATUS(status));
+}
+
+/// What the child does between fork and exec; only calls that are safe there.
+[[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
+  // A group of its own: Ctrl-C at the terminal goes to the coordinator alone, which ends its workers in
+  // order.
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execvp(arguments[0], arguments);
+  const char* reason = strerror(errno);
+  const char* parts[] = {"cannot execute ", arguments[0], ": ", reason, "\n"};
+  for (const char* part : parts) {
+    if (write(STDERR_FILENO, part, strlen(part)) < 0) break;
+  }
+  _exit(127);
+}
+
+}  // namespace
+
+Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+  const int log_descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (log_descriptor < 0) {
+    throw RunError(
+        fmt::format("cannot write the log {} of a worker: {}", log.string(), std::strerror(errno)));
+  }
+  std::vector<char*> raw;
+  for (const std::string& argument : arguments) raw.push_back(const_cast<char*>(argument.c_str()));
+  raw.push_back(nullptr);
+  const pid_t parent = getpid();
+  id_ = fork();
+  if (id_ == 0) become(raw.data(), log_descriptor, parent);
+  const int fork_error = errno;
+  close(log_descriptor);
+  if (id_ < 0) throw RunError(fmt::format("cannot start a worker: {}", std::strerror(fork_error)));
+  end_descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, id_, 0));
+  if (end_descriptor_ < 0) {
+    const int error = errno;
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+    throw RunError(fmt::format("cannot watch a worker (pidfd_open): {}", std::strerror(error)));
+  }
+  fcntl(end_descriptor_, F_SETFD, FD_CLOEXEC);
+}
+
+Process::Process(Process&& other) noexcept
+    : id_(other.id_), end_descriptor_(other.end_descriptor_), end_(std::move(other.end_)) {
+  other.id_ = -1;
+  other.end_descriptor_ = -1;
+}
+
+Process::~Process() {
+  if (id_ < 0) return;
+  finish(0);
+  close(end_descriptor_);
+}
+
+std::optional<std::string> Process::end() {
+  int status = 0;
+  if (!end_ && waitpid(id_, &status, WNOHANG) == id_) end_ = described(status);
+  return end_;
+}
+
+void Process::finish(int milliseconds) {
+  if (end()) return;
+  pollfd descriptor{end_descriptor_, POLLIN, 0};
+  poll(&descriptor, 1, milliseconds);
+  if (end()) return;
+  kill(id_, SIGKILL);
+  int status = 0;
+  if (waitpid(id_, &status, 0) == id_) end_ = described(status);
+}
+
+}  // namespace polargrain::coupler

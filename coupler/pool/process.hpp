@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace polargrain::coupler {
+
+/// A child process whose whole output goes to a file. It ends with us, however we end: by this destructor, or
+/// by the kernel when we are killed (PR_SET_PDEATHSIG).
+class Process {
+ public:
+  /// @param arguments program first; @param log appended to, takes standard output and error.
+  /// @throws RunError when the log cannot be opened or no process made. A program that cannot be executed
+  /// shows as a process that ends with status 127 and says so in its log.
+  Process(const std::vector<std::string>& arguments, const std::filesystem::path& log);
+  ~Process();
+  Process(Process&& other) noexcept;
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  Process& operator=(Process&&) = delete;
+
+  [[nodiscard]] pid_t id() const { return id_; }
+  /// A file descriptor that becomes readable when the process ends.
+  [[nodiscard]] int end_descriptor() const { return end_descriptor_; }
+
+  /// "exit status 1", "killed by signal 11 (Segmentation fault)"; nothing while it runs. Does not wait.
+  std::optional<std::string> end();
+  /// Waits so long for the end, then kills.
+  void finish(int milliseconds);
+
+ private:
+  pid_t id_ = -1;
+  int end_descriptor_ = -1;
+  std::optional<std::string> end_;
+};
+
+}  // namespace polargrain::coupler

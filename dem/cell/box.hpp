@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+
+namespace polargrain::dem {
+
+/// The periodic box of a cell. The engine wants the first base vector along x, so the box (and the grains in
+/// it) live in a frame of their own that is turned by `rotation` against the laboratory:
+///   H_laboratory = R(rotation) [[length_x, tilt], [0, length_y]],  columns are base vectors, in m.
+struct Box {
+  double length_x = 0.0;
+  double length_y = 0.0;
+  double tilt = 0.0;      ///< x component of the second base vector, m
+  double rotation = 0.0;  ///< rad, counter-clockwise, laboratory against box frame
+
+  /// @param base_vectors as columns, in the laboratory frame; their determinant must be positive.
+  static Box from_base_vectors(const Eigen::Matrix2d& base_vectors);
+  [[nodiscard]] Eigen::Matrix2d base_vectors() const;  ///< in the box frame (upper triangular)
+  [[nodiscard]] Eigen::Matrix2d frame() const;         ///< R(rotation): box frame to laboratory
+  [[nodiscard]] double area() const { return length_x * length_y; }
+  /// The same lattice with |tilt| <= length_x / 2, which the engine needs. Grains need only be wrapped again.
+  [[nodiscard]] Box reduced() const;
+};
+
+/// A box carried along by a displacement gradient h of the laboratory: at the fraction s of the way its base
+/// vectors are (I + s h) H_start. The velocity of the way is smooth, so that the box starts and ends at rest
+/// and sends no waves: s grows as t - sin(2 pi t) / (2 pi), t in [0, 1].
+class BoxPath {
+ public:
+  BoxPath() = default;
+  /// @param steps number of DEM steps, at least 1. @throws RunError when the box would lose its area.
+  BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps);
+
+  [[nodiscard]] int steps() const { return steps_; }
+  /// Box after `step` steps, 0 to steps(); continuous rotation angle.
+  [[nodiscard]] Box at(int step) const;
+
+  /// Part of the way that is done in this step; all steps add up to 1. Zero outside 1 .. steps().
+  [[nodiscard]] double share(int step) const;
+
+  /// What carries a grain from step - 1 to step in the box frame: x -> (I + gradient) x, while the frame
+  /// itself turns by `rotation`. Zero outside 1 .. steps().
+  struct Motion {
+    Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();
+    double rotation = 0.0;
+  };
+  [[nodiscard]] Motion motion(int step) const;
+
+ private:
+  [[nodiscard]] double fraction(int step) const;
+
+  Box start_;
+  Eigen::Matrix2d displacement_gradient_ = Eigen::Matrix2d::Zero();
+  int steps_ = 0;
+};
+
+}  // namespace polargrain::dem

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/cell_state.hpp"
+
+#include <cstring>
+
+#include "common/error.hpp"
+#include "dem/engine/liggghts.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+/// First bytes of every state; plain numbers, so that another process of the same machine type reads it.
+struct Header {
+  std::uint64_t magic = 0;
+  std::uint64_t grains = 0;
+  std::uint64_t history_values = 0;  ///< per contact and side
+  std::uint64_t values = 0;          ///< doubles that follow
+  Box box;
+};
+constexpr std::uint64_t kMagic = 0x31306c6c65636770ULL;  // "pgcell01" as bytes
+
+LAMMPS_NS::PairGran& granular_pair(LAMMPS_NS::LAMMPS& lammps) {
+  return *static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair);
+}
+
+/// Moves contact histories from the neighbour list to the grains.
+void gather_histories(LAMMPS_NS::LAMMPS& lammps) {
+  if (auto* history = granular_pair(lammps).get_fix_history()) history->pre_exchange();
+}
+
+}  // namespace
+
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box) {
+  gather_histories(lammps);
+  LAMMPS_NS::Atom& atom = *lammps.atom;
+  // One grain is packed at a time; room for the most contacts the engine allows a grain.
+  std::vector<double> grain(32 + static_cast<std::size_t>(lammps.comm->maxexchange_fix) + 64);
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(atom.nlocal) * 48);
+  for (int k = 0; k < atom.nlocal; ++k) {
+    const int count = atom.avec->pack_exchange(k, grain.data());
+    values.insert(values.end(), grain.begin(), grain.begin() + count);
+  }
+  Header header;
+  header.magic = kMagic;
+  header.grains = static_cast<std::uint64_t>(atom.nlocal);
+  header.history_values = static_cast<std::uint64_t>(granular_pair(lammps).dnum());
+  header.values = values.size();
+  header.box = box;
+  std::vector<std::byte> bytes(sizeof(Header) + values.size() * sizeof(double));
+  std::memcpy(bytes.data(), &header, sizeof(Header));
+  std::memcpy(bytes.data() + sizeof(Header), values.data(), values.size() * sizeof(double));
+  return std::make_shared<const State>(std::move(bytes));
+}
+
+Box restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+  Header header;
+  const auto bytes = state.bytes();
+  if (bytes.size() < sizeof(Header)) throw RunError("this is not the state of a cell: it is too short");
+  std::memcpy(&header, bytes.data(), sizeof(Header));
+  if (header.magic != kMagic || bytes.size() != sizeof(Header) + header.values * sizeof(double))
+    throw RunError("this is not the state of a cell, or it was cut short");
+  if (header.grains != static_cast<std::uint64_t>(lammps.atom->natoms) ||
+      header.history_values != static_cast<std::uint64_t>(granular_pair(lammps).dnum()))
+    throw RunError("this state belongs to a cell of another packing or another input script");
+  std::vector<double> values(header.values);
+  std::memcpy(values.data(), bytes.data() + sizeof(Header), header.values * sizeof(double));
+
+  gather_histories(lammps);
+  LAMMPS_NS::Atom& atom = *lammps.atom;
+  atom.nlocal = 0;
+  atom.nghost = 0;
+  std::size_t place = 0;
+  for (std::uint64_t k = 0; k < header.grains; ++k) {
+    // The first value of a packed grain is its length.
+    if (place >= values.size() || !(values[place] >= 1.0) ||
+        values[place] > static_cast<double>(values.size() - place))
+      throw RunError("this state of a cell is damaged");
+    place += static_cast<std::size_t>(atom.avec->unpack_exchange(&values[place]));
+  }
+  return header.box;
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/fix_cell_strain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "dem/engine/private_access.hpp"
+
+namespace polargrain::dem {
+
+using LAMMPS_NS::Fix;
+using LAMMPS_NS::LAMMPS;
+namespace FixConst = LAMMPS_NS::FixConst;
+
+FixCellStrain::FixCellStrain(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words) {
+  box_change_size = 1;
+  box_change_shape = 1;
+  for (int k = 3; k < count; k += 2) {
+    if (std::strcmp(words[k], "damping") != 0 || k + 1 == count)
+      error->all(FLERR, "Illegal fix cell/strain command: expected 'damping RATE'");
+    damping_rate_ = force->numeric(FLERR, words[k + 1]);
+    if (!(damping_rate_ >= 0.0))
+      error->all(FLERR, "Illegal fix cell/strain command: damping must not be negative");
+  }
+  if (!domain->triclinic)
+    error->all(FLERR, "Fix cell/strain needs a triclinic box (a line 'xy xz yz' in the data)");
+  if (domain->dimension != 2) error->all(FLERR, "Fix cell/strain needs dimension 2");
+}
+
+int FixCellStrain::setmask() {
+  return FixConst::PRE_INITIAL_INTEGRATE | FixConst::POST_INTEGRATE | FixConst::POST_FORCE;
+}
+
+void FixCellStrain::init() {
+  // What Domain::init does for fix deform with `remap v`, which it knows by name only: grains that cross a
+  // face and images of grains get the velocity difference of the faces. The atom style keeps its own copy.
+  domain->deform_vremap = 1;
+  domain->deform_groupbit = groupbit;
+  atom->avec->init();
+}
+
+void FixCellStrain::begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
+  path_ = path;
+  rotation_ = rotation;
+  multiplier_ = 0.0;
+  weights_.clear();  // those of another path say nothing of this one
+  thickness_ = domain->boxhi[2] - domain->boxlo[2];
+  damping_rate_ = damping_rate;
+  step_ = 0;
+  motion_ = {};
+  std::fill_n(domain->h_rate, 6, 0.0);
+  std::fill_n(domain->h_ratelo, 3, 0.0);
+  set_box(path_.at(0));
+}
+
+void FixCellStrain::set_box(const Box& box) {
+  domain->boxlo[0] = 0.0;
+  domain->boxlo[1] = 0.0;
+  domain->boxhi[0] = box.length_x;
+  domain->boxhi[1] = box.length_y;
+  domain->xy = box.tilt;
+  domain->set_global_box();
+  domain->set_lamda_box();
+  domain->set_local_box();
+}
+
+void FixCellStrain::setup(int) {
+  balance(false);
+}
+
+void FixCellStrain::pre_initial_integrate() {
+  const BoxPath::Motion next = path_.motion(++step_);
+  const Eigen::Matrix2d change = (next.gradient - motion_.gradient) / update->dt;
+  const double change_of_spin = (next.rotation - motion_.rotation) / update->dt;
+  motion_ = next;
+  if (change.isZero(0.0) && change_of_spin == 0.0) return;
+
+  double** const x = atom->x;
+  double** const v = atom->v;
+  double** const omega = atom->omega;
+  for (int k = 0; k < atom->nlocal; ++k) {
+    v[k][0] += change(0, 0) * x[k][0] + change(0, 1) * x[k][1];
+    v[k][1] += change(1, 0) * x[k][0] + change(1, 1) * x[k][1];
+    omega[k][2] -= change_of_spin;
+  }
+  // Velocity of a face: gradient times base vector, in the engine's order xx, yy, zz, yz, xz, xy.
+  const Eigen::Matrix2d rate = motion_.gradient * path_.at(step_ - 1).base_vectors() / update->dt;
+  domain->h_rate[0] = rate(0, 0);
+  domain->h_rate[1] = rate(1, 1);
+  domain->h_rate[5] = rate(0, 1);
+}
+
+void FixCellStrain::post_integrate() {
+  if (step_ <= path_.steps()) set_box(path_.at(step_));
+}
+
+void FixCellStrain::post_force(int) {
+  balance(damping_rate_ > 0.0);
+}
+
+void FixCellStrain::balance(bool damped) {
+  sum_unbalanced_forces();
+  contact_torques_.resize(static_cast<std::size_t>(atom->nlocal));
+  for (int k = 0; k < atom->nlocal; ++k) contact_torques_[k] = atom->torque[k][2];
+  if (damped) damp();
+  if (controlled()) control_mean_rotation();
+  sum_unbalanced_moments();
+}
+
+void FixCellStrain::set_torque_capacities(std::span<const double> capacities) {
+  double sum = 0.0;
+  for (const double capacity : capacities) sum += capacity;
+  weights_.assign(capacities.begin(), capacities.end());
+  for (double& weight : weights_) weight /= sum;
+}
+
+void FixCellStrain::control_mean_rotation() {
+  // The spins of the next half step, counted from the laboratory, must average to the prescribed rate:
+  // sum W (spin + dt (T + lambda W) / I) = V rate, with W = V weight (C.6).
+  const double volume = box().area() * thickness_;
+  const double rate = rotation_->micro_rotation * path_.share(step_ + 1) / update->dt;
+  const double frame_spin = motion_.rotation / update->dt;
+  double mean_spin = 0.0;
+  double compliance = 0.0;
+  for (int k = 0; k < atom->nlocal; ++k) {
+    const double moment_of_inertia = 0.5 * atom->rmass[k] * atom->radius[k] * atom->radius[k];  // disc
+    const double gain = update->dt / moment_of_inertia;
+    mean_spin += weights_[k] * (atom->omega[k][2] + frame_spin + gain * atom->torque[k][2]);
+    compliance += weights_[k] * weights_[k] * gain;
+  }
+  multiplier_ = (rate - mean_spin) / (compliance * volume);
+  for (int k = 0; k < atom->nlocal; ++k) atom->torque[k][2] += multiplier_ * volume * weights_[k];
+}
+
+void FixCellStrain::sum_unbalanced_forces() {
+  unbalanced_force_ = 0.0;
+  double** const f = atom->f;
+  for (int k = 0; k < atom->nlocal; ++k)
+    unbalanced_force_ += std::sqrt(f[k][0] * f[k][0] + f[k][1] * f[k][1]);
+}
+
+void FixCellStrain::sum_unbalanced_moments() {
+  unbalanced_moment_ = 0.0;
+  const double imposed = controlled() ? multiplier_ * box().area() * thickness_ : 0.0;
+  for (int k = 0; k < atom->nlocal; ++k)
+    unbalanced_moment_ += std::abs(contact_torques_[k] + (controlled() ? imposed * weights_[k] : 0.0));
+}
+
+void FixCellStrain::damp() {
+  const Eigen::Matrix2d gradient = motion_.gradient / update->dt;
+  const double frame_spin = motion_.rotation / update->dt;
+  double** const x = atom->x;
+  double** const v = atom->v;
+  double** const f = atom->f;
+  for (int k = 0; k < atom->nlocal; ++k) {
+    const double mass_rate = damping_rate_ * atom->rmass[k];
+    f[k][0] -= mass_rate * (v[k][0] - gradient(0, 0) * x[k][0] - gradient(0, 1) * x[k][1]);
+    f[k][1] -= mass_rate * (v[k][1] - gradient(1, 0) * x[k][0] - gradient(1, 1) * x[k][1]);
+    const double moment_of_inertia = 0.5 * atom->rmass[k] * atom->radius[k] * atom->radius[k];  // disc
+    atom->torque[k][2] -= damping_rate_ * moment_of_inertia * (atom->omega[k][2] + frame_spin);
+  }
+}
+
+void register_cell_fixes(LAMMPS_NS::Modify& modify) {
+  fix_table(modify)["cell/strain"] = [](LAMMPS* lammps, int count, char** words) -> Fix* {
+    return new FixCellStrain(lammps, count, words);
+  };
+}
+
+}  // namespace polargrain::dem

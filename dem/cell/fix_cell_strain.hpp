@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dem/cell/box.hpp"
+#include "dem/engine/liggghts.hpp"
+
+namespace polargrain::dem {
+
+/// What mode 2 adds to the path of the box (C.6).
+struct RotationLoading {
+  /// Change of the mean rotation of the grains over the path, in the laboratory, rad; its rate follows the
+  /// path's.
+  double micro_rotation = 0.0;
+};
+
+/// fix ID all cell/strain [damping RATE]
+///
+/// Carries the periodic box of a cell along a BoxPath, one DEM step at a time: the box follows the path, the
+/// grains get the change of the affine velocity at the start of each step (so that the assembly is
+/// accelerated as a body and no wave starts at the faces), images get the velocity of their face, and when
+/// the box frame turns the spins are counted from it. Rotations of the grains are free (mode 1 of
+/// docs/theory/grains.md, C.6).
+///
+/// damping RATE: viscous damping against the affine flow: a grain of mass m and moment of inertia I that
+/// moves at v loses RATE m (v - affine velocity), and RATE I times its spin, in 1/s. Of the dampings tried
+/// (local non-viscous, kinetic, viscous), it reaches a given unbalanced force with the fewest steps and the
+/// smallest error (docs/performance.md).
+///
+/// With a RotationLoading (mode 2) the mean rotation of the grains is prescribed as well: each grain gets the
+/// torque lambda W_p, with weights W_p = V w_p / sum w_p from the torque that its contacts can carry (w_p =
+/// sum r_p f_n), and the multiplier lambda that makes sum W_p spin_p / V the prescribed mean spin, anew each
+/// step. At rest lambda = sigma_21 - sigma_12.
+///
+/// Before damping, the sums of the unbalanced forces and torques of each step are kept for the read-out.
+class FixCellStrain : public LAMMPS_NS::Fix {
+ public:
+  FixCellStrain(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
+
+  int setmask() override;
+  void init() override;
+  void setup(int vflag) override;
+  void pre_initial_integrate() override;
+  void post_integrate() override;
+  void post_force(int vflag) override;
+
+  /// Sets the path of the steps to come and puts the box at its start. Grains must be in that box already.
+  /// @param rotation prescribed mean rotation; nothing leaves the rotations free (mode 1)
+  void begin(const BoxPath& path, double damping_rate,
+             std::optional<RotationLoading> rotation = std::nullopt);
+  /// Weights of the grains in the mean rotation, by local index, m N; not all zero. To be set before the
+  /// first force pass of a path with a RotationLoading, and as often as the forces have changed.
+  void set_torque_capacities(std::span<const double> capacities);
+  [[nodiscard]] Box box() const { return path_.at(step_); }
+  [[nodiscard]] int grains() const { return atom->nlocal; }
+  [[nodiscard]] double time_step() const { return update->dt; }
+
+  [[nodiscard]] std::span<const double> weights() const { return weights_; }
+
+  /// Sum over grains of the magnitude of the resultant force, N, and torque, N m, at the last force pass.
+  [[nodiscard]] double sum_of_unbalanced_force() const { return unbalanced_force_; }
+  [[nodiscard]] double sum_of_unbalanced_moment() const { return unbalanced_moment_; }
+  /// lambda of the last force pass, Pa: sigma_21 - sigma_12 that holds the mean rotation; 0 in mode 1.
+  [[nodiscard]] double multiplier() const { return multiplier_; }
+
+ private:
+  void set_box(const Box& box);
+  /// What is done to the forces of a pass: sums for the read-out, damping, mean rotation.
+  void balance(bool damped);
+  /// The mean rotation is prescribed and there are grains to hold it with.
+  [[nodiscard]] bool controlled() const { return rotation_ && !weights_.empty(); }
+  void sum_unbalanced_forces();
+  void sum_unbalanced_moments();
+  void damp();
+  /// Adds lambda W to the torques; `contact_torques` are the sums of the contacts, before damping.
+  void control_mean_rotation();
+
+  BoxPath path_;
+  int step_ = 0;            ///< steps of the path done
+  BoxPath::Motion motion_;  ///< motion of the step under way
+  double damping_rate_ = 0.0;
+  double thickness_ = 0.0;
+  std::optional<RotationLoading> rotation_;
+  std::vector<double> weights_;          ///< W_p over the volume: they add up to 1
+  std::vector<double> contact_torques_;  ///< about e_3, N m
+  double multiplier_ = 0.0;
+  double unbalanced_force_ = 0.0;
+  double unbalanced_moment_ = 0.0;
+};
+
+/// Makes the fixes of this project known to the engine.
+void register_cell_fixes(LAMMPS_NS::Modify& modify);
+
+}  // namespace polargrain::dem

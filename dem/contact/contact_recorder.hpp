@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+namespace polargrain::dem {
+
+/// One contact as the force computation saw it. Grain indices are the engine's local ones. A contact across a
+/// periodic face is recorded once.
+struct Contact {
+  int first = 0;
+  int second = 0;
+  Eigen::Vector2d branch;             ///< from the centre of first to the centre of second, m
+  Eigen::Vector2d force;              ///< on first, by second, N
+  double normal_stiffness = 0.0;      ///< N/m
+  double tangential_stiffness = 0.0;  ///< N/m
+  double arm_first = 0.0;             ///< centre of first to the contact point, m
+  double arm_second = 0.0;
+  double friction = 0.0;  ///< sliding friction coefficient of the pair; 0 when the script has none
+  /// Rolling resistance moment about e_3 on first by second (conjugate to the rotation of second relative to
+  /// first), N m, of any rolling model.
+  double moment = 0.0;
+  double rolling_stiffness = 0.0;  ///< k_th, N m/rad; known for rolling model li_chu, otherwise 0
+  bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling model li_chu)
+
+  [[nodiscard]] Eigen::Vector2d normal() const { return branch.normalized(); }  ///< from first to second
+  /// Compressive normal force, positive when the grains push each other.
+  [[nodiscard]] double normal_force() const { return -force.dot(normal()); }
+  /// Force on first along t = e_3 x n.
+  [[nodiscard]] double tangential_force() const {
+    const Eigen::Vector2d n = normal();
+    return -force.x() * n.y() + force.y() * n.x();
+  }
+  /// The tangential spring stands at its Coulomb limit. The force computation scales it exactly there, so
+  /// only round-off is allowed for.
+  [[nodiscard]] bool sliding() const {
+    return friction > 0.0 &&
+           std::abs(tangential_force()) >= friction * std::abs(normal_force()) * (1.0 - 1e-9);
+  }
+};
+
+/// Takes down the contacts of one force computation while it is switched on. The engine's loop over pairs is
+/// the only place that knows a contact's stiffnesses, so it is asked there, in passing, without a second
+/// loop.
+struct ContactRecorder {
+  /// What only the rolling law knows of the contact under way; it leaves it here for the taking down.
+  struct Rolling {
+    double stiffness = 0.0;
+    bool at_limit = false;
+  };
+
+  bool on = false;
+  Rolling rolling;
+  std::vector<Contact> contacts;
+};
+
+/// The recorder that contact models of this process write to.
+ContactRecorder& contact_recorder();
+
+}  // namespace polargrain::dem

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "dem/contact/contact_recorder.hpp"
+#include "dem/engine/liggghts.hpp"
+
+namespace polargrain::dem {
+
+/// Any combination of contact models of the engine, with an ear: while the recorder is on, every contact is
+/// taken down after all models have had their say. Off, it costs one predictable branch a contact.
+template <typename Model>
+class RecordedModel : public Model {
+ public:
+  RecordedModel(LAMMPS_NS::LAMMPS* lammps, LIGGGHTS::IContactHistorySetup* history, bool is_wall,
+                int64_t hash)
+      : Model(lammps, history, is_wall, hash), lammps_(*lammps) {
+    last_made() = this;
+  }
+  RecordedModel(const RecordedModel&) = delete;
+  RecordedModel& operator=(const RecordedModel&) = delete;
+
+  /// The model that was made last: how PairLoop finds the one inside the stock loop it extends.
+  static RecordedModel*& last_made() {
+    static RecordedModel* model = nullptr;
+    return model;
+  }
+
+  void connectToProperties(PropertyRegistry& registry) {
+    Model::connectToProperties(registry);
+    // Asked for by name, not required: a script may have no sliding friction.
+    friction_ = lammps_.modify->find_fix_property("coefficientFriction", "property/global", "peratomtypepair",
+                                                  0, 0, "polargrain", false);
+  }
+
+  inline void endSurfacesIntersect(LIGGGHTS::ContactModels::SurfacesIntersectData& data,
+                                   LAMMPS_NS::TriMesh* mesh, LIGGGHTS::ContactModels::ForceData& force_i,
+                                   LIGGGHTS::ContactModels::ForceData& force_j) {
+    Model::endSurfacesIntersect(data, mesh, force_i, force_j);
+    if (contact_recorder().on)
+      record(data.i, data.j, {data.delta[0], data.delta[1]}, {force_i.delta_F[0], force_i.delta_F[1]},
+             data.kn, data.kt, data.cri, data.crj, force_i.delta_torque[2]);
+  }
+
+ private:
+  // Values, not references to the contact: a contact whose address escapes cannot be kept in registers.
+  __attribute__((noinline)) void record(int i, int j, std::array<double, 2> delta,
+                                        std::array<double, 2> force, double normal_stiffness,
+                                        double tangential_stiffness, double arm_i, double arm_j,
+                                        double torque) {
+    const ContactRecorder::Rolling rolling = std::exchange(contact_recorder().rolling, {});
+    LAMMPS_NS::Atom& atom = *lammps_.atom;
+    if (j >= atom.nlocal && !lammps_.force->newton_pair) {
+      // Both grains of a contact across a periodic face see it; keep the one seen from the lower tag. A grain
+      // that touches its own image keeps one of the two directions.
+      const int tag_i = atom.tag[i];
+      const int tag_j = atom.tag[j];
+      if (tag_i > tag_j) return;
+      if (tag_i == tag_j && (delta[1] < 0.0 || (delta[1] == 0.0 && delta[0] < 0.0))) return;
+    }
+    Contact contact;
+    contact.first = i;
+    contact.second = j < atom.nlocal ? j : atom.map(atom.tag[j]);
+    contact.branch = {-delta[0], -delta[1]};
+    contact.force = {force[0], force[1]};
+    contact.normal_stiffness = normal_stiffness;
+    contact.tangential_stiffness = tangential_stiffness;
+    contact.arm_first = arm_i;
+    contact.arm_second = arm_j;
+    contact.friction = friction_ ? friction_->compute_array(atom.type[i] - 1, atom.type[j] - 1) : 0.0;
+    // The force turns the grain by its arm towards the contact; the rest of the torque is the rolling law's.
+    const double towards = arm_i / std::hypot(delta[0], delta[1]);
+    contact.moment = torque + towards * (delta[0] * force[1] - delta[1] * force[0]);
+    contact.rolling_stiffness = rolling.stiffness;
+    contact.rolling_at_limit = rolling.at_limit;
+    contact_recorder().contacts.push_back(contact);
+  }
+
+  LAMMPS_NS::LAMMPS& lammps_;
+  LAMMPS_NS::Fix* friction_ = nullptr;
+};
+
+}  // namespace polargrain::dem

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/element/quadrature.hpp"
+
+#include <cmath>
+
+namespace polargrain::fem {
+
+std::vector<LinePoint> gauss_line(int n) {
+  if (n == 1) return {{0.0, 2.0}};
+  if (n == 2) {
+    const double a = 1.0 / std::sqrt(3.0);
+    return {{-a, 1.0}, {a, 1.0}};
+  }
+  const double a = std::sqrt(0.6);
+  return {{-a, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {a, 5.0 / 9.0}};
+}
+
+std::vector<QuadraturePoint> gauss_square(int n) {
+  std::vector<QuadraturePoint> points;
+  for (const LinePoint& second : gauss_line(n)) {
+    for (const LinePoint& first : gauss_line(n)) {
+      points.push_back({{first.position, second.position}, first.weight * second.weight});
+    }
+  }
+  return points;
+}
+
+std::vector<QuadraturePoint> triangle_three_points() {
+  constexpr double a = 1.0 / 6.0;
+  constexpr double b = 2.0 / 3.0;
+  return {{{a, a}, a}, {{b, a}, a}, {{a, b}, a}};
+}
+
+}  // namespace polargrain::fem

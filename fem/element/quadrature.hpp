@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <vector>
+
+#include "fem/element/element_type.hpp"
+
+namespace polargrain::fem {
+
+/// A place of [-1, 1] and its weight; the weights add up to 2.
+struct LinePoint {
+  double position;
+  double weight;
+};
+
+/// Gauss points of [-1, 1], exact for polynomials of degree 2 n - 1. @param n 1, 2 or 3.
+std::vector<LinePoint> gauss_line(int n);
+/// n x n Gauss points of [-1, 1]^2.
+std::vector<QuadraturePoint> gauss_square(int n);
+/// Three inner points of the triangle (0,0), (1,0), (0,1), exact for quadratic polynomials.
+std::vector<QuadraturePoint> triangle_three_points();
+
+}  // namespace polargrain::fem

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "fem/element/element_type.hpp"
+
+namespace polargrain::fem {
+
+/// T6: quadratic, 3 points; what Gmsh gives for any outline.
+ElementType triangle6();
+
+}  // namespace polargrain::fem

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <concepts>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/material/material.hpp"
+#include "fem/material/rotation.hpp"
+
+namespace polargrain::fem {
+
+/// A constitutive law that answers for one point in place, from a plain state and an increment. A law holds
+/// parameters only; what changes at a point lives in its State.
+///
+///     struct Law {
+///       struct State { ... };                       // copyable, plain data
+///       State initial_state() const;
+///       Response integrate(const State& start, const Increment& increment, State& trial) const;
+///     };
+///
+/// integrate must not throw for an increment it cannot follow: it returns Quality::failed with a message.
+/// A law may also have
+///
+///       State initial_state(const Vector7& stress) const;
+///       State rotated(const State& state, double angle) const;
+///       static std::vector<std::string> field_names();
+///       void fields(const State& state, std::span<double> values) const;
+template <class Law>
+concept LocalLaw = requires(const Law law, const typename Law::State start, const Increment increment,
+                            typename Law::State trial) {
+  { law.initial_state() } -> std::same_as<typename Law::State>;
+  { law.integrate(start, increment, trial) } -> std::same_as<Response>;
+};
+
+/// The law can start from any stress: State initial_state(const Vector7& stress) const.
+template <class Law>
+concept LawWithGivenStress = requires(const Law law, const Vector7 stress) {
+  { law.initial_state(stress) } -> std::same_as<typename Law::State>;
+};
+
+/// The law can turn what a point remembers: State rotated(const State& state, double angle) const.
+template <class Law>
+concept LawWithRotation = requires(const Law law, const typename Law::State state) {
+  { law.rotated(state, 0.0) } -> std::same_as<typename Law::State>;
+};
+
+/// The law also shows values beyond stress and strain.
+template <class Law>
+concept LawWithFields = requires(const Law law, const typename Law::State state, std::span<double> values) {
+  { law.field_names() } -> std::same_as<std::vector<std::string>>;
+  law.fields(state, values);
+};
+
+/// Makes a Material of a local law: keeps the committed and the trial state of every point.
+template <LocalLaw Law>
+class LocalMaterial final : public Material {
+ public:
+  explicit LocalMaterial(Law law) : law_(std::move(law)) {}
+
+  void allocate(std::size_t points) override {
+    committed_.assign(points, law_.initial_state());
+    trial_ = committed_;
+  }
+
+  void set_initial_stress(std::size_t point, const Vector7& stress) override {
+    if constexpr (LawWithGivenStress<Law>) {
+      committed_[point] = trial_[point] = law_.initial_state(stress);
+    } else {
+      Material::set_initial_stress(point, stress);
+    }
+  }
+
+  void use_large_rotations() override {
+    if constexpr (LawWithRotation<Law>) {
+      large_rotations_ = true;
+    } else {
+      throw RunError("this material cannot turn its stress, as large deformation needs");
+    }
+  }
+
+  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
+    for (std::size_t point = 0; point < committed_.size(); ++point) {
+      responses[point] = law_.integrate(start_of(point, increments[point]), increments[point], trial_[point]);
+    }
+  }
+
+  void commit() override { committed_ = trial_; }
+  void revert() override { trial_ = committed_; }
+
+  [[nodiscard]] std::vector<std::string> field_names() const override {
+    if constexpr (LawWithFields<Law>) {
+      return law_.field_names();
+    } else {
+      return {};
+    }
+  }
+
+  void fields(std::size_t point, std::span<double> values) const override {
+    if constexpr (LawWithFields<Law>) {
+      law_.fields(committed_[point], values);
+    } else {
+      (void)point;
+      (void)values;
+    }
+  }
+
+  [[nodiscard]] const Law& law() const { return law_; }
+  /// The committed states, one a point; writable so that a checkpoint can be put back.
+  [[nodiscard]] std::vector<typename Law::State>& states() { return committed_; }
+  [[nodiscard]] const std::vector<typename Law::State>& states() const { return committed_; }
+
+ private:
+  /// The stress turns first, the strain adds to it in the frame at the end of the step.
+  [[nodiscard]] typename Law::State start_of(std::size_t point, const Increment& increment) const {
+    if constexpr (LawWithRotation<Law>) {
+      if (large_rotations_) return law_.rotated(committed_[point], rotation_angle(increment));
+    }
+    (void)increment;
+    return committed_[point];
+  }
+
+  Law law_;
+  bool large_rotations_ = false;
+  std::vector<typename Law::State> committed_;
+  std::vector<typename Law::State> trial_;
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/error.hpp"
+#include "common/increment.hpp"
+#include "common/response.hpp"
+
+namespace polargrain::fem {
+
+/// A material and the states of all the points that are made of it. Every point has two states: the one at
+/// the start of the step (committed) and the trial one. Three verbs move them: evaluate, commit, revert.
+///
+/// Order of calls: allocate once; then per step any number of evaluate, ended by commit (trial becomes
+/// committed) or revert (trial is dropped). evaluate always starts from the committed states, so calling it
+/// twice with the same increments gives the same bits.
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  /// Gives `points` points the material's initial state.
+  virtual void allocate(std::size_t points) = 0;
+
+  /// Overwrites the initial stress of one point; only between allocate and the first evaluate.
+  /// @throws RunError when this material's initial stress is its own and cannot be given.
+  virtual void set_initial_stress(std::size_t point, const Vector7& stress) {
+    (void)point;
+    (void)stress;
+    throw RunError("this material brings its own initial stress and takes none by position");
+  }
+
+  /// Called once, before the first evaluate, when increments may rotate far: a stress that is kept must then
+  /// turn with the material (docs/theory.md, A.1; rotation.hpp). Does nothing where that happens by itself,
+  /// as in a cell whose box follows the whole displacement gradient.
+  /// @throws RunError when this material cannot.
+  virtual void use_large_rotations() {}
+
+  /// Answers for all points at once, so that a material may spread the work (cells over workers).
+  /// @param increments one a point, from the committed state; @param responses one a point, overwritten.
+  /// A point that cannot answer says so in its Response (Quality::failed); no exception for that.
+  virtual void evaluate(std::span<const Increment> increments, std::span<Response> responses) = 0;
+
+  virtual void commit() = 0;
+  virtual void revert() = 0;
+
+  /// Names of the values beyond stress and strain that this material can show (void_ratio, ...).
+  [[nodiscard]] virtual std::vector<std::string> field_names() const { return {}; }
+  /// The committed values of those fields at one point, in the order of field_names().
+  virtual void fields(std::size_t point, std::span<double> values) const {
+    (void)point;
+    (void)values;
+  }
+};
+
+}  // namespace polargrain::fem

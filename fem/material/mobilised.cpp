@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/material/mobilised.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/material/cone_matching.hpp"
+
+namespace polargrain::fem {
+
+namespace {
+
+constexpr double kRadian = 180.0 / std::numbers::pi;
+
+Mobilised within(double friction, double dilatancy, const DilatancyLimits& limits) {
+  const double kept = std::clamp(dilatancy, limits.least, limits.most);
+  return {friction, kept, kept != dilatancy};
+}
+
+/// Radius of Mohr's circle of the symmetric in-plane part.
+double in_plane_radius(const ScaledVector<double>& tensor) {
+  return std::hypot(0.5 * (tensor(0) - tensor(1)), 0.5 * (tensor(3) + tensor(4)));
+}
+
+}  // namespace
+
+ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
+                                    const ScaledVector<double>& strain_increment,
+                                    const ScaledVector<double>& stress_increment) {
+  const Split<double> strain(strain_increment);
+  const Split<double> stress(stress_increment);
+  ScaledVector<double> plastic =
+      (strain.mean - stress.mean / (3.0 * moduli.bulk)) * volumetric_vector<double>();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (moduli.stiffness[k] > 0.0) {
+      plastic += strain.part[k] - stress.part[k] / moduli.stiffness[k];
+    }
+  }
+  return plastic;
+}
+
+std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
+                                   const ScaledVector<double>& plastic, double cohesion,
+                                   const DilatancyLimits& limits) {
+  const Split<double> stress_split(stress);
+  const Split<double> plastic_split(plastic);
+  double squared = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (moduli.weight[k] > 0.0) {
+      squared += plastic_split.part[k].squaredNorm() / moduli.weight[k];
+    }
+  }
+  const double shear = std::sqrt(2.0 / 3.0 * squared);  // the increment of gamma_p, B.1
+  const double friction = (deviatoric_stress(stress_split, moduli.weight) - cohesion) / -stress_split.mean;
+  const double dilatancy = 3.0 * plastic_split.mean / shear;
+  if (!(stress_split.mean < 0.0) || !(shear > 0.0) || !(friction >= 0.0)) {
+    return std::nullopt;
+  }
+  return within(friction, dilatancy, limits);
+}
+
+std::optional<Mobilised> mobilised_in_plane(const ScaledVector<double>& stress,
+                                            const ScaledVector<double>& plastic,
+                                            const DilatancyLimits& limits) {
+  const double sin_friction = in_plane_radius(stress) / (-0.5 * (stress(0) + stress(1)));
+  const double shear = 2.0 * in_plane_radius(plastic);
+  const double sin_dilatancy = (plastic(0) + plastic(1)) / shear;
+  if (!(sin_friction >= 0.0 && sin_friction < 1.0) || !(shear > 0.0)) {
+    return std::nullopt;
+  }
+  constexpr double kSteepest = 0.99;  // sines of one or more are noise; the limits flag them
+  const double bounded = std::clamp(sin_dilatancy, -kSteepest, kSteepest);
+  const FrozenCone cone =
+      cone_from_plane_strain({std::asin(sin_friction) * kRadian, std::asin(bounded) * kRadian, 0.0});
+  const Mobilised read = within(cone.friction, cone.dilatancy, limits);
+  return Mobilised{read.friction, read.dilatancy, read.clipped || bounded != sin_dilatancy};
+}
+
+}  // namespace polargrain::fem

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+/// Which entries of a nodal vector (3 a node) are given and which are unknown.
+class Constraints {
+ public:
+  /// @param prescribed must outlive this object.
+  Constraints(const Mesh& mesh, Continuum continuum, const std::vector<PrescribedDof>& prescribed);
+
+  /// Number of unknowns.
+  [[nodiscard]] int unknowns() const { return unknowns_; }
+  /// Number of the unknown at an entry of a nodal vector; -1 where the entry is given.
+  [[nodiscard]] int equation(std::size_t entry) const { return equation_[entry]; }
+  [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
+
+  /// Overwrites the given entries of a nodal vector by their values at `time`.
+  void apply(double time, Eigen::VectorXd& nodal) const;
+
+  /// Nodal vector: change per time of the given entries just after `time`, zero at the free ones.
+  [[nodiscard]] Eigen::VectorXd slope(double time) const;
+
+  /// The free entries of a nodal vector, in the order of the equations.
+  [[nodiscard]] Eigen::VectorXd restrict_to_free(const Eigen::VectorXd& nodal) const;
+  /// Adds values of the unknowns to the free entries of a nodal vector.
+  void add_free(const Eigen::VectorXd& unknowns, Eigen::VectorXd& nodal) const;
+
+ private:
+  struct Given {
+    std::size_t entry;
+    double factor;
+    const TimeTable* value;
+  };
+  std::vector<Given> given_;
+  std::vector<int> equation_;
+  int unknowns_ = 0;
+};
+
+}  // namespace polargrain::fem

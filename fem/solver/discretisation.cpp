@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/discretisation.hpp"
+
+#include <fmt/format.h>
+
+#include "fem/element/large_tangent.hpp"
+
+namespace polargrain::fem {
+
+Discretisation::Discretisation(const Mesh& mesh, Continuum continuum)
+    : mesh_(mesh), continuum_(continuum), nodal_size_(3 * static_cast<Eigen::Index>(mesh.nodes.size())) {
+  first_point_.push_back(0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const int number = static_cast<int>(e);
+    for (PointGeometry& point : point_geometries(*mesh.elements[e].type, mesh.element_positions(number))) {
+      points_.push_back(std::move(point));
+      element_of_point_.push_back(number);
+    }
+    first_point_.push_back(points_.size());
+    std::vector<int>& dofs = dofs_.emplace_back();
+    for (const int node : mesh.elements[e].nodes) {
+      for (int component = 0; component < 3; ++component) dofs.push_back(3 * node + component);
+    }
+  }
+}
+
+std::string Discretisation::move_to(const Eigen::VectorXd& nodal) {
+  for (std::size_t e = 0; e < elements(); ++e) {
+    const int number = static_cast<int>(e);
+    Eigen::MatrixX2d positions = mesh_.element_positions(number);
+    for (std::size_t a = 0; a < mesh_.elements[e].nodes.size(); ++a) {
+      positions.row(static_cast<Eigen::Index>(a)) +=
+          nodal.segment<2>(3 * mesh_.elements[e].nodes[a]).transpose();
+    }
+    std::size_t i = first_point_[e];
+    for (PointGeometry& point : point_geometries(*mesh_.elements[e].type, positions)) {
+      if (!(point.volume > 0.0)) {
+        return fmt::format("element {} is turned inside out at ({:.6g}, {:.6g})", e, point.position(0),
+                           point.position(1));
+      }
+      points_[i++] = std::move(point);
+    }
+  }
+  return {};
+}
+
+Eigen::VectorXd Discretisation::gather(std::size_t e, const Eigen::VectorXd& nodal) const {
+  return nodal(dofs_[e]);
+}
+
+std::vector<Increment> Discretisation::increments(const Eigen::VectorXd& nodal) const {
+  std::vector<Increment> all;
+  all.reserve(points_.size());
+  for (std::size_t e = 0; e < elements(); ++e) {
+    const Eigen::VectorXd local = gather(e, nodal);
+    for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
+      all.push_back(increment_at(points_[i], continuum_, local));
+    }
+  }
+  return all;
+}
+
+Eigen::VectorXd Discretisation::internal_forces(std::span<const Response> responses) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  for (std::size_t e = 0; e < elements(); ++e) {
+    Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs_[e].size()));
+    for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
+      local.noalias() +=
+          strain_matrix(points_[i], continuum_).transpose() * (points_[i].volume * responses[i].stress);
+    }
+    forces(dofs_[e]) += local;
+  }
+  return forces;
+}
+
+Eigen::VectorXd Discretisation::linearised_forces(std::span<const Response> responses,
+                                                  const Eigen::VectorXd& nodal) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  for (std::size_t e = 0; e < elements(); ++e) {
+    const Eigen::VectorXd u = gather(e, nodal);
+    if (u.isZero(0.0)) continue;
+    forces(dofs_[e]) += element_tangent(e, responses) * u;
+  }
+  return forces;
+}
+
+Eigen::MatrixXd Discretisation::element_tangent(std::size_t e, std::span<const Response> responses) const {
+  const auto size = static_cast<Eigen::Index>(dofs_[e].size());
+  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
+    if (middle_ != nullptr) {
+      tangent += large_tangent(points_[i], middle_->point(i), (*increments_)[i], continuum_, responses[i]);
+      continue;
+    }
+    const auto b = strain_matrix(points_[i], continuum_);
+    const Eigen::Matrix<double, 7, Eigen::Dynamic> db = (points_[i].volume * responses[i].tangent) * b;
+    tangent.noalias() += b.transpose() * db;
+  }
+  return tangent;
+}
+
+}  // namespace polargrain::fem

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/increment.hpp"
+#include "common/response.hpp"
+#include "fem/element/kinematics.hpp"
+#include "fem/mesh/mesh.hpp"
+
+namespace polargrain::fem {
+
+/// The way between nodes and integration points: gathers increments, scatters stresses. Nodal vectors have 3
+/// entries a node (u1, u2, w). Loops run in the order of the elements, so sums have the same bits every time.
+class Discretisation {
+ public:
+  /// @param mesh must outlive this object.
+  Discretisation(const Mesh& mesh, Continuum continuum);
+
+  /// Moves the nodes to where `nodal` displaces them from the mesh as it was made.
+  /// @return a message naming an element that this turns inside out; empty when all is well.
+  [[nodiscard]] std::string move_to(const Eigen::VectorXd& nodal);
+
+  [[nodiscard]] std::size_t points() const { return points_.size(); }
+  [[nodiscard]] const PointGeometry& point(std::size_t i) const { return points_[i]; }
+  [[nodiscard]] int element_of_point(std::size_t i) const { return element_of_point_[i]; }
+  [[nodiscard]] std::size_t elements() const { return dofs_.size(); }
+  /// Points of element e are first_point(e) ... first_point(e + 1) - 1.
+  [[nodiscard]] std::size_t first_point(std::size_t e) const { return first_point_[e]; }
+  /// Places of the element's unknowns in nodal vectors.
+  [[nodiscard]] const std::vector<int>& element_dofs(std::size_t e) const { return dofs_[e]; }
+
+  [[nodiscard]] std::vector<Increment> increments(const Eigen::VectorXd& nodal) const;
+  /// Nodal forces of the stresses: the sum of B^T s times volume.
+  [[nodiscard]] Eigen::VectorXd internal_forces(std::span<const Response> responses) const;
+  /// Tangent times nodal displacements, without forming the tangent.
+  [[nodiscard]] Eigen::VectorXd linearised_forces(std::span<const Response> responses,
+                                                  const Eigen::VectorXd& nodal) const;
+  /// The sum of B^T D B times volume over the points of element e.
+  [[nodiscard]] Eigen::MatrixXd element_tangent(std::size_t e, std::span<const Response> responses) const;
+  /// From now on tangents are those of a mesh that moves along: strains refer to `middle`, increments to the
+  /// evaluation that the responses belong to. Both must outlive this object.
+  void use_large_tangent(const Discretisation* middle, const std::vector<Increment>* increments) {
+    middle_ = middle;
+    increments_ = increments;
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd gather(std::size_t e, const Eigen::VectorXd& nodal) const;
+
+  const Mesh& mesh_;
+  Continuum continuum_;
+  const Discretisation* middle_ = nullptr;
+  const std::vector<Increment>* increments_ = nullptr;
+  Eigen::Index nodal_size_;
+  std::vector<PointGeometry> points_;
+  std::vector<int> element_of_point_;
+  std::vector<std::size_t> first_point_;
+  std::vector<std::vector<int>> dofs_;
+};
+
+}  // namespace polargrain::fem

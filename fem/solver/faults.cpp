@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <utility>
+
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+using Messages = std::vector<std::string>;
+
+template <class Map>
+std::string names_of(const Map& map) {
+  Messages names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+void check_names(const Problem& problem, Messages& messages) {
+  const Mesh& mesh = problem.mesh;
+  const auto check_nodes = [&](const std::string& on) {
+    if (mesh.has_nodes_on(on)) return;
+    messages.push_back(fmt::format("the mesh has no boundary or node set '{}'; it has {}", on,
+                                   fmt::join(mesh.boundary_and_node_set_names(), ", ")));
+  };
+  for (const PrescribedDof& item : problem.prescribed) check_nodes(item.on);
+  for (const NodeLoad& item : problem.node_loads) check_nodes(item.on);
+  for (const EdgeLoad& item : problem.edge_loads) {
+    if (mesh.boundaries.contains(item.on)) continue;
+    messages.push_back(fmt::format("a pressure or traction needs a boundary, '{}' is none; the mesh has {}",
+                                   item.on, names_of(mesh.boundaries)));
+  }
+  for (const BodyLoad& item : problem.body_loads) {
+    if (item.region.empty() || mesh.regions.contains(item.region)) continue;
+    messages.push_back(fmt::format("the mesh has no region '{}' for a body load; it has {}", item.region,
+                                   names_of(mesh.regions)));
+  }
+  for (const InitialStress& item : problem.initial_stresses) {
+    if (item.region.empty() || mesh.regions.contains(item.region)) continue;
+    messages.push_back(fmt::format("the mesh has no region '{}' for an initial stress; it has {}",
+                                   item.region, names_of(mesh.regions)));
+  }
+}
+
+void check_materials(const Problem& problem, Messages& messages) {
+  const Mesh& mesh = problem.mesh;
+  std::vector<int> times(mesh.elements.size(), 0);
+  for (const auto& [region, material] : problem.materials) {
+    const auto elements = mesh.regions.find(region);
+    if (elements == mesh.regions.end()) {
+      messages.push_back(fmt::format("the mesh has no region '{}' for a material; it has {}", region,
+                                     names_of(mesh.regions)));
+      continue;
+    }
+    for (const int e : elements->second) ++times[static_cast<std::size_t>(e)];
+  }
+  std::size_t none = 0;
+  std::size_t several = 0;
+  for (const int n : times) {
+    none += n == 0 ? 1 : 0;
+    several += n > 1 ? 1 : 0;
+  }
+  if (none > 0) messages.push_back(fmt::format("{} elements have no material: name their region", none));
+  if (several > 0) {
+    messages.push_back(
+        fmt::format("{} elements have more than one material: the regions named overlap", several));
+  }
+}
+
+void check_prescribed_once(const Problem& problem, Messages& messages) {
+  std::map<std::pair<int, int>, const PrescribedDof*> first;
+  for (const PrescribedDof& item : problem.prescribed) {
+    if (!problem.mesh.has_nodes_on(item.on)) continue;
+    for (const int node : problem.mesh.nodes_on(item.on)) {
+      const auto [place, added] = first.try_emplace({node, static_cast<int>(item.dof)}, &item);
+      const PrescribedDof& other = *place->second;
+      const Eigen::Vector2d& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
+      const auto factor = [&](const PrescribedDof& given) { return given.profile ? given.profile(at) : 1.0; };
+      if (added || (other.value == item.value && factor(other) == factor(item))) continue;
+      const char* names[] = {"u1", "u2", "w"};
+      messages.push_back(
+          fmt::format("{} is given two different values at the node ({:.6g}, {:.6g}), on '{}' and on "
+                      "'{}': give it once there",
+                      names[static_cast<int>(item.dof)], at(0), at(1), other.on, item.on));
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+Messages faults(const Problem& problem) {
+  Messages messages;
+  if (problem.mesh.elements.empty()) return {"the mesh has no elements"};
+  check_names(problem, messages);
+  check_materials(problem, messages);
+  check_prescribed_once(problem, messages);
+  for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
+  for (const std::string& motion : free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed)) {
+    messages.push_back(
+        fmt::format("the supports leave a rigid motion free: {}; fix or move what holds it", motion));
+  }
+  return messages;
+}
+
+}  // namespace polargrain::fem

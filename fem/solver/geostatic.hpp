@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+/// Ground under its own weight below a level surface, e_2 pointing up.
+struct Ground {
+  double surface_height = 0.0;      ///< x2 of the surface, m
+  double unit_weight = 0.0;         ///< N/m^3, positive
+  double earth_pressure_ratio = 1;  ///< K0, horizontal over vertical stress
+  double surcharge = 0.0;           ///< pressure on the surface, Pa
+};
+
+/// s22 = -(surcharge + weight times depth), s11 = s33 = K0 s22, no shear, no couples.
+InitialStress geostatic_stress(const Ground& ground, std::string region = "");
+/// Gravity, at its full value at all times unless a table says otherwise.
+BodyLoad gravity(double unit_weight, TimeTable factor = TimeTable::constant(1.0), std::string region = "");
+
+}  // namespace polargrain::fem

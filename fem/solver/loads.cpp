@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/loads.hpp"
+
+#include <numeric>
+
+#include "fem/element/quadrature.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+/// Shape functions of a straight or quadratic side: first corner at -1, second at +1, middle node last.
+void side_shape(std::size_t nodes, double x, Eigen::VectorXd& value, Eigen::VectorXd& derivative) {
+  if (nodes == 2) {
+    value = Eigen::Vector2d(0.5 * (1 - x), 0.5 * (1 + x));
+    derivative = Eigen::Vector2d(-0.5, 0.5);
+  } else {
+    value = Eigen::Vector3d(0.5 * x * (x - 1), 0.5 * x * (x + 1), 1 - x * x);
+    derivative = Eigen::Vector3d(x - 0.5, x + 0.5, -2 * x);
+  }
+}
+
+/// Nodal vector of a traction given by the outward normal. Both are per reference length of the side:
+/// `normal` has the length of d s / d xi.
+template <class Traction>
+Eigen::VectorXd edge_forces(const Mesh& mesh, const std::vector<Edge>& edges, Traction traction) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
+  Eigen::VectorXd value;
+  Eigen::VectorXd derivative;
+  for (const Edge& edge : edges) {
+    const std::vector<int> numbers = mesh.edge_nodes(edge);
+    for (const LinePoint& place : gauss_line(3)) {
+      side_shape(numbers.size(), place.position, value, derivative);
+      Eigen::Vector2d tangent = Eigen::Vector2d::Zero();
+      for (std::size_t a = 0; a < numbers.size(); ++a) {
+        tangent +=
+            derivative(static_cast<Eigen::Index>(a)) * mesh.nodes[static_cast<std::size_t>(numbers[a])];
+      }
+      const Eigen::Vector3d force = place.weight * traction(Eigen::Vector2d(tangent(1), -tangent(0)));
+      for (std::size_t a = 0; a < numbers.size(); ++a) {
+        forces.segment<3>(3 * numbers[a]) += value(static_cast<Eigen::Index>(a)) * force;
+      }
+    }
+  }
+  return forces;
+}
+
+Eigen::Vector3d unit_pressure(const Eigen::Vector2d& normal) {
+  return {-normal(0), -normal(1), 0.0};
+}
+
+}  // namespace
+
+Loads::Loads(const Problem& problem)
+    : problem_(problem), size_(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size())) {
+  for (const EdgeLoad& load : problem.edge_loads) add_edge_load(problem, load);
+  for (const NodeLoad& load : problem.node_loads) add_node_load(problem, load);
+  for (const BodyLoad& load : problem.body_loads) add_body_load(problem, load);
+}
+
+void Loads::add_edge_load(const Problem& problem, const EdgeLoad& load) {
+  const std::vector<Edge>& edges = problem.mesh.boundaries.at(load.on);
+  const auto add = [&](const TimeTable& table, auto traction) {
+    if (table.largest_magnitude() == 0.0) return;
+    parts_.push_back({edge_forces(problem.mesh, edges, traction), &table});
+  };
+  if (load.pressure.largest_magnitude() > 0.0) {
+    pressures_.emplace_back(parts_.size(), &load);
+    parts_.push_back({edge_forces(problem.mesh, edges, unit_pressure), &load.pressure});
+  }
+  add(load.traction1, [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(normal.norm(), 0.0, 0.0); });
+  add(load.traction2, [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(0.0, normal.norm(), 0.0); });
+  add(load.couple_traction,
+      [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(0.0, 0.0, normal.norm()); });
+}
+
+void Loads::add_node_load(const Problem& problem, const NodeLoad& load) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  for (const int node : problem.mesh.nodes_on(load.on)) forces(3 * node + static_cast<int>(load.dof)) += 1.0;
+  parts_.push_back({std::move(forces), &load.value});
+}
+
+void Loads::add_body_load(const Problem& problem, const BodyLoad& load) {
+  const Mesh& mesh = problem.mesh;
+  std::vector<int> elements(mesh.elements.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  if (!load.region.empty()) elements = mesh.regions.at(load.region);
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  for (const int e : elements) {
+    const Element& element = mesh.elements[static_cast<std::size_t>(e)];
+    for (const PointGeometry& point : point_geometries(*element.type, mesh.element_positions(e))) {
+      const Eigen::Vector3d force = point.volume * load.density(point.position);
+      for (std::size_t a = 0; a < element.nodes.size(); ++a) {
+        forces.segment<3>(3 * element.nodes[a]) += point.shape(static_cast<Eigen::Index>(a)) * force;
+      }
+    }
+  }
+  parts_.push_back({std::move(forces), &load.factor});
+}
+
+void Loads::move_to(const Eigen::VectorXd& nodal) {
+  if (pressures_.empty()) return;
+  Mesh moved = problem_.mesh;
+  for (std::size_t node = 0; node < moved.nodes.size(); ++node) {
+    moved.nodes[node] += nodal.segment<2>(3 * static_cast<Eigen::Index>(node));
+  }
+  for (const auto& [part, load] : pressures_) {
+    parts_[part].forces = edge_forces(moved, moved.boundaries.at(load->on), unit_pressure);
+  }
+}
+
+Eigen::VectorXd Loads::at(double time) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  for (const Part& part : parts_) forces += part.factor->at(time) * part.forces;
+  return forces;
+}
+
+Eigen::VectorXd Loads::slope(double time) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  for (const Part& part : parts_) forces += part.factor->slope(time) * part.forces;
+  return forces;
+}
+
+double Loads::largest_force() const {
+  double sum = 0.0;
+  for (const Part& part : parts_) {
+    for (Eigen::Index entry = 0; entry < size_; ++entry) {
+      if (entry % 3 != 2) sum += std::abs(part.forces(entry)) * part.factor->largest_magnitude();
+    }
+  }
+  return sum;
+}
+
+}  // namespace polargrain::fem

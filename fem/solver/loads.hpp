@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+/// Nodal forces of the loads of a problem, consistent with the shape functions. Loads keep their direction
+/// and the area they act on (small strain), so each is one nodal vector times its table.
+class Loads {
+ public:
+  /// @param problem must outlive this object.
+  explicit Loads(const Problem& problem);
+
+  /// Lets the pressures act on the boundary where `nodal` displaces it; all else acts as on the mesh as it
+  /// was made.
+  void move_to(const Eigen::VectorXd& nodal);
+
+  /// Nodal vector, 3 a node: N/m, N/m, N.
+  [[nodiscard]] Eigen::VectorXd at(double time) const;
+  /// Change of at() per time just after `time`.
+  [[nodiscard]] Eigen::VectorXd slope(double time) const;
+  /// Sum over all loads and nodes of the largest absolute nodal force (not moments), N/m.
+  [[nodiscard]] double largest_force() const;
+
+ private:
+  struct Part {
+    Eigen::VectorXd forces;  ///< for the value 1 of the table
+    const TimeTable* factor;
+  };
+  void add_edge_load(const Problem& problem, const EdgeLoad& load);
+  void add_node_load(const Problem& problem, const NodeLoad& load);
+  void add_body_load(const Problem& problem, const BodyLoad& load);
+
+  const Problem& problem_;
+  Eigen::Index size_;
+  std::vector<Part> parts_;
+  std::vector<std::pair<std::size_t, const EdgeLoad*>> pressures_;  ///< which part belongs to which load
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/newton.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "fem/material/rotation.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+/// Adds the wall time of its life to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Problem checked(Problem problem) {
+  if (const auto messages = faults(problem); !messages.empty()) {
+    throw RunError(fmt::format("the problem cannot be solved: {}", fmt::join(messages, "; ")));
+  }
+  return problem;
+}
+
+double mean_element_size(const Discretisation& discretisation) {
+  double volume = 0.0;
+  for (std::size_t i = 0; i < discretisation.points(); ++i) volume += discretisation.point(i).volume;
+  return std::sqrt(volume / static_cast<double>(discretisation.elements()));
+}
+
+}  // namespace
+
+Newton::Newton(Problem problem_in, const SolverOptions& options_in)
+    : problem(checked(std::move(problem_in))),
+      options(options_in),
+      discretisation(problem.mesh, problem.continuum),
+      constraints(problem.mesh, problem.continuum, problem.prescribed),
+      loads(problem),
+      materials(problem, discretisation),
+      reference_length(options.reference_length > 0.0 ? options.reference_length
+                                                      : mean_element_size(discretisation)),
+      tangent_(discretisation, constraints),
+      middle_(problem.mesh, problem.continuum),
+      trial_(discretisation.points()) {
+  state.displacement = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size()));
+  state.strain.assign(discretisation.points(), Vector7::Zero());
+  state.responses.resize(discretisation.points());
+  if (problem.deformation == Deformation::large) {
+    discretisation.use_large_tangent(&middle_, &increments_);
+    materials.use_large_rotations();
+  }
+}
+
+Attempt Newton::evaluate_initial_state(StepReport& report) {
+  {
+    const Stopwatch watch(report.material_seconds);
+    increments_.assign(discretisation.points(), Increment{});
+    materials.evaluate(increments_, trial_);
+    report.evaluations += static_cast<long>(trial_.size());
+  }
+  if (const Response& worst = worst_response(); worst.quality != Quality::good) {
+    materials.revert();
+    return {false, "the initial state of a material is not usable: " + worst.message};
+  }
+  // The increments were zero: what is committed is the initial state itself.
+  materials.commit();
+  state.responses = trial_;
+  return {true, ""};
+}
+
+Residual Newton::initial_residual() {
+  const Eigen::VectorXd unbalanced = loads.at(state.time) - discretisation.internal_forces(state.responses);
+  state.reference_force = options.reference_force;
+  if (state.reference_force == 0.0) {
+    state.reference_force = loads.largest_force() + sum_of_reactions(unbalanced, constraints);
+  }
+  return measure(unbalanced, constraints, state.reference_force, reference_length);
+}
+
+double Newton::excess(const Residual& residual) const {
+  return std::max(residual.force / options.force_tolerance, residual.moment / options.moment_tolerance);
+}
+
+const Response& Newton::worst_response() const {
+  return *std::min_element(trial_.begin(), trial_.end(), [](const Response& a, const Response& b) {
+    return a.quality != b.quality ? a.quality < b.quality : a.step_factor < b.step_factor;
+  });
+}
+
+void Newton::revert() {
+  materials.revert();
+  move_to_committed();
+}
+
+void Newton::move_to_committed() {
+  if (problem.deformation == Deformation::small) return;
+  (void)discretisation.move_to(state.displacement);  // it was committed, so no element is inside out
+  (void)middle_.move_to(state.displacement);
+  increments_.assign(discretisation.points(), Increment{});
+  loads.move_to(state.displacement);
+}
+
+void Newton::find_increments(const Eigen::VectorXd& displacement_increment) {
+  if (problem.deformation == Deformation::small) {
+    increments_ = discretisation.increments(displacement_increment);
+    return;
+  }
+  // Gradients about the middle of the step see no strain in a rigid rotation (Hughes and Winget 1980).
+  inverted_ = middle_.move_to(state.displacement + 0.5 * displacement_increment);
+  if (inverted_.empty()) inverted_ = discretisation.move_to(state.displacement + displacement_increment);
+  if (!inverted_.empty()) return;
+  loads.move_to(state.displacement + displacement_increment);
+  increments_ = middle_.increments(displacement_increment);
+  if (problem.continuum == Continuum::cauchy) return;
+  for (Increment& increment : increments_) {
+    // The micro-rotation is compared with the angle turned, not with the tangent of its half.
+    const Eigen::Matrix2d& h = increment.displacement_gradient;
+    increment.micro_rotation += 0.5 * (h(1, 0) - h(0, 1)) - rotation_angle(increment);
+  }
+}
+
+void Newton::evaluate(Iterate& iterate, StepReport& report) {
+  {
+    const Stopwatch watch(report.material_seconds);
+    find_increments(iterate.displacement);
+    if (!inverted_.empty()) {
+      trial_.front().quality = Quality::failed;
+      trial_.front().message = inverted_;
+      trial_.front().step_factor = 0.5;
+      iterate.residual = {HUGE_VAL, HUGE_VAL};
+      return;
+    }
+    materials.evaluate(increments_, trial_);
+    report.evaluations += static_cast<long>(trial_.size());
+  }
+  const Stopwatch watch(report.assembly_seconds);
+  iterate.unbalanced = loads.at(iterate.time) - discretisation.internal_forces(trial_);
+  if (state.reference_force == 0.0) state.reference_force = sum_of_reactions(iterate.unbalanced, constraints);
+  iterate.residual = measure(iterate.unbalanced, constraints, state.reference_force, reference_length);
+}
+
+bool Newton::factorise(const std::vector<Response>& responses, StepReport& report) {
+  const Eigen::SparseMatrix<double>* matrix = nullptr;
+  {
+    const Stopwatch watch(report.assembly_seconds);
+    matrix = &tangent_.assemble(responses);
+  }
+  const Stopwatch watch(report.solve_seconds);
+  return linear_solver_.factorise(*matrix);
+}
+
+bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std::vector<Response>& responses,
+                        const Eigen::VectorXd& right_side, Iterate& change, StepReport& report) {
+  if (!factorise(responses, report)) return false;
+  const Stopwatch watch(report.solve_seconds);
+  const auto solve = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
+    constraints.add_free(linear_solver_.solve(constraints.restrict_to_free(forces)), nodal);
+  };
+  change.time = 0.0;
+  change.displacement = Eigen::VectorXd::Zero(state.displacement.size());
+  solve(right_side, change.displacement);
+  if (!goal.controls_time()) {
+    // Bordered system: the response to a unit of time, times the time that brings the measure to its goal.
+    Eigen::VectorXd per_time = constraints.slope(iterate.time);
+    solve(loads.slope(iterate.time) - discretisation.linearised_forces(responses, per_time), per_time);
+    const double missing = goal.amount - goal.measure.dot(iterate.displacement + change.displacement);
+    change.time = missing / goal.measure.dot(per_time);
+    change.displacement += change.time * per_time;
+  }
+  return change.displacement.allFinite() && std::isfinite(change.time);
+}
+
+void Newton::move(Iterate& iterate, const Iterate& change, double fraction, StepReport& report) {
+  iterate.time += fraction * change.time;
+  iterate.displacement += fraction * change.displacement;
+  evaluate(iterate, report);
+}
+
+void Newton::line_search(Iterate& iterate, const Iterate& change, double excess_before, StepReport& report) {
+  double fraction = 1.0;
+  double best_fraction = 1.0;
+  double best = excess(iterate.residual);
+  for (int halving = 0; halving < options.most_line_search_halvings && best > excess_before; ++halving) {
+    move(iterate, change, -0.5 * fraction, report);
+    fraction *= 0.5;
+    if (worst_response().quality == Quality::failed || !(excess(iterate.residual) < best)) continue;
+    best = excess(iterate.residual);
+    best_fraction = fraction;
+  }
+  if (best_fraction != fraction) move(iterate, change, best_fraction - fraction, report);
+}
+
+Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
+  report.force_residuals.clear();
+  report.moment_residuals.clear();
+  move_to_committed();
+  internal_before_ = discretisation.internal_forces(state.responses);
+  loads_before_ = loads.at(state.time);
+  // The consistent predictor: given increments go through the last converged tangent. Moving the boundary
+  // alone would strain the elements next to it only and localise there (docs/theory.md, G.6).
+  Iterate iterate{goal.controls_time() ? goal.time : state.time, state.displacement, {}, {}};
+  constraints.apply(iterate.time, iterate.displacement);
+  iterate.displacement -= state.displacement;
+  Eigen::VectorXd right_side = loads.at(iterate.time) - internal_before_ -
+                               discretisation.linearised_forces(state.responses, iterate.displacement);
+  Iterate change{};
+  StagnationWatch watch(options.stagnation_window);
+  for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
+    const bool predictor = iteration == 1;
+    if (!correction(goal, iterate, predictor ? state.responses : trial_, right_side, change, report)) {
+      return {false, "the tangent is singular"};
+    }
+    const double excess_before = excess(iterate.residual);
+    move(iterate, change, 1.0, report);
+    ++report.iterations;
+    const bool failed = worst_response().quality == Quality::failed;
+    if (!predictor && !failed && excess(iterate.residual) > excess_before) {
+      line_search(iterate, change, excess_before, report);
+    }
+    right_side = iterate.unbalanced;
+
+    const Response& worst = worst_response();
+    if (worst.quality == Quality::failed) {
+      return {false, (inverted_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
+    }
+    const Residual& residual = iterate.residual;
+    report.force_residuals.push_back(residual.force);
+    report.moment_residuals.push_back(residual.moment);
+    if (observer) observer->iterated({iterate.time, cuts, iteration, residual.force, residual.moment});
+    if (!std::isfinite(residual.force + residual.moment)) return {false, "the residual is not finite"};
+    if (excess(residual) <= 1.0) {
+      if (worst.quality != Quality::good) {
+        return {false, "a material's answer is unreliable: " + worst.message, worst.step_factor};
+      }
+      report.force_residual = residual.force;
+      report.moment_residual = residual.moment;
+      commit(iterate);
+      return {true, ""};
+    }
+    if (watch.stagnates(excess(residual))) {
+      return {false, fmt::format("the residual stagnates at {:.3g} (force), {:.3g} (moment)", residual.force,
+                                 residual.moment)};
+    }
+  }
+  return {false, fmt::format("no balance after {} iterations", options.most_iterations)};
+}
+
+void Newton::commit(const Iterate& iterate) {
+  const Eigen::VectorXd loads_mean = 0.5 * (loads_before_ + loads.at(iterate.time));
+  const Eigen::VectorXd internal_mean = 0.5 * (internal_before_ + discretisation.internal_forces(trial_));
+  for (Eigen::Index entry = 0; entry < iterate.displacement.size(); ++entry) {
+    // At given entries the support supplies what the loads do not: together the internal force.
+    const bool free = constraints.is_free(static_cast<std::size_t>(entry));
+    state.external_work += (free ? loads_mean(entry) : internal_mean(entry)) * iterate.displacement(entry);
+  }
+  for (std::size_t i = 0; i < trial_.size(); ++i) {
+    const Vector7 strain = increments_[i].strain();
+    state.internal_work +=
+        discretisation.point(i).volume * 0.5 * (state.responses[i].stress + trial_[i].stress).dot(strain);
+    state.strain[i] += strain;
+  }
+  materials.commit();
+  state.responses = trial_;
+  state.displacement += iterate.displacement;
+  state.last_increment = iterate.displacement;
+  state.time = iterate.time;
+}
+
+}  // namespace polargrain::fem

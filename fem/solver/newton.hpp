@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fem/solver/constraints.hpp"
+#include "fem/solver/discretisation.hpp"
+#include "fem/solver/linear_solver.hpp"
+#include "fem/solver/loads.hpp"
+#include "fem/solver/point_materials.hpp"
+#include "fem/solver/residual.hpp"
+#include "fem/solver/solver.hpp"
+#include "fem/solver/tangent_matrix.hpp"
+
+namespace polargrain::fem {
+
+/// What a step is to reach: a loading time, or a growth of a linear measure of the displacements.
+struct StepGoal {
+  double time = 0.0;        ///< used when `measure` is empty
+  Eigen::VectorXd measure;  ///< nodal vector: the measure is its product with the displacements
+  double amount = 0.0;      ///< by which the measure grows in this step
+
+  [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
+};
+
+/// What became of one attempt at a step.
+struct Attempt {
+  bool converged = false;
+  std::string reason;        ///< why not
+  double step_factor = 0.5;  ///< of the step that should be tried instead
+};
+
+/// Newton iterations for one step of a problem, from the committed state. Keeps that state, changes it only
+/// by committing a step that has met its tolerances.
+class Newton {
+ public:
+  /// @throws RunError when the problem has faults.
+  Newton(Problem problem, const SolverOptions& options);
+
+  /// Evaluates all materials with increments of zero and commits their answer as the initial state.
+  [[nodiscard]] Attempt evaluate_initial_state(StepReport& report);
+  /// Residual of the committed state against the loads of its own time; fixes the reference force.
+  [[nodiscard]] Residual initial_residual();
+  /// One attempt; commits when it converges, leaves the committed state alone when not.
+  [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
+  /// Drops the trial states.
+  void revert();
+  /// Puts mesh and loads where the committed displacements have them; nothing to do in small deformation.
+  void move_to_committed();
+  /// Largest residual over its tolerance: balanced when not above 1.
+  [[nodiscard]] double excess(const Residual& residual) const;
+
+  Problem problem;
+  SolverOptions options;
+  Discretisation discretisation;
+  Constraints constraints;
+  Loads loads;
+  PointMaterials materials;
+  double reference_length;
+  SolverState state;
+  Observer* observer = nullptr;
+
+ private:
+  /// Where an iteration stands: everything is counted from the committed state.
+  struct Iterate {
+    double time;
+    Eigen::VectorXd displacement;  ///< increment, given entries included
+    Eigen::VectorXd unbalanced;    ///< loads less internal forces
+    Residual residual;
+  };
+
+  void evaluate(Iterate& iterate, StepReport& report);
+  void find_increments(const Eigen::VectorXd& displacement_increment);
+  [[nodiscard]] bool factorise(const std::vector<Response>& responses, StepReport& report);
+  [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
+                                const std::vector<Response>& responses, const Eigen::VectorXd& right_side,
+                                Iterate& change, StepReport& report);
+  void move(Iterate& iterate, const Iterate& change, double fraction, StepReport& report);
+  void line_search(Iterate& iterate, const Iterate& change, double excess_before, StepReport& report);
+  [[nodiscard]] const Response& worst_response() const;
+  void commit(const Iterate& iterate);
+
+  TangentMatrix tangent_;
+  LinearSolver linear_solver_;
+  Discretisation middle_;            ///< large deformation: half way through the step
+  std::string inverted_;             ///< names an element the last iterate turns inside out
+  Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
+  Eigen::VectorXd loads_before_;
+  std::vector<Increment> increments_;  ///< of the evaluation made last
+  std::vector<Response> trial_;        ///< its responses
+};
+
+}  // namespace polargrain::fem

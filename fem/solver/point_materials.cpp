@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/point_materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace polargrain::fem {
+
+PointMaterials::PointMaterials(const Problem& problem, const Discretisation& discretisation)
+    : at_(discretisation.points()) {
+  std::vector<std::size_t> batch_of_element(discretisation.elements());
+  for (const auto& [region, material] : problem.materials) {
+    if (!material) throw RunError(fmt::format("the region '{}' has no material", region));
+    auto batch = std::find_if(batches_.begin(), batches_.end(),
+                              [&](const Batch& other) { return other.material == material; });
+    if (batch == batches_.end()) batch = batches_.insert(batches_.end(), Batch{material, {}, {}, {}});
+    for (const int e : problem.mesh.regions.at(region)) {
+      batch_of_element[static_cast<std::size_t>(e)] = static_cast<std::size_t>(batch - batches_.begin());
+    }
+  }
+  for (std::size_t point = 0; point < discretisation.points(); ++point) {
+    Batch& batch =
+        batches_[batch_of_element[static_cast<std::size_t>(discretisation.element_of_point(point))]];
+    at_[point] = {batch.material.get(), batch.points.size()};
+    batch.points.push_back(point);
+  }
+  for (Batch& batch : batches_) {
+    batch.material->allocate(batch.points.size());
+    batch.increments.resize(batch.points.size());
+    batch.responses.resize(batch.points.size());
+  }
+  set_initial_stresses(problem, discretisation);
+}
+
+void PointMaterials::set_initial_stresses(const Problem& problem, const Discretisation& discretisation) {
+  for (const InitialStress& item : problem.initial_stresses) {
+    std::vector<char> here(discretisation.elements(), item.region.empty() ? 1 : 0);
+    if (!item.region.empty()) {
+      for (const int e : problem.mesh.regions.at(item.region)) here[static_cast<std::size_t>(e)] = 1;
+    }
+    for (Batch& batch : batches_) {
+      for (std::size_t i = 0; i < batch.points.size(); ++i) {
+        const std::size_t point = batch.points[i];
+        if (here[static_cast<std::size_t>(discretisation.element_of_point(point))] == 0) continue;
+        batch.material->set_initial_stress(i, item.stress(discretisation.point(point).position));
+      }
+    }
+  }
+}
+
+void PointMaterials::evaluate(const std::vector<Increment>& increments, std::vector<Response>& responses) {
+  for (Batch& batch : batches_) {
+    for (std::size_t i = 0; i < batch.points.size(); ++i) batch.increments[i] = increments[batch.points[i]];
+    batch.material->evaluate(batch.increments, batch.responses);
+    for (std::size_t i = 0; i < batch.points.size(); ++i) responses[batch.points[i]] = batch.responses[i];
+  }
+}
+
+void PointMaterials::use_large_rotations() {
+  for (Batch& batch : batches_) batch.material->use_large_rotations();
+}
+
+void PointMaterials::commit() {
+  for (Batch& batch : batches_) batch.material->commit();
+}
+
+void PointMaterials::revert() {
+  for (Batch& batch : batches_) batch.material->revert();
+}
+
+}  // namespace polargrain::fem

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/solver/discretisation.hpp"
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+/// The materials of a problem, each with the points that are made of it.
+class PointMaterials {
+ public:
+  /// Allocates the states and sets initial stresses.
+  /// @throws RunError when a material is null or takes no initial stress where one is given.
+  PointMaterials(const Problem& problem, const Discretisation& discretisation);
+
+  /// One response a point, in the order of the discretisation.
+  void evaluate(const std::vector<Increment>& increments, std::vector<Response>& responses);
+  void use_large_rotations();
+  void commit();
+  void revert();
+
+  [[nodiscard]] std::pair<const Material*, std::size_t> at(std::size_t point) const { return at_[point]; }
+
+ private:
+  /// One batch a material, not one a region, so that a material sees all its points at once.
+  struct Batch {
+    std::shared_ptr<Material> material;
+    std::vector<std::size_t> points;
+    std::vector<Increment> increments;
+    std::vector<Response> responses;
+  };
+  void set_initial_stresses(const Problem& problem, const Discretisation& discretisation);
+
+  std::vector<Batch> batches_;
+  std::vector<std::pair<const Material*, std::size_t>> at_;
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/solver/constraints.hpp"
+
+namespace polargrain::fem {
+
+/// Unbalanced forces and moments, relative to the fixed references of a run.
+struct Residual {
+  double force = 0.0;
+  double moment = 0.0;
+};
+
+/// Sums of absolute values over the free entries of `unbalanced`, relative to the references. What is zero
+/// over a reference of zero is zero.
+Residual measure(const Eigen::VectorXd& unbalanced, const Constraints& constraints, double reference_force,
+                 double reference_length);
+
+/// Sum of the absolute forces (not moments) at the given entries of a nodal vector.
+double sum_of_reactions(const Eigen::VectorXd& forces, const Constraints& constraints);
+
+/// Watches one sequence of iterations.
+class StagnationWatch {
+ public:
+  explicit StagnationWatch(int window) : window_(static_cast<std::size_t>(window)) {}
+  /// @param excess largest residual over its tolerance.
+  /// @return true when the smallest value of the last `window` iterations is not a tenth below the smallest
+  /// one before them.
+  bool stagnates(double excess);
+
+ private:
+  std::size_t window_;
+  std::vector<double> smallest_;
+};
+
+}  // namespace polargrain::fem

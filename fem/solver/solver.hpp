@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/response.hpp"
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+struct SolverOptions {
+  /// A step has converged when the sum of the absolute unbalanced nodal forces is below force_tolerance times
+  /// the reference force, and the sum of the absolute unbalanced nodal moments is below moment_tolerance
+  /// times the reference force times the reference length.
+  double force_tolerance = 1e-8;
+  double moment_tolerance = 1e-8;
+  /// N per m of thickness; 0: sum of the absolute nodal loads at their largest plus the absolute reactions to
+  /// the initial stress; when these are zero, the absolute reactions after the first iteration ever made.
+  /// Fixed from then on.
+  double reference_force = 0.0;
+  /// m; 0: square root of the mean area of the elements.
+  double reference_length = 0.0;
+  int most_iterations = 30;
+  /// The iteration is given up when its residual has not fallen by a tenth over this many iterations.
+  int stagnation_window = 6;
+  /// A step may be halved this often in a row before the run is given up.
+  int most_cuts = 6;
+  /// When an iteration has made the residual larger, its correction may be halved this often, each at the
+  /// price of an evaluation; the best of them is kept. 0: no line search.
+  int most_line_search_halvings = 3;
+};
+
+/// After one evaluation of all materials.
+struct IterationReport {
+  double time = 0.0;             ///< that the step is to reach
+  int cuts = 0;                  ///< in a row so far
+  int iteration = 0;             ///< 1 is the predictor
+  double force_residual = 0.0;   ///< relative to the reference force
+  double moment_residual = 0.0;  ///< relative to reference force times reference length
+};
+
+/// What became of Solver::advance.
+struct StepReport {
+  bool converged = false;
+  std::string message;  ///< why it has not converged; empty when it has
+  double time = 0.0;    ///< reached and committed
+  int substeps = 0;     ///< committed on the way; 1 when nothing was cut
+  int cuts = 0;
+  int iterations = 0;           ///< all of them, lost ones too
+  long evaluations = 0;         ///< of material points, lost ones too
+  double force_residual = 0.0;  ///< of the last committed substep
+  double moment_residual = 0.0;
+  std::vector<double> force_residuals;  ///< by iteration, of the last attempt
+  std::vector<double> moment_residuals;
+  double material_seconds = 0.0;
+  double assembly_seconds = 0.0;
+  double solve_seconds = 0.0;
+};
+
+/// A linear measure of deformation whose growth is prescribed in place of the loading time, for instance the
+/// displacement of two nodes against each other. The loading time, and with it loads and moved boundaries,
+/// becomes an unknown and may go back: this follows softening through snap-back (indirect displacement
+/// control).
+struct DisplacementMeasure {
+  struct Term {
+    int node;
+    Dof dof;
+    double weight;
+  };
+  std::vector<Term> terms;
+};
+
+/// Told of every event while a step runs; for progress lines and logs. Must not change the solver.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void iterated(const IterationReport& report) { (void)report; }
+  /// A step to `time` was given up for `reason`; `next_time` will be tried. Where a measure is controlled in
+  /// place of the time, both are the time of the last committed state.
+  virtual void cut(double time, const std::string& reason, double next_time) {
+    (void)time, (void)reason, (void)next_time;
+  }
+};
+
+/// All that the solver knows at the last committed time, apart from the states kept by the materials.
+struct SolverState {
+  double time = 0.0;
+  Eigen::VectorXd displacement;     ///< 3 a node: u1, u2, w
+  std::vector<Vector7> strain;      ///< by point, accumulated
+  std::vector<Response> responses;  ///< by point: stress and tangent of the last converged step
+  double reference_force = 0.0;     ///< 0: not fixed yet
+  Eigen::VectorXd last_increment;   ///< of the displacements in the last committed substep; empty at first
+  double next_step = 0.0;           ///< time step to try next after a cut; 0: as asked for
+  double external_work = 0.0;       ///< J per m of thickness, loads and reactions, trapezoidal, since time 0
+  double internal_work = 0.0;       ///< the same from stress and strain
+};
+
+/// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
+/// G.6), steps that are cut when something fails and grow back. A step that has not met its tolerances is
+/// never committed. Same problem, same options: same bits.
+///
+/// Order of calls: construct, equilibrate once (evaluates the initial state), then advance to growing times.
+class Solver {
+ public:
+  /// Allocates the states of the materials.
+  /// @throws RunError when faults(problem) is not empty or a material is null.
+  Solver(Problem problem, SolverOptions options);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  void set_observer(Observer* observer);
+
+  /// Brings the initial stresses into balance with the loads and supports at time 0. Zero iterations when
+  /// they already are.
+  StepReport equilibrate();
+  /// Goes on to `time`, in smaller steps where needed. When it fails, the last committed substep stands.
+  StepReport advance(double time);
+
+  /// Goes on until `measure` has grown by `amount` (not zero), at whatever loading time balances it. Time
+  /// tables must be straight over the times passed through.
+  StepReport advance_measure(const DisplacementMeasure& measure, double amount);
+  /// Goes on by `length` (m, positive) along the direction of the last committed substep: sqrt of the sum
+  /// over the nodes of u1^2 + u2^2 + (reference length w)^2, projected on that direction (arc-length
+  /// control).
+  /// @throws RunError before the first substep has been committed.
+  StepReport advance_arc_length(double length);
+
+  [[nodiscard]] const Problem& problem() const;
+  [[nodiscard]] const SolverState& state() const;
+  /// Goes on from a state that was saved; the materials must have been put back by their owner.
+  void restore(SolverState state);
+
+  /// Integration points, in the order of all vectors by point: elements in order, points of an element in
+  /// order.
+  [[nodiscard]] std::size_t points() const;
+  [[nodiscard]] int element_of_point(std::size_t point) const;
+  [[nodiscard]] Eigen::Vector2d position_of_point(std::size_t point) const;
+  /// Volume per unit thickness that belongs to the point, m^2.
+  [[nodiscard]] double volume_of_point(std::size_t point) const;
+  /// The material of a point and the number of the point within that material.
+  [[nodiscard]] std::pair<const Material*, std::size_t> material_of_point(std::size_t point) const;
+
+  /// Nodal forces of the stresses (3 a node: N/m, N/m, N), internal and of the loads, at the committed time.
+  [[nodiscard]] Eigen::VectorXd internal_forces() const;
+  [[nodiscard]] Eigen::VectorXd external_forces() const;
+  /// Sum over the nodes of a boundary or node set of what the supports exert on the body: force along 1 and 2
+  /// (N per m of thickness) and nodal moments (N).
+  [[nodiscard]] Eigen::Vector3d reaction(const std::string& on) const;
+  /// Mean displacement over the nodes of a boundary or node set: u1, u2 (m), w (rad).
+  [[nodiscard]] Eigen::Vector3d mean_displacement(const std::string& on) const;
+  /// Mean of eps_11 + eps_22 over the volume; positive is expansion.
+  [[nodiscard]] double volume_strain() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace polargrain::fem

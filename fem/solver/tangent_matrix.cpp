@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/tangent_matrix.hpp"
+
+#include <algorithm>
+
+namespace polargrain::fem {
+
+TangentMatrix::TangentMatrix(const Discretisation& discretisation, const Constraints& constraints)
+    : discretisation_(discretisation), matrix_(constraints.unknowns(), constraints.unknowns()) {
+  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    std::vector<int>& equations = equations_.emplace_back();
+    for (const int entry : discretisation.element_dofs(e)) {
+      equations.push_back(constraints.equation(static_cast<std::size_t>(entry)));
+    }
+  }
+  find_pattern();
+  find_places();
+}
+
+void TangentMatrix::find_pattern() {
+  std::vector<std::vector<int>> rows(static_cast<std::size_t>(matrix_.cols()));
+  for (const std::vector<int>& equations : equations_) {
+    for (const int column : equations) {
+      if (column < 0) continue;
+      std::vector<int>& list = rows[static_cast<std::size_t>(column)];
+      std::copy_if(equations.begin(), equations.end(), std::back_inserter(list),
+                   [](int r) { return r >= 0; });
+    }
+  }
+  std::vector<int> starts{0};
+  std::vector<int> all_rows;
+  for (std::vector<int>& list : rows) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    all_rows.insert(all_rows.end(), list.begin(), list.end());
+    starts.push_back(static_cast<int>(all_rows.size()));
+  }
+  const std::vector<double> zeros(all_rows.size(), 0.0);
+  matrix_ = Eigen::Map<const Eigen::SparseMatrix<double>>(matrix_.rows(), matrix_.cols(),
+                                                          static_cast<Eigen::Index>(all_rows.size()),
+                                                          starts.data(), all_rows.data(), zeros.data());
+}
+
+void TangentMatrix::find_places() {
+  const int* starts = matrix_.outerIndexPtr();
+  const int* rows = matrix_.innerIndexPtr();
+  for (const std::vector<int>& equations : equations_) {
+    for (const int column : equations) {
+      if (column < 0) continue;
+      for (const int row : equations) {
+        if (row < 0) continue;
+        const int* place = std::lower_bound(rows + starts[column], rows + starts[column + 1], row);
+        places_.push_back(static_cast<int>(place - rows));
+      }
+    }
+  }
+}
+
+const Eigen::SparseMatrix<double>& TangentMatrix::assemble(std::span<const Response> responses) {
+  double* values = matrix_.valuePtr();
+  std::fill(values, values + matrix_.nonZeros(), 0.0);
+  auto place = places_.begin();
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
+    const Eigen::MatrixXd local = discretisation_.element_tangent(e, responses);
+    const std::vector<int>& equations = equations_[e];
+    for (std::size_t j = 0; j < equations.size(); ++j) {
+      if (equations[j] < 0) continue;
+      for (std::size_t i = 0; i < equations.size(); ++i) {
+        if (equations[i] < 0) continue;
+        values[*place++] += local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+    }
+  }
+  return matrix_;
+}
+
+}  // namespace polargrain::fem

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "common/response.hpp"
+#include "fem/solver/constraints.hpp"
+#include "fem/solver/discretisation.hpp"
+
+namespace polargrain::fem {
+
+/// The sparse tangent of the unknowns. Its pattern is found once; where each element's entries go is
+/// remembered, so that assembling is additions only.
+class TangentMatrix {
+ public:
+  /// Both must outlive this object.
+  TangentMatrix(const Discretisation& discretisation, const Constraints& constraints);
+
+  /// Overwrites the values by those of the tangents of the points.
+  const Eigen::SparseMatrix<double>& assemble(std::span<const Response> responses);
+
+ private:
+  void find_pattern();
+  void find_places();
+
+  const Discretisation& discretisation_;
+  std::vector<std::vector<int>> equations_;  ///< of each element's unknowns, -1 where given
+  Eigen::SparseMatrix<double> matrix_;
+  std::vector<int> places_;  ///< in the values of the matrix, for the free entries of each element in turn
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <iostream>
+
+#include "coupler/cell_material.hpp"
+#include "tests/integration/command.hpp"
+#include "tests/integration/fake_engine.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+constexpr CosseratParameters kCosserat{40e6, 10e6, 0.02};
+
+class CellMaterialTest : public ::testing::Test {
+ protected:
+  CellMaterialTest() : scratch_("CellMaterial"), pool_(options()) {}
+
+  CellMaterial material(const std::string& script, std::size_t points) {
+    CellMaterial made(pool_, pool_.define(testing::fake_definition(script)), kCosserat);
+    made.allocate(points);
+    return made;
+  }
+
+  [[nodiscard]] PoolOptions options() const {
+    PoolOptions options;
+    options.directory = scratch_.path();
+    options.worker_command = {FAKE_WORKER};
+    return options;
+  }
+
+  testing::Scratch scratch_;
+  Pool pool_;
+};
+
+Increment some_increment() {
+  Increment increment;
+  increment.displacement_gradient << 1e-3, -4e-4, 7e-4, -2e-3;
+  increment.micro_rotation = 3e-4;
+  increment.curvature << 0.02, -0.05;
+  return increment;
+}
+
+Response evaluate(CellMaterial& material, const Increment& increment) {
+  Response response;
+  material.evaluate({&increment, 1}, {&response, 1});
+  return response;
+}
+
+/// The increment whose Cosserat strain is `strain` (eps_33 = 0).
+Increment increment_of(const Vector7& strain) {
+  Increment increment;
+  increment.displacement_gradient << strain[k11], strain[k21], strain[k12], strain[k22];
+  increment.curvature << strain[kCurvature1], strain[kCurvature2];
+  return increment;
+}
+
+TEST_F(CellMaterialTest, CosseratPartFollowsItsClosedForm) {
+  CellMaterial sand = material("", 1);
+  const Increment increment = some_increment();
+  const Vector7 strain = increment.strain();
+  const Response response = evaluate(sand, increment);
+  const Vector7 cell = testing::fake_stress(increment);
+  // A.4: s21 - s12 = 2 Gc (eps21 - eps12), m = 2 G lc^2 kappa; sums of doubles of 1e5 Pa.
+  EXPECT_NEAR(response.stress[k21] - response.stress[k12], 2.0 * 10e6 * (strain[k21] - strain[k12]), 1e-9);
+  EXPECT_NEAR(response.stress[kCurvature1], 2.0 * 40e6 * 0.02 * 0.02 * 0.02, 1e-9);
+  EXPECT_NEAR(response.stress[kCurvature2], -2.0 * 40e6 * 0.02 * 0.02 * 0.05, 1e-9);
+  EXPECT_NEAR(0.5 * (response.stress[k12] + response.stress[k21]), cell[k12], 1e-9);
+  for (int i : {k11, k22, k33}) EXPECT_EQ(response.stress[i], cell[i]);
+}
+
+TEST_F(CellMaterialTest, TangentIsTheDerivativeOfTheStress) {
+  CellMaterial sand = material("", 1);
+  evaluate(sand, some_increment());
+  sand.commit();
+  const Matrix7 tangent = evaluate(sand, some_increment()).tangent;
+  double error = 0.0;
+  for (int column : {k11, k22, k12, k21, kCurvature1, kCurvature2}) {
+    constexpr double kStep = 1e-4;
+    Vector7 strain = Vector7::Zero();
+    strain[column] = kStep;
+    const Vector7 plus = evaluate(sand, increment_of(strain)).stress;
+    strain[column] = -kStep;
+    const Vector7 minus = evaluate(sand, increment_of(strain)).stress;
+    error = std::max(error, ((plus - minus) / (2.0 * kStep) - tangent.col(column)).cwiseAbs().maxCoeff());
+  }
+  std::cout << "[figure] tangent against central differences: " << error / 1e8 << " of Young's modulus\n";
+  // The law is linear, so only the rounding of 1e5 Pa over a step of 1e-4 is left: 1e-11/1e-4/1e8.
+  EXPECT_LT(error / 1e8, 1e-12);
+}
+
+TEST_F(CellMaterialTest, IncrementsAddUpOverCommits) {
+  CellMaterial sand = material("", 1);
+  for (int step = 0; step < 3; ++step) {
+    evaluate(sand, some_increment());
+    sand.commit();
+  }
+  Increment whole = some_increment();
+  whole.displacement_gradient *= 3.0;
+  whole.micro_rotation *= 3.0;
+  whole.curvature *= 3.0;
+  CellMaterial once = material("", 1);
+  const Vector7 expected = evaluate(once, whole).stress;
+  const Vector7 stress = evaluate(sand, Increment{}).stress;
+  EXPECT_LT((stress - expected).cwiseAbs().maxCoeff(), 1e-9);
+  std::vector<double> fields(sand.field_names().size());
+  sand.fields(0, fields);
+  // The fake counts its evaluations in the coordination number, from 4.
+  EXPECT_EQ(fields[1], 7.0);
+}
+
+TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
+  CellMaterial sand = material("", 1);
+  const Response first = evaluate(sand, some_increment());
+  evaluate(sand, Increment{});
+  const Response second = evaluate(sand, some_increment());
+  EXPECT_EQ(std::memcmp(first.stress.data(), second.stress.data(), sizeof(Vector7)), 0);
+  sand.revert();
+  EXPECT_EQ(evaluate(sand, Increment{}).stress, testing::fake_stress(Increment{}));
+}
+
+TEST_F(CellMaterialTest, NoCallForAZeroIncrement) {
+  CellMaterial sand = material("", 5);
+  const std::int64_t before = pool_.counts().evaluations;
+  std::vector<Increment> increments(5);
+  increments[3] = some_increment();
+  std::vector<Response> responses(5);
+  sand.evaluate(increments, responses);
+  EXPECT_EQ(pool_.counts().evaluations - before, 1);
+  EXPECT_EQ(responses[0].stress, testing::fake_stress(Increment{}));
+  EXPECT_NE(responses[3].stress, responses[0].stress);
+}
+
+TEST_F(CellMaterialTest, AFailedCellFailsItsPointAlone) {
+  CellMaterial sand = material("fail_beyond 0.1", 2);
+  std::vector<Increment> increments(2, some_increment());
+  increments[1].displacement_gradient(0, 0) = 0.2;
+  std::vector<Response> responses(2);
+  sand.evaluate(increments, responses);
+  EXPECT_EQ(responses[0].quality, Quality::good);
+  EXPECT_EQ(responses[1].quality, Quality::failed);
+  EXPECT_EQ(responses[1].message, "the box collapsed");
+  EXPECT_EQ(responses[1].step_factor, 0.5);
+  sand.revert();
+  increments.assign(2, Increment{});
+  sand.evaluate(increments, responses);
+  for (const Response& response : responses) EXPECT_EQ(response.stress, testing::fake_stress(Increment{}));
+}
+
+}  // namespace
+}  // namespace polargrain::coupler

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The whole program with real grains: LIGGGHTS in its workers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "common/packing.hpp"
+#include "coupler/cell_material.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/solver.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
+constexpr double kConfining = 100e3;
+
+/// Two elements between smooth plates, cells of the demo.
+std::string case_text(const std::string& script) {
+  return "title: Two elements of grains\n"
+         "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}}\n"
+         "materials:\n"
+         "  sand: {model: cell, script: " +
+         script +
+         ", packing: packing400.csv, G: 37 MPa, Gc: 33 MPa, lc: 20 mm}\n"
+         "regions: {all: sand}\n"
+         "boundary:\n"
+         "  - {on: bottom, fix: [u2]}\n"
+         "  - {on: bottom_left, fix: [u1]}\n"
+         "  - {on: top, move: {u2: -1.6 mm}}\n"
+         "  - {on: [left, right], pressure: 100 kPa}\n"
+         "steps: {count: 2, tolerance: 5e-3}\n"
+         "monitors: {top_force: {on: top, reaction: u2}}\n";
+}
+
+class EngineTest : public ::testing::Test {
+ protected:
+  EngineTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    std::filesystem::copy(kSource / "cases/biaxial/packing400.csv", scratch_.path());
+    script_ = content(kSource / "liggghts_inputs/cells/hooke_radii.in");
+  }
+
+  [[nodiscard]] Outcome run_with_script(const std::string& script, const std::string& options) const {
+    write(scratch_.path() / "cell.in", script);
+    write(scratch_.path() / "case.yaml", case_text("cell.in"));
+    return run_in(scratch_.path(), POLARGRAIN " run case.yaml " + options);
+  }
+
+  Scratch scratch_;
+  std::string script_;
+};
+
+TEST_F(EngineTest, OneAndTwoWorkersWriteTheSameHistory) {
+  const Outcome one = run_with_script(script_, "-o one -w 1");
+  ASSERT_EQ(one.status, 0) << one.errors;
+  const Outcome two = run_with_script(script_, "-o two -w 2");
+  ASSERT_EQ(two.status, 0) << two.errors;
+  const std::string history = content(scratch_.path() / "one/history.csv");
+  EXPECT_EQ(history, content(scratch_.path() / "two/history.csv"));
+  EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 4);
+}
+
+TEST_F(EngineTest, ABrokenScriptEndsTheRunInLiggghtsWords) {
+  const Outcome outcome = run_with_script(script_ + "\npear_style gran\n", "-o out -w 1 --quiet");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("worker 1 died at work on a cell of material 'sand' (cell.in)"),
+            std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(outcome.errors.find("ERROR: Unknown command: pear_style gran"), std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(outcome.errors.find("out/logs/worker-1.log"), std::string::npos) << outcome.errors;
+  // The user's line, one below the blank one that was appended.
+  const auto line = 2 + std::count(script_.begin(), script_.end(), '\n');
+  EXPECT_NE(outcome.errors.find("cell.in:" + std::to_string(line) + ": pear_style gran"), std::string::npos)
+      << outcome.errors;
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(EngineTest, GrainsThrownOutOfTheBoxEndTheRun) {
+  std::string script = script_;
+  const std::size_t timestep = script.find("timestep ");
+  ASSERT_NE(timestep, std::string::npos);
+  // A thousand times too long.
+  script.replace(timestep, script.find('\n', timestep) - timestep, "timestep 3e-2");
+  const Outcome outcome = run_with_script(script, "-o out -w 2 --quiet");
+  std::cout << "[figure] the message: " << outcome.errors;
+  EXPECT_NE(outcome.errors.find("ERROR: Lost atoms: original 400"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("out/logs/worker-"), std::string::npos) << outcome.errors;
+  EXPECT_NE(content(scratch_.path() / "out/summary.json").find("\"status\": \"failed\""), std::string::npos);
+}
+
+coupler::PoolOptions pool_options(const std::filesystem::path& directory) {
+  coupler::PoolOptions options;
+  options.workers = 2;
+  options.directory = directory;
+  options.worker_command = {POLARGRAIN, "worker"};
+  return options;
+}
+
+/// One element, every displacement and rotation given so that the field is homogeneous.
+fem::Problem homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::Material> material) {
+  fem::Problem problem;
+  problem.mesh = fem::rectangle({{0.4, 0.8}, {1, 1}});
+  problem.materials["all"] = std::move(material);
+  for (const int i : {0, 1}) {
+    const Eigen::Vector2d row = gradient.row(i).transpose();
+    problem.prescribed.push_back({"all", static_cast<fem::Dof>(i), fem::TimeTable::ramp(1.0),
+                                  [row](const Eigen::Vector2d& x) { return row.dot(x); }});
+  }
+  problem.prescribed.push_back({"all", fem::Dof::w, fem::TimeTable::constant(0.0), {}});
+  return problem;
+}
+
+TEST_F(EngineTest, AnElementOnAHomogeneousPathAnswersAsItsCellAlone) {
+  constexpr int kSteps = 5;
+  constexpr coupler::CosseratParameters kCosserat{37e6, 33e6, 0.02};
+  coupler::Pool pool(pool_options(scratch_.path()));
+  const std::uint32_t sand =
+      pool.define({"sand", "hooke_radii.in", script_, read_packing(scratch_.path() / "packing400.csv"), {}});
+  Eigen::Matrix2d gradient;  // over the whole path: compression with some shear
+  gradient << 1e-3, 4e-4, 4e-4, -5e-3;
+
+  const auto element = std::make_shared<coupler::CellMaterial>(pool, sand, kCosserat);
+  fem::SolverOptions options;
+  fem::Solver solver(homogeneous(gradient, element), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  coupler::CellMaterial alone(pool, sand, kCosserat);
+  alone.allocate(1);
+  Increment increment;
+  increment.displacement_gradient = gradient / kSteps;
+  double largest = 0.0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const fem::StepReport report = solver.advance(static_cast<double>(step) / kSteps);
+    ASSERT_TRUE(report.converged) << report.message;
+    Response response;
+    alone.evaluate({&increment, 1}, {&response, 1});
+    alone.commit();
+    for (std::size_t point = 0; point < solver.points(); ++point) {
+      const Vector7 difference = solver.state().responses[point].stress - response.stress;
+      largest = std::max(largest, difference.head<5>().cwiseAbs().maxCoeff() / kConfining);
+    }
+  }
+  std::cout << "[figure] largest difference of stress over confining stress: " << largest << '\n';
+  // What the mesh adds is the rounding of its displacement gradients, 1e-16, times a stiffness of 1e8 Pa, as
+  // far as the grains let it grow in five increments.
+  EXPECT_LT(largest, 1e-6);
+}
+
+}  // namespace
+}  // namespace polargrain::testing

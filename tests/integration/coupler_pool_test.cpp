@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "common/error.hpp"
+#include "coupler/pool/pool.hpp"
+#include "tests/integration/fake_engine.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+class PoolTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = std::filesystem::temp_directory_path() /
+                 (std::string("polargrain_") +
+                  ::testing::UnitTest::GetInstance()->current_test_info()->name() + std::to_string(getpid()));
+    std::filesystem::create_directories(directory_);
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  [[nodiscard]] PoolOptions options(int workers, std::vector<std::string> more = {}) const {
+    PoolOptions options;
+    options.workers = workers;
+    options.directory = directory_;
+    options.worker_command = {FAKE_WORKER};
+    options.worker_command.insert(options.worker_command.end(), more.begin(), more.end());
+    return options;
+  }
+
+  [[nodiscard]] std::string log(int worker) const {
+    return (directory_ / "logs" / ("worker-" + std::to_string(worker) + ".log")).string();
+  }
+
+  std::filesystem::path directory_;
+};
+
+std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<CellReply>& from = {}) {
+  std::mt19937_64 generator(20240917);
+  std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
+  std::vector<PoolRequest> requests(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
+      value = entry(generator);
+    if (!from.empty()) requests[r].cell.state = from[r].state;
+  }
+  return requests;
+}
+
+bool same_bits(const CellReply& a, const CellReply& b) {
+  return std::memcmp(a.response.stress.data(), b.response.stress.data(), sizeof(Vector7)) == 0 &&
+         std::memcmp(a.response.tangent.data(), b.response.tangent.data(), sizeof(Matrix7)) == 0 &&
+         a.state->name() == b.state->name();
+}
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST_F(PoolTest, AnswersInTheOrderOfTheRequests) {
+  Pool pool(options(2));
+  const std::uint32_t sand = pool.define(testing::fake_definition(""));
+  const std::vector<PoolRequest> requests = random_requests(60);
+  ASSERT_EQ(sand, requests[0].definition);
+  const std::vector<CellReply> replies = pool.evaluate(requests);
+  ASSERT_EQ(replies.size(), requests.size());
+  for (std::size_t r = 0; r < replies.size(); ++r) {
+    // Closed form of the fake; two roundings apart at most, of stresses up to 3e5 Pa.
+    const double error =
+        (replies[r].response.stress - testing::fake_stress(requests[r].cell.increment)).cwiseAbs().maxCoeff();
+    EXPECT_LT(error, 1e-9);
+  }
+  EXPECT_EQ(pool.counts().evaluations, 60);
+  EXPECT_EQ(pool.counts().dem_steps, 600);
+}
+
+TEST_F(PoolTest, OneAndThreeWorkersGiveTheSameBits) {
+  std::vector<std::vector<CellReply>> results;
+  for (const int workers : {1, 3}) {
+    Pool pool(options(workers));
+    pool.define(testing::fake_definition(""));
+    const std::vector<CellReply> first = pool.evaluate(random_requests(40));
+    results.push_back(pool.evaluate(random_requests(40, first)));
+  }
+  for (std::size_t r = 0; r < 40; ++r) EXPECT_TRUE(same_bits(results[0][r], results[1][r])) << r;
+}
+
+TEST_F(PoolTest, InitialIsThePackingAtRest) {
+  Pool pool(options(1));
+  const std::uint32_t sand = pool.define(testing::fake_definition(""));
+  const CellReply reply = pool.initial(sand);
+  EXPECT_EQ(reply.response.stress[k11], -100e3);
+  EXPECT_EQ(reply.diagnostics.coordination_number, 4.0);
+}
+
+TEST_F(PoolTest, TwoDefinitionsAreKeptApart) {
+  Pool pool(options(2));
+  pool.define(testing::fake_definition(""));
+  const std::uint32_t soft = pool.define(testing::fake_definition("young 50e6"));
+  std::vector<PoolRequest> requests = random_requests(10);
+  const std::vector<CellReply> stiff_replies = pool.evaluate(requests);
+  for (PoolRequest& request : requests) request.definition = soft;
+  const std::vector<CellReply> soft_replies = pool.evaluate(requests);
+  for (std::size_t r = 0; r < 10; ++r) {
+    const Vector7 rest = testing::fake_stress(Increment{});
+    const Vector7 stiff = stiff_replies[r].response.stress - rest;
+    const Vector7 half = soft_replies[r].response.stress - rest;
+    EXPECT_LT((stiff - 2.0 * half).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST_F(PoolTest, StatesTravelToAWorkerOnce) {
+  Pool pool(options(1));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> first = pool.evaluate(random_requests(20));
+  pool.evaluate(random_requests(20, first));
+  // The only worker made these states itself.
+  EXPECT_EQ(pool.counts().states_sent, 0);
+}
+
+TEST_F(PoolTest, AWorkerThatLostAStateIsSentItAgain) {
+  // The worker keeps two states of 48 bytes, the coordinator takes it to keep all.
+  Pool pool(options(1, {"--cache", "100"}));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> first = pool.evaluate(random_requests(20));
+  const std::vector<CellReply> second = pool.evaluate(random_requests(20, first));
+  std::cout << "[figure] states sent again: " << pool.counts().states_sent << " of 20\n";
+  EXPECT_GE(pool.counts().states_sent, 18);
+  Pool other(options(1));
+  other.define(testing::fake_definition(""));
+  other.evaluate(random_requests(1));
+  const std::vector<CellReply> expected = other.evaluate(random_requests(20, first));
+  for (std::size_t r = 0; r < 20; ++r) EXPECT_TRUE(same_bits(second[r], expected[r])) << r;
+}
+
+TEST_F(PoolTest, AFailedCellIsAnAnswer) {
+  Pool pool(options(1));
+  pool.define(testing::fake_definition("fail_beyond 0.1"));
+  std::vector<PoolRequest> requests = random_requests(2);
+  requests[1].cell.increment.displacement_gradient(0, 0) = 0.2;
+  const std::vector<CellReply> replies = pool.evaluate(requests);
+  EXPECT_EQ(replies[0].response.quality, Quality::good);
+  EXPECT_EQ(replies[1].response.quality, Quality::failed);
+  EXPECT_EQ(replies[1].response.message, "the box collapsed");
+  EXPECT_EQ(replies[1].state, nullptr);
+}
+
+TEST_F(PoolTest, AnEngineErrorEndsTheRunInTheEnginesWords) {
+  Pool pool(options(1));
+  pool.define(testing::fake_definition("die_beyond 0.1"));
+  std::vector<PoolRequest> requests = random_requests(3);
+  requests[1].cell.increment.displacement_gradient(0, 0) = 0.2;
+  EXPECT_EQ(message_of([&] { pool.evaluate(requests); }),
+            "worker 1 died at work on a cell of material 'sand' (fake.in): exit status 1; its log " + log(1) +
+                " says:\nERROR: Lost atoms: original 400 current 399 (../thermo.cpp:396)\n");
+}
+
+TEST_F(PoolTest, AKilledWorkerIsNoticed) {
+  Pool pool(options(1));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> first = pool.evaluate(random_requests(1));
+  // Its process id is the only child of this process.
+  std::ifstream children("/proc/self/task/" + std::to_string(gettid()) + "/children");
+  pid_t child = 0;
+  ASSERT_TRUE(children >> child);
+  ASSERT_EQ(kill(child, SIGKILL), 0);
+  const std::string message = message_of([&] { pool.evaluate(random_requests(1)); });
+  EXPECT_NE(message.find("killed by signal 9 (Killed)"), std::string::npos) << message;
+}
+
+TEST_F(PoolTest, ARefusalNamesMaterialAndReason) {
+  Pool pool(options(1));
+  pool.define(testing::fake_definition("refuse_beyond 0.1"));
+  std::vector<PoolRequest> requests = random_requests(1);
+  requests[0].cell.increment.displacement_gradient(0, 0) = 0.2;
+  EXPECT_EQ(
+      message_of([&] { pool.evaluate(requests); }),
+      "worker 1 refuses a cell of material 'sand': the increment is not to my liking (log: " + log(1) + ")");
+}
+
+TEST_F(PoolTest, AProgramThatCannotStartIsReported) {
+  PoolOptions broken = options(1);
+  broken.worker_command = {"/no/such/program"};
+  EXPECT_EQ(message_of([&] { Pool pool(broken); }),
+            "worker 1 died before it reported: exit status 127; its log " + log(1) +
+                " says:\ncannot execute /no/such/program: No such file or directory\n");
+}
+
+TEST_F(PoolTest, AWorkerThatSaysNothingIsReported) {
+  PoolOptions silent = options(1);
+  silent.worker_command = {"/bin/sh", "-c", "echo thinking; sleep 60"};
+  silent.startup_seconds = 0.2;
+  EXPECT_EQ(
+      message_of([&] { Pool pool(silent); }),
+      "worker 1 did not report within 0.2 s of its start; its log " + log(1) + " ends with:\nthinking\n");
+}
+
+TEST_F(PoolTest, NothingIsLeftBehind) {
+  {
+    Pool pool(options(3));
+    pool.define(testing::fake_definition(""));
+    pool.evaluate(random_requests(3));
+  }
+  std::ifstream children("/proc/self/task/" + std::to_string(gettid()) + "/children");
+  pid_t child = 0;
+  EXPECT_FALSE(children >> child) << "process " << child << " is still there";
+}
+
+}  // namespace
+}  // namespace polargrain::coupler

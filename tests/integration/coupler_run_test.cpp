@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whole runs of the program, with the fake engine in its workers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+class RunTest : public ::testing::Test {
+ protected:
+  RunTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    set_script("");
+    write(directory() / "grains.csv",
+          "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
+    write(directory() / "case.yaml",
+          case_text("{model: cell, script: fake.in, packing: grains.csv, G: 40 MPa, "
+                    "Gc: 10 MPa, lc: 20 mm}"));
+  }
+
+  static std::string case_text(const std::string& sand) {
+    return "title: Compression of a fake\n"
+           "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}}\n"
+           "materials:\n  sand: " +
+           sand +
+           "\nregions: {all: sand}\n"
+           "boundary:\n"
+           "  - {on: bottom, fix: [u2]}\n"
+           "  - {on: bottom_left, fix: [u1, w]}\n"
+           "  - {on: top, move: {u2: -8 mm}}\n"
+           "  - {on: [left, right], pressure: 100 kPa}\n"
+           "steps: {count: 5, tolerance: 1e-10}\n"
+           "monitors:\n"
+           "  top_force: {on: top, reaction: u2}\n"
+           "  shortening: {on: top, displacement: u2}\n"
+           "  axial_strain: -shortening / 0.8 m\n"
+           "  stress_ratio: -top_force / (0.4 m * 100 kPa)\n"
+           "output: {every: 2, table: [axial_strain, stress_ratio, volume_strain]}\n";
+  }
+
+  void set_script(const std::string& text) { write(directory() / "fake.in", text + "\n"); }
+  [[nodiscard]] const std::filesystem::path& directory() const { return scratch_.path(); }
+  [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
+    return run_in(directory(), FAKE_POLARGRAIN " " + arguments);
+  }
+  [[nodiscard]] std::string result(const std::string& file) const { return content(directory() / file); }
+
+  /// Values of a column of a CSV file, from its second line.
+  [[nodiscard]] std::vector<double> column(const std::string& file, const std::string& name) const {
+    std::ifstream in(directory() / file);
+    std::vector<double> values;
+    std::string line;
+    std::getline(in, line);
+    std::size_t place = 0;
+    std::istringstream names(line);
+    for (std::string cell; std::getline(names, cell, ',') && cell != name;) ++place;
+    while (std::getline(in, line)) {
+      std::istringstream row(line);
+      std::string cell;
+      for (std::size_t c = 0; c <= place; ++c) std::getline(row, cell, ',');
+      values.push_back(std::stod(cell));
+    }
+    return values;
+  }
+
+  Scratch scratch_;
+};
+
+// Exact: plane strain with constant lateral stress, E = 100 MPa, nu = 0.25, 1 % of axial strain on top of 100
+// kPa: s22 = -100 kPa - E/(1-nu^2) 0.01; volume strain -0.01 (1 - nu/(1-nu)).
+TEST_F(RunTest, ABiaxialTestOfALinearCellIsExact) {
+  const Outcome outcome = polargrain("run case.yaml -o out -w 2");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::vector<double> ratio = column("out/history.csv", "stress_ratio");
+  const std::vector<double> volume = column("out/history.csv", "volume_strain");
+  ASSERT_EQ(ratio.size(), 6u);
+  const double expected = 1.0 + 100e6 / (1.0 - 0.0625) * 0.01 / 100e3;
+  std::cout << "[figure] stress ratio " << ratio.back() << ", exact " << expected << '\n';
+  EXPECT_NEAR(ratio.front(), 1.0, 1e-9);
+  // The tolerance asked for, 1e-10, with room for the ratio of 12 to the reference force.
+  EXPECT_NEAR(ratio.back(), expected, 1e-8);
+  EXPECT_NEAR(volume.back(), -0.01 * (1.0 - 0.25 / 0.75), 1e-11);
+}
+
+TEST_F(RunTest, WritesWhatItPromises) {
+  const Outcome outcome = polargrain("run case.yaml -o out -w 1");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  for (const char* file :
+       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "run.log", "logs/worker-1.log",
+        "fields/step-00000.vtu", "fields/step-00002.vtu", "fields/step-00004.vtu", "fields/step-00005.vtu"}) {
+    EXPECT_TRUE(std::filesystem::exists(directory() / "out" / file)) << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory() / "out/fields/step-00001.vtu"));
+  EXPECT_EQ(result("out/history.csv").substr(0, result("out/history.csv").find('\n')),
+            "step,time,substeps,cuts,iterations,evaluations,force_residual,moment_residual,volume_strain,"
+            "external_work,internal_work,top_force,shortening,axial_strain,stress_ratio");
+  EXPECT_NE(result("out/summary.json").find("\"status\": \"done\""), std::string::npos);
+  EXPECT_NE(outcome.out.find("Newton iterations"), std::string::npos);
+  EXPECT_NE(outcome.out.find("grains"), std::string::npos);
+  EXPECT_NE(outcome.out.find("results: out (history.csv"), std::string::npos);
+}
+
+TEST_F(RunTest, OneAndTwoWorkersWriteTheSameHistory) {
+  ASSERT_EQ(polargrain("run case.yaml -o one -w 1").status, 0);
+  ASSERT_EQ(polargrain("run case.yaml -o two -w 2").status, 0);
+  EXPECT_EQ(result("one/history.csv"), result("two/history.csv"));
+  EXPECT_GT(result("one/history.csv").size(), 500u);
+}
+
+TEST_F(RunTest, ACellOfALinearLawEqualsTheLinearLaw) {
+  ASSERT_EQ(polargrain("run case.yaml -o cells -w 2").status, 0);
+  // The fake's law as a local material, with the couple modulus of the cell's case: G = 40 MPa, lc^2 2 G.
+  write(directory() / "case.yaml",
+        case_text("{model: elastic, E: 100 MPa, nu: 0.25, Gc: 10 MPa, lc: 20 mm, confining: 100 kPa}"));
+  ASSERT_EQ(polargrain("run case.yaml -o elastic").status, 0);
+  const std::vector<double> cells = column("cells/history.csv", "top_force");
+  const std::vector<double> elastic = column("elastic/history.csv", "top_force");
+  ASSERT_EQ(cells.size(), elastic.size());
+  for (std::size_t s = 0; s < cells.size(); ++s) {
+    EXPECT_NEAR(cells[s], elastic[s], 1e-9 * std::abs(elastic[s]));  // tolerance of the steps, 1e-10
+  }
+}
+
+// Mohr-Coulomb in plane strain: s1 = s3 (1 + sin phi)/(1 - sin phi) + 2 c cos phi/(1 - sin phi).
+TEST_F(RunTest, AnElastoplasticSpecimenCollapsesAtItsMohrCoulombStrength) {
+  write(directory() / "case.yaml",
+        case_text("{model: elastoplastic, E: 100 MPa, nu: 0.25, Gc: 10 MPa, lc: 20 mm, confining: 100 kPa, "
+                  "friction_angle: 30 deg, dilatancy_angle: 0, cohesion: 1 kPa}"));
+  const Outcome outcome =
+      polargrain("run case.yaml -o out --set steps.count=20 --set boundary.2.move.u2=-40mm");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const double expected = (3.0 * 100e3 + 2.0 * std::sqrt(3.0) * 1e3) / 100e3;
+  const double ratio = column("out/history.csv", "stress_ratio").back();
+  std::cout << "[figure] stress ratio at collapse " << ratio << ", exact " << expected << '\n';
+  // The out-of-plane stress nears its limit exponentially; at 5 % of strain less than this is left.
+  EXPECT_NEAR(ratio, expected, 1e-6);
+}
+
+TEST_F(RunTest, AFailingCellCutsTheStep) {
+  // Steps of 0.2 % of strain, of which the fake takes 0.11 %; halving once is enough.
+  set_script("fail_beyond 1.1e-3");
+  const Outcome outcome = polargrain("run case.yaml -o out -w 2");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_GE(column("out/history.csv", "cuts").at(1), 1.0);
+  EXPECT_NEAR(column("out/history.csv", "stress_ratio").back(), 1.0 + 100e6 / (1.0 - 0.0625) * 0.01 / 100e3,
+              1e-8);
+  EXPECT_NE(result("out/run.log").find("given up"), std::string::npos);
+}
+
+TEST_F(RunTest, AStepThatCannotBeTakenEndsTheRunHonestly) {
+  set_script("fail_beyond 1e-9");
+  const Outcome outcome = polargrain("run case.yaml -o out -w 1 --set steps.cut=2");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.errors.find("error: step 1 of 5 did not converge: "), 0u) << outcome.errors;
+  EXPECT_NE(result("out/summary.json").find("\"status\": \"failed\""), std::string::npos);
+  EXPECT_EQ(column("out/history.csv", "step").size(), 1u);
+}
+
+TEST_F(RunTest, LostGrainsEndTheRunInTheEnginesWords) {
+  set_script("die_beyond 1e-5");
+  const Outcome outcome = polargrain("run case.yaml -o out -w 1 --quiet");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.errors,
+            "error: worker 1 died at work on a cell of material 'sand' (fake.in): exit status 1; its log "
+            "out/logs/worker-1.log says:\n"
+            "ERROR: Lost atoms: original 400 current 399 (../thermo.cpp:396)\n\n");
+  EXPECT_NE(result("out/summary.json").find("Lost atoms"), std::string::npos);
+}
+
+TEST_F(RunTest, ABrokenScriptEndsTheRunInTheEnginesWords) {
+  set_script("pear_style gran 1");
+  const Outcome outcome = polargrain("run case.yaml -o out -w 2 --quiet");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("ERROR: Unknown command: pear_style (../input.cpp:209)"), std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(outcome.errors.find("out/logs/worker-"), std::string::npos);
+}
+
+TEST_F(RunTest, QuietSaysNothing) {
+  const Outcome outcome = polargrain("run case.yaml -o out --quiet");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.errors, "");
+}
+
+TEST_F(RunTest, AFormerResultIsReplaced) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  const std::string first = result("out/history.csv");
+  write(directory() / "out" / "notes.txt", "mine");
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet --set steps.count=2 --set output.every=2").status, 0);
+  EXPECT_NE(result("out/history.csv"), first);
+  EXPECT_FALSE(std::filesystem::exists(directory() / "out/fields/step-00005.vtu"));
+  EXPECT_EQ(result("out/notes.txt"), "mine");
+}
+
+TEST_F(RunTest, ResultsGoBelowTheCurrentDirectoryByDefault) {
+  std::filesystem::create_directories(directory() / "slope");
+  write(directory() / "slope" / "case.yaml",
+        case_text("{model: elastic, E: 100 MPa, nu: 0.25, Gc: 10 MPa, lc: 20 mm, confining: 100 kPa}"));
+  ASSERT_EQ(polargrain("run slope/case.yaml --quiet").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory() / "results/slope/summary.json"));
+}
+
+TEST_F(RunTest, ASignalStopsTheRunInGoodOrder) {
+  set_script("sleep_milliseconds 30");
+  const Outcome outcome =
+      run_in(directory(), "(" FAKE_POLARGRAIN
+                          " run case.yaml -o out -w 2 --quiet & P=$!; sleep 0.3; kill -TERM $P; wait $P)");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.errors, "error: stopped by a signal before the end; what was committed is written\n");
+  EXPECT_NE(result("out/summary.json").find("stopped by a signal"), std::string::npos);
+}
+
+TEST_F(RunTest, WorkersDieWithTheirCoordinator) {
+  set_script("sleep_milliseconds 30");
+  const Outcome outcome = run_in(directory(), "(" FAKE_POLARGRAIN
+                                              " run case.yaml -o out -w 2 --quiet & P=$!; sleep 0.3; "
+                                              "cat /proc/$P/task/$P/children; kill -9 $P; sleep 0.5)");
+  std::istringstream workers(outcome.out);
+  int count = 0;
+  for (pid_t worker = 0; workers >> worker; ++count) {
+    // A dead process may stay in the list as a zombie until its new parent asks for it.
+    const std::string state = content("/proc/" + std::to_string(worker) + "/stat");
+    EXPECT_TRUE(state.empty() || state.find(") Z ") != std::string::npos) << state;
+  }
+  EXPECT_EQ(count, 2);
+}
+
+TEST_F(RunTest, PointFollowsAPath) {
+  write(directory() / "path.csv", "# two increments\nh22,h11\n-1e-3,0\n-1e-3,5e-4\n");
+  const Outcome outcome = polargrain("point case.yaml sand path.csv -o point.csv");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::vector<double> s22 = column("point.csv", "s22");
+  ASSERT_EQ(s22.size(), 3u);
+  // lam = 40 MPa, G = 40 MPa.
+  EXPECT_NEAR(s22[0], -100e3, 1e-9);
+  EXPECT_NEAR(s22[1], -100e3 - 120e6 * 1e-3, 1e-9);
+  EXPECT_NEAR(s22[2], -100e3 - 120e6 * 2e-3 + 40e6 * 5e-4, 1e-9);
+  EXPECT_NE(result("point.csv").find(",good,"), std::string::npos);
+  const Outcome again = polargrain("point case.yaml sand path.csv");
+  EXPECT_EQ(again.out, result("point.csv"));
+}
+
+TEST_F(RunTest, PointSaysWhereAPathFails) {
+  set_script("fail_beyond 1e-2");
+  write(directory() / "path.csv", "h11\n1e-3\n0.1\n1e-3\n");
+  const Outcome outcome = polargrain("point case.yaml sand path.csv -o point.csv");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.errors, "error: increment 2 failed: the box collapsed\n");
+  EXPECT_NE(result("point.csv").find("\n2,0,0,0,0,0,0,0,failed,"), std::string::npos) << result("point.csv");
+}
+
+TEST_F(RunTest, PointReportsABadPath) {
+  write(directory() / "path.csv", "h11,h13\n1e-3,x\n1\n");
+  const Outcome outcome = polargrain("point case.yaml sand path.csv");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.errors,
+            "path.csv:1: there is no column 'h13'; expected names out of h11, h12, h21, h22, w, k1, k2\n"
+            "path.csv:2: expected a number, found 'x'\n"
+            "path.csv:3: expected 2 numbers, found 1\n");
+  write(directory() / "path.csv", "h11\n1e-3\n");
+  EXPECT_EQ(polargrain("point case.yaml gravel path.csv").errors,
+            "case.yaml: has no material 'gravel'; it has sand\n");
+}
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "tests/integration/fake_engine.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "common/error.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+constexpr double kConfining = -100e3;
+constexpr double kYoung = 100e6;
+constexpr double kPoisson = 0.25;
+
+Matrix7 stiffness(double young) {
+  const double shear = young / (2.0 * (1.0 + kPoisson));
+  const double lame = 2.0 * shear * kPoisson / (1.0 - 2.0 * kPoisson);
+  Matrix7 d = Matrix7::Zero();
+  d.topLeftCorner<3, 3>().setConstant(lame);
+  for (int i = 0; i < 3; ++i) d(i, i) += 2.0 * shear;
+  for (int i : {k12, k21}) d(i, k12) = d(i, k21) = shear;
+  return d;
+}
+
+[[noreturn]] void die_like_the_engine(const char* message) {
+  std::printf("Some output of the engine\nERROR: %s\n", message);
+  std::fflush(stdout);
+  std::_Exit(1);
+}
+
+class FakeEngine : public CellService {
+ public:
+  explicit FakeEngine(const CellDefinition& definition) {
+    std::istringstream script(definition.script);
+    std::string command;
+    while (script >> command) {
+      if (command != "young" && command != "fail_beyond" && command != "die_beyond" &&
+          command != "refuse_beyond" && command != "sleep_milliseconds") {
+        die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
+      }
+      script >> settings_[command];
+    }
+    stiffness_ = stiffness(settings_.count("young") != 0 ? settings_["young"] : kYoung);
+  }
+
+  CellReply initial() override { return reply({kConfining, kConfining, kConfining, 0.0, 0.0}, 0.0); }
+
+  CellReply evaluate(const CellRequest& request) override {
+    if (settings_.count("sleep_milliseconds") != 0) {
+      std::this_thread::sleep_for(
+          std::chrono::milliseconds(static_cast<int>(settings_["sleep_milliseconds"])));
+    }
+    const double largest = request.increment.displacement_gradient.cwiseAbs().maxCoeff();
+    if (beyond("die_beyond", largest))
+      die_like_the_engine("Lost atoms: original 400 current 399 (../thermo.cpp:396)");
+    if (beyond("refuse_beyond", largest)) throw RunError("the increment is not to my liking");
+    std::array<double, 6> start{kConfining, kConfining, kConfining, 0.0, 0.0, 0.0};
+    if (request.state) {
+      if (request.state->bytes().size() != sizeof start) throw RunError("a state of something else");
+      std::memcpy(start.data(), request.state->bytes().data(), sizeof start);
+    }
+    if (beyond("fail_beyond", largest)) {
+      CellReply failed;
+      failed.response.quality = Quality::failed;
+      failed.response.message = "the box collapsed";
+      failed.response.step_factor = 0.5;
+      return failed;
+    }
+    const Vector7 change = stiffness_ * request.increment.strain();
+    std::array<double, 5> stress{};
+    for (int i = 0; i < 5; ++i) stress[i] = start[i] + change[i];
+    return reply(stress, start[5] + 1.0);
+  }
+
+ private:
+  [[nodiscard]] bool beyond(const std::string& setting, double value) const {
+    const auto limit = settings_.find(setting);
+    return limit != settings_.end() && value > limit->second;
+  }
+
+  [[nodiscard]] CellReply reply(const std::array<double, 5>& stress, double evaluations) const {
+    std::array<double, 6> values{};
+    std::copy(stress.begin(), stress.end(), values.begin());
+    values[5] = evaluations;
+    CellReply reply;
+    for (int i = 0; i < 5; ++i) reply.response.stress[i] = stress[i];
+    reply.response.tangent = stiffness_;
+    reply.diagnostics.void_ratio = 0.2;
+    reply.diagnostics.coordination_number = 4.0 + evaluations;
+    reply.diagnostics.dem_steps = 10;
+    reply.diagnostics.engine_seconds = 1e-6;
+    const auto bytes = std::as_bytes(std::span(values));
+    reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
+    return reply;
+  }
+
+  std::map<std::string, double> settings_;
+  Matrix7 stiffness_;
+};
+
+}  // namespace
+
+std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition) {
+  return std::make_unique<FakeEngine>(definition);
+}
+
+Vector7 fake_stress(const Increment& increment) {
+  Vector7 stress = stiffness(kYoung) * increment.strain();
+  for (int i : {k11, k22, k33}) stress[i] += kConfining;
+  return stress;
+}
+
+Packing fake_packing() {
+  Packing packing;
+  packing.box << 1.0, 0.0, 0.0, 1.0;
+  packing.thickness = 0.1;
+  packing.grains = {{7, {0.5, 0.5}, 0.4, 1.0, 0.08}};
+  return packing;
+}
+
+CellDefinition fake_definition(const std::string& script) {
+  return {"sand", "fake.in", script, fake_packing(), CellControl{}};
+}
+
+}  // namespace polargrain::testing

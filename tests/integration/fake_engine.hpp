@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+
+#include "common/cell.hpp"
+
+namespace polargrain::testing {
+
+/// Stands in for the grain engine where the coupler is tested: an isotropic linear law whose answers are
+/// known in closed form, around an initial stress of -100 kPa. Behaves as its script says, one command a
+/// line:
+///
+///     young E            Young's modulus in Pa (Poisson's ratio is 0.25); 100e6 without this line
+///     fail_beyond e      answers Quality::failed with step factor 0.5 when an entry of the increment exceeds
+///     e die_beyond e       prints what LIGGGHTS prints when grains are lost, and ends the process with
+///     status 1 refuse_beyond e    throws
+///
+/// An unknown command ends the process as LIGGGHTS does.
+std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition);
+
+/// Stress after an increment from the packing, for the default modulus.
+Vector7 fake_stress(const Increment& increment);
+
+/// A packing of one grain, enough for a fake.
+Packing fake_packing();
+
+/// A definition with that packing.
+CellDefinition fake_definition(const std::string& script);
+
+}  // namespace polargrain::testing

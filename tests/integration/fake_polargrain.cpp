@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The program with the fake engine in the place of LIGGGHTS.
+#include "coupler/commands/command_line.hpp"
+#include "tests/integration/fake_engine.hpp"
+
+int main(int count, char** arguments) {
+  return polargrain::coupler::command_line(count, arguments, {[] {}, polargrain::testing::make_fake_engine}, {});
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// main of the tests that run the engine in their own process.
+#include <gtest/gtest.h>
+
+#include "dem/engine/engine.hpp"
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  polargrain::dem::start_engine_process();
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+
+#include "common/error.hpp"
+#include "dem/cell/box.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+Eigen::Matrix2d laboratory(const Box& box) {
+  return box.frame() * box.base_vectors();
+}
+
+const Eigen::Matrix2d kBase = (Eigen::Matrix2d() << 0.2, 0.03, 0.05, 0.19).finished();
+
+TEST(Box, HoldsAnyLatticeInAFrameOfItsOwn) {
+  const Box box = Box::from_base_vectors(kBase);
+  EXPECT_LT((laboratory(box) - kBase).norm(), 1e-16);
+  EXPECT_EQ(box.base_vectors()(1, 0), 0.0);
+  EXPECT_NEAR(box.area(), kBase.determinant(), 1e-17);
+}
+
+TEST(Box, ReducedIsTheSameLattice) {
+  Box box = Box::from_base_vectors(kBase);
+  box.tilt += 3.0 * box.length_x;
+  const Box reduced = box.reduced();
+  EXPECT_LE(std::abs(reduced.tilt), 0.5 * reduced.length_x);
+  // The second base vectors differ by a whole number of first ones.
+  const double difference = (box.tilt - reduced.tilt) / box.length_x;
+  EXPECT_NEAR(difference, std::round(difference), 1e-13);
+}
+
+TEST(BoxPath, EndsWhereTheDisplacementGradientLeads) {
+  Eigen::Matrix2d h;
+  h << 0.01, 0.2, -0.1, -0.02;
+  const BoxPath path(Box::from_base_vectors(kBase), h, 37);
+  EXPECT_LT((laboratory(path.at(0)) - kBase).norm(), 1e-16);
+  EXPECT_LT((laboratory(path.at(37)) - (Eigen::Matrix2d::Identity() + h) * kBase).norm(), 1e-16);
+}
+
+TEST(BoxPath, MotionsAddUpToThePath) {
+  Eigen::Matrix2d h;
+  h << 0.01, 0.2, -0.1, -0.02;
+  const int steps = 25;
+  const BoxPath path(Box::from_base_vectors(kBase), h, steps);
+  Eigen::Matrix2d carried = path.at(0).base_vectors();
+  double rotation = path.at(0).rotation;
+  double largest_gradient = 0.0;
+  for (int step = 1; step <= steps; ++step) {
+    const BoxPath::Motion motion = path.motion(step);
+    carried += motion.gradient * carried;
+    rotation += motion.rotation;
+    largest_gradient = std::max(largest_gradient, motion.gradient.norm());
+  }
+  EXPECT_LT((carried - path.at(steps).base_vectors()).norm(), 1e-15);
+  EXPECT_NEAR(rotation, path.at(steps).rotation, 1e-15);
+  // It starts and ends at rest: the first and last steps move least (sine squared: (pi/steps)^2 / 3 of the
+  // mean).
+  EXPECT_LT(path.motion(1).gradient.norm(), 0.02 * largest_gradient);
+  EXPECT_LT(path.motion(steps).gradient.norm(), 0.02 * largest_gradient);
+  EXPECT_EQ(path.motion(0).gradient.norm(), 0.0);
+  EXPECT_EQ(path.motion(steps + 1).gradient.norm(), 0.0);
+}
+
+TEST(BoxPath, PureRotationOnlyTurnsTheFrame) {
+  const double angle = 0.3;
+  Eigen::Matrix2d h;
+  h << std::cos(angle) - 1.0, -std::sin(angle), std::sin(angle), std::cos(angle) - 1.0;
+  const Box start = Box::from_base_vectors(kBase);
+  const BoxPath path(start, h, 10);
+  EXPECT_LT((path.at(10).base_vectors() - start.base_vectors()).norm(), 1e-15);
+  EXPECT_NEAR(path.at(10).rotation - start.rotation, angle, 1e-15);
+}
+
+TEST(BoxPath, RefusesToFoldTheBox) {
+  const Eigen::Matrix2d h = -1.5 * Eigen::Matrix2d::Identity();
+  EXPECT_THROW(BoxPath(Box::from_base_vectors(kBase), h, 10), RunError);
+}
+
+}  // namespace
+}  // namespace polargrain::dem

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "fem/element/kinematics.hpp"
+#include "fem/mesh/gmsh.hpp"
+
+/// Gmsh's reader loses a few bytes when a file is broken; not ours to mend, so the leak checker is told.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libgmsh";
+}  // NOLINT(bugprone-reserved-identifier)
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+const std::filesystem::path kData = "tests/data/fem";
+
+class GmshFile : public testing::TestWithParam<std::string> {};
+
+/// Gmsh writes 16 digits of what it computed to about 1e-13, hence 1e-11. Two unit squares side by side,
+/// `soft` and `stiff`; Gmsh's surface of the second is clockwise, and one of its points belongs to no
+/// element.
+TEST_P(GmshFile, has_its_groups_and_counter_clockwise_elements) {
+  const Mesh mesh = read_gmsh(kData / GetParam());
+  EXPECT_TRUE(distorted_elements(mesh).empty());
+  for (const char* region : {"soft", "stiff"}) {
+    double area = 0.0;
+    for (const int e : mesh.regions.at(region)) {
+      for (const PointGeometry& point :
+           point_geometries(*mesh.elements[static_cast<std::size_t>(e)].type, mesh.element_positions(e))) {
+        area += point.volume;
+        EXPECT_EQ(point.position(0) < 1.0, std::string(region) == "soft");
+      }
+    }
+    EXPECT_NEAR(area, 1.0, 1e-11) << region;
+  }
+  EXPECT_EQ(mesh.regions.at("all").size(), mesh.elements.size());
+  const std::map<std::string, double> lengths{{"left", 1}, {"right", 1}, {"bottom", 2}, {"top", 2}};
+  for (const auto& [name, expected] : lengths) {
+    double length = 0.0;
+    Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
+    for (const Edge& edge : mesh.boundaries.at(name)) {
+      const std::vector<int> nodes = mesh.edge_nodes(edge);
+      const Eigen::Vector2d along = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
+      length += along.norm();
+      outwards += Eigen::Vector2d(along(1), -along(0));
+      ASSERT_EQ(nodes.size(), 3U);
+      EXPECT_LT((mesh.nodes[nodes[2]] - 0.5 * (mesh.nodes[nodes[0]] + mesh.nodes[nodes[1]])).norm(), 1e-11);
+    }
+    EXPECT_NEAR(length, expected, 1e-11) << name;
+    const Eigen::Vector2d& on = mesh.nodes[mesh.nodes_on(name).front()];
+    EXPECT_GT(outwards.dot(on - Eigen::Vector2d(1.0, 0.5)), 0.0) << name;
+  }
+  EXPECT_EQ(mesh.nodes[mesh.nodes_on("origin").at(0)], Eigen::Vector2d(0, 0));
+  for (const Eigen::Vector2d& node : mesh.nodes) EXPECT_LE(node(0), 2.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, GmshFile,
+                         testing::Values("two_blocks_q8_msh2.msh", "two_blocks_q8_msh4.msh",
+                                         "two_blocks_t6_msh2.msh", "two_blocks_t6_msh4.msh"));
+
+TEST(gmsh, both_versions_of_the_format_give_the_same_mesh) {
+  const Mesh two = read_gmsh(kData / "two_blocks_q8_msh2.msh");
+  const Mesh four = read_gmsh(kData / "two_blocks_q8_msh4.msh");
+  EXPECT_EQ(two.nodes.size(), four.nodes.size());
+  EXPECT_EQ(two.elements.size(), 8U);
+  EXPECT_EQ(four.elements.size(), 8U);
+}
+
+/// The message of the InputError that reading the text gives.
+std::string fault_of(const std::string& content) {
+  const auto file = std::filesystem::temp_directory_path() / "fem_gmsh_test.msh";
+  std::ofstream(file) << content;
+  try {
+    (void)read_gmsh(file);
+  } catch (const InputError& error) {
+    return error.faults().front().text();
+  }
+  return "no fault";
+}
+
+TEST(gmsh, says_what_is_wrong_with_a_file) {
+  EXPECT_THROW(read_gmsh("nowhere.msh"), InputError);
+  EXPECT_NE(fault_of("not a mesh").find("fem_gmsh_test.msh"), std::string::npos);
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 ";
+  const std::string triangle = "\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n";
+  EXPECT_NE(fault_of(head + "0" + triangle).find("Mesh.ElementOrder = 2"), std::string::npos);
+  EXPECT_NE(fault_of(head + "0.5" + triangle).find("z = 0"), std::string::npos);
+  EXPECT_NE(fault_of(head + "0\n$EndNodes\n").find("no surface elements"), std::string::npos);
+}
+
+/// A machine without Gmsh must say what is missing, and where it was looked for.
+TEST(GmshModule, that_is_missing_is_named) {
+  try {
+    (void)read_gmsh(kData / "two_blocks_q8_msh4.msh", "Q8R", {"/nowhere"});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        error.faults().front().message,
+        "mesh files need the module polargrain_gmsh.so, which cannot be loaded (not in /nowhere); install "
+        "Gmsh's library (Debian: libgmsh-dev) and build again");
+  }
+}
+
+}  // namespace

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `polargrain pack` says about wrong specifications: file, line, what was expected.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "coupler/pack/read_specification.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+const std::string kGood =
+    "grains: 400\n"
+    "sizes: {law: uniform, radius: [3 mm, 7 mm]}\n"
+    "density: 2650\n"
+    "thickness: 100 mm\n"
+    "script: cells/hooke_radii.in\n"
+    "pressure: 100 kPa\n"
+    "friction: 0\n"
+    "seed: 1\n";
+
+class Specification : public testing::Test {
+ protected:
+  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / "pack_specification_test.yaml";
+  std::string fault(const std::string& from, const std::string& to) {
+    std::string text = kGood;
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(file_) << text;
+    try {
+      read_packing_specification(file_, {});
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      return message.substr(message.find(file_.string()) + file_.string().size());
+    }
+    return "no fault";
+  }
+};
+
+TEST_F(Specification, IsRead) {
+  std::ofstream(file_) << kGood;
+  const PackingSpecification read = read_packing_specification(file_, {"seed=7"});
+  EXPECT_EQ(read.grains, 400);
+  EXPECT_EQ(read.seed, 7u);
+  EXPECT_DOUBLE_EQ(read.sizes.radii[1], 7e-3);
+  EXPECT_DOUBLE_EQ(read.pressure, 1e5);
+  EXPECT_FALSE(read.script.empty());
+}
+
+TEST_F(Specification, FaultsNameTheLine) {
+  EXPECT_EQ(fault("grains: 400", "grains: 3"),
+            ":1: packing: grains: expected a whole number of at least 4, found '3'");
+  EXPECT_EQ(fault("law: uniform", "law: unifrom").substr(0, 40), ":2: sizes: law: expected one of uniform,");
+  EXPECT_EQ(fault("[3 mm, 7 mm]", "[7 mm, 3 mm]"), ":2: sizes: radius: the first must be the smaller one");
+  EXPECT_EQ(fault("pressure: 100 kPa", "pressure: -1 kPa"),
+            ":6: packing: pressure: must be greater than zero, found '-1 kPa'");
+  EXPECT_EQ(fault("seed: 1", "seeds: 1").substr(0, 45), ":1: packing: the key 'seed' is missing; give ");
+  EXPECT_EQ(fault("cells/hooke_radii.in", "cells/nowhere.in").substr(0, 62),
+            ":5: packing: script: there is no file 'cells/nowhere.in', neit");
+  EXPECT_EQ(fault("{law: uniform, radius: [3 mm, 7 mm]}",
+                  "{law: sieve, diameter: [1 mm, 2 mm], passing: [0, 90 %]}"),
+            ":2: sizes: passing: must rise from 0 to 100 % (parts of the mass that pass each sieve)");
+}
+
+}  // namespace
+}  // namespace polargrain::coupler

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+if(TARGET polargrain_dem)
+  polargrain_test(dem_paths_test verification verification/dem_paths_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(dem_lattice_test verification verification/dem_lattice_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(dem_cell_test verification verification/dem_cell_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+endif()

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A cell that is a hexagonal lattice of equal discs has known moduli (docs/theory/grains.md, E.7 a): per unit
+// thickness lambda = (sqrt3/4)(kn - ks), G = (sqrt3/4)(kn + ks), Gc = (sqrt3/2) ks, at any number of discs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "dem/cell/cell_service.hpp"
+#include "tests/support/cell_fixture.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+constexpr double kNormal = 1e6;      // N/m
+constexpr double kTangential = 4e5;  // N/m
+constexpr double kDiameter = 0.01;   // m
+constexpr double kThickness = 0.1;   // m
+constexpr double kOverlap = 2e-4;    // of the diameter
+constexpr double kDensity = 2650.0;  // kg/m^3
+
+/// Columns x rows of discs (rows even), pressed together by a small isotropic strain.
+CellDefinition lattice(int columns, int rows, CellRotations rotations) {
+  CellDefinition definition;
+  definition.name = "lattice";
+  definition.script_file = "lattice.in";
+  definition.script =
+      "units si\ndimension 2\natom_style granular\natom_modify map array\nboundary p p p\nnewton off\n"
+      "communicate single vel yes\nread_data ${packing}\nneighbor 0.001 bin\nneigh_modify delay 0\n"
+      "fix kn all property/global kn peratomtypepair 1 1e6\nfix kt all property/global kt peratomtypepair 1 "
+      "4e5\n"
+      "fix gn all property/global gamman_abs peratomtypepair 1 0\n"
+      "fix gt all property/global gammat_abs peratomtypepair 1 0\n"
+      "fix mu all property/global coefficientFriction peratomtypepair 1 1e3\n"
+      "pair_style gran model hooke/stiffness tangential history absolute_damping on\npair_coeff * *\n"
+      "timestep 2e-5\nfix integrate all nve/sphere\nfix plane all enforce2d\n";
+  const double spacing = kDiameter * (1.0 - kOverlap);
+  const double row_height = spacing * std::sqrt(3.0) / 2.0;
+  definition.packing.box << columns * spacing, 0.0, 0.0, rows * row_height;
+  definition.packing.thickness = kThickness;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      Grain grain;
+      grain.id = row * columns + column;
+      grain.position = {(column + 0.5 * (row % 2) + 0.25) * spacing, (row + 0.25) * row_height};
+      grain.radius = 0.5 * kDiameter;
+      grain.mass = kDensity * std::numbers::pi * grain.radius * grain.radius * kThickness;
+      grain.moment_of_inertia = 0.5 * grain.mass * grain.radius * grain.radius;
+      definition.packing.grains.push_back(grain);
+    }
+  definition.control.inertial_number = 2e-5;
+  definition.control.unbalanced_force_ratio = 1e-7;
+  definition.control.unbalanced_moment_ratio = 1e-7;
+  definition.control.damping = 0.1;
+  definition.control.rotations = rotations;
+  return definition;
+}
+
+/// Stress increment of one evaluation from the packing at rest.
+Vector7 stress_increment(CellService& cell, const Increment& increment) {
+  CellRequest request;
+  request.increment = increment;
+  const CellReply reply = cell.evaluate(request);
+  EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+  // Moments in balance (C.4): the multiplier carries the skew stress.
+  EXPECT_NEAR(reply.diagnostics.multiplier, reply.response.stress(k21) - reply.response.stress(k12),
+              1e-5 * std::abs(reply.response.stress(k11)));
+  return reply.response.stress - cell.initial().response.stress;
+}
+
+// The overlap shortens branches and lever arms, and prestress adds its own geometric stiffness: each by about
+// the overlap.
+constexpr double kTolerance = 1e-3;
+constexpr double kStrain = 1e-5;
+const double kLambda = std::sqrt(3.0) / 4.0 * (kNormal - kTangential) / kThickness;
+const double kShear = std::sqrt(3.0) / 4.0 * (kNormal + kTangential) / kThickness;
+const double kCosserat = std::sqrt(3.0) / 2.0 * kTangential / kThickness;
+
+class Lattice : public testing::TestWithParam<int> {};
+
+TEST_P(Lattice, FreeRotationsGiveTheClassicalModuli) {
+  const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::free));
+  Increment increment;
+  increment.displacement_gradient << kStrain, 0.0, 0.0, 0.0;
+  const Vector7 axial = stress_increment(*cell, increment);
+  EXPECT_NEAR(axial(k11) / kStrain, kLambda + 2.0 * kShear, kTolerance * kShear);
+  EXPECT_NEAR(axial(k22) / kStrain, kLambda, kTolerance * kShear);
+  increment.displacement_gradient << 0.0, kStrain, 0.0, 0.0;
+  const Vector7 shear = stress_increment(*cell, increment);
+  EXPECT_NEAR(shear(k12) / kStrain, kShear, kTolerance * kShear);
+  EXPECT_NEAR(shear(k21) / kStrain, kShear, kTolerance * kShear);
+  std::printf("[figure] lattice of %d x %d, free rotations: G %.5f of the exact\n", GetParam(), GetParam(),
+              shear(k21) / kStrain / kShear);
+}
+
+TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
+  const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
+  Increment increment;
+  increment.displacement_gradient << 0.0, kStrain, 0.0,
+      0.0;  // micro-rotation zero: eps21 = strain, eps12 = 0
+  const Vector7 stress = stress_increment(*cell, increment);
+  EXPECT_NEAR(stress(k21) / kStrain, kShear + kCosserat, kTolerance * kShear);
+  EXPECT_NEAR(stress(k12) / kStrain, kShear - kCosserat, kTolerance * kShear);
+  // And a rotation of the grains alone: eps21 = w, eps12 = -w.
+  Increment turn;
+  turn.micro_rotation = kStrain;
+  const Vector7 turned = stress_increment(*cell, turn);
+  EXPECT_NEAR(turned(k21) / kStrain, 2.0 * kCosserat, kTolerance * kShear);
+  EXPECT_NEAR(turned(k12) / kStrain, -2.0 * kCosserat, kTolerance * kShear);
+  std::printf("[figure] lattice of %d x %d, blocked rotation: G + Gc %.5f, Gc %.5f of the exact\n",
+              GetParam(), GetParam(), stress(k21) / kStrain / (kShear + kCosserat),
+              turned(k21) / kStrain / (2.0 * kCosserat));
+}
+
+TEST_P(Lattice, CondensedTangentsAreThoseModuli) {
+  const auto free = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::free));
+  const Matrix7 classical = free->initial().response.tangent;
+  EXPECT_NEAR(classical(k12, k12), kShear, kTolerance * kShear);
+  EXPECT_NEAR(classical(k11, k11), kLambda + 2.0 * kShear, kTolerance * kShear);
+  const auto held = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
+  const Matrix7 cosserat = held->initial().response.tangent;
+  EXPECT_NEAR(cosserat(k21, k21), kShear + kCosserat, kTolerance * kShear);
+  EXPECT_NEAR(cosserat(k12, k21), kShear - kCosserat, kTolerance * kShear);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Lattice, testing::Values(4, 8, 12));
+
+}  // namespace
+}  // namespace polargrain::dem

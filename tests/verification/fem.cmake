@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(fem_patch_test verification verification/fem_patch_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_shear_layer_test verification verification/fem_shear_layer_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_biaxial_test verification verification/fem_biaxial_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_softening_layer_test verification verification/fem_softening_layer_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_glide_layer_test verification verification/fem_glide_layer_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_hole_test verification verification/fem_hole_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_footing_test verification verification/fem_footing_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_cauchy_test verification verification/fem_cauchy_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_large_test verification verification/fem_large_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_hard_cases_test verification verification/fem_hard_cases_test.cpp LIBS polargrain_fem)

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Large displacements and rotations (updated Lagrangian) against closed forms.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <iostream>
+
+#include "fem/material/elastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/solver.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+const TimeTable kZero = TimeTable::constant(0.0);
+
+Problem elastic_block(const RectangleSpecification& size, const ElasticParameters& parameters) {
+  Problem problem;
+  problem.mesh = rectangle(size);
+  problem.deformation = Deformation::large;
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  return problem;
+}
+
+TEST(large_deformation, stress_turns_with_the_material) {
+  LocalMaterial<ElasticLaw> material(ElasticLaw({1e6, 0.3, 1e5, 0.01, Vector7{10, 20, 5, 3, 4, 1, 2}}));
+  material.allocate(1);
+  material.use_large_rotations();
+  Increment increment;  // rigid rotation by 90 degrees about the middle of the step: 2 tan(45 deg)
+  increment.displacement_gradient << 0.0, -2.0, 2.0, 0.0;
+  increment.micro_rotation = 2.0;
+  std::vector<Response> responses(1);
+  material.evaluate(std::vector<Increment>{increment}, responses);
+  // s'_ij = R s R^T with R e_1 = e_2, R e_2 = -e_1.
+  const Vector7 expected{20, 10, 5, -4, -3, -2, 1};
+  EXPECT_LT((responses[0].stress - expected).norm(), 1e-12);
+}
+
+TEST(large_deformation, a_block_turned_by_a_full_circle_feels_nothing) {
+  Problem problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
+  constexpr int kSteps = 12;
+  std::vector<TimeTable::Point> cosine;
+  std::vector<TimeTable::Point> sine;
+  for (int step = 0; step <= kSteps; ++step) {
+    const double time = static_cast<double>(step) / kSteps;
+    cosine.push_back({time, std::cos(2 * M_PI * time) - 1});
+    sine.push_back({time, std::sin(2 * M_PI * time)});
+  }
+  const auto distance = [](const Eigen::Vector2d& x) { return x(0); };
+  problem.prescribed = {{"bottom", Dof::u1, TimeTable(cosine), distance},
+                        {"bottom", Dof::u2, TimeTable(sine), distance},
+                        {"bottom", Dof::w, TimeTable::ramp(2 * M_PI), {}}};
+  SolverOptions options;
+  options.reference_force = 1e5;
+  Solver solver(std::move(problem), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  int iterations = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const StepReport report = solver.advance(static_cast<double>(step) / kSteps);
+    ASSERT_TRUE(report.converged) << report.message;
+    iterations += report.iterations;
+  }
+  double largest = 0.0;
+  for (const Response& response : solver.state().responses)
+    largest = std::max(largest, response.stress.norm());
+  double farthest = 0.0;
+  for (Eigen::Index i = 0; i < solver.state().displacement.size(); ++i) {
+    if (i % 3 != 2) farthest = std::max(farthest, std::abs(solver.state().displacement(i)));
+  }
+  std::cout << "[figure] full circle in 12 steps: largest stress over E " << largest / 1e6
+            << ", farthest node " << farthest << ", iterations " << iterations << '\n';
+  EXPECT_LT(largest / 1e6, 1e-7);  // what the tolerance of the balance leaves
+  EXPECT_LT(farthest, 1e-6);
+}
+
+TEST(large_deformation, pressure_all_round_compresses_by_the_exponential) {
+  // nu = 0 and the same pressure on every side: the stress is -p and rates add up to ln(size) = -p / E.
+  Problem problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
+  problem.prescribed = {{"bottom_left", Dof::u1, kZero, {}},
+                        {"bottom_left", Dof::u2, kZero, {}},
+                        {"bottom_right", Dof::u2, kZero, {}}};
+  for (const char* side : {"left", "right", "bottom", "top"}) {
+    problem.edge_loads.push_back({.on = side, .pressure = TimeTable::ramp(0.05e6)});
+  }
+  Solver solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  constexpr int kSteps = 20;
+  int iterations = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const StepReport report = solver.advance(static_cast<double>(step) / kSteps);
+    ASSERT_TRUE(report.converged) << report.message;
+    iterations += report.iterations;
+  }
+  for (const Response& response : solver.state().responses) {
+    EXPECT_NEAR(response.stress(k11), -0.05e6, 1.0);
+    EXPECT_NEAR(response.stress(k22), -0.05e6, 1.0);
+  }
+  const double width = 2.0 + solver.mean_displacement("right")(0) - solver.mean_displacement("left")(0);
+  const double error = width / (2.0 * std::exp(-0.05)) - 1;
+  std::cout << "[figure] pressure 0.05 E all round: relative error of the width " << error << ", iterations "
+            << iterations << '\n';
+  EXPECT_LT(std::abs(error), 1e-5);  // midpoint rule: step^2 / 12 of a strain of 0.05
+}
+
+TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
+  constexpr double kLength = 1.0;
+  constexpr double kDepth = 0.02;
+  constexpr double kYoung = 1e9;
+  constexpr double kLengthScale = 0.005;
+  Problem problem =
+      elastic_block({{kLength, kDepth}, {40, 1}}, {kYoung, 0.0, 0.2e9, kLengthScale, Vector7::Zero()});
+  problem.prescribed = {
+      {"left", Dof::u1, kZero, {}}, {"bottom_left", Dof::u2, kZero, {}}, {"left", Dof::w, kZero, {}}};
+  // docs/theory.md, E.1b: bending stiffness with couples; nu = 0, so G = E / 2.
+  const double stiffness = kYoung * std::pow(kDepth, 3) / 12 + kYoung * kLengthScale * kLengthScale * kDepth;
+  const double moment = stiffness * M_PI / kLength;
+  problem.edge_loads = {{.on = "right", .couple_traction = TimeTable::ramp(moment / kDepth)}};
+  SolverOptions options;
+  options.reference_force = kYoung * kDepth * 0.03;
+  Solver solver(std::move(problem), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  constexpr int kSteps = 20;
+  StepReport last;
+  int iterations = 0;
+  int cuts = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    last = solver.advance(static_cast<double>(step) / kSteps);
+    ASSERT_TRUE(last.converged) << last.message;
+    iterations += last.iterations;
+    cuts += last.cuts;
+  }
+  // A half circle of length 1: its end lies 2 / pi above and back over the root.
+  const Eigen::Vector3d end = solver.mean_displacement("right");
+  std::cout << "[figure] strip bent by pi: end at (" << kLength + end(0) << ", " << end(1) << "), exact (0, "
+            << 2 / M_PI << "), rotation " << end(2) << ", iterations " << iterations << ", cuts " << cuts
+            << ", last step";
+  for (const double residual : last.force_residuals) std::cout << ' ' << residual;
+  std::cout << '\n';
+  EXPECT_NEAR(kLength + end(0), 0.0, 0.01);
+  EXPECT_NEAR(end(1) / (2 / M_PI), 1.0, 0.01);  // strains of 3 % and the layer where the couple is applied
+}
+
+TEST(large_deformation, an_element_turned_inside_out_is_named) {
+  Problem problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
+  // The top is pushed through the bottom in one go.
+  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
+                        {"bottom_left", Dof::u1, kZero, {}},
+                        {"top", Dof::u2, TimeTable::ramp(-1.5), {}}};
+  SolverOptions options;
+  options.most_cuts = 0;
+  Solver solver(std::move(problem), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.message.find("element 0 is turned inside out"), std::string::npos) << report.message;
+  EXPECT_EQ(solver.state().displacement.norm(), 0.0);
+}
+
+}  // namespace
