@@ -254,11 +254,16 @@ TEST_F(RunTest, PointSaysWhereAPathFails) {
 }
 
 TEST_F(RunTest, PointReportsABadPath) {
+  // The rows of a table whose columns are unknown say nothing: only the header is reported.
   write(directory() / "path.csv", "h11,h13\n1e-3,x\n1\n");
-  const Outcome outcome = polargrain("point case.yaml sand path.csv");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(outcome.errors,
-            "path.csv:1: there is no column 'h13'; expected names out of h11, h12, h21, h22, w, k1, k2\n"
+  const Outcome header = polargrain("point case.yaml sand path.csv");
+  EXPECT_EQ(header.status, 2);
+  EXPECT_EQ(header.errors,
+            "path.csv:1: there is no column 'h13'; expected names out of h11, h12, h21, h22, w, k1, k2\n");
+  write(directory() / "path.csv", "h11,h22\n1e-3,x\n1\n");
+  const Outcome rows = polargrain("point case.yaml sand path.csv");
+  EXPECT_EQ(rows.status, 2);
+  EXPECT_EQ(rows.errors,
             "path.csv:2: expected a number, found 'x'\n"
             "path.csv:3: expected 2 numbers, found 1\n");
   write(directory() / "path.csv", "h11\n1e-3\n");
