@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "common/error.hpp"
 #include "common/increment.hpp"
 #include "common/response.hpp"
@@ -45,6 +46,20 @@ class Material {
 
   virtual void commit() = 0;
   virtual void revert() = 0;
+
+  /// Writes the committed states of all points; only between steps, when nothing is on trial.
+  /// @throws RunError when this material cannot be kept.
+  virtual void save(ArchiveWriter& archive) const {
+    (void)archive;
+    throw RunError("this material cannot be written to a checkpoint");
+  }
+  /// Takes the committed states of all points from what save wrote; after allocate with as many points. What
+  /// follows is the same to the bit as without the interruption.
+  /// @throws RunError when the archive holds something else.
+  virtual void restore(ArchiveReader& archive) {
+    (void)archive;
+    throw RunError("this material cannot be read from a checkpoint");
+  }
 
   /// Names of the values beyond stress and strain that this material can show (void_ratio, ...).
   [[nodiscard]] virtual std::vector<std::string> field_names() const { return {}; }
