@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "common/error.hpp"
+#include "common/packing_data.hpp"
 #include "common/packing_file.hpp"
 #include "coupler/pack/read_specification.hpp"
 #include "coupler/pool/log_excerpt.hpp"
@@ -99,7 +100,7 @@ void report(const PreparedPacking& packing, double seconds, const std::filesyste
 
 int pack(const PackOptions& options, const PackingTools& tools) {
   if (!options.export_file.empty()) {
-    fem::write_file(options.export_file, tools.data_file(read_packing(options.specification_file)));
+    fem::write_file(options.export_file, packing_data(read_packing(options.specification_file)));
     return 0;
   }
   const PackingSpecification specification =

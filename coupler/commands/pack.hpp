@@ -14,8 +14,6 @@ struct PackingTools {
   /// Called once in the process that makes the packing.
   std::function<void()> start_process;
   PackingMaker make;
-  /// A packing as text for `read_data` of an input script.
-  std::function<std::string(const Packing&)> data_file;
 };
 
 struct PackOptions {

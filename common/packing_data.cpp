@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "common/packing_data.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace polargrain {
+
+std::string packing_data(const Packing& packing) {
+  const Eigen::Vector2d first = packing.box.col(0);
+  const double length_x = first.norm();
+  const double length_y = packing.box.determinant() / length_x;
+  double tilt = first.dot(packing.box.col(1)) / length_x;
+  tilt -= length_x * std::round(tilt / length_x);  // the same lattice with the tilt that the engine takes
+  const double angle = std::atan2(first.y(), first.x());
+  Eigen::Matrix2d to_box_frame;
+  to_box_frame << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+
+  std::string text =
+      "packing of polargrain: grains of one type, density chosen so that a sphere has the grain's mass\n\n";
+  text += fmt::format("{} atoms\n1 atom types\n\n", packing.grains.size());
+  text += fmt::format(
+      "0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n{:.17g} 0 0 xy xz yz\n\nAtoms\n\n",
+      length_x, length_y, -0.5 * packing.thickness, 0.5 * packing.thickness, tilt);
+  for (const Grain& grain : packing.grains) {
+    const Eigen::Vector2d position = to_box_frame * grain.position;
+    const double sphere = 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+    text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} 0\n", grain.id + 1, 2.0 * grain.radius,
+                        grain.mass / sphere, position.x(), position.y());
+  }
+  return text;
+}
+
+}  // namespace polargrain

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/replay/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <span>
+
+#include "common/error.hpp"
+#include "common/packing_data.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+constexpr const char* kScript = "cell.in";
+constexpr const char* kPacking = "packing.data";
+constexpr const char* kPackingState = "packing.state";
+constexpr const char* kState = "start.state";
+
+class Folder {
+ public:
+  explicit Folder(const std::filesystem::path& directory) : directory_(directory) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    for (const char* name : {kPackingState, kState}) std::filesystem::remove(directory / name, error);
+  }
+  void write(const char* name, const std::string& text) const {
+    write(name, std::as_bytes(std::span(text.data(), text.size())));
+  }
+  void write(const char* name, std::span<const std::byte> bytes) const {
+    const std::filesystem::path file = directory_ / name;
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) throw RunError(fmt::format("the replay cannot be written: {}", file.string()));
+  }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+/// The mean grain, in the very additions by which the cell finds it: mass, diameter, density.
+std::string mean_grain(const Packing& packing) {
+  const auto grains = static_cast<int>(packing.grains.size());
+  double radius = 0.0;
+  double mass = 0.0;
+  double area = 0.0;
+  for (const Grain& grain : packing.grains) {
+    radius += grain.radius / grains;
+    mass += grain.mass / grains;
+    area += std::numbers::pi * grain.radius * grain.radius;
+  }
+  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", mass, radius, area,
+                     grains * mass / (area * packing.thickness));
+}
+
+std::string words_of(const Increment& increment) {
+  const Eigen::Matrix2d& h = increment.displacement_gradient;
+  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", h(0, 0), h(0, 1), h(1, 0),
+                     h(1, 1), increment.micro_rotation, increment.curvature(0), increment.curvature(1));
+}
+
+/// The commands of one increment: loading, then rest, then the answer on the screen.
+std::string increment_commands(const Increment& increment, std::size_t number) {
+  return fmt::format(
+      "\nprint           \"increment {0}\"\n"
+      "fix_modify      cell increment {1}\n"
+      "variable        loading equal f_cell\n"
+      "run             ${{loading}} post no\n"
+      "label           rest{0}\n"
+      "variable        at_rest equal f_cell[10]\n"
+      "if              \"${{at_rest}} == 1\" then \"jump in.replay rested{0}\"\n"
+      "run             20 pre no post no\n"
+      "jump            in.replay rest{0}\n"
+      "label           rested{0}\n"
+      "fix_modify      cell report {0}\n",
+      number, words_of(increment));
+}
+
+std::string driver(const CellDefinition& definition, const Replay& replay) {
+  const CellControl& control = definition.control;
+  std::string text = fmt::format(
+      "# Replays a cell of the material '{}' as a coupled run evaluates it.\n"
+      "#   polargrain-liggghts -in in.replay\n"
+      "# The README beside this file says what it is and what to expect. Add dumps and thermo output as you\n"
+      "# like, behind the fix; they change nothing.\n\n"
+      "variable        packing index {}\n"
+      "include         {}\n\n",
+      definition.name, kPacking, kScript);
+  const bool controlled = definition.control.rotations == CellRotations::controlled;
+  text += fmt::format(
+      "fix             cell all cell/load inertial_number {:.17g} damping {:.17g} least_steps {} &\n"
+      "                unbalanced {:.17g} {:.17g} most_relaxation_steps {} &\n"
+      "                rotations {} mean_grain {}",
+      control.inertial_number, control.damping, control.least_steps, control.unbalanced_force_ratio,
+      control.unbalanced_moment_ratio, control.most_relaxation_steps, controlled ? "controlled" : "free",
+      mean_grain(definition.packing));
+  const Eigen::Vector2d first = definition.packing.box.col(0);
+  if (first.y() != 0.0)
+    text += fmt::format(" &\n                turned {:.17g}", std::atan2(first.y(), first.x()));
+  if (definition.packing.state) text += fmt::format(" &\n                packing_state {}", kPackingState);
+  text +=
+      "\nthermo_style    custom step f_cell[1] f_cell[2] f_cell[4] f_cell[5] f_cell[8] f_cell[9]\n"
+      "thermo          1000000\n";
+  if (replay.start) text += fmt::format("fix_modify      cell state {}\n", kState);
+  for (std::size_t k = 0; k < replay.increments.size(); ++k)
+    text += increment_commands(replay.increments[k], k + 1);
+  return text;
+}
+
+std::string readme(const CellDefinition& definition, const Replay& replay) {
+  std::string text = fmt::format(
+      "Replay of a cell of the material '{}' (script {}).\n\n{}\n\n"
+      "Run it in this folder:\n\n    polargrain-liggghts -in in.replay\n\n"
+      "| file | what |\n|---|---|\n"
+      "| {} | the packing, a LIGGGHTS data file |\n"
+      "| {} | the input script of the material |\n"
+      "| in.replay | drives the cell along the increments |\n",
+      definition.name, definition.script_file, replay.reason, kPacking, kScript);
+  if (definition.packing.state)
+    text += fmt::format("| {} | velocities and contact histories of the packing |\n", kPackingState);
+  if (replay.start)
+    text +=
+        fmt::format("| {} | the cell before the first increment: box, grains, contact histories |\n", kState);
+  text +=
+      "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s22 s33 "
+      "s12 "
+      "s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the face.\n";
+  if (replay.answers.empty()) return text + "\nThe cell gave no answer that could be compared.\n";
+  text += "The cell answered, and the replay prints the same digits:\n\n";
+  for (std::size_t k = 0; k < replay.answers.size(); ++k) {
+    const Vector7& s = replay.answers[k].stress;
+    text += fmt::format(
+        "    cell: increment {} stress {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} couple_stress "
+        "{:.17g} {:.17g}\n",
+        k + 1, s(k11), s(k22), s(k33), s(k12), s(k21), s(kCurvature1), s(kCurvature2));
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_replay(const std::filesystem::path& directory, const CellDefinition& definition,
+                  const Replay& replay) {
+  const Folder folder(directory);
+  folder.write(kPacking, packing_data(definition.packing));
+  folder.write(kScript, definition.script);
+  if (definition.packing.state) folder.write(kPackingState, definition.packing.state->bytes());
+  if (replay.start) folder.write(kState, replay.start->bytes());
+  folder.write("in.replay", driver(definition, replay));
+  folder.write("README.md", readme(definition, replay));
+}
+
+void write_replay(const std::filesystem::path& directory, const CellDefinition& definition,
+                  const CellRequest& request, const std::string& reason) {
+  write_replay(directory, definition, {request.state, {request.increment}, {}, reason});
+}
+
+}  // namespace polargrain::coupler
