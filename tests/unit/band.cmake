@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(band_test unit unit/band_test.cpp LIBS polargrain_band)
