@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -65,7 +66,13 @@ struct CellDiagnostics {
   double multiplier = 0.0;  ///< s21 - s12 that holds the mean rotation, Pa; 0 with free rotations
   std::int64_t contacts = 0;
   std::int64_t dem_steps = 0;
-  double engine_seconds = 0.0;  ///< wall time inside the engine; never part of a result
+  double engine_seconds = 0.0;    ///< wall time inside the engine; never part of a result
+  double rolling_fraction = 0.0;  ///< contacts at the rolling limit / contacts (rolling model li_chu)
+  double rattlers = 0.0;          ///< grains without a contact / grains
+  double mean_rotation = 0.0;     ///< of the grains, since the packing, rad
+  double rotation_spread = 0.0;   ///< standard deviation of the rotations of the grains, rad
+  /// Fabric tensor in the laboratory, F_ij = mean of n_i n_j over the contacts (trace 1): F11, F22, F12.
+  std::array<double, 3> fabric{};
 };
 
 /// Answer of a cell. Stress and tangent are the cell's own (laboratory frame); Response::tangent is with

@@ -182,9 +182,20 @@ Response read_response(const msgpack::object& object) {
 }
 
 ArrayWriter write(const CellDiagnostics& d) {
-  const std::array<double, 7> values{d.unbalanced_force_ratio, d.unbalanced_moment_ratio, d.void_ratio,
-                                     d.coordination_number,    d.sliding_fraction,        d.multiplier,
-                                     d.engine_seconds};
+  const std::array<double, 14> values{d.unbalanced_force_ratio,
+                                      d.unbalanced_moment_ratio,
+                                      d.void_ratio,
+                                      d.coordination_number,
+                                      d.sliding_fraction,
+                                      d.multiplier,
+                                      d.engine_seconds,
+                                      d.rolling_fraction,
+                                      d.rattlers,
+                                      d.mean_rotation,
+                                      d.rotation_spread,
+                                      d.fabric[0],
+                                      d.fabric[1],
+                                      d.fabric[2]};
   ArrayWriter writer;
   writer.numbers(values).whole_signed(d.contacts).whole_signed(d.dem_steps);
   return writer;
@@ -192,8 +203,9 @@ ArrayWriter write(const CellDiagnostics& d) {
 
 CellDiagnostics read_diagnostics(const msgpack::object& object) {
   ArrayReader reader(object, "a cell's diagnostics");
-  const std::vector<double> v = reader.numbers(7);
-  CellDiagnostics d{v[0], v[1], v[2], v[3], v[4], v[5], 0, 0, v[6]};
+  const std::vector<double> v = reader.numbers(14);
+  CellDiagnostics d{v[0], v[1], v[2], v[3], v[4], v[5],  0,
+                    0,    v[6], v[7], v[8], v[9], v[10], {v[11], v[12], v[13]}};
   d.contacts = reader.whole_signed();
   d.dem_steps = reader.whole_signed();
   reader.end();

@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 2;
+inline constexpr std::uint32_t kProtocolVersion = 3;
 
 /// No message is longer; longer ones are refused before they are read.
 inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;

@@ -9,6 +9,14 @@
 
 namespace polargrain::dem {
 
+namespace {
+Eigen::Matrix2d turn(double angle) {
+  Eigen::Matrix2d matrix;
+  matrix << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return matrix;
+}
+}  // namespace
+
 Box Box::from_base_vectors(const Eigen::Matrix2d& base_vectors) {
   const Eigen::Vector2d first = base_vectors.col(0);
   Box box;
@@ -26,9 +34,7 @@ Eigen::Matrix2d Box::base_vectors() const {
 }
 
 Eigen::Matrix2d Box::frame() const {
-  Eigen::Matrix2d turn;
-  turn << std::cos(rotation), -std::sin(rotation), std::sin(rotation), std::cos(rotation);
-  return turn;
+  return turn(rotation);
 }
 
 Box Box::reduced() const {
@@ -38,7 +44,11 @@ Box Box::reduced() const {
 }
 
 BoxPath::BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps)
-    : start_(start), displacement_gradient_(displacement_gradient), steps_(steps) {
+    : start_(start), steps_(steps) {
+  const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() + displacement_gradient;
+  // In the plane R has the direction of the part of I + h that is a rotation times a number.
+  rotation_ = std::atan2(whole(1, 0) - whole(0, 1), whole.trace());
+  stretch_ = turn(-rotation_) * whole - Eigen::Matrix2d::Identity();
   // The determinant is a parabola in the fraction; a fold shows at the end or on the way.
   for (int part = 1; part <= 16; ++part) {
     const Eigen::Matrix2d now = Eigen::Matrix2d::Identity() + part / 16.0 * displacement_gradient;
@@ -58,13 +68,19 @@ double BoxPath::share(int step) const {
   return step < 1 || step > steps_ ? 0.0 : fraction(step) - fraction(step - 1);
 }
 
+Eigen::Matrix2d BoxPath::deformation(int step) const {
+  const double part = fraction(step);
+  return turn(part * rotation_) * (Eigen::Matrix2d::Identity() + part * stretch_);
+}
+
 Box BoxPath::at(int step) const {
   if (step <= 0) return start_;
-  const Eigen::Matrix2d carried =
-      start_.base_vectors() + fraction(step) * (start_.frame().transpose() * displacement_gradient_ *
-                                                start_.frame() * start_.base_vectors());
-  Box box = Box::from_base_vectors(carried);
-  box.rotation += start_.rotation;
+  const double part = fraction(step);
+  const Eigen::Matrix2d base = start_.base_vectors();
+  const Eigen::Matrix2d stretched =
+      base + part * (start_.frame().transpose() * stretch_ * start_.frame() * base);
+  Box box = Box::from_base_vectors(stretched);
+  box.rotation += start_.rotation + part * rotation_;
   return box;
 }
 

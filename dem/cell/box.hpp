@@ -22,9 +22,11 @@ struct Box {
   [[nodiscard]] Box reduced() const;
 };
 
-/// A box carried along by a displacement gradient h of the laboratory: at the fraction s of the way its base
-/// vectors are (I + s h) H_start. The velocity of the way is smooth, so that the box starts and ends at rest
-/// and sends no waves: s grows as t - sin(2 pi t) / (2 pi), t in [0, 1].
+/// A box carried along by a displacement gradient h of the laboratory. With the polar decomposition I + h = R
+/// U and R a rotation by w, its base vectors at the fraction s of the way are
+///   F(s) H_start,   F(s) = R(s w) (I + s (U - I)),
+/// so that a rotation turns it and does nothing else. The velocity of the way is smooth, so that the box
+/// starts and ends at rest and sends no waves: s grows as t - sin(2 pi t) / (2 pi), t in [0, 1].
 class BoxPath {
  public:
   BoxPath() = default;
@@ -38,11 +40,16 @@ class BoxPath {
   /// Part of the way that is done in this step; all steps add up to 1. Zero outside 1 .. steps().
   [[nodiscard]] double share(int step) const;
 
+  /// F(s) after `step` steps, in the laboratory.
+  [[nodiscard]] Eigen::Matrix2d deformation(int step) const;
+
   /// What carries a grain from step - 1 to step in the box frame: x -> (I + gradient) x, while the frame
   /// itself turns by `rotation`. Zero outside 1 .. steps().
   struct Motion {
     Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();
     double rotation = 0.0;
+    /// Rotation of the continuum, counted from the frame.
+    [[nodiscard]] double spin() const { return 0.5 * (gradient(1, 0) - gradient(0, 1)); }
   };
   [[nodiscard]] Motion motion(int step) const;
 
@@ -50,7 +57,8 @@ class BoxPath {
   [[nodiscard]] double fraction(int step) const;
 
   Box start_;
-  Eigen::Matrix2d displacement_gradient_ = Eigen::Matrix2d::Zero();
+  double rotation_ = 0.0;                              // w, rad
+  Eigen::Matrix2d stretch_ = Eigen::Matrix2d::Zero();  // U - I, in the laboratory
   int steps_ = 0;
 };
 

@@ -15,7 +15,7 @@ struct Header {
   std::uint64_t magic = 0;
   std::uint64_t grains = 0;
   std::uint64_t history_values = 0;  ///< per contact and side
-  std::uint64_t values = 0;          ///< doubles that follow
+  std::uint64_t values = 0;          ///< doubles of the packed grains; rotations may follow, one a grain
   Box box;
 };
 constexpr std::uint64_t kMagic = 0x31306c6c65636770ULL;  // "pgcell01" as bytes
@@ -31,7 +31,7 @@ void gather_histories(LAMMPS_NS::LAMMPS& lammps) {
 
 }  // namespace
 
-StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box) {
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations) {
   gather_histories(lammps);
   LAMMPS_NS::Atom& atom = *lammps.atom;
   // One grain is packed at a time; room for the most contacts the engine allows a grain.
@@ -48,18 +48,21 @@ StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box) {
   header.history_values = static_cast<std::uint64_t>(granular_pair(lammps).dnum());
   header.values = values.size();
   header.box = box;
+  values.insert(values.end(), rotations.begin(), rotations.end());
   std::vector<std::byte> bytes(sizeof(Header) + values.size() * sizeof(double));
   std::memcpy(bytes.data(), &header, sizeof(Header));
   std::memcpy(bytes.data() + sizeof(Header), values.data(), values.size() * sizeof(double));
   return std::make_shared<const State>(std::move(bytes));
 }
 
-Box restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   Header header;
   const auto bytes = state.bytes();
   if (bytes.size() < sizeof(Header)) throw RunError("this is not the state of a cell: it is too short");
   std::memcpy(&header, bytes.data(), sizeof(Header));
-  if (header.magic != kMagic || bytes.size() != sizeof(Header) + header.values * sizeof(double))
+  const std::size_t length = sizeof(Header) + header.values * sizeof(double);
+  const std::size_t length_of_rotations = header.grains * sizeof(double);
+  if (header.magic != kMagic || (bytes.size() != length && bytes.size() != length + length_of_rotations))
     throw RunError("this is not the state of a cell, or it was cut short");
   if (header.grains != static_cast<std::uint64_t>(lammps.atom->natoms) ||
       header.history_values != static_cast<std::uint64_t>(granular_pair(lammps).dnum()))
@@ -79,7 +82,10 @@ Box restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
       throw RunError("this state of a cell is damaged");
     place += static_cast<std::size_t>(atom.avec->unpack_exchange(&values[place]));
   }
-  return header.box;
+  RestoredState restored{header.box, std::vector<double>(header.grains, 0.0)};
+  if (bytes.size() > length)
+    std::memcpy(restored.rotations.data(), bytes.data() + length, length_of_rotations);
+  return restored;
 }
 
 }  // namespace polargrain::dem

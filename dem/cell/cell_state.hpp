@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <span>
+#include <vector>
+
 #include "common/state.hpp"
 #include "dem/cell/box.hpp"
 
@@ -11,12 +14,17 @@ namespace polargrain::dem {
 
 /// Takes everything the engine needs to go on: the box, and each grain with its velocity, spin and contact
 /// history, as the engine packs a grain that leaves for another process. Bits survive.
-StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box);
+/// @param rotations of the grains so far, rad, one a grain or none (FixCellStrain)
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations = {});
 
-/// Puts a state into the engine in place of what is there, and returns its box. Forces and neighbour lists
-/// are not set up yet.
+struct RestoredState {
+  Box box;
+  std::vector<double> rotations;  ///< rad, one a grain; zero when the state has none
+};
+
+/// Puts a state into the engine in place of what is there. Forces and neighbour lists are not set up yet.
 /// @throws RunError when the bytes are not a state of this engine (another length, another number of history
 /// values).
-Box restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state);
+RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state);
 
 }  // namespace polargrain::dem

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/cell/fix_cell_strain.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "dem/contact/cell_loading.hpp"
 #include "dem/engine/private_access.hpp"
 
 namespace polargrain::dem {
@@ -49,6 +51,8 @@ void FixCellStrain::begin(const BoxPath& path, double damping_rate, std::optiona
   damping_rate_ = damping_rate;
   step_ = 0;
   motion_ = {};
+  spin_ = 0.0;
+  cell_loading() = {};
   std::fill_n(domain->h_rate, 6, 0.0);
   std::fill_n(domain->h_ratelo, 3, 0.0);
   set_box(path_.at(0));
@@ -69,11 +73,27 @@ void FixCellStrain::setup(int) {
   balance(false);
 }
 
+double FixCellStrain::affine_spin(int step, const BoxPath::Motion& motion) const {
+  return rotation_ ? rotation_->micro_rotation * path_.share(step) - motion.rotation : motion.spin();
+}
+
+void FixCellStrain::set_curvature_rate() {
+  if (!rotation_ || rotation_->curvature.isZero(0.0)) return;
+  // Into the position now, and into the frame of the box now.
+  const Eigen::Vector2d curvature = path_.at(step_).frame().transpose() *
+                                    path_.deformation(step_).inverse().transpose() * rotation_->curvature;
+  const double rate = path_.share(step_) / update->dt;
+  cell_loading().curvature_rate = {rate * curvature.x(), rate * curvature.y()};
+}
+
 void FixCellStrain::pre_initial_integrate() {
   const BoxPath::Motion next = path_.motion(++step_);
+  const double spin = affine_spin(step_, next) / update->dt;
   const Eigen::Matrix2d change = (next.gradient - motion_.gradient) / update->dt;
-  const double change_of_spin = (next.rotation - motion_.rotation) / update->dt;
+  const double change_of_spin = spin - spin_;
   motion_ = next;
+  spin_ = spin;
+  set_curvature_rate();
   if (change.isZero(0.0) && change_of_spin == 0.0) return;
 
   double** const x = atom->x;
@@ -82,7 +102,7 @@ void FixCellStrain::pre_initial_integrate() {
   for (int k = 0; k < atom->nlocal; ++k) {
     v[k][0] += change(0, 0) * x[k][0] + change(0, 1) * x[k][1];
     v[k][1] += change(1, 0) * x[k][0] + change(1, 1) * x[k][1];
-    omega[k][2] -= change_of_spin;
+    omega[k][2] += change_of_spin;
   }
   // Velocity of a face: gradient times base vector, in the engine's order xx, yy, zz, yz, xz, xy.
   const Eigen::Matrix2d rate = motion_.gradient * path_.at(step_ - 1).base_vectors() / update->dt;
@@ -93,6 +113,8 @@ void FixCellStrain::pre_initial_integrate() {
 
 void FixCellStrain::post_integrate() {
   if (step_ <= path_.steps()) set_box(path_.at(step_));
+  rotations_.resize(static_cast<std::size_t>(atom->nlocal), 0.0);
+  for (int k = 0; k < atom->nlocal; ++k) rotations_[k] += update->dt * atom->omega[k][2] + motion_.rotation;
 }
 
 void FixCellStrain::post_force(int) {
@@ -116,20 +138,18 @@ void FixCellStrain::set_torque_capacities(std::span<const double> capacities) {
 }
 
 void FixCellStrain::control_mean_rotation() {
-  // The spins of the next half step, counted from the laboratory, must average to the prescribed rate:
-  // sum W (spin + dt (T + lambda W) / I) = V rate, with W = V weight (C.6).
+  // The spins of the next half step must average to the prescribed one, sum W (spin + dt (T + lambda W) / I)
+  // = V rate with W = V weight (C.6); what the rate changes until then all grains get alike.
   const double volume = box().area() * thickness_;
-  const double rate = rotation_->micro_rotation * path_.share(step_ + 1) / update->dt;
-  const double frame_spin = motion_.rotation / update->dt;
   double mean_spin = 0.0;
   double compliance = 0.0;
   for (int k = 0; k < atom->nlocal; ++k) {
     const double moment_of_inertia = 0.5 * atom->rmass[k] * atom->radius[k] * atom->radius[k];  // disc
     const double gain = update->dt / moment_of_inertia;
-    mean_spin += weights_[k] * (atom->omega[k][2] + frame_spin + gain * atom->torque[k][2]);
+    mean_spin += weights_[k] * (atom->omega[k][2] + gain * atom->torque[k][2]);
     compliance += weights_[k] * weights_[k] * gain;
   }
-  multiplier_ = (rate - mean_spin) / (compliance * volume);
+  multiplier_ = (spin_ - mean_spin) / (compliance * volume);
   for (int k = 0; k < atom->nlocal; ++k) atom->torque[k][2] += multiplier_ * volume * weights_[k];
 }
 
@@ -149,7 +169,6 @@ void FixCellStrain::sum_unbalanced_moments() {
 
 void FixCellStrain::damp() {
   const Eigen::Matrix2d gradient = motion_.gradient / update->dt;
-  const double frame_spin = motion_.rotation / update->dt;
   double** const x = atom->x;
   double** const v = atom->v;
   double** const f = atom->f;
@@ -158,7 +177,7 @@ void FixCellStrain::damp() {
     f[k][0] -= mass_rate * (v[k][0] - gradient(0, 0) * x[k][0] - gradient(0, 1) * x[k][1]);
     f[k][1] -= mass_rate * (v[k][1] - gradient(1, 0) * x[k][0] - gradient(1, 1) * x[k][1]);
     const double moment_of_inertia = 0.5 * atom->rmass[k] * atom->radius[k] * atom->radius[k];  // disc
-    atom->torque[k][2] -= damping_rate_ * moment_of_inertia * (atom->omega[k][2] + frame_spin);
+    atom->torque[k][2] -= damping_rate_ * moment_of_inertia * (atom->omega[k][2] - spin_);
   }
 }
 

@@ -14,20 +14,23 @@ struct RotationLoading {
   /// Change of the mean rotation of the grains over the path, in the laboratory, rad; its rate follows the
   /// path's.
   double micro_rotation = 0.0;
+  /// d(micro-rotation)/d x_i over the path, in the laboratory, x the position at the start, rad/m. Contacts
+  /// of `rolling_friction li_chu` see it as an eigen-rotation.
+  Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
 };
 
 /// fix ID all cell/strain [damping RATE]
 ///
 /// Carries the periodic box of a cell along a BoxPath, one DEM step at a time: the box follows the path, the
-/// grains get the change of the affine velocity at the start of each step (so that the assembly is
-/// accelerated as a body and no wave starts at the faces), images get the velocity of their face, and when
-/// the box frame turns the spins are counted from it. Rotations of the grains are free (mode 1 of
-/// docs/theory/grains.md, C.6).
+/// grains get the change of the affine velocity and spin at the start of each step (so that the assembly is
+/// accelerated as a body and no wave starts at the faces), and images get the velocity of their face. The
+/// affine spin is that of the continuum, or the prescribed one. When the box frame turns, spins are counted
+/// from it. Rotations of the grains are free (mode 1 of docs/theory/grains.md, C.6).
 ///
 /// damping RATE: viscous damping against the affine flow: a grain of mass m and moment of inertia I that
-/// moves at v loses RATE m (v - affine velocity), and RATE I times its spin, in 1/s. Of the dampings tried
-/// (local non-viscous, kinetic, viscous), it reaches a given unbalanced force with the fewest steps and the
-/// smallest error (docs/performance.md).
+/// moves at v and spins at w loses RATE m (v - affine velocity) and RATE I (w - affine spin), in 1/s. Of the
+/// dampings tried (local non-viscous, kinetic, viscous), it reaches a given unbalanced force with the fewest
+/// steps and the smallest error (docs/performance.md).
 ///
 /// With a RotationLoading (mode 2) the mean rotation of the grains is prescribed as well: each grain gets the
 /// torque lambda W_p, with weights W_p = V w_p / sum w_p from the torque that its contacts can carry (w_p =
@@ -50,6 +53,12 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   /// @param rotation prescribed mean rotation; nothing leaves the rotations free (mode 1)
   void begin(const BoxPath& path, double damping_rate,
              std::optional<RotationLoading> rotation = std::nullopt);
+  /// Rotations of the grains about e_3 in the laboratory, by local index, rad: from where they are, carried
+  /// on through the steps of this and later paths; before, they count from zero.
+  void set_rotations(std::span<const double> rotations) {
+    rotations_.assign(rotations.begin(), rotations.end());
+  }
+  [[nodiscard]] std::span<const double> rotations() const { return rotations_; }
   /// Weights of the grains in the mean rotation, by local index, m N; not all zero. To be set before the
   /// first force pass of a path with a RotationLoading, and as often as the forces have changed.
   void set_torque_capacities(std::span<const double> capacities);
@@ -67,6 +76,10 @@ class FixCellStrain : public LAMMPS_NS::Fix {
 
  private:
   void set_box(const Box& box);
+  /// Spin that the grains have in common in the step that moves the box by `motion`, counted from the frame
+  /// of the box, rad a step.
+  [[nodiscard]] double affine_spin(int step, const BoxPath::Motion& motion) const;
+  void set_curvature_rate();
   /// What is done to the forces of a pass: sums for the read-out, damping, mean rotation.
   void balance(bool damped);
   /// The mean rotation is prescribed and there are grains to hold it with.
@@ -80,11 +93,13 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   BoxPath path_;
   int step_ = 0;            ///< steps of the path done
   BoxPath::Motion motion_;  ///< motion of the step under way
+  double spin_ = 0.0;       ///< affine spin of that step, counted from the frame, rad/s
   double damping_rate_ = 0.0;
   double thickness_ = 0.0;
   std::optional<RotationLoading> rotation_;
   std::vector<double> weights_;          ///< W_p over the volume: they add up to 1
   std::vector<double> contact_torques_;  ///< about e_3, N m
+  std::vector<double> rotations_;        ///< rad
   double multiplier_ = 0.0;
   double unbalanced_force_ = 0.0;
   double unbalanced_moment_ = 0.0;

@@ -12,6 +12,7 @@
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/fix_cell_strain.hpp"
 #include "dem/cell/packing_data.hpp"
+#include "dem/cell/tangents.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/pack/placement.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dem/cell/averages.hpp"
+#include "dem/cell/tangents.hpp"
 
 namespace polargrain::dem {
 namespace {

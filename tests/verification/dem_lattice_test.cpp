@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A cell that is a hexagonal lattice of equal discs has known moduli (docs/theory/grains.md, E.7 a): per unit
-// thickness lambda = (sqrt3/4)(kn - ks), G = (sqrt3/4)(kn + ks), Gc = (sqrt3/2) ks, at any number of discs.
+// thickness lambda = (sqrt3/4)(kn - ks), G = (sqrt3/4)(kn + ks), Gc = (sqrt3/2) ks, couple modulus B = sqrt3
+// kth, at any number of discs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kNormal = 1e6;      // N/m
 constexpr double kTangential = 4e5;  // N/m
+constexpr double kRolling = 2.0;     // N m
 constexpr double kDiameter = 0.01;   // m
 constexpr double kThickness = 0.1;   // m
 constexpr double kOverlap = 2e-4;    // of the diameter
@@ -33,7 +35,11 @@ CellDefinition lattice(int columns, int rows, CellRotations rotations) {
       "fix gn all property/global gamman_abs peratomtypepair 1 0\n"
       "fix gt all property/global gammat_abs peratomtypepair 1 0\n"
       "fix mu all property/global coefficientFriction peratomtypepair 1 1e3\n"
-      "pair_style gran model hooke/stiffness tangential history absolute_damping on\npair_coeff * *\n"
+      // k_th = ratio * k_t R*^2, R* a quarter of the diameter.
+      "fix fr all property/global coefficientRollingFriction peratomtypepair 1 1e3\n"
+      "fix kr all property/global rollingStiffnessRatio peratomtypepair 1 0.8\n"
+      "pair_style gran model hooke/stiffness tangential history rolling_friction li_chu absolute_damping on\n"
+      "pair_coeff * *\n"
       "timestep 2e-5\nfix integrate all nve/sphere\nfix plane all enforce2d\n";
   const double spacing = kDiameter * (1.0 - kOverlap);
   const double row_height = spacing * std::sqrt(3.0) / 2.0;
@@ -75,6 +81,7 @@ constexpr double kTolerance = 1e-3;
 constexpr double kStrain = 1e-5;
 const double kLambda = std::sqrt(3.0) / 4.0 * (kNormal - kTangential) / kThickness;
 const double kShear = std::sqrt(3.0) / 4.0 * (kNormal + kTangential) / kThickness;
+const double kCouple = std::sqrt(3.0) * kRolling / kThickness;
 const double kCosserat = std::sqrt(3.0) / 2.0 * kTangential / kThickness;
 
 class Lattice : public testing::TestWithParam<int> {};
@@ -113,6 +120,45 @@ TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
               turned(k21) / kStrain / (2.0 * kCosserat));
 }
 
+TEST_P(Lattice, CurvatureGivesTheCoupleModulusAtAnySize) {
+  const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
+  Increment bend;
+  bend.curvature << 1e-3, 0.0;  // 1e-5 rad a diameter
+  const Vector7 along = stress_increment(*cell, bend);
+  EXPECT_NEAR(along(kCurvature1) / 1e-3, kCouple, kTolerance * kCouple);
+  EXPECT_NEAR(along(kCurvature2) / 1e-3, 0.0, kTolerance * kCouple);
+  // Nothing but couple stress: the sliding law does not see the curvature.
+  EXPECT_LT(along.head<5>().norm() / 1e-5, kTolerance * kShear);
+  bend.curvature << 0.0, 1e-3;
+  const Vector7 across = stress_increment(*cell, bend);
+  EXPECT_NEAR(across(kCurvature2) / 1e-3, kCouple, kTolerance * kCouple);
+  std::printf("[figure] lattice of %d x %d, curvature: couple modulus %.5f and %.5f of the exact\n",
+              GetParam(), GetParam(), along(kCurvature1) / 1e-3 / kCouple,
+              across(kCurvature2) / 1e-3 / kCouple);
+}
+
+TEST_P(Lattice, CurvatureTurnsWithTheBox) {
+  // The engine's frame is turned by 0.3 rad against the laboratory, and a large rotation turns it further
+  // while the curvature acts: the couple stress must turn with the grains.
+  CellDefinition definition = lattice(GetParam(), GetParam(), CellRotations::controlled);
+  const auto turn = [](double angle) {
+    Eigen::Matrix2d matrix;
+    matrix << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    return matrix;
+  };
+  definition.packing.box = turn(0.3) * definition.packing.box;
+  for (Grain& grain : definition.packing.grains) grain.position = turn(0.3) * grain.position;
+  const auto cell = make_cell_service(definition);
+  Increment bend;
+  bend.micro_rotation = 0.2;
+  bend.displacement_gradient = turn(0.2) - Eigen::Matrix2d::Identity();
+  bend.curvature << 1e-3, 0.0;  // per position before the turn
+  const Vector7 stress = stress_increment(*cell, bend);
+  const Eigen::Vector2d expected = turn(0.2) * Eigen::Vector2d(kCouple * 1e-3, 0.0);
+  EXPECT_NEAR(stress(kCurvature1), expected(0), 1e-3 * kTolerance * kCouple);
+  EXPECT_NEAR(stress(kCurvature2), expected(1), 1e-3 * kTolerance * kCouple);
+}
+
 TEST_P(Lattice, CondensedTangentsAreThoseModuli) {
   const auto free = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::free));
   const Matrix7 classical = free->initial().response.tangent;
@@ -122,6 +168,9 @@ TEST_P(Lattice, CondensedTangentsAreThoseModuli) {
   const Matrix7 cosserat = held->initial().response.tangent;
   EXPECT_NEAR(cosserat(k21, k21), kShear + kCosserat, kTolerance * kShear);
   EXPECT_NEAR(cosserat(k12, k21), kShear - kCosserat, kTolerance * kShear);
+  EXPECT_NEAR(cosserat(kCurvature1, kCurvature1), kCouple, kTolerance * kCouple);
+  EXPECT_NEAR(cosserat(kCurvature2, kCurvature2), kCouple, kTolerance * kCouple);
+  EXPECT_NEAR(cosserat(kCurvature1, kCurvature2), 0.0, kTolerance * kCouple);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Lattice, testing::Values(4, 8, 12));

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "dem/cell/averages.hpp"
+#include "dem/cell/packing_data.hpp"
+#include "dem/engine/liggghts.hpp"
+
+namespace polargrain::dem {
+
+Driver::Driver(const Packing& packing, const std::string& script, const std::string& script_file,
+               const std::function<void(Engine&)>& after_script)
+    : grains_(static_cast<int>(packing.grains.size())), thickness_(packing.thickness), engine_(true) {
+  for (const Grain& grain : packing.grains) {
+    mean_radius_ += grain.radius / grains_;
+    mean_mass_ += grain.mass / grains_;
+    grain_area_ += std::numbers::pi * grain.radius * grain.radius;
+  }
+  const PackingDataFile data(packing);
+  engine_.command(fmt::format("variable packing index {}", data.path()));
+  engine_.script(script, script_file);
+  if (after_script) after_script(engine_);
+  engine_.command("fix polargrain_box all cell/strain");
+
+  LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
+  strain_ = dynamic_cast<FixCellStrain*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
+  lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
+  strain_->begin(BoxPath(Box::from_base_vectors(packing.box).reduced(), Eigen::Matrix2d::Zero(), 0), 0.0);
+  lammps.update->nsteps = 0;
+  lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
+  lammps.update->whichflag = 1;  // dynamics
+  lammps.init();
+}
+
+void Driver::set_up() {
+  contact_recorder().contacts.clear();
+  contact_recorder().on = true;
+  lammps().update->integrate->setup_minimal(1);
+  contact_recorder().on = false;
+}
+
+void Driver::run(int steps) {
+  LAMMPS_NS::Update& update = *lammps().update;
+  update.laststep = update.ntimestep + steps + 1;  // no step is the engine's last: it would print
+  lammps().output->next = update.laststep;
+  if (steps > 1) update.integrate->run(steps - 1);
+  contact_recorder().contacts.clear();
+  contact_recorder().on = true;
+  update.integrate->run(1);
+  contact_recorder().on = false;
+  check_grains();
+}
+
+void Driver::check_grains() {
+  const LAMMPS_NS::Atom& atom = *lammps().atom;
+  bool finite = true;
+  for (int k = 0; k < atom.nlocal; ++k)
+    finite = finite && std::isfinite(atom.x[k][0]) && std::isfinite(atom.x[k][1]);
+  if (atom.nlocal == grains_ && finite) return;
+  const std::string message = fmt::format(
+      "Lost atoms: original {} current {}: the time step is too large for the stiffness of the contacts, or "
+      "grains were pressed into each other",
+      grains_, finite ? atom.nlocal : 0);
+  lammps().error->all(FLERR, message.c_str());
+}
+
+double Driver::volume() const {
+  return strain_->box().area() * thickness_;
+}
+
+double Driver::damping_rate(double fraction) const {
+  return 2.0 * fraction * std::sqrt(mean_normal_stiffness(contacts()) / mean_mass_);
+}
+
+Equilibrium Driver::equilibrium() const {
+  Equilibrium found;
+  found.void_ratio = strain_->box().area() / grain_area_ - 1.0;
+  std::vector<bool> touched(static_cast<std::size_t>(grains_), false);
+  for (const Contact& contact : contacts())
+    touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
+        true;
+  const auto carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
+  found.rattlers = 1.0 - carrying / grains_;
+  const double force = mean_contact_force(contacts());
+  if (contacts().empty() || !(force > 0.0)) return found;
+  found.unbalanced_force_ratio = strain_->sum_of_unbalanced_force() / carrying / force;
+  found.unbalanced_moment_ratio = strain_->sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
+  found.coordination_number = 2.0 * static_cast<double>(contacts().size()) / grains_;
+  return found;
+}
+
+}  // namespace polargrain::dem
