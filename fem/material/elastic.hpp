@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,12 @@ class ElasticLaw {
   [[nodiscard]] static State initial_state(const Vector7& stress) { return {stress}; }
   [[nodiscard]] static State rotated(const State& state, double angle) {
     return {fem::rotated(state.stress, angle)};
+  }
+  [[nodiscard]] static std::vector<double> packed(const State& state) {
+    return {state.stress.begin(), state.stress.end()};
+  }
+  [[nodiscard]] static State unpacked(std::span<const double> values) {
+    return {Vector7(Eigen::Map<const Vector7>(values.data()))};
   }
   [[nodiscard]] Response integrate(const State& start, const Increment& increment, State& trial) const;
 

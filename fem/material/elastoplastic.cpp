@@ -100,6 +100,24 @@ ElastoplasticState ElastoplasticLaw::initial_state(const Vector7& stress) const 
   return state;
 }
 
+std::vector<double> ElastoplasticLaw::packed(const State& state) {
+  std::vector<double> values(state.scaled_stress.begin(), state.scaled_stress.end());
+  values.push_back(state.gamma_p);
+  values.push_back(static_cast<double>(state.regime));
+  return values;
+}
+
+ElastoplasticState ElastoplasticLaw::unpacked(std::span<const double> values) {
+  State state;
+  const auto stress = static_cast<std::size_t>(state.scaled_stress.size());
+  std::copy_n(values.begin(), stress, state.scaled_stress.begin());
+  state.gamma_p = values[stress];
+  for (const Regime regime : {Regime::elastic, Regime::smooth, Regime::apex}) {
+    if (values[stress + 1] == static_cast<double>(regime)) state.regime = regime;
+  }
+  return state;
+}
+
 void ElastoplasticLaw::fields(const State& state, std::span<double> values) const {
   values[0] = state.gamma_p;
   values[1] = static_cast<double>(state.regime);

@@ -78,6 +78,10 @@ class ElastoplasticLaw {
     return integrate_elastoplastic(frame_, cone_, start, increment, trial);
   }
 
+  /// The scaled stress, gamma_p, the regime.
+  [[nodiscard]] static std::vector<double> packed(const State& state);
+  [[nodiscard]] static State unpacked(std::span<const double> values);
+
   /// plastic_shear: gamma_p; regime: 0 elastic, 1 on the cone, 2 at the apex in the last step.
   static std::vector<std::string> field_names() { return {"plastic_shear", "regime"}; }
   void fields(const State& state, std::span<double> values) const;

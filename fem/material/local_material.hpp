@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/packed_values.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/rotation.hpp"
 
@@ -27,6 +28,8 @@ namespace polargrain::fem {
 ///       State rotated(const State& state, double angle) const;
 ///       static std::vector<std::string> field_names();
 ///       void fields(const State& state, std::span<double> values) const;
+///       static std::vector<double> packed(const State& state);         // always as many values,
+///       static State unpacked(std::span<const double> values);         // and back: for checkpoints
 template <class Law>
 concept LocalLaw = requires(const Law law, const typename Law::State start, const Increment increment,
                             typename Law::State trial) {
@@ -51,6 +54,13 @@ template <class Law>
 concept LawWithFields = requires(const Law law, const typename Law::State state, std::span<double> values) {
   { law.field_names() } -> std::same_as<std::vector<std::string>>;
   law.fields(state, values);
+};
+
+/// The law's states can be written to a checkpoint and read back, bit for bit.
+template <class Law>
+concept LawWithArchive = requires(const typename Law::State state, std::span<const double> values) {
+  { Law::packed(state) } -> std::same_as<std::vector<double>>;
+  { Law::unpacked(values) } -> std::same_as<typename Law::State>;
 };
 
 /// Makes a Material of a local law: keeps the committed and the trial state of every point.
@@ -89,6 +99,32 @@ class LocalMaterial final : public Material {
   void commit() override { committed_ = trial_; }
   void revert() override { trial_ = committed_; }
 
+  void save(ArchiveWriter& archive) const override {
+    if constexpr (LawWithArchive<Law>) {
+      std::vector<double> values;
+      for (const auto& state : committed_) {
+        const std::vector<double> own = Law::packed(state);
+        values.insert(values.end(), own.begin(), own.end());
+      }
+      archive.write("states", std::span<const double>(values));
+    } else {
+      Material::save(archive);
+    }
+  }
+
+  void restore(ArchiveReader& archive) override {
+    if constexpr (LawWithArchive<Law>) {
+      const std::size_t length = Law::packed(law_.initial_state()).size();
+      const std::vector<double> values = read_lists(archive, "states", committed_.size(), length);
+      for (std::size_t point = 0; point < committed_.size(); ++point) {
+        committed_[point] = Law::unpacked(std::span(values).subspan(point * length, length));
+      }
+      trial_ = committed_;
+    } else {
+      Material::restore(archive);
+    }
+  }
+
   [[nodiscard]] std::vector<std::string> field_names() const override {
     if constexpr (LawWithFields<Law>) {
       return law_.field_names();
@@ -107,8 +143,7 @@ class LocalMaterial final : public Material {
   }
 
   [[nodiscard]] const Law& law() const { return law_; }
-  /// The committed states, one a point; writable so that a checkpoint can be put back.
-  [[nodiscard]] std::vector<typename Law::State>& states() { return committed_; }
+  /// The committed states, one a point.
   [[nodiscard]] const std::vector<typename Law::State>& states() const { return committed_; }
 
  private:

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "common/prefixed_archive.hpp"
 
 namespace polargrain::fem {
 
@@ -69,6 +70,20 @@ void PointMaterials::commit() {
 
 void PointMaterials::revert() {
   for (Batch& batch : batches_) batch.material->revert();
+}
+
+void PointMaterials::save(ArchiveWriter& archive) const {
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    PrefixedWriter own(archive, fmt::format("{}/", b));
+    batches_[b].material->save(own);
+  }
+}
+
+void PointMaterials::restore(ArchiveReader& archive) {
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    PrefixedReader own(archive, fmt::format("{}/", b));
+    batches_[b].material->restore(own);
+  }
 }
 
 }  // namespace polargrain::fem

@@ -22,6 +22,9 @@ class PointMaterials {
   void use_large_rotations();
   void commit();
   void revert();
+  /// The committed states of all materials, each under a number of its own.
+  void save(ArchiveWriter& archive) const;
+  void restore(ArchiveReader& archive);
 
   [[nodiscard]] std::pair<const Material*, std::size_t> at(std::size_t point) const { return at_[point]; }
 

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/prefixed_archive.hpp"
 #include "fem/solver/newton.hpp"
+#include "fem/solver/state_archive.hpp"
 
 namespace polargrain::fem {
 
@@ -128,8 +130,17 @@ const Problem& Solver::problem() const {
 const SolverState& Solver::state() const {
   return implementation_->state;
 }
-void Solver::restore(SolverState state) {
-  implementation_->state = std::move(state);
+void Solver::save(ArchiveWriter& archive) const {
+  write_state(archive, state());
+  PrefixedWriter materials(archive, "materials/");
+  implementation_->materials.save(materials);
+}
+void Solver::restore(ArchiveReader& archive) {
+  Implementation& self = *implementation_;
+  self.state = read_state(archive, problem().mesh.nodes.size(), points());
+  PrefixedReader materials(archive, "materials/");
+  self.materials.restore(materials);
+  self.move_to_committed();
 }
 
 std::size_t Solver::points() const {

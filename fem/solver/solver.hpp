@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "common/response.hpp"
 #include "fem/solver/problem.hpp"
 
@@ -130,8 +131,13 @@ class Solver {
 
   [[nodiscard]] const Problem& problem() const;
   [[nodiscard]] const SolverState& state() const;
-  /// Goes on from a state that was saved; the materials must have been put back by their owner.
-  void restore(SolverState state);
+  /// Writes all that the steps to come depend on, states of the materials included (state_archive.hpp).
+  /// @throws RunError when a material cannot be kept
+  void save(ArchiveWriter& archive) const;
+  /// In place of equilibrate: goes on from what save wrote for an equal problem with equal options. What
+  /// follows is the same to the bit as without the interruption.
+  /// @throws RunError when the archive holds something else; the solver can then only be destroyed
+  void restore(ArchiveReader& archive);
 
   /// Integration points, in the order of all vectors by point: elements in order, points of an element in
   /// order.

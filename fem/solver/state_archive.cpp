@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/state_archive.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "common/packed_values.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+constexpr std::size_t kScalars = 5;
+
+std::span<const double> values_of(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+void write_state(ArchiveWriter& archive, const SolverState& state) {
+  const std::array<double, kScalars> scalars{state.time, state.reference_force, state.next_step,
+                                             state.external_work, state.internal_work};
+  archive.write("time_reference_force_next_step_works", std::span<const double>(scalars));
+  archive.write("displacement", values_of(state.displacement));
+  archive.write("last_increment", values_of(state.last_increment));
+  std::vector<double> strain;
+  for (const Vector7& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
+  archive.write("strain", std::span<const double>(strain));
+  write_responses(archive, "responses", state.responses);
+}
+
+SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points) {
+  SolverState state;
+  const std::vector<double> scalars =
+      read_lists(archive, "time_reference_force_next_step_works", 1, kScalars);
+  state.time = scalars[0];
+  state.reference_force = scalars[1];
+  state.next_step = scalars[2];
+  state.external_work = scalars[3];
+  state.internal_work = scalars[4];
+  state.displacement = vector_of(read_lists(archive, "displacement", nodes, 3));
+  // Empty before the first step.
+  if (const std::vector<double> last = archive.doubles("last_increment"); !last.empty()) {
+    state.last_increment = vector_of(read_lists(archive, "last_increment", nodes, 3));
+  }
+  const std::vector<double> strain = read_lists(archive, "strain", points, 7);
+  state.strain.resize(points);
+  for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[7 * i], 7, state.strain[i].data());
+  state.responses = read_responses(archive, "responses", points);
+  return state;
+}
+
+}  // namespace polargrain::fem

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "common/archive.hpp"
+#include "fem/solver/solver.hpp"
+
+namespace polargrain::fem {
+
+/// Every member of a SolverState, under its own name. A member that is added there must be added here: what
+/// is left out makes a run that goes on from a checkpoint differ.
+void write_state(ArchiveWriter& archive, const SolverState& state);
+/// @throws RunError when the archive holds the state of another mesh, or none
+SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points);
+
+}  // namespace polargrain::fem
