@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "common/cell_archive.hpp"
 #include "common/error.hpp"
+#include "common/packed_values.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -11,18 +13,6 @@ namespace {
 bool is_zero(const Increment& increment) {
   return increment.displacement_gradient.isZero(0.0) && increment.micro_rotation == 0.0 &&
          increment.curvature.isZero(0.0);
-}
-
-/// The tangent of the symmetric stress with respect to the Cosserat strain: mean of the two shear rows, and,
-/// because the cell feels eps12 and eps21 through their sum alone, mean of the two shear columns.
-Matrix7 symmetrised(const Matrix7& cell) {
-  Matrix7 tangent = Matrix7::Zero();
-  tangent.topLeftCorner<5, 5>() = cell.topLeftCorner<5, 5>();
-  const Vector7 row = 0.5 * (tangent.row(k12) + tangent.row(k21)).transpose();
-  tangent.row(k12) = tangent.row(k21) = row.transpose();
-  const Vector7 column = 0.5 * (tangent.col(k12) + tangent.col(k21));
-  tangent.col(k12) = tangent.col(k21) = column;
-  return tangent;
 }
 
 }  // namespace
@@ -54,37 +44,33 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
   for (std::size_t r = 0; r < replies.size(); ++r) {
     PointState& point = trial_[points[r]];
     point.cell = std::move(replies[r]);
-    accumulate(increments[points[r]], point);
+    point.cosserat.add(increments[points[r]], cosserat_);
   }
-  for (std::size_t point = 0; point < committed_.size(); ++point) responses[point] = combined(trial_[point]);
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    responses[point] = trial_[point].cosserat.joined_to(trial_[point].cell.response, cosserat_);
+  }
 }
 
-void CellMaterial::accumulate(const Increment& increment, PointState& point) const {
-  const Vector7 strain = increment.strain();
-  const double couple_modulus =
-      2.0 * cosserat_.shear_modulus * cosserat_.internal_length * cosserat_.internal_length;
-  point.skew_stress += 2.0 * cosserat_.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
-  point.couple_stress += couple_modulus * increment.curvature;                                // A.4
+void CellMaterial::save(ArchiveWriter& archive) const {
+  std::vector<CellReply> cells;
+  std::vector<double> cosserat;
+  for (const PointState& point : committed_) {
+    cells.push_back(point.cell);
+    const CosseratPart& part = point.cosserat;
+    cosserat.insert(cosserat.end(), {part.skew_stress, part.couple_stress[0], part.couple_stress[1]});
+  }
+  write_cell_replies(archive, "cells", cells);
+  archive.write("cosserat", std::span<const double>(cosserat));
 }
 
-Response CellMaterial::combined(const PointState& point) const {
-  Response response = point.cell.response;
-  if (response.quality == Quality::failed) return response;
-  const double symmetric_shear = 0.5 * (response.stress[k12] + response.stress[k21]);
-  response.stress[k12] = symmetric_shear - 0.5 * point.skew_stress;
-  response.stress[k21] = symmetric_shear + 0.5 * point.skew_stress;
-  response.stress.tail<2>() = point.couple_stress;
-  response.tangent = symmetrised(response.tangent);
-  const double skew_modulus = cosserat_.cosserat_shear_modulus;
-  response.tangent(k12, k12) += skew_modulus;
-  response.tangent(k21, k21) += skew_modulus;
-  response.tangent(k12, k21) -= skew_modulus;
-  response.tangent(k21, k12) -= skew_modulus;
-  const double couple_modulus =
-      2.0 * cosserat_.shear_modulus * cosserat_.internal_length * cosserat_.internal_length;
-  response.tangent(kCurvature1, kCurvature1) = couple_modulus;
-  response.tangent(kCurvature2, kCurvature2) = couple_modulus;
-  return response;
+void CellMaterial::restore(ArchiveReader& archive) {
+  std::vector<CellReply> cells = read_cell_replies(archive, "cells", committed_.size());
+  const std::vector<double> cosserat = read_lists(archive, "cosserat", committed_.size(), 3);
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    const double* const v = &cosserat[3 * point];
+    committed_[point] = {std::move(cells[point]), {v[0], {v[1], v[2]}}};
+  }
+  trial_ = committed_;
 }
 
 std::vector<std::string> CellMaterial::field_names() const {

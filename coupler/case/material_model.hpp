@@ -19,6 +19,8 @@ class MaterialRecipe {
   [[nodiscard]] virtual std::shared_ptr<fem::Material> make(Pool* pool) const = 0;
   /// Whether the material asks cells, so that the run needs workers.
   [[nodiscard]] virtual bool needs_workers() const { return false; }
+  /// The cell whose answer is the material's stress, when there is one that a path can be replayed in.
+  [[nodiscard]] virtual const CellDefinition* cell() const { return nullptr; }
   /// Whether the material resists a micro-rotation relative to the continuum (Gc > 0).
   [[nodiscard]] virtual bool holds_micro_rotations() const { return true; }
 };
@@ -41,5 +43,7 @@ const std::vector<MaterialModel>& material_models();
 MaterialModel elastic_model();
 MaterialModel elastoplastic_model();
 MaterialModel cell_model();
+MaterialModel informed_model();
+MaterialModel adaptive_model();
 
 }  // namespace polargrain::coupler

@@ -4,7 +4,8 @@
 namespace polargrain::coupler {
 
 const std::vector<MaterialModel>& material_models() {
-  static const std::vector<MaterialModel> models{elastic_model(), elastoplastic_model(), cell_model()};
+  static const std::vector<MaterialModel> models{elastic_model(), elastoplastic_model(), cell_model(),
+                                                 informed_model(), adaptive_model()};
   return models;
 }
 

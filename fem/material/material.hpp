@@ -12,6 +12,12 @@
 
 namespace polargrain::fem {
 
+/// One number a material tells of its work, for the summary of a run.
+struct Figure {
+  std::string name;
+  double value;
+};
+
 /// A material and the states of all the points that are made of it. Every point has two states: the one at
 /// the start of the step (committed) and the trial one. Three verbs move them: evaluate, commit, revert.
 ///
@@ -68,6 +74,11 @@ class Material {
     (void)point;
     (void)values;
   }
+
+  /// What the material has to tell of its cost and its error since it was allocated; empty for most.
+  [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
+  /// What happened in the last commits that a user should read in the log, a sentence each; then forgotten.
+  [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
 };
 
 }  // namespace polargrain::fem

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/adaptivity/adaptive_material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "coupler/adaptivity/leaders.hpp"
+#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/adaptivity/strain_path.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Of a cell with free rotations only the symmetric part of stress and tangent is meant.
+void make_symmetric(CellReply& reply) {
+  Response& response = reply.response;
+  response.stress[k12] = response.stress[k21] = 0.5 * (response.stress[k12] + response.stress[k21]);
+  response.tangent = symmetric_tangent(response.tangent);
+}
+
+}  // namespace
+
+AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat,
+                                   const AdaptivityOptions& options)
+    : calls_(std::move(calls)), cosserat_(cosserat), options_(options) {}
+
+void AdaptiveMaterial::allocate(std::size_t points) {
+  Cell packing{calls_.initial(), {}};
+  if (packing.answer.response.quality == Quality::failed) {
+    throw RunError(
+        fmt::format("the packing of a cell cannot be brought to rest: {}", packing.answer.response.message));
+  }
+  make_symmetric(packing.answer);
+  const Vector7& stress = packing.answer.response.stress;
+  confining_ = -0.5 * (stress[k11] + stress[k22]);
+  if (!(confining_ > 0.0)) {
+    throw RunError("an adaptive material needs a packing under pressure: its tolerance is a share of it");
+  }
+  const Matrix7& elastic = packing.answer.response.tangent;
+  // An offset whose elastic stress is the tolerance: shorter runs show noise, not curvature.
+  estimate_ = ErrorEstimate(elastic, options_.tolerance * confining_ / elastic.topLeftCorner<2, 2>().norm());
+  cells_.assign(1, packing);
+  points_.assign(points, Point{});
+  choose_followed();
+}
+
+void AdaptiveMaterial::begin_step() {
+  for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+    Branch unmoved{cell};
+    unmoved.answer = cells_[cell].answer;
+    unmoved.curvature = cells_[cell].curvature;
+    branches_.push_back(unmoved);
+    branches_of_cell_.push_back({cell});
+  }
+  for (const Point& point : points_) branch_of_point_.push_back(point.cell);
+  target_.resize(points_.size());
+}
+
+void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+  if (branches_.empty()) begin_step();
+  increments_.assign(increments.begin(), increments.end());
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    target_[point] = followed_by(points_[point].offset, increments[point].displacement_gradient);
+  }
+  settle();
+  for (std::size_t point = 0; point < points_.size(); ++point) responses[point] = response_of(point);
+}
+
+double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
+  return estimate_.of(branch.answer.response, branch.curvature, offset_between(branch.place, target_[point]));
+}
+
+std::size_t AdaptiveMaterial::best_branch(std::size_t point) const {
+  std::size_t best = branch_of_point_[point];
+  double least = estimate(point, branches_[best]);
+  for (const std::size_t branch : branches_of_cell_[points_[point].cell]) {
+    const double error = estimate(point, branches_[branch]);
+    if (error < least) {
+      least = error;
+      best = branch;
+    }
+  }
+  return best;
+}
+
+bool AdaptiveMaterial::settle() {
+  for (;;) {
+    std::vector<std::vector<std::size_t>> unserved(cells_.size());
+    bool served = true;
+    for (std::size_t point = 0; point < points_.size(); ++point) {
+      std::size_t& branch = branch_of_point_[point];
+      if (estimate(point, branches_[branch]) <= tolerance()) continue;
+      branch = best_branch(point);
+      if (estimate(point, branches_[branch]) <= tolerance()) continue;
+      unserved[points_[point].cell].push_back(point);
+      served = false;
+    }
+    if (served) return true;
+    std::vector<std::size_t> leaders;
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      if (unserved[cell].empty()) continue;
+      const std::vector<std::size_t> chosen = leaders_for(cell, unserved[cell]);
+      leaders.insert(leaders.end(), chosen.begin(), chosen.end());
+    }
+    if (!run_branches(leaders)) return false;
+  }
+}
+
+std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
+                                                       const std::vector<std::size_t>& points) const {
+  const Branch& unmoved = branches_[cell];
+  if (!unmoved.curvature.known()) {
+    // Nothing can be said before one run has shown how the response curves: the farthest point goes ahead.
+    return {*std::max_element(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
+      return target_[a].squaredNorm() < target_[b].squaredNorm();
+    })};
+  }
+  return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
+    Curvature expected = unmoved.curvature;
+    const Eigen::Matrix2d strain = 0.5 * (target_[leader] + target_[leader].transpose());
+    if (strain.norm() > 0.0) expected.direction = strain / strain.norm();
+    return estimate_.of(unmoved.answer.response, expected, offset_between(target_[leader], target_[other])) <=
+           tolerance();
+  });
+}
+
+bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
+  std::vector<Branch> starts;
+  for (const std::size_t leader : leaders) {
+    starts.push_back(branches_[points_[leader].cell]);
+    starts.back().leader = leader;
+  }
+  if (!replay_paths(starts)) return false;
+  std::vector<CellRequest> requests;
+  for (const Branch& start : starts) {
+    requests.push_back(
+        {start.answer.state, increment_of(offset_between(start.place, target_[start.leader]))});
+  }
+  std::vector<CellReply> replies = run(requests);
+  runs_ += static_cast<std::int64_t>(requests.size());
+  bool all_good = true;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const std::size_t leader = starts[k].leader;
+    Branch moved{points_[leader].cell};
+    moved.place = target_[leader];
+    moved.leader = leader;
+    moved.answer = std::move(replies[k]);
+    branch_of_point_[leader] = branches_.size();
+    if (moved.answer.response.quality == Quality::failed) {
+      all_good = false;
+    } else {
+      Curvature replayed = starts[k].curvature;
+      Curvature& at_start = starts[k].place.isZero(0.0) ? branches_[moved.cell].curvature : replayed;
+      moved.curvature = estimate_.learn(starts[k].answer.response, moved.answer.response,
+                                        requests[k].increment.displacement_gradient, at_start);
+      branches_of_cell_[moved.cell].push_back(branches_.size());
+    }
+    branches_.push_back(std::move(moved));
+  }
+  // Points that an old answer would still serve go along where a new one serves them better, so that a field
+  // of nearly equal strains stays one cell.
+  for (std::size_t point = 0; point < points_.size() && all_good; ++point) {
+    branch_of_point_[point] = best_branch(point);
+  }
+  return all_good;
+}
+
+bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
+  std::vector<std::vector<Eigen::Matrix2d>> turns;
+  std::size_t longest = 0;
+  for (const Branch& start : starts) {
+    std::vector<Eigen::Matrix2d> path = points_[start.leader].path;
+    path.push_back(target_[start.leader]);
+    turns.push_back(turning_points(path, estimate_.least_length()));
+    turns.back().pop_back();  // the target itself
+    longest = std::max(longest, turns.back().size());
+  }
+  for (std::size_t turn = 0; turn < longest; ++turn) {
+    std::vector<CellRequest> requests;
+    std::vector<Branch*> moving;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      if (turn >= turns[k].size()) continue;
+      requests.push_back(
+          {starts[k].answer.state, increment_of(offset_between(starts[k].place, turns[k][turn]))});
+      starts[k].place = turns[k][turn];
+      moving.push_back(&starts[k]);
+    }
+    std::vector<CellReply> replies = run(requests);
+    runs_ += static_cast<std::int64_t>(requests.size());
+    for (std::size_t k = 0; k < replies.size(); ++k) {
+      moving[k]->answer = std::move(replies[k]);
+      if (moving[k]->answer.response.quality != Quality::failed) continue;
+      branch_of_point_[moving[k]->leader] = branches_.size();
+      branches_.push_back(*moving[k]);
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<CellReply> AdaptiveMaterial::run(std::span<const CellRequest> requests) const {
+  std::vector<CellReply> replies = calls_.evaluate(requests);
+  for (CellReply& reply : replies) make_symmetric(reply);
+  return replies;
+}
+
+Response AdaptiveMaterial::response_of(std::size_t point) const {
+  const Branch& branch = branches_[branch_of_point_[point]];
+  Response response = branch.answer.response;
+  if (response.quality == Quality::failed) return response;
+  response.stress = linearised_stress(response, offset_between(branch.place, target_[point]));
+  CosseratPart part = points_[point].cosserat;
+  part.add(increments_[point], cosserat_);
+  return part.joined_to(response, cosserat_);
+}
+
+void AdaptiveMaterial::commit() {
+  if (branches_.empty()) return;
+  constexpr std::size_t kUnused = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> cell_of_branch(branches_.size(), kUnused);
+  std::vector<Cell> kept;
+  for (std::size_t b = 0; b < branches_.size(); ++b) {
+    if (std::find(branch_of_point_.begin(), branch_of_point_.end(), b) == branch_of_point_.end()) continue;
+    cell_of_branch[b] = kept.size();
+    kept.push_back({branches_[b].answer, branches_[b].curvature});
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const std::size_t b = branch_of_point_[p];
+    const Branch& branch = branches_[b];
+    Point& point = points_[p];
+    const bool was_run = b >= cells_.size();
+    point.estimate = estimate(p, branch);
+    point.offset = offset_between(branch.place, target_[p]);
+    if (was_run) point.path.clear();
+    if (!point.offset.isZero(0.0)) point.path.push_back(point.offset);
+    point.source = !was_run ? Source::tangent : branch.leader == p ? Source::own : Source::neighbour;
+    ++sources_[static_cast<std::size_t>(point.source)];
+    point.cosserat.add(increments_[p], cosserat_);
+    point.cell = cell_of_branch[b];
+  }
+  cells_ = std::move(kept);
+  ++step_;
+  audit();
+  revert();
+}
+
+void AdaptiveMaterial::revert() {
+  branches_.clear();
+  branches_of_cell_.clear();
+  branch_of_point_.clear();
+  increments_.clear();
+}
+
+}  // namespace polargrain::coupler

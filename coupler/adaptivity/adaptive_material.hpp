@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/cell.hpp"
+#include "coupler/adaptivity/audits.hpp"
+#include "coupler/adaptivity/error_estimate.hpp"
+#include "coupler/cell_calls.hpp"
+#include "coupler/cosserat_part.hpp"
+#include "fem/material/material.hpp"
+
+namespace polargrain::coupler {
+
+struct AdaptivityOptions {
+  /// Error in the in-plane norm of stress that a point may have, as a share of the confining pressure of the
+  /// packing. 0: every point has a cell of its own.
+  double tolerance = 0.02;
+  /// Share of the saved evaluations that are run in full anyway, and of the points that are followed in full.
+  double audit = 0.02;
+  std::uint64_t seed = 1;
+};
+
+/// Where the stress of a point came from in a committed step.
+enum class Source : int {
+  tangent = 0,    ///< no cell was run: an earlier answer was carried along its tangent
+  neighbour = 1,  ///< a cell that follows another point was run, and carried to this one
+  own = 2         ///< a cell was run along this point's own strain
+};
+
+/// A material whose symmetric stress comes from boxes of grains, of which no more are run than a tolerance
+/// asks for (docs/adaptivity.md). Points with like histories share a cell; each point knows its offset from
+/// where the cell was last run, and its stress is the cell's answer carried along the tangent by that offset.
+/// Because the offset is kept, and given to the grains when the cell runs next, what a point has not yet told
+/// its cell never adds up over steps. When the estimated error of an offset exceeds the tolerance, a cell is
+/// run from its state at the start of the step to one of the points, as often as it takes; points that this
+/// does not serve take the state along and follow a branch of their own.
+///
+/// Within a step a cell that was run stays where it is until the estimate says otherwise, so that Newton's
+/// method meets a function that is linear in each branch. evaluate therefore depends on the evaluations
+/// before it since the last commit or revert, though never by more than the tolerance.
+class AdaptiveMaterial : public fem::Material {
+ public:
+  /// @param calls must live as long as the material
+  AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat, const AdaptivityOptions& options);
+
+  void allocate(std::size_t points) override;
+  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  /// Runs the audits of the step; tightens the tolerance worked with when they break the one asked for.
+  void commit() override;
+  void revert() override;
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+
+  /// source (see Source), cell (its number), error_estimate (of the confining pressure), and of the cell
+  /// void_ratio, coordination_number, unbalanced_force_ratio, sliding_fraction, dem_steps.
+  [[nodiscard]] std::vector<std::string> field_names() const override;
+  void fields(std::size_t point, std::span<double> values) const override;
+  [[nodiscard]] std::vector<fem::Figure> figures() const override;
+  [[nodiscard]] std::vector<std::string> take_notes() override;
+
+ private:
+  /// A cell at the start of the step.
+  struct Cell {
+    CellReply answer;  ///< stress and tangent symmetric
+    Curvature curvature;
+  };
+  struct Point {
+    std::size_t cell = 0;
+    Eigen::Matrix2d offset = Eigen::Matrix2d::Zero();  ///< displacement gradient from the cell to the point
+    std::vector<Eigen::Matrix2d> path;                 ///< its committed offsets since the cell was last run
+    CosseratPart cosserat;
+    double estimate = 0.0;  ///< of its error, Pa
+    Source source = Source::tangent;
+  };
+  /// A cell during the step: where it was, or run onward to a point. The first branches are the cells.
+  struct Branch {
+    std::size_t cell = 0;                             ///< it comes from
+    Eigen::Matrix2d place = Eigen::Matrix2d::Zero();  ///< displacement gradient from that cell to here
+    std::size_t leader = 0;                           ///< point it was run to
+    CellReply answer = {};
+    Curvature curvature = {};
+  };
+  /// A point that is followed by a cell of its own along its whole history, to measure what sharing costs.
+  struct Followed {
+    std::size_t point;
+    StatePointer state;
+  };
+
+  void begin_step();
+  /// Runs branches until every point is served. @returns false when a cell has failed
+  bool settle();
+  [[nodiscard]] double estimate(std::size_t point, const Branch& branch) const;
+  /// The branch of a point's cell with the smallest estimate.
+  [[nodiscard]] std::size_t best_branch(std::size_t point) const;
+  [[nodiscard]] std::vector<std::size_t> leaders_for(std::size_t cell,
+                                                     const std::vector<std::size_t>& points) const;
+  bool run_branches(const std::vector<std::size_t>& leaders);
+  /// The answer that a leader's branch starts from, and its place: that of its cell, taken along the turns of
+  /// the path that the point has gone without it. @returns false when a cell has failed
+  bool replay_paths(std::vector<Branch>& starts);
+  [[nodiscard]] std::vector<CellReply> run(std::span<const CellRequest> requests) const;
+  [[nodiscard]] Response response_of(std::size_t point) const;
+  [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * confining_; }
+  void choose_followed();
+  void audit();
+  void audit_offsets();
+  void audit_histories();
+  void tighten();
+
+  CellCalls calls_;
+  CosseratParameters cosserat_;
+  AdaptivityOptions options_;
+  double confining_ = 0.0;  ///< mean in-plane pressure of the packing, Pa
+  ErrorEstimate estimate_;
+
+  std::vector<Cell> cells_;
+  std::vector<Point> points_;
+  std::int64_t step_ = 0;
+
+  // The step at work; empty between steps.
+  std::vector<Branch> branches_;
+  std::vector<std::vector<std::size_t>> branches_of_cell_;
+  std::vector<std::size_t> branch_of_point_;
+  std::vector<Eigen::Matrix2d> target_;  ///< displacement gradient from the cell's place to the point's
+  std::vector<Increment> increments_;
+
+  std::vector<Followed> followed_;
+  MeasuredErrors offset_errors_;   ///< of carrying answers along offsets, shares of the confining pressure
+  MeasuredErrors history_errors_;  ///< of whole histories, the same
+  double tightening_ = 1.0;        ///< the tolerance asked for is divided by it
+  std::size_t judged_ = 0;         ///< offset errors that a tightening has answered
+  std::array<std::int64_t, 3> sources_{};  ///< committed point steps by Source
+  std::int64_t runs_ = 0;                  ///< of cells, audits not counted
+  std::int64_t audits_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace polargrain::coupler

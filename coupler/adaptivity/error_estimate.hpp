@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+
+#include "common/response.hpp"
+
+namespace polargrain::coupler {
+
+/// What is known of how far an answer of a cell can be carried along its tangent (docs/adaptivity.md, 2).
+struct Curvature {
+  /// In-plane norm of stress (Pa) by which linearisation was wrong over an offset of norm `length`. Unknown
+  /// while length is 0: nothing has been learned of this cell or of those it comes from.
+  double error = 0.0;
+  double length = 0.0;
+  /// Unit symmetric strain that the cell was last loaded along; zero for a packing at rest.
+  Eigen::Matrix2d direction = Eigen::Matrix2d::Zero();
+
+  [[nodiscard]] bool known() const { return length > 0.0; }
+  /// The error (Pa) that the curvature seen makes over an offset of norm `distance`: it grows with the power
+  /// 3/2 up to the length it was seen over, and with the square beyond.
+  [[nodiscard]] double over(double distance) const;
+};
+
+/// Estimates errors of linearisation for the cells of one packing.
+class ErrorEstimate {
+ public:
+  ErrorEstimate() = default;
+  /// @param elastic symmetric tangent of the packing at rest
+  /// @param least_length offsets below this say nothing about curvature: noise of the cell hides it
+  ErrorEstimate(const Matrix7& elastic, double least_length)
+      : elastic_(elastic), least_length_(least_length) {}
+
+  /// Estimated error (Pa) of carrying `answer` by `offset`: what the curvature makes, and half of the stress
+  /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
+  /// the last loading. Infinite where nothing is known.
+  [[nodiscard]] double of(const Response& answer, const Curvature& curvature,
+                          const Eigen::Matrix2d& offset) const;
+
+  /// What a run from `start` to `end` over `offset` has shown about both ends.
+  /// @param at_start updated: the largest error seen from there
+  /// @returns the curvature of the answer at the end
+  Curvature learn(const Response& start, const Response& end, const Eigen::Matrix2d& offset,
+                  Curvature& at_start) const;
+
+  [[nodiscard]] double least_length() const { return least_length_; }
+
+ private:
+  Matrix7 elastic_ = Matrix7::Zero();
+  double least_length_ = 0.0;
+};
+
+}  // namespace polargrain::coupler

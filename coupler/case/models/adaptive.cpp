@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// model: adaptive - boxes of grains, no more of them than a tolerance asks for (docs/adaptivity.md)
+#include "coupler/adaptivity/adaptive_material.hpp"
+#include "coupler/case/material_model.hpp"
+#include "coupler/case/models/cell_definition.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+class AdaptiveRecipe : public MaterialRecipe {
+ public:
+  AdaptiveRecipe(CellDefinition definition, const CosseratParameters& cosserat,
+                 const AdaptivityOptions& options)
+      : definition_(std::move(definition)), cosserat_(cosserat), options_(options) {}
+  [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
+    return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat_,
+                                              options_);
+  }
+  [[nodiscard]] bool needs_workers() const override { return true; }
+
+ private:
+  CellDefinition definition_;
+  CosseratParameters cosserat_;
+  AdaptivityOptions options_;
+};
+
+AdaptivityOptions read_options(Section& section) {
+  AdaptivityOptions options;
+  options.tolerance =
+      section.quantity_or("tolerance", Dimension::number, Limit::not_negative, options.tolerance);
+  options.audit = section.quantity_or("audit", Dimension::number, Limit::not_negative, options.audit);
+  if (options.audit > 1.0) section.fault("audit", "audit: is a share of the points, at most 1 (100 %)");
+  options.seed = static_cast<std::uint64_t>(section.whole_or("seed", 0, static_cast<int>(options.seed)));
+  return options;
+}
+
+std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
+                                     const std::filesystem::path& directory) {
+  const std::size_t faults_before = faults.size();
+  CellDefinition definition = read_cell_definition(material, section, faults, directory);
+  const CosseratParameters cosserat = read_cosserat_parameters(section);
+  const AdaptivityOptions options = read_options(section);
+  if (definition.control.tangent == CellTangent::voigt) {
+    section.fault(
+        "tangent",
+        "tangent: an adaptive material carries stresses along the tangent, and the affine one is no "
+        "derivative of the stress once contacts slide; leave the key out");
+  }
+  if (faults.size() != faults_before) return nullptr;
+  return std::make_unique<AdaptiveRecipe>(std::move(definition), cosserat, options);
+}
+
+}  // namespace
+
+MaterialModel adaptive_model() {
+  return {"adaptive", "boxes of grains as `cell` has them, no more than `tolerance` asks for", read};
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/models/cell_definition.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "common/error.hpp"
+#include "coupler/case/data_files.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// The path of a file that the key names; empty, with a fault, when there is none.
+std::filesystem::path file_of(Section& section, const std::string& key, const std::string& what,
+                              const std::filesystem::path& directory) {
+  const std::string name = section.text(key, what);
+  if (name.empty()) return {};
+  if (const auto file = find_data_file(name, directory)) return *file;
+  section.fault(key,
+                fmt::format("{}: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
+                            "correct the path or put the file there",
+                            key, name));
+  return {};
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+CellControl read_control(Section& section) {
+  CellControl control;
+  const auto positive = [&](const char* key, double otherwise) {
+    return section.quantity_or(key, Dimension::number, Limit::positive, otherwise);
+  };
+  control.inertial_number = positive("inertial_number", control.inertial_number);
+  control.unbalanced_force_ratio = positive("unbalanced_force_ratio", control.unbalanced_force_ratio);
+  control.unbalanced_moment_ratio = positive("unbalanced_moment_ratio", control.unbalanced_moment_ratio);
+  control.damping = section.quantity_or("damping", Dimension::number, Limit::not_negative, control.damping);
+  if (control.damping >= 1.0) section.fault("damping", "damping: must be less than 1");
+  control.least_steps = section.whole_or("least_steps", 1, control.least_steps);
+  control.most_relaxation_steps = section.whole_or("most_relaxation_steps", 1, control.most_relaxation_steps);
+  const std::string tangent = section.choice_or("tangent", {"condensed", "voigt"}, "condensed");
+  control.tangent = tangent == "voigt" ? CellTangent::voigt : CellTangent::condensed;
+  return control;
+}
+
+}  // namespace
+
+CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
+                                    const std::filesystem::path& directory) {
+  CellDefinition definition;
+  definition.name = material;
+  const auto script = file_of(section, "script", "the path of a LIGGGHTS input script for cells", directory);
+  const auto packing = file_of(section, "packing", "the path of a packing (CSV or HDF5)", directory);
+  definition.control = read_control(section);
+  if (!script.empty()) {
+    definition.script_file = script.lexically_normal().string();
+    definition.script = content_of(script);
+    if (definition.script.empty()) section.fault("script", "script: the file is empty or cannot be read");
+  }
+  if (!packing.empty()) try {
+      definition.packing = read_packing(packing);
+    } catch (const InputError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  return definition;
+}
+
+CosseratParameters read_cosserat_parameters(Section& section) {
+  CosseratParameters cosserat;
+  cosserat.shear_modulus = section.quantity("G", Dimension::pressure, Limit::positive);
+  cosserat.cosserat_shear_modulus = section.quantity("Gc", Dimension::pressure, Limit::positive);
+  cosserat.internal_length = section.quantity("lc", Dimension::length, Limit::positive);
+  return cosserat;
+}
+
+}  // namespace polargrain::coupler

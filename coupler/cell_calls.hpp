@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "common/cell.hpp"
+
+namespace polargrain::coupler {
+
+/// The cells a material asks: the packing at rest, and a batch of requests answered in their order.
+struct CellCalls {
+  std::function<CellReply()> initial;
+  std::function<std::vector<CellReply>(std::span<const CellRequest>)> evaluate;
+};
+
+class Pool;
+
+/// The cells of a definition as the workers of a pool answer for them. @param pool must outlive the calls
+CellCalls calls_of(Pool& pool, std::uint32_t definition);
+
+}  // namespace polargrain::coupler

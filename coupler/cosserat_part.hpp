@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+
+#include "common/increment.hpp"
+#include "common/response.hpp"
+
+namespace polargrain::coupler {
+
+/// The part of a point's answer that a cell with free rotations does not give (docs/theory.md, C.6 mode 1 and
+/// A.4).
+struct CosseratParameters {
+  double shear_modulus = 0.0;           ///< G, Pa
+  double cosserat_shear_modulus = 0.0;  ///< Gc, Pa
+  double internal_length = 0.0;         ///< lc, m; the couple modulus is 2 G lc^2
+
+  [[nodiscard]] double couple_modulus() const {
+    return 2.0 * shear_modulus * internal_length * internal_length;
+  }
+};
+
+/// Skew stress and couple stresses of a point, which accumulate from its increments:
+///
+///     s21 - s12  +=  2 Gc (eps21 - eps12)        m_i  +=  2 G lc^2 kappa_i
+///
+/// They are not turned with the material: both are zero unless the micro-rotation differs from the rotation
+/// of the continuum or varies in space, and stay small beside the stress of the grains.
+struct CosseratPart {
+  double skew_stress = 0.0;                                 ///< s21 - s12, Pa
+  Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();  ///< N/m
+
+  void add(const Increment& increment, const CosseratParameters& cosserat);
+  /// The answer of a point: the symmetric part of what its cell answered, with this part.
+  [[nodiscard]] Response joined_to(const Response& cell, const CosseratParameters& cosserat) const;
+};
+
+/// The tangent of the symmetric stress with respect to the Cosserat strain: mean of the two shear rows, and,
+/// because a cell with free rotations feels eps12 and eps21 through their sum alone, mean of the two shear
+/// columns. Nothing in the rows and columns of the curvatures.
+Matrix7 symmetric_tangent(const Matrix7& cell);
+
+}  // namespace polargrain::coupler
