@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The condensed tangent of a cell against finite differences of the cell itself (docs/theory/grains.md, C.7),
+// on 400 discs with rolling resistance and prescribed mean rotation.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+
+#include "dem/cell/cell_service.hpp"
+#include "tests/support/cell_fixture.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+constexpr std::array<Component, 6> kColumns{k11, k22, k12, k21, kCurvature1, kCurvature2};
+
+CellDefinition strict_cell(CellRotations rotations) {
+  CellDefinition definition = test::rolling_cell(1.0, 0.4);
+  definition.control.rotations = rotations;
+  definition.control.inertial_number = 2e-6;
+  definition.control.unbalanced_force_ratio = 1e-6;
+  definition.control.unbalanced_moment_ratio = 1e-6;
+  definition.control.damping = 0.1;
+  definition.control.least_steps = 400;
+  return definition;
+}
+
+/// Curvatures and couple stresses are taken per mean diameter, so that all columns are of one kind.
+constexpr double kDiameter = 0.02;
+
+Vector7 factors() {
+  Vector7 factors = Vector7::Ones();
+  factors.tail<2>().setConstant(kDiameter);
+  return factors;
+}
+
+/// The increment whose Cosserat strain is `strain` (eps_33 = 0), without rotation of the grains.
+Increment increment_of(const Vector7& scaled) {
+  const Vector7 strain = scaled.cwiseQuotient(factors());
+  Increment increment;
+  increment.displacement_gradient << strain[k11], strain[k21], strain[k12], strain[k22];
+  increment.curvature << strain[kCurvature1], strain[kCurvature2];
+  return increment;
+}
+
+CellReply evaluate(CellService& cell, const StatePointer& state, const Vector7& strain) {
+  CellRequest request;
+  request.state = state;
+  request.increment = increment_of(strain);
+  const CellReply reply = cell.evaluate(request);
+  EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+  return reply;
+}
+
+/// Central differences of the stress at the end of an increment with respect to that increment.
+Matrix7 differences(CellService& cell, const StatePointer& state, const Vector7& increment, double step) {
+  Matrix7 derivative = Matrix7::Zero();
+  for (const Component column : kColumns) {
+    const Vector7 change = step * Vector7::Unit(column);
+    const Vector7 difference = evaluate(cell, state, increment + change).response.stress -
+                               evaluate(cell, state, increment - change).response.stress;
+    derivative.col(column) = difference.cwiseQuotient(factors()) / (2.0 * step);
+  }
+  return derivative;
+}
+
+Matrix7 scaled(const Matrix7& tangent) {
+  return factors().cwiseInverse().asDiagonal() * tangent * factors().cwiseInverse().asDiagonal();
+}
+
+double largest_error(const Matrix7& tangent, const Matrix7& derivative) {
+  double largest = 0.0;
+  for (const Component column : kColumns)
+    largest = std::max(largest,
+                       (tangent.col(column) - derivative.col(column)).norm() / derivative.col(column).norm());
+  return largest;
+}
+
+TEST(Tangent, IsTheDerivativeOfTheCellBeforeYield) {
+  const auto cell = make_cell_service(strict_cell(CellRotations::controlled));
+  const CellReply start = cell->initial();
+  const Matrix7 derivative = differences(*cell, start.state, Vector7::Zero(), 1e-7);
+  const double error = largest_error(scaled(start.response.tangent), derivative);
+  std::printf(
+      "[figure] condensed tangent of the packing at rest: columns %.4f of the derivative away at most\n",
+      error);
+  // Asked for. What is left is the prestress: contacts turn with the strain, and their forces with them (p
+  // over the modulus, 1e5 / 3e7).
+  EXPECT_LT(error, 0.02);
+}
+
+TEST(Tangent, AfterYieldItKnowsWhatSlides) {
+  CellDefinition definition = strict_cell(CellRotations::controlled);
+  definition.control.inertial_number = 1e-4;
+  definition.control.least_steps = 100;
+  definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 5e-4;
+  const auto condensed_cell = make_cell_service(definition);
+  definition.control.tangent = CellTangent::voigt;
+  const auto affine_cell = make_cell_service(definition);
+  Vector7 step = Vector7::Zero();
+  step(k11) = 1e-3;
+  step(k22) = -1e-3;
+  StatePointer state;
+  for (int k = 1; k <= 10; ++k) {
+    const CellReply reply = evaluate(*condensed_cell, state, step);
+    state = reply.state;
+    if (k != 1 && k != 3 && k != 10) continue;
+    // What Newton asks for: the derivative with respect to the increment, at an increment that goes on.
+    const Vector7 further = 0.1 * step;
+    const Matrix7 derivative = differences(*condensed_cell, state, further, 1e-5);
+    const auto error = [&](CellService& cell) {
+      return (scaled(evaluate(cell, state, further).response.tangent) - derivative).norm() /
+             derivative.norm();
+    };
+    const double condensed = error(*condensed_cell);
+    const double affine = error(*affine_cell);
+    std::printf(
+        "[figure] after %d e-3 of isochoric strain, %.0f %% of the contacts sliding, %.0f %% at the rolling "
+        "limit: "
+        "condensed tangent %.2f of the derivative away, Voigt tangent %.2f\n",
+        k, 100.0 * reply.diagnostics.sliding_fraction, 100.0 * reply.diagnostics.rolling_fraction, condensed,
+        affine);
+    // Contacts that come to slide or stop sliding within the difference make the rest.
+    EXPECT_LT(condensed, 0.15);
+    EXPECT_LT(condensed, 0.3 * affine);
+  }
+}
+
+}  // namespace
+}  // namespace polargrain::dem
