@@ -104,6 +104,11 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive, 1e-3);
   solver.moment_tolerance =
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
+  solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
+  solver.acceleration_depth = steps.whole_or("acceleration", 0, 0);
+  // What a box of grains takes to follow a strain grows with the strain.
+  solver.largest_strain = steps.quantity_or("largest_strain", Dimension::number, Limit::positive,
+                                            parts.result.needs_workers() ? 0.05 : solver.largest_strain);
   // A residual that grows within the noise of the grains is no reason to ask all of them again.
   solver.most_line_search_halvings =
       steps.whole_or("line_search", 0, parts.result.needs_workers() ? 0 : solver.most_line_search_halvings);

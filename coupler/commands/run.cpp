@@ -141,9 +141,27 @@ class Run {
               report.evaluations, report.time);
   }
 
+    record_.within_noise += report.within_noise;
+    record_.within_rounding += report.within_rounding;
+    record_.limited += report.limited;
+    if (report.within_noise > 0) {
+      log_.warn(
+          "  accepted above the tolerance, within the noise of the stresses: force residual {:.3e}, noise "
+          "{:.3e}",
+          report.force_residual, report.force_noise);
+    }
+    if (report.within_rounding > 0) {
+      log_.warn("  accepted above the tolerance because nothing but rounding is left: force residual {:.3e}",
+                report.force_residual);
+    }
+    if (report.limited > 0) {
+      log_.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
+                case_.solver.largest_strain);
+    }
   [[nodiscard]] std::vector<std::string> history_columns() const {
-    std::vector<std::string> columns{"step",       "time",        "substeps",       "cuts",
-                                     "iterations", "evaluations", "force_residual", "moment_residual"};
+    std::vector<std::string> columns{"step",        "time",         "substeps",        "cuts",
+                                     "iterations",  "evaluations",  "force_residual",  "moment_residual",
+                                     "force_noise", "within_noise", "within_rounding", "limited"};
     for (const std::string& name : built_in_values()) {
       if (name != "time") columns.push_back(name);
     }
@@ -160,7 +178,11 @@ class Run {
                                  std::to_string(report.iterations),
                                  std::to_string(report.evaluations),
                                  exact(report.force_residual),
-                                 exact(report.moment_residual)};
+                                 exact(report.moment_residual),
+                                 exact(report.force_noise),
+                                 std::to_string(report.within_noise),
+                                 std::to_string(report.within_rounding),
+                                 std::to_string(report.limited)};
     for (const auto& [name, value] : values) {
       if (name != "time") row.push_back(exact(value));
     }

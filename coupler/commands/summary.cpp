@@ -122,6 +122,9 @@ void write_summary(const std::filesystem::path& file, const Case& the_case, cons
   std::ofstream out(file, std::ios::trunc);
   out << text << '\n' << std::flush;
   if (!out) throw RunError(fmt::format("{} cannot be written; is the disk full?", file.string()));
+                               .whole("substeps_within_noise", record.within_noise)
+                               .whole("substeps_within_rounding", record.within_rounding)
+                               .whole("corrections_limited", record.limited)
 }
 
 std::string table_text(const Case& the_case, const RunRecord& record) {
@@ -150,6 +153,18 @@ std::string costs_text(const RunRecord& record) {
   };
   if (record.workers > 0) {
     part("grains", c.grains);
+  if (record.within_noise > 0) {
+    text += fmt::format("{} substeps were accepted above the tolerance, within the noise of the stresses\n",
+                        record.within_noise);
+  }
+  if (record.within_rounding > 0) {
+    text += fmt::format("{} substeps were accepted above the tolerance, where only rounding is left\n",
+                        record.within_rounding);
+  }
+  if (record.limited > 0) {
+    text += fmt::format("{} corrections asked for too large a strain and were shortened or replaced\n",
+                        record.limited);
+  }
     part("messages", c.messages);
     part("workers waiting for the last cell", c.waiting);
   }

@@ -26,6 +26,9 @@ struct RunRecord {
   int iterations = 0;
   int cuts = 0;
   PoolCounts pool;
+  int within_noise = 0;  ///< this and the next two: see fem::StepReport
+  int within_rounding = 0;
+  int limited = 0;
   Costs costs;
 };
 

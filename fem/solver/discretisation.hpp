@@ -27,6 +27,8 @@ class Discretisation {
   [[nodiscard]] const PointGeometry& point(std::size_t i) const { return points_[i]; }
   [[nodiscard]] int element_of_point(std::size_t i) const { return element_of_point_[i]; }
   [[nodiscard]] std::size_t elements() const { return dofs_.size(); }
+  /// Entries of a nodal vector.
+  [[nodiscard]] Eigen::Index nodal_size() const { return nodal_size_; }
   /// Points of element e are first_point(e) ... first_point(e + 1) - 1.
   [[nodiscard]] std::size_t first_point(std::size_t e) const { return first_point_[e]; }
   /// Places of the element's unknowns in nodal vectors.

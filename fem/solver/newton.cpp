@@ -10,6 +10,8 @@
 
 #include "common/error.hpp"
 #include "fem/material/rotation.hpp"
+#include "fem/solver/free_rotations.hpp"
+#include "fem/solver/residual_floor.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -40,6 +42,12 @@ double mean_element_size(const Discretisation& discretisation) {
   return std::sqrt(volume / static_cast<double>(discretisation.elements()));
 }
 
+/// Norm of the strain without rotations, of which a step may hold as many as it likes.
+double strain_norm(const Increment& increment) {
+  const Eigen::Matrix2d& h = increment.displacement_gradient;
+  return (0.5 * (h + h.transpose())).norm();
+}
+
 }  // namespace
 
 Newton::Newton(Problem problem_in, const SolverOptions& options_in)
@@ -52,6 +60,7 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
       reference_length(options.reference_length > 0.0 ? options.reference_length
                                                       : mean_element_size(discretisation)),
       tangent_(discretisation, constraints),
+      anderson_(options.acceleration_depth, reference_length),
       middle_(problem.mesh, problem.continuum),
       trial_(discretisation.points()) {
   state.displacement = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size()));
@@ -74,6 +83,13 @@ Attempt Newton::evaluate_initial_state(StepReport& report) {
     materials.revert();
     return {false, "the initial state of a material is not usable: " + worst.message};
   }
+  if (problem.continuum == Continuum::cosserat) {
+    if (std::string message = unresisted_rotation(problem.mesh, discretisation, constraints, trial_);
+        !message.empty()) {
+      materials.revert();
+      return {false, std::move(message)};
+    }
+  }
   // The increments were zero: what is committed is the initial state itself.
   materials.commit();
   state.responses = trial_;
@@ -86,7 +102,22 @@ Residual Newton::initial_residual() {
   if (state.reference_force == 0.0) {
     state.reference_force = loads.largest_force() + sum_of_reactions(unbalanced, constraints);
   }
-  return measure(unbalanced, constraints, state.reference_force, reference_length);
+  return relative(unbalanced);
+}
+
+void Newton::withhold_imbalance() {
+  withheld_ = loads.at(state.time) - discretisation.internal_forces(state.responses);
+  released_ = 0.0;
+}
+
+Eigen::VectorXd Newton::loads_at(double time, double released) const {
+  Eigen::VectorXd forces = loads.at(time);
+  if (released < 1.0) forces -= (1.0 - released) * withheld_;
+  return forces;
+}
+
+Residual Newton::relative(const Eigen::VectorXd& forces) const {
+  return measure(forces, constraints, state.reference_force, reference_length);
 }
 
 double Newton::excess(const Residual& residual) const {
@@ -146,9 +177,9 @@ void Newton::evaluate(Iterate& iterate, StepReport& report) {
     report.evaluations += static_cast<long>(trial_.size());
   }
   const Stopwatch watch(report.assembly_seconds);
-  iterate.unbalanced = loads.at(iterate.time) - discretisation.internal_forces(trial_);
+  iterate.unbalanced = loads_at(iterate.time, iterate.released) - discretisation.internal_forces(trial_);
   if (state.reference_force == 0.0) state.reference_force = sum_of_reactions(iterate.unbalanced, constraints);
-  iterate.residual = measure(iterate.unbalanced, constraints, state.reference_force, reference_length);
+  iterate.residual = relative(iterate.unbalanced);
 }
 
 bool Newton::factorise(const std::vector<Response>& responses, StepReport& report) {
@@ -162,33 +193,100 @@ bool Newton::factorise(const std::vector<Response>& responses, StepReport& repor
 }
 
 bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std::vector<Response>& responses,
-                        const Eigen::VectorXd& right_side, Iterate& change, StepReport& report) {
+                        const Eigen::VectorXd& right_side, Correction& change, StepReport& report) {
   if (!factorise(responses, report)) return false;
   const Stopwatch watch(report.solve_seconds);
-  const auto solve = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
+  const auto add_solution = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
     constraints.add_free(linear_solver_.solve(constraints.restrict_to_free(forces)), nodal);
   };
-  change.time = 0.0;
-  change.displacement = Eigen::VectorXd::Zero(state.displacement.size());
-  solve(right_side, change.displacement);
+  Eigen::VectorXd per_time;
   if (!goal.controls_time()) {
     // Bordered system: the response to a unit of time, times the time that brings the measure to its goal.
-    Eigen::VectorXd per_time = constraints.slope(iterate.time);
-    solve(loads.slope(iterate.time) - discretisation.linearised_forces(responses, per_time), per_time);
-    const double missing = goal.amount - goal.measure.dot(iterate.displacement + change.displacement);
-    change.time = missing / goal.measure.dot(per_time);
-    change.displacement += change.time * per_time;
+    per_time = constraints.slope(iterate.time);
+    add_solution(loads.slope(iterate.time) - discretisation.linearised_forces(responses, per_time), per_time);
+  }
+  const auto respond = [&](const Eigen::VectorXd& forces, double growth) {
+    Correction response{Eigen::VectorXd::Zero(state.displacement.size()), 0.0};
+    add_solution(forces, response.displacement);
+    if (!goal.controls_time()) {
+      response.time = (growth - goal.measure.dot(response.displacement)) / goal.measure.dot(per_time);
+      response.displacement += response.time * per_time;
+    }
+    return response;
+  };
+  const double missing = goal.controls_time() ? 0.0 : goal.amount - goal.measure.dot(iterate.displacement);
+  change = respond(right_side, missing);
+  if (!converges_fast_) {
+    anderson_.accelerate(change, [&](const Eigen::VectorXd& forces) { return respond(forces, 0.0); });
   }
   return change.displacement.allFinite() && std::isfinite(change.time);
 }
 
-void Newton::move(Iterate& iterate, const Iterate& change, double fraction, StepReport& report) {
+double Newton::allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const {
+  const std::vector<Increment> reached = discretisation.increments(from);
+  const std::vector<Increment> added = discretisation.increments(change);
+  double share = 1.0;
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const double strain = strain_norm(added[i]);
+    const double room = options.largest_strain - strain_norm(reached[i]);
+    if (strain > room) share = std::min(share, std::max(room, 0.0) / strain);
+  }
+  return share;
+}
+
+Attempt Newton::limit_correction(Iterate& iterate, Correction& change, StepReport& report) const {
+  constexpr double kLeastShare = 0.01;
+  const double share = allowed_share(iterate.displacement, change.displacement);
+  if (share == 1.0) return {true, ""};
+  ++report.limited;
+  if (share < kLeastShare) {
+    return {false, fmt::format("the iteration asks for strains beyond {}", options.largest_strain)};
+  }
+  change.displacement *= share;
+  change.time *= share;
+  return {true, ""};
+}
+
+Attempt Newton::limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
+                                StepReport& report) const {
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(iterate.displacement.size());
+  const double share = allowed_share(nothing, iterate.displacement + change.displacement);
+  if (share == 1.0) return {true, ""};
+  ++report.limited;
+  const Attempt cut{
+      false,
+      fmt::format("the predictor asks for a strain of {:.3g}, more than {}: the tangent is nearly "
+                  "singular or the step too long",
+                  options.largest_strain / share, options.largest_strain),
+      share};
+  if (!goal.controls_time() || state.last_increment.size() == 0) return cut;
+  // The last step drawn on, as far as the given entries say.
+  Eigen::VectorXd drawn_on = state.last_increment;
+  double product = 0.0;
+  double square = 0.0;
+  for (Eigen::Index entry = 0; entry < drawn_on.size(); ++entry) {
+    if (constraints.is_free(static_cast<std::size_t>(entry))) continue;
+    product += iterate.displacement(entry) * drawn_on(entry);
+    square += drawn_on(entry) * drawn_on(entry);
+  }
+  if (square == 0.0) return cut;
+  drawn_on *= product / square;
+  for (Eigen::Index entry = 0; entry < drawn_on.size(); ++entry) {
+    if (!constraints.is_free(static_cast<std::size_t>(entry))) drawn_on(entry) = iterate.displacement(entry);
+  }
+  if (allowed_share(nothing, drawn_on) < 1.0) return cut;
+  change.displacement = drawn_on - iterate.displacement;
+  return {true, ""};
+}
+
+void Newton::move(Iterate& iterate, const Correction& change, double fraction, StepReport& report) {
   iterate.time += fraction * change.time;
   iterate.displacement += fraction * change.displacement;
   evaluate(iterate, report);
 }
 
-void Newton::line_search(Iterate& iterate, const Iterate& change, double excess_before, StepReport& report) {
+void Newton::line_search(Iterate& iterate, const Correction& change, double excess_before,
+                         StepReport& report) {
   double fraction = 1.0;
   double best_fraction = 1.0;
   double best = excess(iterate.residual);
@@ -202,26 +300,77 @@ void Newton::line_search(Iterate& iterate, const Iterate& change, double excess_
   if (best_fraction != fraction) move(iterate, change, best_fraction - fraction, report);
 }
 
+Newton::Iterate Newton::start_of(const StepGoal& goal) const {
+  Iterate iterate{goal.controls_time() ? goal.time : state.time, goal.released, state.displacement, {}, {}};
+  constraints.apply(iterate.time, iterate.displacement);
+  iterate.displacement -= state.displacement;
+  if (released_ < 1.0) iterate.displacement *= (goal.released - released_) / (1.0 - released_);
+  return iterate;
+}
+
+void Newton::remember(const Iterate& iterate) {
+  if (!anderson_.is_on()) return;
+  const auto free_part = [&](const Eigen::VectorXd& forces) {
+    Eigen::VectorXd nodal = Eigen::VectorXd::Zero(forces.size());
+    constraints.add_free(constraints.restrict_to_free(forces), nodal);
+    return nodal;
+  };
+  const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+  anderson_.remember({iterate.displacement, iterate.time}, free_part(iterate.unbalanced),
+                     noise.size() > 0 ? free_part(noise) : noise);
+}
+
+Newton::Balance Newton::balance_of(const Iterate& iterate, bool last_chance) const {
+  const Residual& residual = iterate.residual;
+  if (excess(residual) <= 1.0) return Balance::within_tolerance;
+  const auto within = [&](const Eigen::VectorXd& forces, double factor) {
+    const Residual floor = relative(forces);
+    return residual.force <= std::max(options.force_tolerance, factor * floor.force) &&
+           residual.moment <= std::max(options.moment_tolerance, factor * floor.moment);
+  };
+  if (options.noise_factor > 0.0) {
+    const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+    if (noise.size() > 0 && within(noise, options.noise_factor)) return Balance::within_noise;
+  }
+  if (last_chance &&
+      within(forces_of_rounding(discretisation, problem.continuum, trial_, iterate.displacement), 1.0)) {
+    return Balance::within_rounding;
+  }
+  return Balance::none;
+}
+
+std::string Newton::residual_text(const Residual& residual) const {
+  std::string text = fmt::format("{:.3g} (force), {:.3g} (moment)", residual.force, residual.moment);
+  const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+  if (noise.size() == 0) return text;
+  const Residual floor = relative(noise);
+  return text + fmt::format("; the noise of the stresses alone leaves about {:.3g} and {:.3g}", floor.force,
+                            floor.moment);
+}
+
 Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
+  constexpr double kFast = 0.1;  // a true tangent at work: nothing to accelerate
   report.force_residuals.clear();
   report.moment_residuals.clear();
   move_to_committed();
+  anderson_.clear();
   internal_before_ = discretisation.internal_forces(state.responses);
-  loads_before_ = loads.at(state.time);
+  loads_before_ = loads_at(state.time, released_);
   // The consistent predictor: given increments go through the last converged tangent. Moving the boundary
   // alone would strain the elements next to it only and localise there (docs/theory.md, G.6).
-  Iterate iterate{goal.controls_time() ? goal.time : state.time, state.displacement, {}, {}};
-  constraints.apply(iterate.time, iterate.displacement);
-  iterate.displacement -= state.displacement;
-  Eigen::VectorXd right_side = loads.at(iterate.time) - internal_before_ -
+  Iterate iterate = start_of(goal);
+  Eigen::VectorXd right_side = loads_at(iterate.time, iterate.released) - internal_before_ -
                                discretisation.linearised_forces(state.responses, iterate.displacement);
-  Iterate change{};
+  Correction change;
   StagnationWatch watch(options.stagnation_window);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
     if (!correction(goal, iterate, predictor ? state.responses : trial_, right_side, change, report)) {
       return {false, "the tangent is singular"};
     }
+    const Attempt limited = predictor ? limit_predictor(goal, iterate, change, report)
+                                      : limit_correction(iterate, change, report);
+    if (!limited.converged) return limited;
     const double excess_before = excess(iterate.residual);
     move(iterate, change, 1.0, report);
     ++report.iterations;
@@ -230,6 +379,7 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
       line_search(iterate, change, excess_before, report);
     }
     right_side = iterate.unbalanced;
+    converges_fast_ = excess(iterate.residual) < kFast * excess_before;
 
     const Response& worst = worst_response();
     if (worst.quality == Quality::failed) {
@@ -239,26 +389,35 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
     report.force_residuals.push_back(residual.force);
     report.moment_residuals.push_back(residual.moment);
     if (observer) observer->iterated({iterate.time, cuts, iteration, residual.force, residual.moment});
-    if (!std::isfinite(residual.force + residual.moment)) return {false, "the residual is not finite"};
-    if (excess(residual) <= 1.0) {
+    remember(iterate);
+    const bool finite = std::isfinite(residual.force + residual.moment);
+    const bool stagnates = watch.stagnates(excess(residual));
+    const bool last_chance = !finite || stagnates || iteration == options.most_iterations;
+    if (const Balance balance = balance_of(iterate, last_chance); balance != Balance::none) {
       if (worst.quality != Quality::good) {
         return {false, "a material's answer is unreliable: " + worst.message, worst.step_factor};
       }
-      report.force_residual = residual.force;
-      report.moment_residual = residual.moment;
-      commit(iterate);
+      commit(iterate, balance, report);
       return {true, ""};
     }
-    if (watch.stagnates(excess(residual))) {
-      return {false, fmt::format("the residual stagnates at {:.3g} (force), {:.3g} (moment)", residual.force,
-                                 residual.moment)};
-    }
+    if (!finite) return {false, "the residual is not finite"};
+    if (stagnates) return {false, "the residual stagnates at " + residual_text(residual)};
   }
-  return {false, fmt::format("no balance after {} iterations", options.most_iterations)};
+  return {false, fmt::format("no balance after {} iterations, the residual is {}", options.most_iterations,
+                             residual_text(iterate.residual))};
 }
 
-void Newton::commit(const Iterate& iterate) {
-  const Eigen::VectorXd loads_mean = 0.5 * (loads_before_ + loads.at(iterate.time));
+void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report) {
+  report.force_residual = iterate.residual.force;
+  report.moment_residual = iterate.residual.moment;
+  report.within_noise += balance == Balance::within_noise ? 1 : 0;
+  report.within_rounding += balance == Balance::within_rounding ? 1 : 0;
+  if (const auto noise = forces_of_noise(discretisation, problem.continuum, trial_); noise.size() > 0) {
+    const Residual floor = relative(noise);
+    report.force_noise = floor.force;
+    report.moment_noise = floor.moment;
+  }
+  const Eigen::VectorXd loads_mean = 0.5 * (loads_before_ + loads_at(iterate.time, iterate.released));
   const Eigen::VectorXd internal_mean = 0.5 * (internal_before_ + discretisation.internal_forces(trial_));
   for (Eigen::Index entry = 0; entry < iterate.displacement.size(); ++entry) {
     // At given entries the support supplies what the loads do not: together the internal force.
@@ -276,6 +435,7 @@ void Newton::commit(const Iterate& iterate) {
   state.displacement += iterate.displacement;
   state.last_increment = iterate.displacement;
   state.time = iterate.time;
+  released_ = iterate.released;
 }
 
 }  // namespace polargrain::fem

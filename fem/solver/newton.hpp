@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/solver/anderson.hpp"
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/discretisation.hpp"
 #include "fem/solver/linear_solver.hpp"
@@ -20,6 +21,9 @@ struct StepGoal {
   double time = 0.0;        ///< used when `measure` is empty
   Eigen::VectorXd measure;  ///< nodal vector: the measure is its product with the displacements
   double amount = 0.0;      ///< by which the measure grows in this step
+  /// Share, at the end of the step, of what equilibrate() lets go: displacements given at time 0 and nodal
+  /// forces that are out of balance then.
+  double released = 1.0;
 
   [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
 };
@@ -42,6 +46,8 @@ class Newton {
   [[nodiscard]] Attempt evaluate_initial_state(StepReport& report);
   /// Residual of the committed state against the loads of its own time; fixes the reference force.
   [[nodiscard]] Residual initial_residual();
+  /// Holds back what is out of balance in the committed state until steps release it (StepGoal::released).
+  void withhold_imbalance();
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
   /// Drops the trial states.
@@ -65,28 +71,44 @@ class Newton {
   /// Where an iteration stands: everything is counted from the committed state.
   struct Iterate {
     double time;
+    double released;               ///< see StepGoal
     Eigen::VectorXd displacement;  ///< increment, given entries included
     Eigen::VectorXd unbalanced;    ///< loads less internal forces
     Residual residual;
   };
+  enum class Balance { none, within_tolerance, within_noise, within_rounding };
 
+  [[nodiscard]] Eigen::VectorXd loads_at(double time, double released) const;
+  [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
+  [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
   void evaluate(Iterate& iterate, StepReport& report);
   void find_increments(const Eigen::VectorXd& displacement_increment);
   [[nodiscard]] bool factorise(const std::vector<Response>& responses, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
                                 const std::vector<Response>& responses, const Eigen::VectorXd& right_side,
-                                Iterate& change, StepReport& report);
-  void move(Iterate& iterate, const Iterate& change, double fraction, StepReport& report);
-  void line_search(Iterate& iterate, const Iterate& change, double excess_before, StepReport& report);
+                                Correction& change, StepReport& report);
+  [[nodiscard]] double allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const;
+  [[nodiscard]] Attempt limit_correction(Iterate& iterate, Correction& change, StepReport& report) const;
+  [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
+                                        StepReport& report) const;
+  void remember(const Iterate& iterate);
+  [[nodiscard]] std::string residual_text(const Residual& residual) const;
+  void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);
+  void line_search(Iterate& iterate, const Correction& change, double excess_before, StepReport& report);
+  [[nodiscard]] Balance balance_of(const Iterate& iterate, bool last_chance) const;
   [[nodiscard]] const Response& worst_response() const;
-  void commit(const Iterate& iterate);
+  void commit(const Iterate& iterate, Balance balance, StepReport& report);
 
   TangentMatrix tangent_;
   LinearSolver linear_solver_;
+  Anderson anderson_;
+  bool converges_fast_ = false;      ///< the last iteration needs no acceleration
   Discretisation middle_;            ///< large deformation: half way through the step
   std::string inverted_;             ///< names an element the last iterate turns inside out
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;
+  Eigen::VectorXd withheld_;           ///< forces out of balance at the start; empty when there are none
+  double released_ = 1.0;              ///< share of them that committed steps have let go
   std::vector<Increment> increments_;  ///< of the evaluation made last
   std::vector<Response> trial_;        ///< its responses
 };

@@ -16,29 +16,30 @@ namespace polargrain::fem {
 struct Solver::Implementation : Newton {
   using Newton::Newton;
 
-  /// Goes from 0 to `total` in substeps, cut where an attempt fails.
-  /// @param goal_at the goal that lies at a share of the way: (done, step) -> StepGoal.
+  /// Goes the whole of a step in substeps, cut where an attempt fails. Shares of the step, not times or
+  /// lengths, are what is cut, so that a step under another control may follow.
+  /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
   template <class GoalAt>
-  StepReport march(double total, GoalAt goal_at);
+  StepReport march(StepReport report, GoalAt goal_at);
 };
 
 template <class GoalAt>
-StepReport Solver::Implementation::march(double total, GoalAt goal_at) {
+StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
   constexpr double kGrowth = 1.5;
   constexpr double kNearlyAll = 1.0 - 1e-6;
-  StepReport report;
   double done = 0.0;
   int cuts_in_a_row = 0;
-  while (done < total) {
-    const bool cut = state.next_step > 0.0 && state.next_step < kNearlyAll * (total - done);
-    const double step = cut ? state.next_step : total - done;
-    const StepGoal goal = goal_at(cut ? done + step : total, step);
+  while (done < 1.0) {
+    const bool cut = state.next_step > 0.0 && state.next_step < kNearlyAll * (1.0 - done);
+    const double step = cut ? state.next_step : 1.0 - done;
+    const double end = cut ? done + step : 1.0;
+    const StepGoal goal = goal_at(end, step);
     const Attempt result = attempt(goal, cuts_in_a_row, report);
     if (result.converged) {
       ++report.substeps;
       cuts_in_a_row = 0;
-      done = cut ? done + step : total;
+      done = end;
       if (state.next_step > 0.0) state.next_step = std::max(state.next_step, kGrowth * step);
       continue;
     }
@@ -53,9 +54,8 @@ StepReport Solver::Implementation::march(double total, GoalAt goal_at) {
     ++report.cuts;
     state.next_step = step * std::clamp(result.step_factor, 0.1, 0.5);
     if (observer) {
-      const bool controls_time = goal.controls_time();
-      observer->cut(controls_time ? goal.time : state.time, result.reason,
-                    state.time + (controls_time ? state.next_step : 0.0));
+      const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
+      observer->cut(time_of(goal), result.reason, time_of(goal_at(done + state.next_step, state.next_step)));
     }
   }
   report.converged = true;
@@ -74,30 +74,30 @@ void Solver::set_observer(Observer* observer) {
 StepReport Solver::equilibrate() {
   Implementation& self = *implementation_;
   StepReport report;
-  Attempt result = self.evaluate_initial_state(report);
-  if (result.converged) {
-    const Residual residual = self.initial_residual();
-    report.force_residual = residual.force;
-    report.moment_residual = residual.moment;
-    Eigen::VectorXd given = self.state.displacement;
-    self.constraints.apply(self.state.time, given);
-    if (given != self.state.displacement || self.excess(residual) > 1.0) {
-      result = self.attempt({.time = self.state.time, .measure = {}}, 0, report);
-      if (!result.converged) self.revert();
-      report.substeps = 1;
-    }
-  }
-  report.converged = result.converged;
-  report.message = result.reason;
   report.time = self.state.time;
+  if (const Attempt start = self.evaluate_initial_state(report); !start.converged) {
+    report.message = start.reason;
+    return report;
+  }
+  const Residual residual = self.initial_residual();
+  report.force_residual = residual.force;
+  report.moment_residual = residual.moment;
+  Eigen::VectorXd given = self.state.displacement;
+  self.constraints.apply(self.state.time, given);
+  report.converged = given == self.state.displacement && self.excess(residual) <= 1.0;
+  if (report.converged) return report;
+  self.withhold_imbalance();
+  report = self.march(std::move(report), [&](double end, double) {
+    return StepGoal{.time = self.state.time, .measure = {}, .released = end};
+  });
+  self.state.next_step = 0.0;
   return report;
 }
 
 StepReport Solver::advance(double time) {
   const double start = state().time;
-  const double total = time - start;
-  return implementation_->march(total, [&](double done, double) {
-    return StepGoal{.time = done == total ? time : start + done, .measure = {}};
+  return implementation_->march({}, [&](double end, double) {
+    return StepGoal{.time = end == 1.0 ? time : start + end * (time - start), .measure = {}};
   });
 }
 
@@ -107,20 +107,22 @@ StepReport Solver::advance_measure(const DisplacementMeasure& measure, double am
   for (const DisplacementMeasure::Term& term : measure.terms) {
     vector(3 * term.node + static_cast<int>(term.dof)) += sign * term.weight;
   }
-  return implementation_->march(
-      std::abs(amount), [&](double, double step) { return StepGoal{.measure = vector, .amount = step}; });
+  return implementation_->march({}, [&](double, double share) {
+    return StepGoal{.measure = vector, .amount = share * std::abs(amount)};
+  });
 }
 
 StepReport Solver::advance_arc_length(double length) {
   if (state().last_increment.size() == 0) {
     throw RunError("arc-length control needs a first step under another control, to know its direction");
   }
-  return implementation_->march(length, [&](double, double step) {
+  return implementation_->march({}, [&](double, double share) {
     Eigen::VectorXd weighted = state().last_increment;
     for (Eigen::Index w = 2; w < weighted.size(); w += 3) {
       weighted(w) *= implementation_->reference_length * implementation_->reference_length;
     }
-    return StepGoal{.measure = weighted / std::sqrt(weighted.dot(state().last_increment)), .amount = step};
+    return StepGoal{.measure = weighted / std::sqrt(weighted.dot(state().last_increment)),
+                    .amount = share * length};
   });
 }
 

@@ -31,6 +31,18 @@ struct SolverOptions {
   /// When an iteration has made the residual larger, its correction may be halved this often, each at the
   /// price of an evaluation; the best of them is kept. 0: no line search.
   int most_line_search_halvings = 3;
+  /// Where stresses carry noise (Response::noise), a step also counts as balanced when each residual is
+  /// within its tolerance or this factor times what the noise alone leaves; StepReport::within_noise counts
+  /// such steps. 0: the tolerances alone count. Corrections that cancel one sample of the noise meet the next
+  /// one, so an iteration cannot be expected to get below sqrt(2).
+  double noise_factor = 0.0;
+  /// Earlier iterations of a step that each correction takes into account (anderson.hpp). 0: plain Newton.
+  int acceleration_depth = 0;
+  /// Strain of any point that an iteration may ask for, counted from the last committed state: norm of the
+  /// symmetric strain. A longer correction is shortened, a predictor that asks for more (its tangent is
+  /// nearly singular) gives way to the last step drawn on, or the step is cut; StepReport::limited counts
+  /// that.
+  double largest_strain = 0.5;
 };
 
 /// After one evaluation of all materials.
@@ -53,6 +65,11 @@ struct StepReport {
   long evaluations = 0;         ///< of material points, lost ones too
   double force_residual = 0.0;  ///< of the last committed substep
   double moment_residual = 0.0;
+  double force_noise = 0.0;  ///< what noise alone leaves of the residuals, of the last committed substep
+  double moment_noise = 0.0;
+  int within_noise = 0;     ///< substeps committed with a residual above its tolerance but within the noise
+  int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
+  int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
   std::vector<double> force_residuals;  ///< by iteration, of the last attempt
   std::vector<double> moment_residuals;
   double material_seconds = 0.0;
@@ -93,7 +110,7 @@ struct SolverState {
   std::vector<Response> responses;  ///< by point: stress and tangent of the last converged step
   double reference_force = 0.0;     ///< 0: not fixed yet
   Eigen::VectorXd last_increment;   ///< of the displacements in the last committed substep; empty at first
-  double next_step = 0.0;           ///< time step to try next after a cut; 0: as asked for
+  double next_step = 0.0;           ///< after a cut: share of a step to try next; 0: as asked for
   double external_work = 0.0;       ///< J per m of thickness, loads and reactions, trapezoidal, since time 0
   double internal_work = 0.0;       ///< the same from stress and strain
 };
@@ -115,7 +132,9 @@ class Solver {
   void set_observer(Observer* observer);
 
   /// Brings the initial stresses into balance with the loads and supports at time 0. Zero iterations when
-  /// they already are.
+  /// they already are. Where one attempt does not get there, what is out of balance and the displacements
+  /// given at time 0 are let go in shares, cut like any step. Not converged too when nothing resists a
+  /// micro-rotation.
   StepReport equilibrate();
   /// Goes on to `time`, in smaller steps where needed. When it fails, the last committed substep stands.
   StepReport advance(double time);

@@ -3,6 +3,7 @@ polargrain_test(fem_mesh_test unit unit/fem_mesh_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_element_test unit unit/fem_element_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_supports_test unit unit/fem_supports_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_solver_test unit unit/fem_solver_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_noise_test unit unit/fem_noise_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fem)
 target_compile_definitions(fem_output_test
                            PRIVATE VTK_READER="${CMAKE_CURRENT_SOURCE_DIR}/unit/fem_output_read.py")

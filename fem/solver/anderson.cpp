@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/anderson.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <vector>
+
+namespace polargrain::fem {
+
+void Anderson::clear() {
+  places_.clear();
+}
+
+void Anderson::remember(const Correction& position, const Eigen::VectorXd& unbalanced,
+                        const Eigen::VectorXd& noise) {
+  places_.push_back({position, unbalanced, weighted(noise, 1.0 / length_).lpNorm<1>()});
+  if (places_.size() > static_cast<std::size_t>(depth_) + 1) places_.pop_front();
+}
+
+Eigen::VectorXd Anderson::weighted(Eigen::VectorXd nodal, double weight_of_rotations) const {
+  for (Eigen::Index w = 2; w < nodal.size(); w += 3) nodal(w) *= weight_of_rotations;
+  return nodal;
+}
+
+void Anderson::accelerate(Correction& correction,
+                          const std::function<Correction(const Eigen::VectorXd&)>& solve) const {
+  if (places_.size() < 2) return;
+  const auto count = static_cast<Eigen::Index>(places_.size()) - 1;
+  const Eigen::Index size = correction.displacement.size();
+  std::vector<Correction> defects;  // dX + C
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(size + count, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Place& from = places_[static_cast<std::size_t>(j)];
+    const Place& to = places_[static_cast<std::size_t>(j) + 1];
+    const Eigen::VectorXd change = to.unbalanced - from.unbalanced;
+    Correction defect = solve(change);
+    c.col(j).head(size) = weighted(defect.displacement, length_);
+    const double sum = weighted(change, 1.0 / length_).lpNorm<1>();
+    const double noise_share = sum > 0.0 ? std::hypot(from.noise, to.noise) / sum : 0.0;
+    c(size + j, j) = noise_share * c.col(j).norm();
+    defect.displacement += to.position.displacement - from.position.displacement;
+    defect.time += to.position.time - from.position.time;
+    defects.push_back(std::move(defect));
+  }
+  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(size + count);
+  right_side.head(size) = weighted(correction.displacement, length_);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-8);  // ways gone twice say nothing new
+  const Eigen::VectorXd g = qr.compute(c).solve(right_side);
+  if (!g.allFinite()) return;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Correction& defect = defects[static_cast<std::size_t>(j)];
+    correction.displacement -= g(j) * defect.displacement;
+    correction.time -= g(j) * defect.time;
+  }
+}
+
+}  // namespace polargrain::fem

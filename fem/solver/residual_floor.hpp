@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <span>
+
+#include "common/response.hpp"
+#include "fem/solver/constraints.hpp"
+#include "fem/solver/discretisation.hpp"
+
+namespace polargrain::fem {
+
+/// What no iteration can remove from the unbalanced forces, as nodal vectors (3 a node) of absolute values.
+///
+/// Expected absolute value at each node of the forces that independent Gaussian errors of the stresses
+/// (Response::noise) leave: sqrt(2/pi) times the root of the sum of the variances. Empty when no stress has
+/// noise.
+Eigen::VectorXd forces_of_noise(const Discretisation& discretisation, Continuum continuum,
+                                std::span<const Response> responses);
+
+/// Bound of the forces that rounding leaves: the machine's precision times the absolute sum of all that is
+/// added up at a node, B^T (|s| + |D| |B| |u|) times volume, with the displacements `increment` of the step.
+Eigen::VectorXd forces_of_rounding(const Discretisation& discretisation, Continuum continuum,
+                                   std::span<const Response> responses, const Eigen::VectorXd& increment);
+
+}  // namespace polargrain::fem

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Stresses that carry noise, tangents that are not true, corrections that are absurd: what the solver makes
+// of them and how it says so. Pseudo-noise is a function of the increment, with a fixed seed.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <random>
+
+#include "fem/material/elastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/residual_floor.hpp"
+#include "fem/solver/solver.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+const TimeTable kZero = TimeTable::constant(0.0);
+const ElasticParameters kSand{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
+
+/// Seed of a sequence of random numbers: the bits of an increment.
+std::uint64_t bits_of(const Increment& increment) {
+  std::uint64_t hash = 1469598103934665603U;
+  const auto add = [&](double value) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211U;
+  };
+  for (const double value : increment.displacement_gradient.reshaped()) add(value);
+  add(increment.micro_rotation);
+  return hash;
+}
+
+/// Elastic, stiffening with strain; its stress carries noise and its tangent is wrong by a factor.
+struct GrainyLaw {
+  struct State {
+    Vector7 strain = Vector7::Zero();
+  };
+  double noise = 0.0;           ///< Pa
+  double tangent_factor = 1.0;  ///< reported over true
+  double nonlinearity = 0.0;
+  /// Beyond this compression (of e22) the tangent reported is a millionth of the true one.
+  double soft_beyond = HUGE_VAL;
+  double fails_beyond = HUGE_VAL;
+  double* largest_asked = nullptr;
+
+  State initial_state() const { return {}; }
+  Response integrate(const State& start, const Increment& increment, State& trial) const {
+    const Matrix7 stiffness = elastic_stiffness(kSand);
+    Response response;
+    const Vector7 strain = increment.strain();
+    trial.strain = start.strain + strain;
+    const double factor = 1.0 + nonlinearity * trial.strain.head<5>().squaredNorm();
+    const Vector7 elastic = stiffness * trial.strain;
+    response.stress = factor * elastic;
+    response.tangent = factor * stiffness;
+    response.tangent.leftCols<5>() += 2.0 * nonlinearity * elastic * trial.strain.head<5>().transpose();
+    response.tangent *= trial.strain(k22) < -soft_beyond ? 1e-6 : tangent_factor;
+    if (noise > 0.0 && !strain.isZero(0.0)) {
+      std::mt19937_64 generator(bits_of(increment));
+      std::normal_distribution<double> normal(0.0, noise);
+      response.stress(k11) += normal(generator);
+      response.stress(k22) += normal(generator);
+      const double shear = normal(generator);
+      response.stress(k12) += shear;
+      response.stress(k21) += shear;
+      response.noise.symmetric = noise;
+    }
+    const Eigen::Matrix2d& h = increment.displacement_gradient;
+    if (largest_asked != nullptr) {
+      *largest_asked = std::max(*largest_asked, (0.5 * (h + h.transpose())).norm());
+    }
+    if (strain.norm() > fails_beyond) {
+      response.quality = Quality::failed;
+      response.message = "too long a step";
+    }
+    return response;
+  }
+};
+
+std::shared_ptr<Material> grainy(const GrainyLaw& law) {
+  return std::make_shared<LocalMaterial<GrainyLaw>>(law);
+}
+
+/// Compression by 1 % of strain between rough plates.
+Problem block(const GrainyLaw& law) {
+  Problem problem;
+  problem.mesh = rectangle({{0.04, 0.08}, {3, 6}});
+  problem.materials["all"] = grainy(law);
+  problem.prescribed = {{"bottom", Dof::u1, kZero, {}},
+                        {"bottom", Dof::u2, kZero, {}},
+                        {"top", Dof::u1, kZero, {}},
+                        {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
+  return problem;
+}
+
+StepReport compress(const GrainyLaw& law, const SolverOptions& options) {
+  Solver solver(block(law), options);
+  EXPECT_TRUE(solver.equilibrate().converged);
+  return solver.advance(1.0);
+}
+
+TEST(noise, what_it_leaves_of_the_residual_is_foreseen) {
+  const Problem problem = block({});
+  for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
+    const Discretisation discretisation(problem.mesh, continuum);
+    std::vector<Response> responses(discretisation.points());
+    const StressNoise noise{100.0, 40.0, 0.3};
+    for (Response& response : responses) response.noise = noise;
+    const Eigen::VectorXd expected = forces_of_noise(discretisation, continuum, responses);
+    std::mt19937_64 generator(7);
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(expected.size());
+    constexpr int kSamples = 4000;
+    for (int sample = 0; sample < kSamples; ++sample) {
+      for (Response& response : responses) {
+        const double shear = noise.symmetric * normal(generator);
+        const double skew = noise.skew * normal(generator);
+        response.stress << noise.symmetric * normal(generator), noise.symmetric * normal(generator), 0.0,
+            shear - 0.5 * skew, shear + 0.5 * skew, noise.couple * normal(generator),
+            noise.couple * normal(generator);
+      }
+      mean += discretisation.internal_forces(responses).cwiseAbs() / kSamples;
+    }
+    for (Eigen::Index entry = 0; entry < mean.size(); ++entry) {
+      // The mean of |x| of 4000 samples scatters by 1.2 %: five times that.
+      EXPECT_NEAR(mean(entry), expected(entry), 0.06 * expected(entry)) << entry;
+    }
+  }
+}
+
+TEST(noise, a_step_within_the_noise_ends_there_and_says_so) {
+  const GrainyLaw law{.noise = 20.0};  // of stresses of 400 kPa
+  SolverOptions options;
+  options.force_tolerance = options.moment_tolerance = 1e-8;
+  options.most_cuts = 1;
+  const StepReport without = compress(law, options);
+  EXPECT_FALSE(without.converged);
+  EXPECT_NE(without.message.find("the noise of the stresses alone leaves about"), std::string::npos)
+      << without.message;
+
+  options.noise_factor = 2.0;
+  const StepReport report = compress(law, options);
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_EQ(report.cuts, 0);
+  EXPECT_EQ(report.within_noise, 1);
+  EXPECT_GT(report.force_residual, options.force_tolerance);
+  EXPECT_LE(report.force_residual, 2.0 * report.force_noise);
+  // One correction of a linear material, and perhaps another sample of the noise.
+  EXPECT_LE(report.iterations, 3);
+  std::cout << "[figure] noise of 5e-5 of the stress, tolerance 1e-8: without the noise's part stopped after "
+            << without.iterations << " iterations, with it " << report.iterations << " iterations, residual "
+            << report.force_residual << ", noise " << report.force_noise << '\n';
+}
+
+TEST(noise, a_step_within_its_tolerance_is_not_flagged) {
+  SolverOptions options;
+  options.force_tolerance = options.moment_tolerance = 1e-2;
+  options.noise_factor = 2.0;
+  const StepReport report = compress({.noise = 20.0}, options);
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_EQ(report.within_noise, 0);
+  EXPECT_GT(report.force_noise, 0.0);
+}
+
+TEST(rounding, ends_an_iteration_that_nothing_else_can_end) {
+  // Tolerances far below what double precision can balance.
+  SolverOptions options;
+  options.reference_force = 1e-12;
+  const StepReport report = compress({.nonlinearity = 2000.0}, options);
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_EQ(report.within_rounding, 1);
+  EXPECT_GT(report.force_residual, options.force_tolerance);
+  EXPECT_LT(report.force_residual * options.reference_force, 1e-12 * 40e6 * 0.01 * 0.04);
+}
+
+TEST(rounding, does_not_hide_a_wrong_balance) {
+  // A tangent of three times the stiffness converges slowly; cut off early it is far from rounding.
+  SolverOptions options;
+  options.most_iterations = 8;
+  options.most_cuts = 0;
+  EXPECT_FALSE(compress({.tangent_factor = 3.0, .nonlinearity = 2000.0}, options).converged);
+}
+
+struct Untrue {
+  double factor;
+  double noise;
+};
+
+class Acceleration : public testing::TestWithParam<Untrue> {};
+
+TEST_P(Acceleration, needs_fewer_iterations_where_the_tangent_is_not_true) {
+  const auto [factor, noise] = GetParam();
+  const GrainyLaw law{.noise = noise, .tangent_factor = factor, .nonlinearity = 2000.0};
+  SolverOptions options;
+  options.noise_factor = 2.0;
+  options.moment_tolerance = 1e-3;  // the noise is in the forces
+  options.most_cuts = 0;
+  options.most_line_search_halvings = 0;
+  options.most_iterations = 100;
+  const StepReport plain = compress(law, options);
+  options.acceleration_depth = 5;
+  const StepReport accelerated = compress(law, options);
+  std::cout << "[figure] tangent " << factor << " times the true one, noise " << noise
+            << " Pa: " << plain.iterations << (plain.converged ? "" : " (no balance)")
+            << " iterations, with acceleration " << accelerated.iterations << '\n';
+  ASSERT_TRUE(accelerated.converged) << accelerated.message;
+  EXPECT_LE(accelerated.force_residual,
+            std::max(options.force_tolerance, options.noise_factor * accelerated.force_noise));
+  // What it costs at least half of is not worth having; measured are ratios of 2.5 and more.
+  if (plain.converged) {
+    EXPECT_LT(2 * accelerated.iterations, plain.iterations);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tangents, Acceleration,
+                         testing::Values(Untrue{3.0, 0.0}, Untrue{3.0, 20.0}, Untrue{6.0, 20.0},
+                                         Untrue{0.45, 0.0}));
+
+TEST(acceleration, leaves_a_true_tangent_alone) {
+  SolverOptions options;
+  options.force_tolerance = options.moment_tolerance = 1e-12;
+  const StepReport plain = compress({.nonlinearity = 2000.0}, options);
+  options.acceleration_depth = 5;
+  const StepReport accelerated = compress({.nonlinearity = 2000.0}, options);
+  ASSERT_TRUE(plain.converged && accelerated.converged);
+  EXPECT_EQ(accelerated.iterations, plain.iterations);
+}
+
+TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_at_once) {
+  Problem problem = block({.fails_beyond = 0.003});
+  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
+                        {"bottom_left", Dof::u1, kZero, {}},
+                        {"top", Dof::u2, TimeTable::constant(-0.0008), {}}};
+  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)},
+                        {.on = "right", .pressure = TimeTable::constant(100e3)}};
+  Solver solver(std::move(problem), {});
+  const StepReport report = solver.equilibrate();
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_GE(report.cuts, 2);
+  EXPECT_GE(report.substeps, 4);
+  // Plane strain under lateral pressure: s22 = E/(1-nu^2) e22 - nu/(1-nu) p.
+  const double axial = 40e6 / (1 - 0.09) * -0.01 - 0.3 / 0.7 * 100e3;
+  EXPECT_NEAR(solver.reaction("top")(1) / (axial * 0.04), 1.0, 1e-8);  // the tolerance
+  // Loads and withheld forces together do the work of the stresses: a linear material makes that exact.
+  EXPECT_NEAR(solver.state().external_work / solver.state().internal_work, 1.0, 1e-8);
+  // Steps to come are not cut because the first one was.
+  EXPECT_EQ(solver.state().next_step, 0.0);
+}
+
+TEST(equilibrate, gives_up_with_a_reason) {
+  Problem problem = block({.fails_beyond = 1e-7});
+  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)}};
+  Solver solver(std::move(problem), {});
+  const StepReport report = solver.equilibrate();
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.message.find("too long a step"), std::string::npos) << report.message;
+}
+
+TEST(absurd_corrections, are_not_asked_of_the_material) {
+  double asked = 0.0;
+  const auto column = [&](SolverOptions options) {
+    Problem problem = block({.largest_asked = &asked});
+    problem.mesh = rectangle({{0.04, 0.08}, {1, 20}});
+    problem.mesh.regions["band"] = {10};
+    for (int e = 0; e < 20; ++e) {
+      if (e != 10) problem.mesh.regions["rest"].push_back(e);
+    }
+    problem.materials = {{"rest", grainy({.largest_asked = &asked})},
+                         {"band", grainy({.soft_beyond = 0.002, .largest_asked = &asked})}};
+    problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
+                          {"bottom_left", Dof::u1, kZero, {}},
+                          {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
+    Solver solver(std::move(problem), options);
+    EXPECT_TRUE(solver.equilibrate().converged);
+    EXPECT_TRUE(solver.advance(0.25).converged);
+    asked = 0.0;
+    return solver.advance(0.35);
+  };
+  SolverOptions options;
+  const StepReport free = column(options);  // the predictor puts all of the way into the band
+  EXPECT_GT(asked, 0.018);
+  EXPECT_EQ(free.limited, 0);
+  options.largest_strain = 0.01;
+  const StepReport limited = column(options);
+  ASSERT_TRUE(limited.converged) << limited.message;
+  EXPECT_LE(asked, 0.01);
+  EXPECT_GT(limited.limited, 0);
+  EXPECT_EQ(limited.cuts, 0);  // the step before, drawn on, is the answer here
+  EXPECT_EQ(limited.iterations, 1);
+}
+
+TEST(absurd_corrections, cut_the_step_when_there_is_no_other_way) {
+  double asked = 0.0;
+  SolverOptions options;
+  options.largest_strain = 0.004;
+  Solver solver(block({.largest_asked = &asked}), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);  // a strain of more than 0.01 at once
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_GE(report.cuts, 1);
+  EXPECT_GE(report.limited, 1);
+  EXPECT_LE(asked, 0.004);
+}
+
+TEST(rotations, that_nothing_resists_are_refused_before_the_first_iteration) {
+  ElasticParameters parameters = kSand;
+  parameters.cosserat_shear_modulus = 0.0;
+  const auto equilibrate = [&](bool fixed, double internal_length) {
+    parameters.internal_length = internal_length;
+    Problem problem = block({});
+    problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+    if (fixed) problem.prescribed.push_back({"bottom_left", Dof::w, kZero, {}});
+    Solver solver(std::move(problem), {});
+    StepReport report = solver.equilibrate();
+    if (report.converged) report = solver.advance(1.0);
+    return report;
+  };
+  const StepReport free = equilibrate(false, 3e-3);
+  EXPECT_FALSE(free.converged);
+  EXPECT_NE(free.message.find("nothing resists the micro-rotation"), std::string::npos) << free.message;
+  EXPECT_TRUE(equilibrate(true, 3e-3).converged);  // couple stresses hold the rest
+  EXPECT_FALSE(equilibrate(true, 0.0).converged);  // nothing joins the other nodes to the one that is held
+}
+
+}  // namespace
