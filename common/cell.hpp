@@ -92,6 +92,9 @@ class CellService {
   virtual CellReply initial() = 0;
   /// @throws RunError when the request cannot be served (a state of another definition, a broken increment).
   virtual CellReply evaluate(const CellRequest& request) = 0;
+
+  /// To be called now and then while the engine works, so that others know it is alive; may be empty.
+  std::function<void()> progress;
 };
 
 /// Makes the engine for a definition; the worker calls it once per definition it is sent.

@@ -80,6 +80,13 @@ void Progress::show(bool whole_line) {
   std::fflush(out_);
 }
 
+void Progress::warn(const std::string& text) {
+  if (style_ == Style::quiet) return;
+  clear();
+  fmt::print(out_, "warning: {}\n", text);
+  std::fflush(out_);
+}
+
 void Progress::clear() {
   if (style_ != Style::terminal) return;
   fmt::print(out_, "\r\033[K");

@@ -23,6 +23,8 @@ class Progress : public fem::Observer {
   void end_step(double time);
   void cells(std::size_t done, std::size_t total);
   void iterated(const fem::IterationReport& report) override;
+  /// Something the user should know that ends nothing; a line of its own.
+  void warn(const std::string& text);
   /// Wipes the renewing line, so that other text can follow.
   void clear();
 

@@ -87,6 +87,10 @@ class Run {
       PoolOptions options;
       options.workers = record_.workers;
       options.directory = directory_;
+      options.tell = [this](const std::string& text) {
+        log_.warn(text);
+        observer_.warn(text);
+      };
       pool_.emplace(options);
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());

@@ -10,21 +10,21 @@ namespace {
 
 constexpr std::streamoff kReadAtMost = 64 * 1024;
 
-std::vector<std::string> last_lines(const std::filesystem::path& log) {
+std::vector<std::string> last_lines(const std::filesystem::path& log, std::uintmax_t from) {
   std::ifstream in(log, std::ios::binary);
   in.seekg(0, std::ios::end);
   const std::streamoff size = in.tellg();
   std::vector<std::string> lines;
   if (!in || size < 0) return lines;
-  in.seekg(std::max<std::streamoff>(0, size - kReadAtMost));
+  in.seekg(std::max(static_cast<std::streamoff>(from), size - kReadAtMost));
   for (std::string line; std::getline(in, line);) {
     if (line.find_first_not_of(" \t\r") != std::string::npos) lines.push_back(line);
   }
   return lines;
 }
 
-/// The command of the user's script that was at work when the engine gave up: workers announce each command as
-/// "polargrain: FILE:LINE: COMMAND" and the end of the script as "polargrain: FILE: read to its end".
+/// The command of the user's script that was at work when the engine gave up: workers announce each command
+/// as "polargrain: FILE:LINE: COMMAND" and the end of the script as "polargrain: FILE: read to its end".
 std::string command_at_fault(const std::vector<std::string>& lines) {
   const std::string announcement = "polargrain: ";
   std::string command;
@@ -38,8 +38,8 @@ std::string command_at_fault(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-std::string log_excerpt(const std::filesystem::path& log, std::size_t most_lines) {
-  std::vector<std::string> lines = last_lines(log);
+std::string log_excerpt(const std::filesystem::path& log, std::uintmax_t from, std::size_t most_lines) {
+  std::vector<std::string> lines = last_lines(log, from);
   std::vector<std::string> errors;
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(errors),
                [](const std::string& line) { return line.find("ERROR") != std::string::npos; });

@@ -4,18 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <deque>
-#include <optional>
-#include <set>
-#include <zmq.hpp>
 
 #include "common/error.hpp"
-#include "coupler/pool/log_excerpt.hpp"
-#include "coupler/pool/private_directory.hpp"
-#include "coupler/pool/process.hpp"
-#include "coupler/pool/state_cache.hpp"
-#include "coupler/protocol/messages.hpp"
+#include "coupler/pool/crew.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -26,283 +18,317 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// How long workers may take to end by themselves after Stop; the engine has nothing left to save.
-constexpr int kStopMilliseconds = 500;
+Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+}
 
-struct Worker {
-  int number;
-  std::filesystem::path log;
-  Process process;
-  StateCache known;                        ///< names of the states it should still have
-  std::string address = {};                ///< its routing id; empty until it has said Hello
-  std::set<std::uint32_t> defined = {};    ///< definitions it was sent
-  std::optional<std::uint64_t> task = {};  ///< the task it works on
-  Clock::time_point sent = {};
-};
+/// Workers that a cell may end before it is taken to be the cell's fault: by an end of the engine's own
+/// making, and by one that came from outside, which the memory a cell takes may also bring about.
+constexpr int kMostEndsByWork = 2;
+constexpr int kMostEndsFromOutside = 10;
+
+/// How often the clocks of the workers are looked at.
+constexpr std::chrono::milliseconds kTick{500};
+
+/// A request without a sign of life is sent again so many times before its worker is given up for silent.
+constexpr double kResends = 10.0;
+constexpr double kHeartbeatsInSilence = 30.0;
 
 /// A request on its way: what to send, and where the reply goes.
 struct Task {
   std::uint32_t definition;
   const CellRequest* cell;  ///< null: the packing at rest
+  std::size_t point = 0;
   CellReply reply = {};
+  int ends_by_work = 0;
+  int ends_from_outside = 0;
 };
 
 std::string own_program() {
   return std::filesystem::read_symlink("/proc/self/exe").string();
 }
 
+CrewOptions crew_options(const PoolOptions& options) {
+  if (options.workers < 1 && !options.listening) throw RunError("a pool needs at least one worker");
+  CrewOptions crew;
+  crew.workers = options.workers;
+  crew.directory = options.directory;
+  crew.worker_command = options.worker_command;
+  if (crew.worker_command.empty()) crew.worker_command = {own_program(), "worker"};
+  crew.startup_seconds = options.startup_seconds;
+  crew.cache_bytes = options.cache_bytes;
+  crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;
+  crew.listening = options.listening;
+  crew.tell = options.tell;
+  return crew;
+}
+
 }  // namespace
 
-class Pool::Implementation {
+class Pool::Implementation final : private CrewEvents {
  public:
-  explicit Implementation(PoolOptions options) : options_(std::move(options)) {
-    if (options_.workers < 1) throw RunError("a pool needs at least one worker");
-    if (options_.worker_command.empty()) options_.worker_command = {own_program(), "worker"};
-    const std::string url = "ipc://" + (sockets_.path() / "coordinator").string();
-    router_.set(zmq::sockopt::linger, 0);
-    router_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
-    router_.bind(url);
-    start_workers(url);
-    await_hellos();
-  }
-
-  ~Implementation() {
-    for (Worker& worker : workers_) {
-      try {
-        if (!worker.address.empty()) send(worker, Stop{});
-      } catch (const std::exception&) {  // it is killed below
-      }
-    }
-    for (Worker& worker : workers_) worker.process.finish(worker.address.empty() ? 0 : kStopMilliseconds);
+  explicit Implementation(PoolOptions options)
+      : options_(std::move(options)), crew_(crew_options(options_), *this) {
+    crew_.start();
   }
 
   std::uint32_t define(CellDefinition definition) {
-    definitions_.push_back(std::move(definition));
+    definitions_.push_back({std::move(definition)});
     return static_cast<std::uint32_t>(definitions_.size() - 1);
   }
 
   void work(std::vector<Task>& tasks) {
     const Clock::time_point start = Clock::now();
     tasks_ = &tasks;
-    next_ = done_ = 0;
-    first_ = last_used_ + 1;
-    last_used_ += tasks.size();
-    for (Worker& worker : workers_) give_next(worker);
-    while (done_ < tasks.size()) listen(std::chrono::milliseconds(-1));
+    done_ = 0;
+    queue_.clear();
+    for (std::size_t t = 0; t < tasks.size(); ++t) queue_.push_back(t);
+    failure.reset();
+    for (Member& member : crew_.members()) give_next(member);
+    Clock::time_point last = start;
+    while (done_ < tasks.size()) {
+      crew_.listen(kTick);
+      const Clock::time_point now = Clock::now();
+      counts.member_seconds +=
+          static_cast<double>(crew_.members().size()) * std::chrono::duration<double>(now - last).count();
+      forgive(now - last - kTick);
+      last = now;
+      check_clocks();
+      if (progress) progress(done_, tasks.size());
+    }
     tasks_ = nullptr;
+    counts.bytes_sent = crew_.bytes_sent();
+    counts.bytes_received = crew_.bytes_received();
     counts.wall_seconds += seconds_since(start);
   }
 
-  void check(std::uint32_t definition) const {
-    if (definition >= definitions_.size())
-      throw RunError(fmt::format("no cell is defined as {}", definition));
+  const CellDefinition& definition(std::uint32_t number) const {
+    if (number >= definitions_.size()) throw RunError(fmt::format("no cell is defined as {}", number));
+    return definitions_[number].cell;
   }
 
   std::function<void(std::size_t, std::size_t)> progress;
   PoolCounts counts;
+  std::optional<CellFailure> failure;
   [[nodiscard]] int workers() const { return options_.workers; }
 
  private:
-  void start_workers(const std::string& url) {
-    const std::filesystem::path logs = options_.directory / "logs";
-    std::filesystem::create_directories(logs);
-    std::vector<std::string> command = options_.worker_command;
-    command.insert(command.end(), {"--connect", url});
-    for (int k = 1; k <= options_.workers; ++k) {
-      const std::filesystem::path log = logs / fmt::format("worker-{}.log", k);
-      std::filesystem::remove(log);
-      workers_.push_back({k, log, Process(command, log), StateCache(options_.cache_bytes)});
-    }
+  struct Definition {
+    CellDefinition cell;
+    double longest = 0.0;  ///< s, of the requests answered so far
+  };
+
+  // ---- what the crew tells
+
+  void joined(Member& member) override {
+    if (tasks_ != nullptr) give_next(member);
   }
 
-  void await_hellos() {
-    const auto all_here = [&] {
-      return std::all_of(workers_.begin(), workers_.end(),
-                         [](const Worker& w) { return !w.address.empty(); });
-    };
-    const Clock::time_point start = Clock::now();
-    while (!all_here()) {
-      const double left = options_.startup_seconds - seconds_since(start);
-      if (left <= 0.0) report_silence();
-      // Rounded up, so that the last wait does not become a loop of waits of no length.
-      listen(std::chrono::milliseconds(static_cast<int>(left * 1000.0) + 1));
-    }
-  }
-
-  [[noreturn]] void report_silence() const {
-    const auto silent =
-        std::find_if(workers_.begin(), workers_.end(), [](const Worker& w) { return w.address.empty(); });
-    throw RunError(fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
-                               silent->number, options_.startup_seconds, silent->log.string(),
-                               log_excerpt(silent->log)));
-  }
-
-  /// Waits for messages and deaths and handles what there is. Messages first: the last words of a worker
-  /// count.
-  void listen(std::chrono::milliseconds timeout) {
-    std::vector<zmq::pollitem_t> items{{router_.handle(), 0, ZMQ_POLLIN, 0}};
-    for (const Worker& worker : workers_) {
-      items.push_back({nullptr, worker.process.end_descriptor(), ZMQ_POLLIN, 0});
-    }
-    try {
-      zmq::poll(items, timeout);
-    } catch (const zmq::error_t& error) {
-      if (error.num() == EINTR) return;
-      throw RunError(fmt::format("waiting for the workers failed: {}", error.what()));
-    }
-    receive_all();
-    for (std::size_t w = 0; w < workers_.size(); ++w) {
-      if (items[w + 1].revents != 0) report_death(workers_[w]);
-    }
-  }
-
-  [[noreturn]] void report_death(Worker& worker) {
-    const std::string end = worker.process.end().value_or("unknown end");
-    std::string doing = worker.address.empty() ? " before it reported" : "";
-    if (worker.task) {
-      const std::uint32_t definition = (*tasks_)[*worker.task - first_].definition;
-      doing = fmt::format(" at work on a cell of material '{}' ({})", definitions_[definition].name,
-                          definitions_[definition].script_file);
-    }
-    throw RunError(fmt::format("worker {} died{}: {}; its log {} says:\n{}", worker.number, doing, end,
-                               worker.log.string(), log_excerpt(worker.log)));
-  }
-
-  void receive_all() {
-    for (;;) {
-      zmq::message_t address;
-      zmq::message_t bytes;
-      if (!router_.recv(address, zmq::recv_flags::dontwait)) return;
-      bool more = address.more();
-      if (more && router_.recv(bytes)) more = bytes.more();
-      while (more) {  // no worker of ours sends a third part; read it away to stay in step
-        zmq::message_t rest;
-        if (!router_.recv(rest)) break;
-        more = rest.more();
-      }
-      counts.bytes_received += static_cast<std::int64_t>(bytes.size());
-      receive(address.to_string(), {static_cast<const std::byte*>(bytes.data()), bytes.size()});
-    }
-  }
-
-  void receive(const std::string& address, std::span<const std::byte> bytes) {
-    const auto sender =
-        std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.address == address; });
-    try {
-      const Message message = decode(bytes);
-      if (sender == workers_.end()) {
-        greet(address, message);
-      } else {
-        answer(*sender, message);
-      }
-    } catch (const ProtocolError& error) {
-      const std::string who =
-          sender == workers_.end() ? "a process" : fmt::format("worker {}", sender->number);
-      throw RunError(fmt::format("{} sent what cannot be used: {}", who, error.what()));
-    }
-  }
-
-  void greet(const std::string& address, const Message& message) {
-    const auto* hello = std::get_if<Hello>(&message);
-    if (hello == nullptr) throw ProtocolError("its first message is not a hello");
-    const auto worker = std::find_if(workers_.begin(), workers_.end(),
-                                     [&](const Worker& w) { return w.process.id() == hello->process; });
-    if (worker == workers_.end()) throw ProtocolError("it is none of the workers that were started");
-    if (hello->version != kProtocolVersion) {
-      throw ProtocolError(
-          fmt::format("version {} of the messages instead of {}; is the program being replaced?",
-                      hello->version, kProtocolVersion));
-    }
-    worker->address = address;
-    if (tasks_ != nullptr) give_next(*worker);
-  }
-
-  void answer(Worker& worker, const Message& message) {
+  void said(Member& member, const Message& message) override {
     if (const auto* reply = std::get_if<Reply>(&message)) {
-      finish(worker, reply->request, reply->cell);
-    } else if (const auto* missing = std::get_if<MissingState>(&message)) {
-      const Task& task = current(worker, missing->request);
-      if (task.cell == nullptr || !task.cell->state)
-        throw ProtocolError("it misses a state that was not named");
-      worker.known.forget(task.cell->state->name());
-      give(worker, *worker.task);
+      if (is_at(member, reply->request)) finish(member, reply->cell);
+    } else if (const auto* working = std::get_if<Working>(&message)) {
+      if (!is_at(member, working->request)) return;
+      member.job->heard = Clock::now();
+      member.job->begun = true;
+    } else if (const auto* missing = std::get_if<Missing>(&message)) {
+      if (is_at(member, missing->request)) supply(member, missing->definition);
     } else if (const auto* refusal = std::get_if<Refusal>(&message)) {
-      const Task& task = current(worker, refusal->request);
-      throw RunError(fmt::format("worker {} refuses a cell of material '{}': {} (log: {})", worker.number,
-                                 definitions_[task.definition].name, refusal->message, worker.log.string()));
+      if (is_at(member, refusal->request)) refused(member, refusal->message);
     } else {
       throw ProtocolError("a message that is no answer");
     }
   }
 
-  Task& current(const Worker& worker, std::uint64_t request) {
-    if (!worker.task || *worker.task != request)
-      throw ProtocolError("an answer to something it was not asked");
-    return (*tasks_)[request - first_];
-  }
-
-  void finish(Worker& worker, std::uint64_t request, const CellReply& reply) {
-    current(worker, request).reply = reply;
-    worker.task.reset();
-    counts.evaluations += 1;
-    counts.dem_steps += reply.diagnostics.dem_steps;
-    counts.engine_seconds += reply.diagnostics.engine_seconds;
-    counts.busy_seconds += seconds_since(worker.sent);
-    if (reply.state) worker.known.note(reply.state->name(), reply.state->bytes().size());
-    ++done_;
-    // The next request goes out before anything else is done: a worker should not wait for the coordinator.
-    give_next(worker);
-    if (progress) progress(done_, tasks_->size());
-  }
-
-  void give_next(Worker& worker) {
-    if (!worker.address.empty() && next_ < tasks_->size()) give(worker, first_ + next_++);
-  }
-
-  void give(Worker& worker, std::uint64_t request) {
-    const Task& task = (*tasks_)[request - first_];
-    worker.task = request;
-    worker.sent = Clock::now();
-    if (worker.defined.insert(task.definition).second) {
-      send(worker, Define{task.definition, definitions_[task.definition]});
-    }
-    if (task.cell == nullptr) {
-      send(worker, InitialRequest{request, task.definition});
+  void lost(Member& member, const Loss& loss) override {
+    ++counts.workers_lost;
+    std::string text = member.name + ' ' + loss.how;
+    if (member.job) text += " at work on " + place_of((*tasks_)[member.job->task]);
+    text += ": " + loss.cause + loss.details;
+    if (!member.job) {
+      tell(text);
       return;
     }
-    EvaluateRequest message{request, task.definition, task.cell->state == nullptr,
-                            {},      nullptr,         task.cell->increment};
+    const std::size_t task = member.job->task;
+    // A connection that closes before the work began says nothing about the cell.
+    const bool counts_for_cell = !loss.from_outside || !member.address.remote || member.job->begun;
+    member.job.reset();
+    if (counts_for_cell) {
+      end_attempt(task, text, loss.from_outside);
+    } else {
+      again(task, text);
+    }
+  }
+
+  // ---- requests
+
+  /// Whether an answer is to what the member works on; others are late or doubled, and of no use.
+  static bool is_at(const Member& member, std::uint64_t request) {
+    return member.job && member.job->request == request;
+  }
+
+  std::string place_of(const Task& task) const {
+    const CellDefinition& cell = definitions_[task.definition].cell;
+    const std::string what = task.cell == nullptr ? "a cell" : fmt::format("point {}", task.point);
+    return fmt::format("{} of material '{}' ({})", what, cell.name, cell.script_file);
+  }
+
+  void give_next(Member& member) {
+    if (queue_.empty() || member.job) return;
+    const std::size_t task = queue_.front();
+    queue_.pop_front();
+    const Clock::time_point now = Clock::now();
+    member.job = Job{task, ++last_request_, now, now, now};
+    send_request(member);
+  }
+
+  /// With the definition and the bytes of the state where the worker is not known to have them.
+  void send_request(Member& member) {
+    const Task& task = (*tasks_)[member.job->task];
+    if (member.defined.insert(task.definition).second) {
+      crew_.send(member, Define{task.definition, definitions_[task.definition].cell});
+    }
+    if (task.cell == nullptr) {
+      crew_.send(member, InitialRequest{member.job->request, task.definition});
+      return;
+    }
+    EvaluateRequest message{member.job->request, task.definition, task.cell->state == nullptr, {}, nullptr,
+                            task.cell->increment};
     if (const StatePointer& state = task.cell->state) {
       message.base = state->name();
-      if (!worker.known.use(message.base)) {
+      if (!member.known.use(message.base)) {
         message.state = state;
-        worker.known.note(message.base, state->bytes().size());
+        member.known.note(message.base, state->bytes().size());
         ++counts.states_sent;
       }
     }
-    send(worker, message);
+    crew_.send(member, message);
   }
 
-  void send(const Worker& worker, const Message& message) {
-    const std::string bytes = encode(message);
-    router_.send(zmq::buffer(worker.address), zmq::send_flags::sndmore);
-    router_.send(zmq::buffer(bytes), zmq::send_flags::none);
-    counts.bytes_sent += static_cast<std::int64_t>(bytes.size());
+  void supply(Member& member, bool definition) {
+    const Task& task = (*tasks_)[member.job->task];
+    member.job->resent = member.job->heard = Clock::now();
+    if (definition) {
+      member.defined.erase(task.definition);
+    } else if (task.cell != nullptr && task.cell->state) {
+      member.known.forget(task.cell->state->name());
+    } else {
+      throw ProtocolError("it misses a state that was not named");
+    }
+    send_request(member);
+  }
+
+  void finish(Member& member, const CellReply& reply) {
+    Task& task = (*tasks_)[member.job->task];
+    const double busy = seconds_since(member.job->sent);
+    task.reply = reply;
+    member.job.reset();
+    crew_.praise(member);
+    counts.evaluations += 1;
+    counts.dem_steps += reply.diagnostics.dem_steps;
+    counts.engine_seconds += reply.diagnostics.engine_seconds;
+    counts.busy_seconds += busy;
+    double& longest = definitions_[task.definition].longest;
+    longest = std::max(longest, busy);
+    if (reply.state) member.known.note(reply.state->name(), reply.state->bytes().size());
+    complete(task);
+    // The next request goes out before anything else is done: a worker should not wait for the coordinator.
+    give_next(member);
+  }
+
+  void complete(const Task& task) {
+    ++done_;
+    if (task.reply.response.quality != Quality::failed || task.cell == nullptr) return;
+    const auto place = static_cast<std::size_t>(&task - tasks_->data());
+    if (failure && place > failed_task_)
+      return;  // the first in the order of the requests, whoever was faster
+    failed_task_ = place;
+    failure = CellFailure{task.definition, *task.cell, task.point, task.reply.response.message};
+  }
+
+  void refused(Member& member, const std::string& reason) {
+    const std::size_t task = member.job->task;
+    member.job.reset();
+    end_attempt(task, fmt::format("{} refuses {}: {}", member.name, place_of((*tasks_)[task]), reason),
+                false);
+    give_next(member);
+  }
+
+  /// Somebody could not carry a task to its end.
+  void end_attempt(std::size_t number, const std::string& text, bool from_outside) {
+    Task& task = (*tasks_)[number];
+    ++(from_outside ? task.ends_from_outside : task.ends_by_work);
+    if (task.ends_by_work < kMostEndsByWork && task.ends_from_outside < kMostEndsFromOutside) {
+      again(number, text);
+      return;
+    }
+    if (task.cell == nullptr) throw RunError(text);
+    tell(text + "\nno worker can answer it: the cell counts as failed");
+    task.reply.response.quality = Quality::failed;
+    task.reply.response.step_factor = 0.5;
+    task.reply.response.message = text;
+    complete(task);
+  }
+
+  void again(std::size_t task, const std::string& text) {
+    tell(text + (text.ends_with('\n') ? "" : "; ") + "its cell goes to another worker");
+    queue_.push_front(task);
+    for (Member& member : crew_.members()) give_next(member);
+  }
+
+  // ---- clocks
+
+  /// Time in which this process itself did not run (stopped, the machine asleep or overloaded) is nobody's
+  /// silence.
+  void forgive(Clock::duration excess) {
+    if (excess < std::chrono::seconds(1)) return;
+    for (Member& member : crew_.members()) {
+      if (!member.job) continue;
+      member.job->sent += excess;
+      member.job->heard += excess;
+      member.job->resent += excess;
+    }
+  }
+
+  void check_clocks() {
+    const PatienceLimits& patience = options_.patience;
+    std::vector<std::pair<Member*, std::string>> hung;
+    for (Member& member : crew_.members()) {
+      if (!member.job) continue;
+      const double silence = seconds_since(member.job->heard);
+      const double longest = definitions_[(*tasks_)[member.job->task].definition].longest;
+      const double limit = std::max(patience.cell_seconds, patience.times_longest * longest);
+      if (silence > patience.silence_seconds) {
+        hung.emplace_back(&member,
+                          fmt::format("it hangs: no sign of life for {:.3g} s", patience.silence_seconds));
+      } else if (seconds_since(member.job->sent) > limit) {
+        hung.emplace_back(&member,
+                          fmt::format("the cell takes longer than {:.3g} s; the longest before took {:.3g} s",
+                                      limit, longest));
+      } else if (silence > patience.silence_seconds / kResends &&
+                 Clock::now() - member.job->resent > seconds(patience.silence_seconds / kResends)) {
+        // Lost on its way, perhaps. A worker that has it already, or has answered it, knows the number.
+        member.job->resent = Clock::now();
+        send_request(member);
+      }
+    }
+    for (const auto& [member, cause] : hung) crew_.give_up(*member, cause);
+  }
+
+  void tell(const std::string& text) const {
+    if (options_.tell) options_.tell(text);
   }
 
   PoolOptions options_;
-  PrivateDirectory sockets_;
-  zmq::context_t context_;
-  zmq::socket_t router_{context_, zmq::socket_type::router};
-  std::deque<Worker> workers_;
-  std::vector<CellDefinition> definitions_;
+  std::vector<Definition> definitions_;
+  Crew crew_;
 
   // The batch at work. Request numbers run on from batch to batch, so that no late answer fits a new request.
   std::vector<Task>* tasks_ = nullptr;
-  std::uint64_t first_ = 1;
-  std::uint64_t last_used_ = 0;
-  std::size_t next_ = 0;
+  std::deque<std::size_t> queue_;
+  std::uint64_t last_request_ = 0;
   std::size_t done_ = 0;
+  std::size_t failed_task_ = 0;
 };
 
 Pool::Pool(PoolOptions options) : implementation_(std::make_unique<Implementation>(std::move(options))) {}
@@ -311,9 +337,12 @@ Pool::~Pool() = default;
 std::uint32_t Pool::define(CellDefinition definition) {
   return implementation_->define(std::move(definition));
 }
+const CellDefinition& Pool::definition(std::uint32_t number) const {
+  return implementation_->definition(number);
+}
 
 CellReply Pool::initial(std::uint32_t definition) {
-  implementation_->check(definition);
+  static_cast<void>(implementation_->definition(definition));
   std::vector<Task> tasks{{definition, nullptr}};
   implementation_->work(tasks);
   return std::move(tasks.front().reply);
@@ -323,14 +352,18 @@ std::vector<CellReply> Pool::evaluate(std::span<const PoolRequest> requests) {
   std::vector<Task> tasks;
   tasks.reserve(requests.size());
   for (const PoolRequest& request : requests) {
-    implementation_->check(request.definition);
-    tasks.push_back({request.definition, &request.cell});
+    static_cast<void>(implementation_->definition(request.definition));
+    tasks.push_back({request.definition, &request.cell, request.point});
   }
   implementation_->work(tasks);
   std::vector<CellReply> replies;
   replies.reserve(tasks.size());
   for (Task& task : tasks) replies.push_back(std::move(task.reply));
   return replies;
+}
+
+const std::optional<CellFailure>& Pool::last_failure() const {
+  return implementation_->failure;
 }
 
 void Pool::on_progress(std::function<void(std::size_t, std::size_t)> call) {

@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/cell.hpp"
+#include "coupler/pool/switchboard.hpp"
 #include "coupler/pool/worker.hpp"
 
 namespace polargrain::coupler {
 
+/// When a worker that does not answer is taken for hung.
+struct PatienceLimits {
+  /// A worker at work that has given no sign of life for so long is given up; alive, it says so thirty times
+  /// as often.
+  double silence_seconds = 30.0;
+  /// A cell may take so long even if its worker says all the while that it works ...
+  double cell_seconds = 600.0;
+  /// ... or this many times as long as the longest of its definition that was answered, whichever is more.
+  double times_longest = 20.0;
+};
+
 struct PoolOptions {
+  /// Local worker processes; may be 0 when `listening`.
   int workers = 1;
   /// Gets logs/worker-K.log, which take the workers' and their engines' whole output; made when missing.
   std::filesystem::path directory;
@@ -24,12 +37,26 @@ struct PoolOptions {
   double startup_seconds = 10.0;
   /// What a worker is taken to keep; see StateCache.
   std::size_t cache_bytes = kWorkerCacheBytes;
+  PatienceLimits patience;
+  /// Where workers of other machines may join and leave at any time.
+  std::optional<Listening> listening;
+  /// Gets a sentence about everything the user should know that ends nothing: a worker lost, a guest refused.
+  std::function<void(const std::string&)> tell;
 };
 
 /// One cell to evaluate: number from Pool::define, state and increment.
 struct PoolRequest {
   std::uint32_t definition = 0;
   CellRequest cell;
+  std::size_t point = 0;  ///< which point of its material it stands for, for messages
+};
+
+/// A cell that no worker could answer, or that answered that it failed.
+struct CellFailure {
+  std::uint32_t definition = 0;
+  CellRequest request;
+  std::size_t point = 0;
+  std::string reason;
 };
 
 /// What the cells have cost so far.
@@ -39,19 +66,26 @@ struct PoolCounts {
   std::int64_t states_sent = 0;  ///< states whose bytes had to travel to a worker
   std::int64_t bytes_sent = 0;
   std::int64_t bytes_received = 0;
+  std::int64_t workers_lost = 0;
   double engine_seconds = 0.0;  ///< inside the engines, summed over workers
   double busy_seconds = 0.0;    ///< from sending a request to its reply, summed over workers
   double wall_seconds = 0.0;    ///< spent by the coordinator in evaluate and initial
+  double member_seconds = 0.0;  ///< the same, times the workers there were
 };
 
-/// The coordinator's side of its workers: starts them, spreads cells over them as they become free, notices
-/// their death at once. What comes back does not depend on how many there are, nor on who took which cell.
+/// The coordinator's side of its workers: spreads cells over them as they become free, notices their death at
+/// once and their hanging by their silence. What comes back does not depend on how many there are, nor on who
+/// took which cell, nor on who died meanwhile.
+///
+/// A request whose worker is lost goes to another one, from the same state. When the work itself has ended
+/// two workers (engine error, crash, hanging, refusal), or ten were killed at it from outside, the cell is at
+/// fault: the reply is Quality::failed, with the last cause as its message and half the increment proposed.
 ///
 /// Order of calls: construct (starts the workers), define each material's cell, then any number of initial
 /// and evaluate. After an exception the pool can only be destroyed. One thread.
 ///
-/// @throws RunError when a worker dies (with the engine's own words and the name of the log), when it does
-/// not report in time, when it refuses a request or sends what is no message.
+/// @throws RunError when a program cannot be started as a worker, when a definition ends every worker that
+/// takes it (with the engine's own words and the name of the log), when no worker is left.
 class Pool {
  public:
   explicit Pool(PoolOptions options);
@@ -61,14 +95,19 @@ class Pool {
 
   /// Makes a cell known. @returns the number that requests name it by.
   std::uint32_t define(CellDefinition definition);
+  [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
   /// The packing of a definition at rest.
   CellReply initial(std::uint32_t definition);
   /// Evaluates all requests. @returns the replies in the order of the requests.
   std::vector<CellReply> evaluate(std::span<const PoolRequest> requests);
+  /// The first request of the last evaluate whose reply is Quality::failed.
+  [[nodiscard]] const std::optional<CellFailure>& last_failure() const;
 
-  /// Called after each reply of an evaluate with the cells done and the cells asked for.
+  /// Called after each reply of an evaluate, and twice a second while there is none, with the cells done and
+  /// the cells asked for.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> call);
   [[nodiscard]] const PoolCounts& counts() const;
+  /// Local workers, as asked for.
   [[nodiscard]] int workers() const;
 
  private:

@@ -73,7 +73,10 @@ Process::Process(const std::vector<std::string>& arguments, const std::filesyste
 }
 
 Process::Process(Process&& other) noexcept
-    : id_(other.id_), end_descriptor_(other.end_descriptor_), end_(std::move(other.end_)) {
+    : id_(other.id_),
+      end_descriptor_(other.end_descriptor_),
+      end_(std::move(other.end_)),
+      end_signal_(other.end_signal_) {
   other.id_ = -1;
   other.end_descriptor_ = -1;
 }
@@ -86,8 +89,13 @@ Process::~Process() {
 
 std::optional<std::string> Process::end() {
   int status = 0;
-  if (!end_ && waitpid(id_, &status, WNOHANG) == id_) end_ = described(status);
+  if (!end_ && waitpid(id_, &status, WNOHANG) == id_) note(status);
   return end_;
+}
+
+void Process::note(int status) {
+  end_ = described(status);
+  if (WIFSIGNALED(status)) end_signal_ = WTERMSIG(status);
 }
 
 void Process::finish(int milliseconds) {
@@ -97,7 +105,7 @@ void Process::finish(int milliseconds) {
   if (end()) return;
   kill(id_, SIGKILL);
   int status = 0;
-  if (waitpid(id_, &status, 0) == id_) end_ = described(status);
+  if (waitpid(id_, &status, 0) == id_) note(status);
 }
 
 }  // namespace polargrain::coupler

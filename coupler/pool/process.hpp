@@ -29,13 +29,18 @@ class Process {
 
   /// "exit status 1", "killed by signal 11 (Segmentation fault)"; nothing while it runs. Does not wait.
   std::optional<std::string> end();
+  /// The signal that ended it, once end() has told; nothing when it ended by itself.
+  [[nodiscard]] std::optional<int> end_signal() const { return end_signal_; }
   /// Waits so long for the end, then kills.
   void finish(int milliseconds);
 
  private:
+  void note(int status);
+
   pid_t id_ = -1;
   int end_descriptor_ = -1;
   std::optional<std::string> end_;
+  std::optional<int> end_signal_;
 };
 
 }  // namespace polargrain::coupler

@@ -4,99 +4,202 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdio>
 #include <map>
-#include <zmq.hpp>
 
 #include "common/error.hpp"
+#include "coupler/pool/connection.hpp"
 #include "coupler/pool/state_cache.hpp"
 #include "coupler/protocol/messages.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
-/// Turns each message received into the message to send back.
+using Clock = std::chrono::steady_clock;
+
+/// Time between two Hellos of a worker that nobody has welcomed yet.
+constexpr std::chrono::milliseconds kHelloPeriod{500};
+
+/// A worker that has heard nothing for so long says Hello again: its coordinator may have been replaced.
+constexpr std::chrono::seconds kSilence{10};
+
+/// Turns each message received into the message to send back. One session; see Welcome.
 class Desk {
  public:
-  Desk(const CellServiceFactory& make_service, std::size_t cache_bytes)
-      : make_service_(make_service), cache_(cache_bytes) {}
+  /// @param heartbeat called from inside the engine, with the number of the request at work
+  Desk(const CellServiceFactory& make_service, std::size_t cache_bytes,
+       std::function<void(std::uint64_t)> heartbeat)
+      : make_service_(make_service), heartbeat_(std::move(heartbeat)), cache_(cache_bytes) {}
 
-  /// @returns false when there is nothing to send back
-  bool answer(const Message& message, Message& reply) {
+  /// @returns the bytes to send back; none when the message asks for no answer.
+  std::optional<std::string> answer(const Message& message, std::uint64_t session) {
     if (const auto* define = std::get_if<Define>(&message)) {
+      if (definitions_.contains(define->definition)) return {};  // sent twice: numbers are never used again
       definitions_[define->definition] = define->cell;
-      services_.erase(define->definition);
-      return false;
+      return {};
     }
     if (const auto* initial = std::get_if<InitialRequest>(&message)) {
-      reply = served(*initial, [&](CellService& service) { return service.initial(); });
-      return true;
+      return served(*initial, session,
+                    [](CellService& service) -> Message { return service_reply(service.initial()); });
     }
     if (const auto* evaluate = std::get_if<EvaluateRequest>(&message)) {
-      reply = evaluated(*evaluate);
-      return true;
+      return served(*evaluate, session,
+                    [&](CellService& service) -> Message { return evaluated(*evaluate, service); });
     }
-    throw ProtocolError("a worker was sent a message that only workers send");
+    throw ProtocolError("a message that only workers send");
   }
 
  private:
-  Message evaluated(const EvaluateRequest& request) {
+  static Message service_reply(CellReply reply) { return Reply{0, std::move(reply)}; }
+
+  Message evaluated(const EvaluateRequest& request, CellService& service) {
     CellRequest cell{nullptr, request.increment};
     if (!request.from_packing) {
       if (request.state) cache_.keep(request.state);
       cell.state = request.state ? request.state : cache_.find(request.base);
-      if (!cell.state) return MissingState{request.request};
+      if (!cell.state) return Missing{request.request, false};
     }
-    return served(request, [&](CellService& service) { return service.evaluate(cell); });
+    return service_reply(service.evaluate(cell));
   }
 
   template <class Request, class Call>
-  Message served(const Request& request, const Call& call) {
+  std::optional<std::string> served(const Request& request, std::uint64_t session, const Call& call) {
+    // Requests are numbered upwards: one that comes again is answered again, an older one is a straggler.
+    if (request.request == last_served_) return last_answer_;
+    if (request.request < last_served_) return {};
+    if (!definitions_.contains(request.definition)) return encode(Missing{request.request, true}, session);
+    Message answer = Missing{request.request, false};
     try {
-      Reply reply{request.request, call(service(request.definition))};
-      if (reply.cell.state) cache_.keep(reply.cell.state);
-      return reply;
+      at_work_ = request.request;
+      answer = call(service(request.definition));
     } catch (const std::exception& error) {
-      return Refusal{request.request, error.what()};
+      answer = Refusal{request.request, error.what()};
     }
+    if (std::holds_alternative<Missing>(answer)) return encode(answer, session);
+    if (auto* reply = std::get_if<Reply>(&answer)) {
+      reply->request = request.request;
+      if (reply->cell.state) cache_.keep(reply->cell.state);
+    }
+    last_served_ = request.request;
+    last_answer_ = encode(answer, session);
+    return last_answer_;
   }
 
   CellService& service(std::uint32_t definition) {
-    const auto cell = definitions_.find(definition);
-    if (cell == definitions_.end())
-      throw RunError(fmt::format("no definition {} was sent before", definition));
     std::unique_ptr<CellService>& service = services_[definition];
-    if (!service) service = make_service_(cell->second);
+    if (!service) {
+      service = make_service_(definitions_.at(definition));
+      service->progress = [this] { heartbeat_(at_work_); };
+    }
     return *service;
   }
 
   const CellServiceFactory& make_service_;
+  std::function<void(std::uint64_t)> heartbeat_;
   StateCache cache_;
   std::map<std::uint32_t, CellDefinition> definitions_;
   std::map<std::uint32_t, std::unique_ptr<CellService>> services_;
+  std::uint64_t at_work_ = 0;
+  std::uint64_t last_served_ = 0;
+  std::string last_answer_;
 };
 
-void send(zmq::socket_t& socket, const Message& message) {
-  socket.send(zmq::buffer(encode(message)), zmq::send_flags::none);
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  std::string host = name.data();
+  std::erase_if(
+      host, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.'; });
+  return host;
 }
+
+/// One worker and its line.
+class Worker {
+ public:
+  Worker(const std::string& url, const CellServiceFactory& make_service, const ServeOptions& options)
+      : url_(url), make_service_(make_service), options_(options), connection_(url, options.key) {}
+
+  void work() {
+    send_hello();
+    for (;;) {
+      zmq::message_t bytes;
+      if (connection_.receive(bytes, kHelloPeriod)) {
+        heard_ = Clock::now();
+        if (!take({static_cast<const std::byte*>(bytes.data()), bytes.size()})) return;
+        continue;
+      }
+      if (connection_.refused()) {
+        throw RunError(
+            fmt::format("the coordinator at {} refuses this worker's key; add it to workers.allowed in "
+                        "the folder of its keys ('polargrain keys' does) and start the run again",
+                        url_));
+      }
+      if (connection_.lost_seconds() > options_.patience_seconds) give_up();
+      if (session_ == 0 || Clock::now() - heard_ > kSilence) send_hello();
+    }
+  }
+
+ private:
+  void send_hello() { connection_.send(encode(Hello{kProtocolVersion, getpid(), host_name()})); }
+
+  [[noreturn]] void give_up() const {
+    throw RunError(
+        fmt::format("no coordinator at {} for {:.0f} s{}", url_, options_.patience_seconds,
+                    connection_.met_a_stranger()
+                        ? "; somebody answers there who cannot prove to be the coordinator of the key "
+                          "file: make sure that both use keys from the same folder"
+                        : ""));
+  }
+
+  /// @returns false when it was told to stop
+  bool take(std::span<const std::byte> bytes) {
+    try {
+      const Envelope envelope = decode(bytes);
+      if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
+        begin_session(envelope.session, *welcome);
+        return true;
+      }
+      if (const auto* stop = std::get_if<Stop>(&envelope.message)) {
+        if (!stop->reason.empty()) throw RunError("the coordinator sends this worker away: " + stop->reason);
+        return false;
+      }
+      if (envelope.session != session_ || !desk_) return true;  // of another session: a straggler
+      const auto answer = desk_->answer(envelope.message, session_);
+      if (answer) connection_.send(*answer);
+    } catch (const ProtocolError& error) {
+      // As good as lost: the coordinator sends it again.
+      std::fprintf(stderr, "polargrain: a message that cannot be used: %s\n", error.what());
+    }
+    return true;
+  }
+
+  void begin_session(std::uint64_t session, const Welcome& welcome) {
+    if (session == session_) return;
+    session_ = session;
+    const auto period = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(std::min(welcome.heartbeat_seconds, 3600.0)));
+    desk_.emplace(make_service_, options_.cache_bytes, [this, period](std::uint64_t request) {
+      if (Clock::now() - beat_ < period) return;
+      beat_ = Clock::now();
+      connection_.send(encode(Working{request}, session_));
+    });
+  }
+
+  const std::string& url_;
+  const CellServiceFactory& make_service_;
+  const ServeOptions& options_;
+  Connection connection_;
+  std::uint64_t session_ = 0;
+  std::optional<Desk> desk_;
+  Clock::time_point heard_ = Clock::now();
+  Clock::time_point beat_ = Clock::now();
+};
 
 }  // namespace
 
-void serve(const std::string& url, const CellServiceFactory& make_service, std::size_t cache_bytes) try {
-  zmq::context_t context;
-  zmq::socket_t socket(context, zmq::socket_type::dealer);
-  // What is still unsent when a worker is told to stop is of no use to anybody.
-  socket.set(zmq::sockopt::linger, 0);
-  socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
-  socket.connect(url);
-  send(socket, Hello{kProtocolVersion, getpid()});
-  Desk desk(make_service, cache_bytes);
-  for (zmq::message_t bytes;;) {
-    if (!socket.recv(bytes)) continue;
-    const Message message = decode({static_cast<const std::byte*>(bytes.data()), bytes.size()});
-    if (std::holds_alternative<Stop>(message)) return;
-    Message reply = Stop{};
-    if (desk.answer(message, reply)) send(socket, reply);
-  }
+void serve(const std::string& url, const CellServiceFactory& make_service, const ServeOptions& options) try {
+  Worker(url, make_service, options).work();
 } catch (const zmq::error_t& error) {
   throw RunError(fmt::format("the connection to the coordinator at {} failed: {}", url, error.what()));
 }

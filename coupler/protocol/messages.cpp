@@ -216,36 +216,37 @@ CellDiagnostics read_diagnostics(const msgpack::object& object) {
 
 struct Encoder {
   std::size_t kind;
+  std::uint64_t session;
   std::string operator()(const Hello& m) const {
-    return begin().whole(m.version).whole_signed(m.process).finish();
+    return end(begin().whole(m.version).whole_signed(m.process).text(m.host));
   }
+  std::string operator()(const Stop& m) const { return end(begin().text(m.reason)); }
+  std::string operator()(const Welcome& m) const { return end(begin().numbers({&m.heartbeat_seconds, 1})); }
   std::string operator()(const Define& m) const {
-    return begin().whole(m.definition).part(write(m.cell)).finish();
+    return end(begin().whole(m.definition).part(write(m.cell)));
   }
   std::string operator()(const InitialRequest& m) const {
-    return begin().whole(m.request).whole(m.definition).finish();
+    return end(begin().whole(m.request).whole(m.definition));
   }
   std::string operator()(const EvaluateRequest& m) const {
-    return begin()
-        .whole(m.request)
-        .whole(m.definition)
-        .truth(m.from_packing)
-        .name(m.base)
-        .state(m.state)
-        .part(write(m.increment))
-        .finish();
+    return end(begin()
+                   .whole(m.request)
+                   .whole(m.definition)
+                   .truth(m.from_packing)
+                   .name(m.base)
+                   .state(m.state)
+                   .part(write(m.increment)));
   }
   std::string operator()(const Reply& m) const {
-    return begin()
-        .whole(m.request)
-        .part(write(m.cell.response))
-        .part(write(m.cell.diagnostics))
-        .state(m.cell.state)
-        .finish();
+    return end(begin()
+                   .whole(m.request)
+                   .part(write(m.cell.response))
+                   .part(write(m.cell.diagnostics))
+                   .state(m.cell.state));
   }
-  std::string operator()(const MissingState& m) const { return begin().whole(m.request).finish(); }
-  std::string operator()(const Refusal& m) const { return begin().whole(m.request).text(m.message).finish(); }
-  std::string operator()(const Stop&) const { return begin().finish(); }
+  std::string operator()(const Missing& m) const { return end(begin().whole(m.request).truth(m.definition)); }
+  std::string operator()(const Working& m) const { return end(begin().whole(m.request)); }
+  std::string operator()(const Refusal& m) const { return end(begin().whole(m.request).text(m.message)); }
 
  private:
   [[nodiscard]] ArrayWriter begin() const {
@@ -253,6 +254,8 @@ struct Encoder {
     writer.whole(kind);
     return writer;
   }
+  [[nodiscard]] std::string end(ArrayWriter& writer) const { return writer.whole(session).finish(); }
+  [[nodiscard]] std::string end(ArrayWriter&& writer) const { return end(writer); }
 };
 
 /// Place of a message type in Message: the number that stands for it on the wire.
@@ -289,12 +292,30 @@ Reply read_reply(ArrayReader& reader) {
   return m;
 }
 
-Message read_message(ArrayReader& reader) {
-  switch (reader.whole()) {
-    case kind_of<Hello>(): {
-      const std::uint32_t version = reader.whole32();
-      return Hello{version, reader.whole_signed()};
-    }
+/// A name that goes into messages to the user and into file names.
+std::string read_host(ArrayReader& reader) {
+  std::string host = reader.text();
+  if (host.size() > 255) throw ProtocolError("the name of a host has more than 255 characters");
+  for (const char c : host) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       c == '-' || c == '.' || c == '_';
+    if (!plain) throw ProtocolError("the name of a host has characters that no host name has");
+  }
+  return host;
+}
+
+Welcome read_welcome(ArrayReader& reader) {
+  const Welcome m{reader.finite_numbers(1)[0]};
+  if (!(m.heartbeat_seconds > 0.0)) throw ProtocolError("the time between two heartbeats is not positive");
+  return m;
+}
+
+Message read_message(ArrayReader& reader, std::uint64_t kind) {
+  switch (kind) {
+    case kind_of<Stop>():
+      return Stop{reader.text()};
+    case kind_of<Welcome>():
+      return read_welcome(reader);
     case kind_of<Define>(): {
       const std::uint32_t definition = reader.whole32();
       return Define{definition, read_definition(reader.part())};
@@ -307,14 +328,16 @@ Message read_message(ArrayReader& reader) {
       return read_evaluate(reader);
     case kind_of<Reply>():
       return read_reply(reader);
-    case kind_of<MissingState>():
-      return MissingState{reader.whole()};
+    case kind_of<Missing>(): {
+      const std::uint64_t request = reader.whole();
+      return Missing{request, reader.truth()};
+    }
+    case kind_of<Working>():
+      return Working{reader.whole()};
     case kind_of<Refusal>(): {
       const std::uint64_t request = reader.whole();
       return Refusal{request, reader.text()};
     }
-    case kind_of<Stop>():
-      return Stop{};
     default:
       throw ProtocolError("no such kind of message");
   }
@@ -322,11 +345,11 @@ Message read_message(ArrayReader& reader) {
 
 }  // namespace
 
-std::string encode(const Message& message) {
-  return std::visit(Encoder{message.index()}, message);
+std::string encode(const Message& message, std::uint64_t session) {
+  return std::visit(Encoder{message.index(), session}, message);
 }
 
-Message decode(std::span<const std::byte> bytes) {
+Envelope decode(std::span<const std::byte> bytes) {
   const msgpack::unpack_limit limits(kMostMembers, 0, kLongestText, kLongestMessage, 0, kDeepest);
   msgpack::object_handle handle;
   std::size_t end = 0;
@@ -339,9 +362,20 @@ Message decode(std::span<const std::byte> bytes) {
   }
   if (end != bytes.size()) throw ProtocolError("bytes follow the end of a message");
   ArrayReader reader(handle.get(), "a message");
-  Message message = read_message(reader);
+  const std::uint64_t kind = reader.whole();
+  Envelope envelope;
+  if (kind == kind_of<Hello>()) {
+    Hello hello{reader.whole32()};
+    if (hello.version != kProtocolVersion) return {0, hello};
+    hello.process = reader.whole_signed();
+    hello.host = read_host(reader);
+    envelope.message = hello;
+  } else {
+    envelope.message = read_message(reader, kind);
+  }
+  envelope.session = reader.whole();
   reader.end();
-  return message;
+  return envelope;
 }
 
 }  // namespace polargrain::coupler

@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 3;
+inline constexpr std::uint32_t kProtocolVersion = 4;
 
 /// No message is longer; longer ones are refused before they are read.
 inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
@@ -22,10 +22,21 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Worker to coordinator, once, as its first message.
+/// Worker to coordinator, again and again until it is welcomed, and whenever it has heard nothing for long.
 struct Hello {
   std::uint32_t version = kProtocolVersion;
   std::int64_t process = 0;  ///< process id of the worker on its machine
+  std::string host = {};     ///< name of that machine, for messages to the user
+};
+
+/// Coordinator to worker: end, and why when it is not the end of the run.
+struct Stop {
+  std::string reason = {};
+};
+
+/// Coordinator to worker: its Hello was accepted. Whatever the worker keeps from another session is void.
+struct Welcome {
+  double heartbeat_seconds = 1.0;  ///< while it works the worker says Working at least so often
 };
 
 /// Coordinator to worker: what the cells numbered `definition` are. Sent before their first request.
@@ -56,8 +67,14 @@ struct Reply {
   CellReply cell;
 };
 
-/// Worker to coordinator: the worker's cache lacks the state a request starts from; send it with its bytes.
-struct MissingState {
+/// Worker to coordinator: a request cannot be served before what it names is sent (again).
+struct Missing {
+  std::uint64_t request = 0;
+  bool definition = false;  ///< its Define is missing; else the bytes of the state it starts from
+};
+
+/// Worker to coordinator, from inside the engine: the request is being worked on.
+struct Working {
   std::uint64_t request = 0;
 };
 
@@ -67,17 +84,25 @@ struct Refusal {
   std::string message;
 };
 
-/// Coordinator to worker: end.
-struct Stop {};
+/// Hello and Stop keep their places and their first members for ever: they are what versions say to each
+/// other.
+using Message = std::variant<Hello, Stop, Welcome, Define, InitialRequest, EvaluateRequest, Reply, Missing,
+                             Working, Refusal>;
 
-using Message =
-    std::variant<Hello, Define, InitialRequest, EvaluateRequest, Reply, MissingState, Refusal, Stop>;
+/// A message and the session it belongs to: a number that each coordinator draws for itself, so that nothing
+/// meant for another run, or recorded from one, is taken for an answer. 0 in a Hello, which comes before any
+/// session.
+struct Envelope {
+  std::uint64_t session = 0;
+  Message message;
+};
 
-/// @returns the message as msgpack: an array of its kind (its place in Message) and its members.
-std::string encode(const Message& message);
+/// @returns the message as msgpack: an array of its kind (its place in Message), its members and the session.
+std::string encode(const Message& message, std::uint64_t session = 0);
 
-/// Takes nothing on trust: kinds, counts, lengths, finite numbers, and that a state's bytes have its name.
+/// Takes nothing on trust: kinds, counts, lengths, finite numbers, and that a state's bytes have its name. Of
+/// a Hello of another version only that version is read.
 /// @throws ProtocolError saying what is wrong
-Message decode(std::span<const std::byte> bytes);
+Envelope decode(std::span<const std::byte> bytes);
 
 }  // namespace polargrain::coupler

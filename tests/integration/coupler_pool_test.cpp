@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "coupler/pool/pool.hpp"
 #include "tests/integration/fake_engine.hpp"
+#include "tests/support/processes.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -157,27 +158,50 @@ TEST_F(PoolTest, AFailedCellIsAnAnswer) {
   EXPECT_EQ(replies[1].state, nullptr);
 }
 
-TEST_F(PoolTest, AnEngineErrorEndsTheRunInTheEnginesWords) {
+TEST_F(PoolTest, ACellThatEndsTwoWorkersHasFailedInTheEnginesWords) {
   Pool pool(options(1));
   pool.define(testing::fake_definition("die_beyond 0.1"));
   std::vector<PoolRequest> requests = random_requests(3);
   requests[1].cell.increment.displacement_gradient(0, 0) = 0.2;
-  EXPECT_EQ(message_of([&] { pool.evaluate(requests); }),
-            "worker 1 died at work on a cell of material 'sand' (fake.in): exit status 1; its log " + log(1) +
-                " says:\nERROR: Lost atoms: original 400 current 399 (../thermo.cpp:396)\n");
+  requests[1].point = 17;
+  const std::vector<CellReply> replies = pool.evaluate(requests);
+  EXPECT_EQ(replies[0].response.quality, Quality::good);
+  EXPECT_EQ(replies[2].response.quality, Quality::good);
+  EXPECT_EQ(replies[1].response.quality, Quality::failed);
+  EXPECT_EQ(replies[1].response.step_factor, 0.5);
+  EXPECT_EQ(replies[1].response.message,
+            "worker 1 died at work on point 17 of material 'sand' (fake.in): exit status 1; its log " +
+                log(1) + " says:\nERROR: Lost atoms: original 400 current 399 (../thermo.cpp:396)\n");
+  EXPECT_EQ(pool.counts().workers_lost, 2);
+  ASSERT_TRUE(pool.last_failure());
+  EXPECT_EQ(pool.last_failure()->point, 17u);
+  EXPECT_EQ(pool.last_failure()->request.increment.displacement_gradient(0, 0), 0.2);
 }
 
-TEST_F(PoolTest, AKilledWorkerIsNoticed) {
-  Pool pool(options(1));
+TEST_F(PoolTest, ADefinitionThatEndsEveryWorkerIsTheUsersError) {
+  Pool pool(options(2));
+  const std::uint32_t sand = pool.define(testing::fake_definition("pear_style gran"));
+  const std::string message = message_of([&] { pool.initial(sand); });
+  EXPECT_NE(message.find("died at work on a cell of material 'sand' (fake.in): exit status 1"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("ERROR: Unknown command: pear_style (../input.cpp:209)"), std::string::npos)
+      << message;
+}
+
+TEST_F(PoolTest, AKilledWorkerIsReplacedAndToldOnce) {
+  PoolOptions quiet = options(1);
+  std::vector<std::string> told;
+  quiet.tell = [&](const std::string& text) { told.push_back(text); };
+  Pool pool(quiet);
   pool.define(testing::fake_definition(""));
-  const std::vector<CellReply> first = pool.evaluate(random_requests(1));
-  // Its process id is the only child of this process.
-  std::ifstream children("/proc/self/task/" + std::to_string(gettid()) + "/children");
-  pid_t child = 0;
-  ASSERT_TRUE(children >> child);
-  ASSERT_EQ(kill(child, SIGKILL), 0);
-  const std::string message = message_of([&] { pool.evaluate(random_requests(1)); });
-  EXPECT_NE(message.find("killed by signal 9 (Killed)"), std::string::npos) << message;
+  const std::vector<CellReply> first = pool.evaluate(random_requests(5));
+  ASSERT_EQ(kill(testing::children_of(getpid()).at(0), SIGKILL), 0);
+  const std::vector<CellReply> second = pool.evaluate(random_requests(5));
+  for (std::size_t r = 0; r < 5; ++r) EXPECT_TRUE(same_bits(first[r], second[r])) << r;
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find("worker 1 died"), 0u) << told[0];
+  EXPECT_NE(told[0].find("killed by signal 9 (Killed)"), std::string::npos) << told[0];
 }
 
 TEST_F(PoolTest, ARefusalNamesMaterialAndReason) {
@@ -185,9 +209,77 @@ TEST_F(PoolTest, ARefusalNamesMaterialAndReason) {
   pool.define(testing::fake_definition("refuse_beyond 0.1"));
   std::vector<PoolRequest> requests = random_requests(1);
   requests[0].cell.increment.displacement_gradient(0, 0) = 0.2;
-  EXPECT_EQ(
-      message_of([&] { pool.evaluate(requests); }),
-      "worker 1 refuses a cell of material 'sand': the increment is not to my liking (log: " + log(1) + ")");
+  const std::vector<CellReply> replies = pool.evaluate(requests);
+  EXPECT_EQ(replies[0].response.quality, Quality::failed);
+  EXPECT_EQ(replies[0].response.message,
+            "worker 1 refuses point 0 of material 'sand' (fake.in): the increment is not to my liking");
+}
+
+TEST_F(PoolTest, AHungWorkerIsReplaced) {
+  PoolOptions impatient = options(2);
+  impatient.patience.silence_seconds = 0.5;
+  std::vector<std::string> told;
+  impatient.tell = [&](const std::string& text) { told.push_back(text); };
+  Pool pool(impatient);
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> first = pool.evaluate(random_requests(20));
+  ASSERT_EQ(kill(testing::children_of(getpid()).at(0), SIGSTOP), 0);
+  const std::vector<CellReply> second = pool.evaluate(random_requests(20));
+  for (std::size_t r = 0; r < 20; ++r) EXPECT_TRUE(same_bits(first[r], second[r])) << r;
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("it hangs: no sign of life for 0.5 s"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("of material 'sand'"), std::string::npos) << told[0];
+}
+
+TEST_F(PoolTest, ACellThatHangsTwoWorkersHasFailed) {
+  PoolOptions impatient = options(2);
+  impatient.patience.silence_seconds = 0.3;
+  Pool pool(impatient);
+  pool.define(testing::fake_definition("hang_beyond 0.1"));
+  std::vector<PoolRequest> requests = random_requests(4);
+  requests[0].cell.increment.displacement_gradient(0, 0) = 0.2;
+  const std::vector<CellReply> replies = pool.evaluate(requests);
+  EXPECT_EQ(replies[0].response.quality, Quality::failed);
+  EXPECT_NE(replies[0].response.message.find("it hangs"), std::string::npos) << replies[0].response.message;
+  for (std::size_t r = 1; r < 4; ++r) EXPECT_EQ(replies[r].response.quality, Quality::good);
+}
+
+TEST_F(PoolTest, ALongCellThatShowsLifeIsNoHang) {
+  PoolOptions impatient = options(1);
+  impatient.patience.silence_seconds = 0.3;
+  Pool pool(impatient);
+  pool.define(testing::fake_definition("sleep_milliseconds 1500"));
+  EXPECT_EQ(pool.evaluate(random_requests(1))[0].response.quality, Quality::good);
+  EXPECT_EQ(pool.counts().workers_lost, 0);
+}
+
+TEST_F(PoolTest, ACellThatNeverEndsIsGivenUpDespiteItsHeartbeats) {
+  PoolOptions impatient = options(1);
+  impatient.patience.cell_seconds = 0.5;
+  Pool pool(impatient);
+  pool.define(testing::fake_definition("sleep_milliseconds 60000"));
+  const std::vector<CellReply> replies = pool.evaluate(random_requests(1));
+  EXPECT_EQ(replies[0].response.quality, Quality::failed);
+  EXPECT_NE(replies[0].response.message.find("the cell takes longer than 0.5 s"), std::string::npos)
+      << replies[0].response.message;
+}
+
+TEST_F(PoolTest, WhenNoWorkerCanBeStartedAnyMoreTheRunEnds) {
+  // A program that works once and is replaced by one that does not start.
+  const std::filesystem::path program = directory_ / "worker";
+  std::filesystem::create_symlink(FAKE_WORKER, program);
+  PoolOptions fragile = options(1);
+  fragile.worker_command = {program.string()};
+  Pool pool(fragile);
+  pool.define(testing::fake_definition(""));
+  pool.evaluate(random_requests(1));
+  std::filesystem::remove(program);
+  ASSERT_EQ(kill(testing::children_of(getpid()).at(0), SIGKILL), 0);
+  const std::string message = message_of([&] { pool.evaluate(random_requests(1)); });
+  EXPECT_EQ(message.find("no worker is left: each was started several times; the last: worker 1 died before"),
+            0u)
+      << message;
+  EXPECT_NE(message.find("cannot execute"), std::string::npos) << message;
 }
 
 TEST_F(PoolTest, AProgramThatCannotStartIsReported) {
@@ -213,9 +305,7 @@ TEST_F(PoolTest, NothingIsLeftBehind) {
     pool.define(testing::fake_definition(""));
     pool.evaluate(random_requests(3));
   }
-  std::ifstream children("/proc/self/task/" + std::to_string(gettid()) + "/children");
-  pid_t child = 0;
-  EXPECT_FALSE(children >> child) << "process " << child << " is still there";
+  EXPECT_TRUE(testing::children_of(getpid()).empty());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/integration/fake_engine.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +43,7 @@ class FakeEngine : public CellService {
     std::string command;
     while (script >> command) {
       if (command != "young" && command != "fail_beyond" && command != "die_beyond" &&
-          command != "refuse_beyond" && command != "sleep_milliseconds") {
+          command != "refuse_beyond" && command != "hang_beyond" && command != "sleep_milliseconds") {
         die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
       }
       script >> settings_[command];
@@ -52,13 +54,13 @@ class FakeEngine : public CellService {
   CellReply initial() override { return reply({kConfining, kConfining, kConfining, 0.0, 0.0}, 0.0); }
 
   CellReply evaluate(const CellRequest& request) override {
-    if (settings_.count("sleep_milliseconds") != 0) {
-      std::this_thread::sleep_for(
-          std::chrono::milliseconds(static_cast<int>(settings_["sleep_milliseconds"])));
-    }
+    if (settings_.count("sleep_milliseconds") != 0) sleep(static_cast<int>(settings_["sleep_milliseconds"]));
     const double largest = request.increment.displacement_gradient.cwiseAbs().maxCoeff();
     if (beyond("die_beyond", largest))
       die_like_the_engine("Lost atoms: original 400 current 399 (../thermo.cpp:396)");
+    if (beyond("hang_beyond", largest)) {
+      for (;;) pause();
+    }
     if (beyond("refuse_beyond", largest)) throw RunError("the increment is not to my liking");
     std::array<double, 6> start{kConfining, kConfining, kConfining, 0.0, 0.0, 0.0};
     if (request.state) {
@@ -79,6 +81,14 @@ class FakeEngine : public CellService {
   }
 
  private:
+  /// As an engine at work: it shows now and then that it lives.
+  void sleep(int milliseconds) const {
+    for (; milliseconds > 0; milliseconds -= 10) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(std::min(milliseconds, 10)));
+      if (progress) progress();
+    }
+  }
+
   [[nodiscard]] bool beyond(const std::string& setting, double value) const {
     const auto limit = settings_.find(setting);
     return limit != settings_.end() && value > limit->second;

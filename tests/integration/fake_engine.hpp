@@ -10,10 +10,11 @@ namespace polargrain::testing {
 /// known in closed form, around an initial stress of -100 kPa. Behaves as its script says, one command a
 /// line:
 ///
-///     young E            Young's modulus in Pa (Poisson's ratio is 0.25); 100e6 without this line
-///     fail_beyond e      answers Quality::failed with step factor 0.5 when an entry of the increment exceeds
-///     e die_beyond e       prints what LIGGGHTS prints when grains are lost, and ends the process with
-///     status 1 refuse_beyond e    throws
+///     young E                Young's modulus in Pa (Poisson's ratio is 0.25); 100e6 without this line
+///     sleep_milliseconds n   takes so long for an evaluation, with signs of life
+///     fail_beyond e          answers Quality::failed with step factor 0.5 when an entry of the increment
+///     exceeds e die_beyond e           then prints what LIGGGHTS prints when grains are lost, and ends the
+///     process hang_beyond e          then hangs for ever refuse_beyond e        then throws
 ///
 /// An unknown command ends the process as LIGGGHTS does.
 std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition);

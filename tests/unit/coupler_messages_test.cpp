@@ -19,7 +19,7 @@ std::span<const std::byte> view(const std::string& bytes) {
 template <class T>
 T round_trip(const T& message) {
   const std::string bytes = encode(message);
-  return std::get<T>(decode(view(bytes)));
+  return std::get<T>(decode(view(bytes)).message);
 }
 
 StatePointer some_state(std::size_t size) {
@@ -115,9 +115,23 @@ TEST(Messages, ADefinitionTravelsWhole) {
 TEST(Messages, TheSmallOnesTravelToo) {
   EXPECT_EQ(round_trip(Hello{kProtocolVersion, 4711}).process, 4711);
   EXPECT_EQ(round_trip(InitialRequest{9, 2}).definition, 2u);
-  EXPECT_EQ(round_trip(MissingState{9}).request, 9u);
+  EXPECT_EQ(round_trip(Missing{9, true}).definition, true);
   EXPECT_EQ(round_trip(Refusal{9, "no"}).message, "no");
   round_trip(Stop{});
+}
+
+std::string error_of(const std::string& bytes);
+
+TEST(Messages, TheSessionTravels) {
+  EXPECT_EQ(decode(view(encode(Working{3}, 77))).session, 77u);
+}
+
+TEST(Messages, OfAnotherVersionsHelloOnlyTheVersionIsRead) {
+  // Version 2 said [0, version, process]; whatever follows the version may change.
+  const Envelope old = decode(view(std::string("\x93\x00\x02\xcd\x12\x67", 6)));
+  EXPECT_EQ(std::get<Hello>(old.message).version, 2u);
+  EXPECT_EQ(error_of(encode(Hello{kProtocolVersion, 1, "a b"})),
+            "the name of a host has characters that no host name has");
 }
 
 std::string error_of(const std::string& bytes) {
@@ -163,7 +177,8 @@ TEST(Messages, RefusesWrongShapes) {
   EXPECT_EQ(error_of("\x05"), "a message is not an array");
   EXPECT_EQ(error_of("\x91\x63"), "no such kind of message");
   EXPECT_EQ(error_of(encode(Stop{}) + "x"), "bytes follow the end of a message");
-  EXPECT_EQ(error_of(std::string("\x92\x07\x01", 3)), "a message has 2 members, 1 expected");
+  EXPECT_EQ(error_of(std::string("\x94\x08\x01\x00\x00", 5)), "a message has 4 members, 3 expected");
+  EXPECT_EQ(error_of(std::string("\x92\x08\x01", 3)), "a message ends after 2 members");
   // An array that claims 2^32-1 members: refused for its claim, without reserving memory.
   EXPECT_NE(error_of("\xdd\xff\xff\xff\xff").find("not a message"), std::string::npos);
 }

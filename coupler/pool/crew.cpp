@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/pool/crew.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <random>
+
+#include "common/error.hpp"
+#include "coupler/pool/log_excerpt.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// How long workers may take to end by themselves after Stop; the engine has nothing left to save.
+constexpr int kStopMilliseconds = 500;
+
+/// Ends of one local worker in a row without any work done, after which its place stays empty.
+constexpr int kMostFruitless = 5;
+
+/// Messages in a row that make no sense, after which a worker is given up.
+constexpr int kMostUnreadable = 3;
+
+constexpr std::chrono::seconds kPingPeriod{1};
+
+std::uint64_t new_session() {
+  std::random_device device;
+  const std::uint64_t high = device();
+  return (high << 32 | device()) | 1U;  // never 0
+}
+
+bool killed_from_outside(std::optional<int> signal) {
+  return signal && (*signal == SIGKILL || *signal == SIGTERM || *signal == SIGINT || *signal == SIGHUP);
+}
+
+}  // namespace
+
+Crew::Crew(CrewOptions options, CrewEvents& events)
+    : options_(std::move(options)),
+      events_(events),
+      session_(new_session()),
+      switchboard_(sockets_.path(), options_.listening, [this](const std::string& text) { say(text); }) {}
+
+Crew::~Crew() {
+  for (Member& member : members_) {
+    try {
+      switchboard_.send(member.address, encode(Stop{}, session_));
+    } catch (const std::exception&) {  // it is killed below, or finds the connection closed
+    }
+  }
+  for (Seat& seat : seats_) {
+    if (seat.process) seat.process->finish(seat.address.id.empty() ? 0 : kStopMilliseconds);
+  }
+}
+
+void Crew::start() {
+  std::filesystem::create_directories(options_.directory / "logs");
+  for (int k = 1; k <= options_.workers; ++k) {
+    Seat& seat = seats_.emplace_back();
+    seat.number = k;
+    seat.log = options_.directory / "logs" / fmt::format("worker-{}.log", k);
+    std::filesystem::remove(seat.log);
+    fill(seat);
+  }
+  const auto absent = [](const Seat& seat) { return seat.address.id.empty(); };
+  while (std::any_of(seats_.begin(), seats_.end(), absent)) listen(std::chrono::milliseconds(100));
+  starting_ = false;
+}
+
+void Crew::fill(Seat& seat) {
+  std::vector<std::string> command = options_.worker_command;
+  command.insert(command.end(), {"--connect", switchboard_.local_url()});
+  std::error_code none;
+  seat.log_start = std::filesystem::exists(seat.log, none) ? std::filesystem::file_size(seat.log, none) : 0;
+  seat.started = Clock::now();
+  seat.address = {};
+  seat.process.emplace(command, seat.log);
+}
+
+void Crew::listen(std::chrono::milliseconds timeout) {
+  watch_seats();
+  ping_guests();
+  std::vector<int> descriptors;
+  std::vector<Seat*> seats;
+  for (Seat& seat : seats_) {
+    if (!seat.process) continue;
+    descriptors.push_back(seat.process->end_descriptor());
+    seats.push_back(&seat);
+  }
+  const std::vector<std::size_t> ended = switchboard_.wait(descriptors, timeout);
+  // Messages first: the last words of a worker count.
+  receive_all();
+  for (const std::size_t e : ended) handle_end(*seats[e]);
+  while (!unreachable_.empty()) {
+    const Address address = *unreachable_.begin();
+    unreachable_.erase(unreachable_.begin());
+    // The end of a process of our own is reported with its cause, by its descriptor.
+    if (address.remote) remove(address, {"left", "its connection is closed", "", true});
+  }
+}
+
+void Crew::watch_seats() {
+  const Clock::time_point now = Clock::now();
+  bool any = options_.listening.has_value();
+  for (Seat& seat : seats_) {
+    if (!seat.process && seat.fruitless < kMostFruitless && now >= seat.due) fill(seat);
+    any = any || seat.process || seat.fruitless < kMostFruitless;
+    if (!seat.process || !seat.address.id.empty()) continue;
+    const double waited = std::chrono::duration<double>(now - seat.started).count();
+    if (waited < options_.startup_seconds) continue;
+    last_end_ = fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
+                            seat.number, options_.startup_seconds, seat.log.string(),
+                            log_excerpt(seat.log, seat.log_start));
+    if (starting_) throw RunError(last_end_);
+    seat.process->finish(0);  // its end is noticed like any other
+  }
+  if (!any) throw RunError("no worker is left: each was started several times; the last: " + last_end_);
+}
+
+void Crew::handle_end(Seat& seat) {
+  if (!seat.process || !seat.process->end()) return;  // given up in the meantime
+  const std::string end = seat.process->end().value_or("unknown end");
+  const bool outside = killed_from_outside(seat.process->end_signal());
+  const Loss loss{
+      "died", end,
+      fmt::format("; its log {} says:\n{}", seat.log.string(), log_excerpt(seat.log, seat.log_start)),
+      outside};
+  const Address address = seat.address;
+  Member* member = address.id.empty() ? nullptr : member_at(address);
+  const bool idle = member == nullptr || !member->job;
+  seat.process.reset();
+  seat.address = {};
+  seat.fruitless = idle ? seat.fruitless + 1 : 0;
+  seat.due = Clock::now() + std::chrono::milliseconds(seat.fruitless > 1 ? 200 * seat.fruitless : 0);
+  if (member != nullptr) {
+    remove(address, loss);
+    return;
+  }
+  last_end_ = fmt::format("worker {} died before it reported: {}{}", seat.number, loss.cause, loss.details);
+  if (starting_) throw RunError(last_end_);
+  say(last_end_);
+}
+
+void Crew::remove(const Address& address, const Loss& loss) {
+  const auto place =
+      std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.address == address; });
+  if (place == members_.end()) return;
+  last_end_ = fmt::format("{} {}: {}{}", place->name, loss.how, loss.cause, loss.details);
+  std::list<Member> gone;
+  gone.splice(gone.begin(), members_, place);  // nobody gives it work any more
+  events_.lost(gone.front(), loss);
+}
+
+void Crew::give_up(Member& member, const std::string& cause) {
+  const Address address = member.address;
+  std::string details;
+  for (Seat& seat : seats_) {
+    if (seat.address != address || address.id.empty()) continue;
+    seat.process->finish(0);
+    details = fmt::format(" (log: {})", seat.log.string());
+    seat.process.reset();
+    seat.address = {};
+    seat.due = Clock::now();
+    break;
+  }
+  remove(address, {"was given up", cause, details, false});
+}
+
+void Crew::praise(const Member& member) {
+  for (Seat& seat : seats_) {
+    if (seat.address == member.address) seat.fruitless = 0;
+  }
+}
+
+void Crew::send(Member& member, const Message& message) {
+  const std::string bytes = encode(message, session_);
+  if (!switchboard_.send(member.address, bytes)) unreachable_.insert(member.address);
+  bytes_sent_ += static_cast<std::int64_t>(bytes.size());
+}
+
+/// A guest that is gone shows when something is sent to it: nothing else tells.
+void Crew::ping_guests() {
+  if (!options_.listening || Clock::now() - pinged_ < kPingPeriod) return;
+  pinged_ = Clock::now();
+  for (Member& member : members_) {
+    if (member.address.remote) send(member, Welcome{options_.heartbeat_seconds});
+  }
+}
+
+void Crew::receive_all() {
+  Address from;
+  for (zmq::message_t bytes; switchboard_.receive(from, bytes);) {
+    bytes_received_ += static_cast<std::int64_t>(bytes.size());
+    receive(from, {static_cast<const std::byte*>(bytes.data()), bytes.size()});
+  }
+}
+
+void Crew::receive(const Address& from, std::span<const std::byte> bytes) {
+  Member* member = member_at(from);
+  try {
+    const Envelope envelope = decode(bytes);
+    if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
+      greet(from, *hello);
+    } else if (member != nullptr && envelope.session == session_) {
+      events_.said(*member, envelope.message);
+    }  // else a straggler: meant for another session, or from one who was given up; it will say Hello again
+  } catch (const ProtocolError& error) {
+    if (member == nullptr) return;
+    // One broken message is as good as lost and asked for again; a worker that sends nothing else is broken.
+    if (++member->unreadable == 1)
+      say(fmt::format("{} sent what cannot be used: {}", member->name, error.what()));
+    if (member->unreadable >= kMostUnreadable) {
+      give_up(*member, fmt::format("it sent what cannot be used: {}", error.what()));
+    }
+    return;
+  }
+  if (Member* still = member_at(from)) still->unreadable = 0;
+}
+
+void Crew::greet(const Address& from, const Hello& hello) {
+  if (hello.version != kProtocolVersion) {
+    const std::string reason = fmt::format(
+        "it speaks version {} of the messages instead of {}; use the same polargrain on both sides",
+        hello.version, kProtocolVersion);
+    if (starting_ && !from.remote) throw RunError("a worker cannot be used: " + reason);
+    say("a worker was sent away: " + reason);
+    switchboard_.send(from, encode(Stop{reason}, session_));
+    return;
+  }
+  if (Member* known = member_at(from)) {
+    send(*known, Welcome{options_.heartbeat_seconds});
+    return;
+  }
+  std::string name;
+  if (from.remote) {
+    name = fmt::format("guest {} on {}", ++guests_, hello.host);
+  } else {
+    const auto seat = std::find_if(seats_.begin(), seats_.end(), [&](const Seat& s) {
+      return s.process && s.process->id() == hello.process;
+    });
+    if (seat == seats_.end() || !seat->address.id.empty())
+      return;  // none of ours, or one that is gone already
+    seat->address = from;
+    name = fmt::format("worker {}", seat->number);
+  }
+  Member& member = members_.emplace_back(Member{name, from, StateCache(options_.cache_bytes)});
+  send(member, Welcome{options_.heartbeat_seconds});
+  events_.joined(member);
+}
+
+void Crew::say(const std::string& text) const {
+  if (options_.tell) options_.tell(text);
+}
+
+Member* Crew::member_at(const Address& address) {
+  const auto place =
+      std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.address == address; });
+  return place == members_.end() ? nullptr : &*place;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "coupler/pool/private_directory.hpp"
+#include "coupler/pool/process.hpp"
+#include "coupler/pool/state_cache.hpp"
+#include "coupler/pool/switchboard.hpp"
+#include "coupler/protocol/messages.hpp"
+
+namespace polargrain::coupler {
+
+struct CrewOptions {
+  int workers = 1;                          ///< local ones
+  std::filesystem::path directory;          ///< gets logs/worker-K.log
+  std::vector<std::string> worker_command;  ///< the crew adds `--connect URL`
+  double startup_seconds = 10.0;
+  std::size_t cache_bytes = 0;         ///< what a worker is taken to keep
+  double heartbeat_seconds = 1.0;      ///< asked of working workers
+  std::optional<Listening> listening;  ///< for workers of other machines
+  std::function<void(const std::string&)> tell;
+};
+
+/// What a worker is doing.
+struct Job {
+  std::size_t task = 0;
+  std::uint64_t request = 0;  ///< number on the wire, never used twice
+  std::chrono::steady_clock::time_point sent;
+  std::chrono::steady_clock::time_point heard;   ///< last sign of life, or `sent`
+  std::chrono::steady_clock::time_point resent;  ///< last time it was sent, or sent again
+  bool begun = false;                            ///< it has said Working
+};
+
+/// A worker that has been welcomed.
+struct Member {
+  std::string name;  ///< "worker 3", "worker 12 on node7"
+  Address address;
+  StateCache known;                      ///< names of the states it should still have
+  std::set<std::uint32_t> defined = {};  ///< definitions it was sent
+  std::optional<Job> job = {};
+  int unreadable = 0;  ///< messages in a row that made no sense
+};
+
+/// How a worker was lost.
+struct Loss {
+  std::string how;      ///< "died" or "was given up"
+  std::string cause;    ///< "exit status 1"
+  std::string details;  ///< "; its log L says:\n..." or nothing
+  /// Whether the loss came from outside (a signal to kill, a broken connection) rather than from the work.
+  bool from_outside = false;
+};
+
+/// Who hears of the crew.
+class CrewEvents {
+ public:
+  virtual ~CrewEvents() = default;
+  virtual void joined(Member& member) = 0;
+  /// @throws ProtocolError when the message makes no sense
+  virtual void said(Member& member, const Message& message) = 0;
+  /// The member is gone after this call.
+  virtual void lost(Member& member, const Loss& loss) = 0;
+};
+
+/// The workers of a coordinator: processes of its own, which it starts and starts again when they die, and
+/// guests, who come by TCP and leave as they like. Knows nothing of the work.
+class Crew {
+ public:
+  Crew(CrewOptions options, CrewEvents& events);
+  /// Tells all to stop; waits shortly, then kills.
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  /// Starts the local workers and waits until they have reported.
+  /// @throws RunError when one does not: a program that cannot start
+  void start();
+  /// Waits for something to happen, not longer than `timeout`, and handles it.
+  /// @throws RunError when no worker is left and none can come
+  void listen(std::chrono::milliseconds timeout);
+  /// A member that cannot be reached is lost at the next listen.
+  void send(Member& member, const Message& message);
+  /// Does without a member: kills it if it is ours (another is started), forgets it otherwise.
+  void give_up(Member& member, const std::string& cause);
+  /// Local workers that answer get their number of restarts back.
+  void praise(const Member& member);
+
+  [[nodiscard]] std::list<Member>& members() { return members_; }
+  [[nodiscard]] std::int64_t bytes_sent() const { return bytes_sent_; }
+  [[nodiscard]] std::int64_t bytes_received() const { return bytes_received_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// The place of a local worker, filled anew when its process dies.
+  struct Seat {
+    int number = 0;
+    std::filesystem::path log;
+    std::uintmax_t log_start = 0;  ///< where in the log the present process began
+    std::optional<Process> process = {};
+    Address address = {};  ///< of its member; empty before its Hello
+    Clock::time_point started = {};
+    Clock::time_point due = {};  ///< when an empty seat is to be filled
+    int fruitless = 0;           ///< ends without a job since it last answered
+  };
+
+  void fill(Seat& seat);
+  void watch_seats();
+  void receive_all();
+  void receive(const Address& from, std::span<const std::byte> bytes);
+  void greet(const Address& from, const Hello& hello);
+  void handle_end(Seat& seat);
+  void remove(const Address& address, const Loss& loss);
+  void ping_guests();
+  void say(const std::string& text) const;
+  Member* member_at(const Address& address);
+
+  CrewOptions options_;
+  CrewEvents& events_;
+  std::uint64_t session_;
+  PrivateDirectory sockets_;
+  Switchboard switchboard_;
+  std::list<Seat> seats_;
+  std::list<Member> members_;
+  std::set<Address> unreachable_;
+  std::string last_end_;  ///< how the last process ended, for the message when none is left
+  bool starting_ = true;
+  int guests_ = 0;
+  Clock::time_point pinged_ = Clock::now();
+  std::int64_t bytes_sent_ = 0;
+  std::int64_t bytes_received_ = 0;
+};
+
+}  // namespace polargrain::coupler

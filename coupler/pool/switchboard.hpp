@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <chrono>
+#include <compare>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+#include <zmq.hpp>
+
+#include "coupler/pool/keys.hpp"
+
+namespace polargrain::coupler {
+
+/// Where workers of other machines may come to.
+struct Listening {
+  std::string url;  ///< tcp://HOST:PORT, tcp://*:PORT for all interfaces
+  CoordinatorKeys keys;
+};
+
+/// Who a message comes from or goes to.
+struct Address {
+  bool remote = false;
+  std::string id = {};
+  auto operator<=>(const Address&) const = default;
+};
+
+/// The coordinator's sockets. Local workers come by a socket in a directory that only the user can enter; all
+/// others by TCP, and there only with a key of the allow list (CURVE, ZAP): what is refused is counted and
+/// told, and never becomes a message.
+class Switchboard {
+ public:
+  /// @param tell gets a line about peers that were refused
+  /// @throws RunError when a socket cannot be opened, in particular when another program holds the port
+  Switchboard(const std::filesystem::path& directory, const std::optional<Listening>& listening,
+              std::function<void(const std::string&)> tell);
+
+  [[nodiscard]] const std::string& local_url() const { return local_url_; }
+  /// @returns false when nobody is (any more) at that address
+  bool send(const Address& to, const std::string& bytes);
+  /// Waits until a message is there, one of the descriptors becomes readable, or the time is over.
+  /// @returns the places of the readable descriptors
+  std::vector<std::size_t> wait(std::span<const int> descriptors, std::chrono::milliseconds timeout);
+  /// The next message, if there is one. Does not wait.
+  bool receive(Address& from, zmq::message_t& bytes);
+  [[nodiscard]] std::size_t refused() const { return refused_; }
+
+ private:
+  void serve_others(const Listening& listening);
+  void judge_keys();
+  void note_failed_handshakes();
+  void note_refusal(const std::string& who);
+  static bool receive_from(zmq::socket_t& socket, std::string& id, zmq::message_t& bytes);
+
+  std::function<void(const std::string&)> tell_;
+  zmq::context_t context_;
+  zmq::socket_t local_{context_, zmq::socket_type::router};
+  std::optional<zmq::socket_t> gate_;     ///< asked by ZeroMQ whether a key may enter
+  std::optional<zmq::socket_t> monitor_;  ///< told by ZeroMQ of handshakes that fail
+  std::optional<zmq::socket_t> remote_;
+  CoordinatorKeys keys_;
+  std::string local_url_;
+  std::size_t refused_ = 0;
+};
+
+}  // namespace polargrain::coupler
