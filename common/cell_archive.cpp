@@ -8,7 +8,7 @@
 
 namespace polargrain {
 namespace {
-constexpr std::size_t kValues = 6;
+constexpr std::size_t kValues = 13;
 constexpr std::size_t kCounts = 2;
 }  // namespace
 
@@ -21,8 +21,10 @@ void write_cell_replies(ArchiveWriter& archive, const std::string& name, std::sp
     const CellDiagnostics& d = reply.diagnostics;
     states.push_back(reply.state);
     responses.push_back(reply.response);
-    values.insert(values.end(), {d.unbalanced_force_ratio, d.unbalanced_moment_ratio, d.void_ratio,
-                                 d.coordination_number, d.sliding_fraction, d.multiplier});
+    values.insert(values.end(),
+                  {d.unbalanced_force_ratio, d.unbalanced_moment_ratio, d.void_ratio, d.coordination_number,
+                   d.sliding_fraction, d.multiplier, d.rolling_fraction, d.rattlers, d.mean_rotation,
+                   d.rotation_spread, d.fabric[0], d.fabric[1], d.fabric[2]});
     counts.insert(counts.end(), {d.contacts, d.dem_steps});
   }
   archive.write(name + "/states", std::span<const StatePointer>(states));
@@ -44,8 +46,20 @@ std::vector<CellReply> read_cell_replies(ArchiveReader& archive, const std::stri
     const double* const v = &values[kValues * i];
     replies[i].state = std::move(states[i]);
     replies[i].response = std::move(responses[i]);
-    replies[i].diagnostics = {
-        v[0], v[1], v[2], v[3], v[4], v[5], counts[kCounts * i], counts[kCounts * i + 1], 0.0};
+    replies[i].diagnostics = {v[0],
+                              v[1],
+                              v[2],
+                              v[3],
+                              v[4],
+                              v[5],
+                              counts[kCounts * i],
+                              counts[kCounts * i + 1],
+                              0.0,
+                              v[6],
+                              v[7],
+                              v[8],
+                              v[9],
+                              {v[10], v[11], v[12]}};
   }
   return replies;
 }

@@ -2,6 +2,7 @@
 #include "fem/material/rotation.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 
 namespace polargrain::fem {
@@ -9,6 +10,16 @@ namespace polargrain::fem {
 double rotation_angle(const Increment& increment) {
   const Eigen::Matrix2d& h = increment.displacement_gradient;
   return 2.0 * std::atan(0.25 * (h(1, 0) - h(0, 1)));
+}
+
+Increment about_start(const Increment& about_middle) {
+  const Eigen::Matrix2d half = 0.5 * about_middle.displacement_gradient;
+  Increment increment = about_middle;
+  increment.displacement_gradient =
+      (Eigen::Matrix2d::Identity() - half).inverse() * about_middle.displacement_gradient;
+  // x_middle = x_start + u / 2
+  increment.curvature += 0.5 * increment.displacement_gradient.transpose() * about_middle.curvature;
+  return increment;
 }
 
 Vector7 rotated(const Vector7& stress, double angle) {
