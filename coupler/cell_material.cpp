@@ -3,9 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "common/cell_archive.hpp"
 #include "common/error.hpp"
 #include "common/packed_values.hpp"
+#include "coupler/cell_noise.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -17,7 +22,8 @@ bool is_zero(const Increment& increment) {
 
 }  // namespace
 
-CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition, const CosseratParameters& cosserat)
+CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
+                           const std::optional<CosseratParameters>& cosserat)
     : pool_(pool), definition_(definition), cosserat_(cosserat) {}
 
 void CellMaterial::allocate(std::size_t points) {
@@ -37,17 +43,23 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (is_zero(increments[point])) continue;
-    requests.push_back({definition_, {committed_[point].cell.state, increments[point]}});
+    const Increment& increment = increments[point];
+    requests.push_back(
+        {definition_,
+         {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment}});
     points.push_back(point);
   }
   std::vector<CellReply> replies = pool_.evaluate(requests);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     PointState& point = trial_[points[r]];
     point.cell = std::move(replies[r]);
-    point.cosserat.add(increments[points[r]], cosserat_);
+    if (cosserat_) point.cosserat.add(increments[points[r]], *cosserat_);
   }
   for (std::size_t point = 0; point < committed_.size(); ++point) {
-    responses[point] = trial_[point].cosserat.joined_to(trial_[point].cell.response, cosserat_);
+    const PointState& state = trial_[point];
+    responses[point] =
+        cosserat_ ? state.cosserat.joined_to(state.cell.response, *cosserat_) : state.cell.response;
+    responses[point].noise = noise_of(trial_[point].cell);
   }
 }
 
@@ -74,16 +86,27 @@ void CellMaterial::restore(ArchiveReader& archive) {
 }
 
 std::vector<std::string> CellMaterial::field_names() const {
-  return {"void_ratio", "coordination_number", "unbalanced_force_ratio", "sliding_fraction", "dem_steps"};
+  return {"void_ratio",       "coordination_number", "unbalanced_force_ratio",
+          "sliding_fraction", "dem_steps",           "rolling_fraction",
+          "rattlers",         "fabric_11",           "fabric_22",
+          "fabric_12",        "mean_rotation",       "rotation_spread"};
 }
 
 void CellMaterial::fields(std::size_t point, std::span<double> values) const {
   const CellDiagnostics& d = committed_[point].cell.diagnostics;
-  values[0] = d.void_ratio;
-  values[1] = d.coordination_number;
-  values[2] = d.unbalanced_force_ratio;
-  values[3] = d.sliding_fraction;
-  values[4] = static_cast<double>(d.dem_steps);
+  const std::array<double, 12> found{d.void_ratio,
+                                     d.coordination_number,
+                                     d.unbalanced_force_ratio,
+                                     d.sliding_fraction,
+                                     static_cast<double>(d.dem_steps),
+                                     d.rolling_fraction,
+                                     d.rattlers,
+                                     d.fabric[0],
+                                     d.fabric[1],
+                                     d.fabric[2],
+                                     d.mean_rotation,
+                                     d.rotation_spread};
+  std::copy(found.begin(), found.end(), values.begin());
 }
 
 }  // namespace polargrain::coupler

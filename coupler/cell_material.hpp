@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "coupler/cosserat_part.hpp"
@@ -9,12 +10,17 @@
 
 namespace polargrain::coupler {
 
-/// A material whose symmetric stress comes from boxes of grains, one a point, evaluated by the workers of a
-/// pool. Skew stress and couple stresses are those of the Cosserat part (cosserat_part.hpp).
+/// A material whose stress comes from boxes of grains, one a point, evaluated by the workers of a pool. Cells
+/// with free rotations give the symmetric stress; skew stress and couple stresses are those of the Cosserat
+/// part (cosserat_part.hpp). Cells with controlled rotations give everything.
 class CellMaterial : public fem::Material {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
-  CellMaterial(Pool& pool, std::uint32_t definition, const CosseratParameters& cosserat);
+  /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
+  CellMaterial(Pool& pool, std::uint32_t definition, const std::optional<CosseratParameters>& cosserat);
+
+  /// Increments are then about the middle of the step, and go to the cells about its start.
+  void use_large_rotations() override { about_middle_ = true; }
 
   /// Asks for the packing at rest, once; every point starts from it.
   void allocate(std::size_t points) override;
@@ -26,7 +32,7 @@ class CellMaterial : public fem::Material {
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
-  /// void_ratio, coordination_number, unbalanced_force_ratio, sliding_fraction, dem_steps
+  /// The diagnostics of the cell (docs/user_guide.md).
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
 
@@ -38,7 +44,8 @@ class CellMaterial : public fem::Material {
 
   Pool& pool_;
   std::uint32_t definition_;
-  CosseratParameters cosserat_;
+  std::optional<CosseratParameters> cosserat_;
+  bool about_middle_ = false;
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;
 };

@@ -18,6 +18,18 @@ namespace {
 const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
 constexpr double kConfining = 100e3;
 
+/// Rolling resistance for the script of the demo.
+std::string with_rolling(std::string script) {
+  const std::string style = "pair_style      gran model hooke/radii tangential history";
+  const std::size_t place = script.find(style);
+  EXPECT_NE(place, std::string::npos);
+  return script.replace(
+      place, style.size(),
+      "fix rolling_friction all property/global coefficientRollingFriction peratomtypepair 1 0.4\n"
+      "fix rolling_stiffness all property/global rollingStiffnessRatio peratomtypepair 1 4\n" +
+          style + " rolling_friction li_chu");
+}
+
 /// Two elements between smooth plates, cells of the demo.
 std::string case_text(const std::string& script) {
   return "title: Two elements of grains\n"
@@ -93,6 +105,32 @@ TEST_F(EngineTest, GrainsThrownOutOfTheBoxEndTheRun) {
   EXPECT_NE(content(scratch_.path() / "out/summary.json").find("\"status\": \"failed\""), std::string::npos);
 }
 
+TEST_F(EngineTest, GrainsThatCarryTheWholeCosseratContinuum) {
+  // Between rough plates that hold the rotations, so that curvatures arise; nothing but grains.
+  write(scratch_.path() / "cell.in", with_rolling(script_));
+  write(scratch_.path() / "case.yaml",
+        "title: Two elements of grains that control their rotations\n"
+        "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}}\n"
+        "materials: {sand: {model: cell, script: cell.in, packing: packing400.csv, rotations: controlled}}\n"
+        "regions: {all: sand}\n"
+        "boundary:\n"
+        "  - {on: bottom, fix: [u1, u2, w]}\n"
+        "  - {on: top, fix: [w], move: {u1: 0.8 mm, u2: -0.8 mm}}\n"
+        "  - {on: [left, right], pressure: 100 kPa}\n"
+        "steps: {count: 2, tolerance: 5e-3}\n"
+        "monitors: {top_force: {on: top, reaction: u1}, top_moment: {on: top, reaction: w}}\n");
+  const Outcome one = run_in(scratch_.path(), POLARGRAIN " run case.yaml -o one -w 1");
+  ASSERT_EQ(one.status, 0) << one.errors;
+  const Outcome two = run_in(scratch_.path(), POLARGRAIN " run case.yaml -o two -w 2");
+  ASSERT_EQ(two.status, 0) << two.errors;
+  const std::string history = content(scratch_.path() / "one/history.csv");
+  std::cout << "[figure] history:\n" << history;
+  EXPECT_EQ(history, content(scratch_.path() / "two/history.csv"));
+  ASSERT_EQ(std::count(history.begin(), history.end(), '\n'), 4);
+  // A plate that holds the rotations of sheared grains feels a moment.
+  EXPECT_GT(std::stod(history.substr(history.rfind(',') + 1)), 0.1);
+}
+
 coupler::PoolOptions pool_options(const std::filesystem::path& directory) {
   coupler::PoolOptions options;
   options.workers = 2;
@@ -101,8 +139,10 @@ coupler::PoolOptions pool_options(const std::filesystem::path& directory) {
   return options;
 }
 
-/// One element, every displacement and rotation given so that the field is homogeneous.
-fem::Problem homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::Material> material) {
+/// One element, every displacement and rotation given: a homogeneous displacement gradient, rotations of
+/// given curvature that vanish at the origin.
+fem::Problem homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::Material> material,
+                         const Eigen::Vector2d& curvature = Eigen::Vector2d::Zero()) {
   fem::Problem problem;
   problem.mesh = fem::rectangle({{0.4, 0.8}, {1, 1}});
   problem.materials["all"] = std::move(material);
@@ -111,7 +151,8 @@ fem::Problem homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::M
     problem.prescribed.push_back({"all", static_cast<fem::Dof>(i), fem::TimeTable::ramp(1.0),
                                   [row](const Eigen::Vector2d& x) { return row.dot(x); }});
   }
-  problem.prescribed.push_back({"all", fem::Dof::w, fem::TimeTable::constant(0.0), {}});
+  problem.prescribed.push_back({"all", fem::Dof::w, fem::TimeTable::ramp(1.0),
+                                [curvature](const Eigen::Vector2d& x) { return curvature.dot(x); }});
   return problem;
 }
 
@@ -148,6 +189,43 @@ TEST_F(EngineTest, AnElementOnAHomogeneousPathAnswersAsItsCellAlone) {
   // What the mesh adds is the rounding of its displacement gradients, 1e-16, times a stiffness of 1e8 Pa, as
   // far as the grains let it grow in five increments.
   EXPECT_LT(largest, 1e-6);
+}
+
+TEST_F(EngineTest, AnElementWithControlledRotationsAnswersAsItsCellsAlone) {
+  coupler::Pool pool(pool_options(scratch_.path()));
+  CellControl control;
+  control.rotations = CellRotations::controlled;
+  const std::uint32_t sand = pool.define({"sand", "rolling.in", with_rolling(script_),
+                                          read_packing(scratch_.path() / "packing400.csv"), control});
+  Eigen::Matrix2d gradient;
+  gradient << 1e-3, 4e-4, 4e-4, -2e-3;
+  const Eigen::Vector2d curvature(2e-3, -5e-3);  // 1e-4 rad a grain
+
+  const auto element = std::make_shared<coupler::CellMaterial>(pool, sand, std::nullopt);
+  fem::Solver solver(homogeneous(gradient, element, curvature), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const fem::StepReport report = solver.advance(1.0);
+  ASSERT_TRUE(report.converged) << report.message;
+  coupler::CellMaterial alone(pool, sand, std::nullopt);
+  alone.allocate(solver.points());
+  std::vector<Increment> increments(solver.points());
+  for (std::size_t point = 0; point < solver.points(); ++point) {
+    increments[point].displacement_gradient = gradient;
+    increments[point].curvature = curvature;
+    increments[point].micro_rotation = curvature.dot(solver.position_of_point(point));
+  }
+  std::vector<Response> responses(solver.points());
+  alone.evaluate(increments, responses);
+  double largest = 0.0;
+  for (std::size_t point = 0; point < solver.points(); ++point) {
+    const Vector7 difference = solver.state().responses[point].stress - responses[point].stress;
+    largest = std::max(largest, difference.cwiseAbs().maxCoeff() / kConfining);
+    EXPECT_GT(responses[point].stress.tail<2>().norm(), 1.0) << "no couple stress, N/m";
+    EXPECT_GT(responses[point].tangent(kCurvature1, kCurvature1), 0.0);
+  }
+  std::cout << "[figure] largest difference of stress over confining stress: " << largest
+            << ", couple stress " << responses[0].stress.tail<2>().transpose() << " N/m\n";
+  EXPECT_LT(largest, 1e-6);  // rounding of the mesh's gradients, as above
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // model: cell - the stress of a box of grains, run by a worker (docs/theory.md, C.6)
+#include <fmt/format.h>
+
+#include <optional>
+
 #include "coupler/case/material_model.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/cell_material.hpp"
@@ -9,7 +13,7 @@ namespace {
 
 class CellRecipe : public MaterialRecipe {
  public:
-  CellRecipe(CellDefinition definition, const CosseratParameters& cosserat)
+  CellRecipe(CellDefinition definition, const std::optional<CosseratParameters>& cosserat)
       : definition_(std::move(definition)), cosserat_(cosserat) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     return std::make_shared<CellMaterial>(*pool, pool->define(definition_), cosserat_);
@@ -19,14 +23,32 @@ class CellRecipe : public MaterialRecipe {
 
  private:
   CellDefinition definition_;
-  CosseratParameters cosserat_;
+  std::optional<CosseratParameters> cosserat_;
 };
+
+/// Two answers to one question would be one too many: a cell that controls its rotations has a skew
+/// stiffness, a couple modulus and limits of both.
+void refuse_cosserat_parameters(Section& section) {
+  for (const char* const key : {"G", "Gc", "lc"}) {
+    if (section.find(key) == nullptr) continue;
+    section.fault(
+        key, fmt::format("{0}: with 'rotations: controlled' the grains give the skew stress and the couple "
+                         "stresses themselves; leave {0} out, or set 'rotations: free'",
+                         key));
+  }
+}
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
                                      const std::filesystem::path& directory) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, directory);
-  const CosseratParameters cosserat = read_cosserat_parameters(section);
+  std::optional<CosseratParameters> cosserat;
+  if (section.choice_or("rotations", {"free", "controlled"}, "free") == "controlled") {
+    definition.control.rotations = CellRotations::controlled;
+    refuse_cosserat_parameters(section);
+  } else {
+    cosserat = read_cosserat_parameters(section);
+  }
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat);
 }
@@ -34,7 +56,10 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
 }  // namespace
 
 MaterialModel cell_model() {
-  return {"cell", "the stress of a box of grains (script, packing) with a Cosserat part (G, Gc, lc)", read};
+  return {
+      "cell",
+      "the stress of a box of grains (script, packing) and, with free rotations, a Cosserat part (G, Gc, lc)",
+      read};
 }
 
 }  // namespace polargrain::coupler
