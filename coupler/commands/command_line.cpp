@@ -124,6 +124,10 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->required();
   point_command->add_option("-o,--output", point_options.output, "CSV to write [standard output]")
       ->type_name("FILE");
+  point_command
+      ->add_option("--replay", point_options.replay,
+                   "Also write the path as a folder for polargrain-liggghts (materials of model cell)")
+      ->type_name("DIR");
   add_settings(*point_command, point_options.settings);
 
   PackOptions pack_options;

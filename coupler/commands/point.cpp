@@ -16,6 +16,7 @@
 #include "coupler/case/case.hpp"
 #include "coupler/commands/csv_file.hpp"
 #include "coupler/pool/private_directory.hpp"
+#include "coupler/replay/replay.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -123,6 +124,23 @@ bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerT
   return true;
 }
 
+/// What the cell itself answers along the path, its symmetric or skew stress alone, without the Cosserat part
+/// of the case. Ends before an increment that fails.
+std::vector<Response> answers_of(Pool& pool, const CellDefinition& definition,
+                                 const std::vector<Increment>& path) {
+  const std::uint32_t number = pool.define(definition);
+  std::vector<Response> answers;
+  StatePointer state;
+  for (const Increment& increment : path) {
+    const PoolRequest request{number, {state, increment}};
+    const CellReply reply = pool.evaluate({&request, 1}).front();
+    if (reply.response.quality == Quality::failed) break;
+    state = reply.state;
+    answers.push_back(reply.response);
+  }
+  return answers;
+}
+
 }  // namespace
 
 std::vector<Increment> read_path(const std::filesystem::path& file) {
@@ -176,6 +194,17 @@ int point(const PointOptions& options) {
     throw InputError({options.case_file.string(), 0,
                       fmt::format("has no material '{}'; it has {}", options.material, listed(names))});
   }
+  const CellDefinition* const cell = recipe->second->cell();
+  Replay replay{nullptr, path, {}, fmt::format("The path {}.", options.path_file.string())};
+  if (!options.replay.empty()) {
+    if (cell == nullptr)
+      throw InputError(
+          {"", 0,
+           fmt::format("--replay {}: the material '{}' is not of model cell; there are no grains "
+                       "to replay",
+                       options.replay.string(), options.material)});
+    write_replay(options.replay, *cell, replay);
+  }
   PrivateDirectory logs;
   std::optional<Pool> pool;
   if (recipe->second->needs_workers()) {
@@ -187,6 +216,10 @@ int point(const PointOptions& options) {
   const std::shared_ptr<fem::Material> material = recipe->second->make(pool ? &*pool : nullptr);
   AnswerTable table(options.output, material->field_names());
   const bool done = follow(*material, path, table);
+  if (!options.replay.empty()) {
+    replay.answers = answers_of(*pool, *cell, path);
+    write_replay(options.replay, *cell, replay);
+  }
   logs.keep(false);
   return done ? 0 : 1;
 }

@@ -13,6 +13,7 @@ struct PointOptions {
   std::string material;
   std::filesystem::path path_file;
   std::filesystem::path output;  ///< empty: standard output
+  std::filesystem::path replay;  ///< when given, gets the path as a script for polargrain-liggghts
   std::vector<std::string> settings;
 };
 
@@ -22,7 +23,9 @@ struct PointOptions {
 std::vector<Increment> read_path(const std::filesystem::path& file);
 
 /// Takes one point of a material of a case along a path and writes its answers (docs/file_formats.md). An
-/// answer that is not good is written with its status; after a failed one the path ends.
+/// answer that is not good is written with its status; after a failed one the path ends. A replay is written
+/// before the path is followed, so that it is there whatever happens, and again with the answers after it.
+/// @throws InputError when the material has no cell to replay
 /// @returns 0, or 1 when an increment failed
 int point(const PointOptions& options);
 

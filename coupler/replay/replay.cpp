@@ -41,7 +41,7 @@ class Folder {
   std::filesystem::path directory_;
 };
 
-/// The mean grain, in the very additions by which the cell finds it: mass, diameter, density.
+/// The mean grain, by the very additions by which the cell finds it: mass, radius, density.
 std::string mean_grain(const Packing& packing) {
   const auto grains = static_cast<int>(packing.grains.size());
   double radius = 0.0;
@@ -52,8 +52,7 @@ std::string mean_grain(const Packing& packing) {
     mass += grain.mass / grains;
     area += std::numbers::pi * grain.radius * grain.radius;
   }
-  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", mass, radius, area,
-                     grains * mass / (area * packing.thickness));
+  return fmt::format("{:.17g} {:.17g} {:.17g}", mass, radius, grains * mass / (area * packing.thickness));
 }
 
 std::string words_of(const Increment& increment) {
@@ -67,14 +66,12 @@ std::string increment_commands(const Increment& increment, std::size_t number) {
   return fmt::format(
       "\nprint           \"increment {0}\"\n"
       "fix_modify      cell increment {1}\n"
-      "variable        loading equal f_cell\n"
       "run             ${{loading}} post no\n"
       "label           rest{0}\n"
-      "variable        at_rest equal f_cell[10]\n"
-      "if              \"${{at_rest}} == 1\" then \"jump in.replay rested{0}\"\n"
+      "if              \"${{done}} == 1\" then \"jump SELF done{0}\"\n"
       "run             20 pre no post no\n"
-      "jump            in.replay rest{0}\n"
-      "label           rested{0}\n"
+      "jump            SELF rest{0}\n"
+      "label           done{0}\n"
       "fix_modify      cell report {0}\n",
       number, words_of(increment));
 }
@@ -103,7 +100,9 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
   if (definition.packing.state) text += fmt::format(" &\n                packing_state {}", kPackingState);
   text +=
       "\nthermo_style    custom step f_cell[1] f_cell[2] f_cell[4] f_cell[5] f_cell[8] f_cell[9]\n"
-      "thermo          1000000\n";
+      "thermo          1000000\n"
+      "variable        loading equal f_cell\n"
+      "variable        done equal f_cell[10]\n";
   if (replay.start) text += fmt::format("fix_modify      cell state {}\n", kState);
   for (std::size_t k = 0; k < replay.increments.size(); ++k)
     text += increment_commands(replay.increments[k], k + 1);

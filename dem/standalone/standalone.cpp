@@ -11,6 +11,7 @@
 
 #include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/standalone/fix_cell_load.hpp"
 
 namespace polargrain::dem {
 
@@ -63,10 +64,11 @@ void tell_position() {
 
 }  // namespace
 
-int run_liggghts(int argc, char** argv, ContactCode stock_models) {
+int run_liggghts(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   {
-    Engine engine(stock_models == ContactCode::compiled_here, argc, argv);
+    Engine engine(true, argc, argv);
+    register_standalone_fixes(*engine.lammps().modify);
     running_engine = &engine.lammps();
     // Errors that all processes see end in exit(), others in MPI_Abort().
     on_exit(

@@ -3,15 +3,12 @@
 
 namespace polargrain::dem {
 
-/// Where stock combinations of contact models run: in the engine's library, or in this project's compiled
-/// copy of the same templates with its own loop over pairs, as in cells.
-enum class ContactCode { of_the_library, compiled_here };
-
 /// LIGGGHTS as its own program is, with its own command line (-in SCRIPT, -var NAME VALUE, -log, -screen,
 /// ...; under an MPI launcher in parallel), plus this project's contact models and fixes, and with its
-/// triclinic boxes repaired. An engine error ends the
+/// triclinic boxes repaired. Stock models run through the code compiled here, as in cells: the same digits as
+/// the stock program (tests/verification/contact_standalone_test.cpp), less time. An engine error ends the
 /// process with LIGGGHTS's words, then the script, line and text of the command.
 /// @return exit status
-int run_liggghts(int argc, char** argv, ContactCode stock_models = ContactCode::of_the_library);
+int run_liggghts(int argc, char** argv);
 
 }  // namespace polargrain::dem

@@ -4,5 +4,5 @@
 #include "dem/standalone/standalone.hpp"
 
 int main(int argc, char** argv) {
-  return polargrain::dem::run_liggghts(argc, argv, polargrain::dem::ContactCode::compiled_here);
+  return polargrain::dem::run_liggghts(argc, argv);
 }

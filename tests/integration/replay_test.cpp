@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A cell's way, written as a folder and gone again by polargrain-liggghts alone: the same stresses, to the
+// bit.
+#include "coupler/replay/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "dem/cell/cell_service.hpp"
+#include "tests/integration/command.hpp"
+#include "tests/support/cell_fixture.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+using polargrain::testing::Outcome;
+using polargrain::testing::run_in;
+using polargrain::testing::Scratch;
+
+/// The part of each report that must not differ: increment, stress and couple stress.
+std::vector<std::string> reports(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (const auto at = line.find("cell: increment ");
+        at != std::string::npos && line.find(" stress ") != std::string::npos)
+      lines.push_back(line.substr(at, line.find(" unbalanced") - at));
+  return lines;
+}
+
+/// Runs a definition along a way and its replay; the reports of both, those expected from the README.
+void expect_equal_replay(const CellDefinition& definition, const std::vector<Increment>& path,
+                         std::size_t first) {
+  const std::unique_ptr<CellService> cell = make_cell_service(definition);
+  coupler::Replay replay;
+  replay.reason = "A test.";
+  StatePointer state;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (k == first) replay.start = state;
+    const CellReply reply = cell->evaluate({state, path[k]});
+    ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+    state = reply.state;
+    if (k < first) continue;
+    replay.increments.push_back(path[k]);
+    replay.answers.push_back(reply.response);
+  }
+  const Scratch scratch("replay");
+  coupler::write_replay(scratch.path() / "folder", definition, replay);
+  const Outcome outcome =
+      run_in(scratch.path() / "folder", std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.errors;
+  const auto expected = reports(polargrain::testing::content(scratch.path() / "folder" / "README.md"));
+  ASSERT_EQ(expected.size(), path.size() - first);
+  EXPECT_EQ(reports(outcome.out), expected);
+}
+
+Increment increment(double h11, double h12, double h21, double h22) {
+  Increment made;
+  made.displacement_gradient << h11, h12, h21, h22;
+  return made;
+}
+
+/// Compression, then shear that turns the box.
+const std::vector<Increment> kPath{increment(5e-4, 0.0, 0.0, -1e-3), increment(2e-4, 4e-4, -1e-3, -5e-4),
+                                   increment(1e-4, 1e-3, 2e-3, -1e-3)};
+
+TEST(Replay, PrintsTheStressesOfTheCellFromThePackingOn) {
+  expect_equal_replay(test::demo_cell(), kPath, 0);
+}
+
+TEST(Replay, PrintsTheStressesOfTheCellFromAStateOn) {
+  expect_equal_replay(test::demo_cell(), kPath, 2);
+}
+
+TEST(Replay, PrintsTheCoupleStressOfControlledRotations) {
+  CellDefinition definition = test::demo_cell();
+  definition.script_file = "liggghts_inputs/cells/hooke_li_chu.in";
+  definition.script = test::file_text(definition.script_file);
+  definition.control.rotations = CellRotations::controlled;
+  std::vector<Increment> path = kPath;
+  path[0].micro_rotation = 1e-3;
+  path[1].curvature = {0.02, -0.01};
+  path[2].micro_rotation = 5e-4;
+  expect_equal_replay(definition, path, 1);
+}
+
+TEST(Replay, OfARequestNeedsNoAnswer) {
+  const Scratch scratch("replay_request");
+  coupler::write_replay(scratch.path(), test::demo_cell(), {nullptr, kPath[0]}, "The worker died: reasons.");
+  const std::string readme = polargrain::testing::content(scratch.path() / "README.md");
+  EXPECT_NE(readme.find("The worker died: reasons."), std::string::npos);
+  EXPECT_TRUE(reports(readme).empty());
+  const Outcome outcome =
+      run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_EQ(reports(outcome.out).size(), 1u);
+}
+
+/// The path of a point: the program writes the folder, the engine's program goes it again.
+TEST(Replay, IsWrittenByPolargrainPoint) {
+  const Scratch scratch("replay_point");
+  polargrain::testing::write(scratch.path() / "path.csv", "h11,h22\n5e-4,-1e-3\n2e-4,-5e-4\n");
+  const std::string root = std::filesystem::current_path().string();
+  const Outcome point =
+      run_in(scratch.path(), std::string(POLARGRAIN) + " point " + root +
+                                 "/cases/biaxial/case.yaml sand path.csv --replay way -o answers.csv");
+  ASSERT_EQ(point.status, 0) << point.errors;
+  const Outcome outcome =
+      run_in(scratch.path() / "way", std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  const auto printed = reports(outcome.out);
+  ASSERT_EQ(printed.size(), 2u);
+  EXPECT_EQ(printed, reports(polargrain::testing::content(scratch.path() / "way" / "README.md")));
+  // The normal stresses of the last row are those of the answers, written with the same digits.
+  const std::string answers = polargrain::testing::content(scratch.path() / "answers.csv");
+  std::istringstream words(printed.back());
+  std::string word;
+  std::string stress_11;
+  words >> word >> word >> word >> word >> stress_11;
+  EXPECT_NE(answers.find("\n2," + stress_11 + ","), std::string::npos) << stress_11 << "\n" << answers;
+}
+
+struct BadFix {
+  std::string words;
+  std::string expected;
+};
+
+TEST(Replay, ErrorsOfTheFixNameScriptAndLine) {
+  const Scratch scratch("replay_errors");
+  coupler::write_replay(scratch.path(), test::demo_cell(), {nullptr, kPath[0]}, "A test.");
+  const std::string head = "variable packing index packing.data\ninclude cell.in\n";
+  for (const BadFix& bad : {BadFix{"damping 1.5", "damping must be at least 0 and less than 1"},
+                            BadFix{"dampling 0.1", "unknown or incomplete keyword 'dampling'"},
+                            BadFix{"unbalanced 1e-3", "a value is missing at the end"},
+                            BadFix{"packing_state nowhere", "there is no file nowhere"}}) {
+    polargrain::testing::write(scratch.path() / "bad.in",
+                               head + "fix cell all cell/load " + bad.words + "\n");
+    const Outcome outcome =
+        run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in bad.in -log none");
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_NE(outcome.out.find(bad.expected), std::string::npos) << bad.words << "\n" << outcome.out;
+    EXPECT_NE(outcome.errors.find("bad.in:3: fix cell all cell/load " + bad.words), std::string::npos)
+        << outcome.errors;
+  }
+}
+
+}  // namespace
+}  // namespace polargrain::dem
