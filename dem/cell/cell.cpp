@@ -71,6 +71,9 @@ class Cell final : public CellService {
 
 Cell::Cell(const CellDefinition& definition)
     : control_(definition.control), driver_(definition.packing, definition.script, definition.script_file) {
+  driver_.progress = [this] {
+    if (progress) progress();
+  };
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   if (controlled()) check_rolling_model();
   const Packing& packing = definition.packing;

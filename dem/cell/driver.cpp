@@ -14,6 +14,11 @@
 
 namespace polargrain::dem {
 
+namespace {
+/// DEM steps between two calls of `progress`: 0.01 s with 400 grains.
+constexpr int kProgressChunk = 100;
+}  // namespace
+
 Driver::Driver(const Packing& packing, const std::string& script, const std::string& script_file,
                const std::function<void(Engine&)>& after_script)
     : grains_(static_cast<int>(packing.grains.size())), thickness_(packing.thickness), engine_(true) {
@@ -49,7 +54,10 @@ void Driver::run(int steps) {
   LAMMPS_NS::Update& update = *lammps().update;
   update.laststep = update.ntimestep + steps + 1;  // no step is the engine's last: it would print
   lammps().output->next = update.laststep;
-  if (steps > 1) update.integrate->run(steps - 1);
+  for (int left = steps - 1; left > 0; left -= kProgressChunk) {
+    update.integrate->run(std::min(left, kProgressChunk));
+    if (progress) progress();
+  }
   contact_recorder().contacts.clear();
   contact_recorder().on = true;
   update.integrate->run(1);

@@ -40,6 +40,8 @@ class Driver {
 
   /// Neighbours and forces at the positions as they are; contacts are recorded. No step.
   void set_up();
+  /// Called every few DEM steps of a run; may be empty.
+  std::function<void()> progress;
   /// DEM steps, at least 1; the contacts of the last force pass are recorded. Ends the process in the
   /// engine's words when a grain was lost.
   void run(int steps);
