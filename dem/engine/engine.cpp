@@ -11,6 +11,7 @@
 #include "dem/contact/registration.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/engine/private_access.hpp"
+#include "dem/specimen/registration.hpp"
 
 namespace polargrain::dem {
 
@@ -59,6 +60,7 @@ void equip(LAMMPS_NS::LAMMPS& lammps, bool record_all) {
   repair_triclinic_boxes(*lammps.domain);
   register_contact_models(record_all);
   register_cell_fixes(*lammps.modify);
+  register_specimen_fixes(*lammps.modify);
 }
 
 }  // namespace
