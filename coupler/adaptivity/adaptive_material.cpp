@@ -40,8 +40,9 @@ void AdaptiveMaterial::allocate(std::size_t points) {
     throw RunError("an adaptive material needs a packing under pressure: its tolerance is a share of it");
   }
   const Matrix7& elastic = packing.answer.response.tangent;
-  // An offset whose elastic stress is the tolerance: shorter runs show noise, not curvature.
-  estimate_ = ErrorEstimate(elastic, options_.tolerance * confining_ / elastic.topLeftCorner<2, 2>().norm());
+  estimate_ = ErrorEstimate(elastic);
+  // Strain whose elastic stress is the tolerance.
+  turn_tolerance_ = options_.tolerance * confining_ / elastic.topLeftCorner<2, 2>().norm();
   cells_.assign(1, packing);
   points_.assign(points, Point{});
   choose_followed();
@@ -174,7 +175,7 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
   for (const Branch& start : starts) {
     std::vector<Eigen::Matrix2d> path = points_[start.leader].path;
     path.push_back(target_[start.leader]);
-    turns.push_back(turning_points(path, estimate_.least_length()));
+    turns.push_back(turning_points(path, turn_tolerance_));
     turns.back().pop_back();  // the target itself
     longest = std::max(longest, turns.back().size());
   }

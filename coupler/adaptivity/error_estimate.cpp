@@ -14,6 +14,7 @@ namespace {
 constexpr double kShareOfElastic = 0.5;
 /// What a cell has shown is forgotten by half at each new run.
 constexpr double kMemory = 0.5;
+constexpr double kMuchLonger = 2.0;
 
 Eigen::Matrix2d symmetric(const Eigen::Matrix2d& offset) {
   return 0.5 * (offset + offset.transpose());
@@ -41,19 +42,24 @@ double ErrorEstimate::of(const Response& answer, const Curvature& curvature,
 Curvature ErrorEstimate::learn(const Response& start, const Response& end, const Eigen::Matrix2d& offset,
                                Curvature& at_start) const {
   const double distance = offset.norm();
-  const double length = std::max(distance, least_length_);
+  const Eigen::Matrix2d strain = symmetric(offset);
   const double missed = in_plane_norm(end.stress - linearised_stress(start, offset));
   // The tangent may have turned more than the stress shows.
-  const double turned =
-      0.5 * in_plane_norm((end.tangent - start.tangent) * increment_of(symmetric(offset)).strain());
-  Curvature seen{std::max(missed, turned), length, Eigen::Matrix2d::Zero()};
-  if (at_start.known()) seen.error = std::max(seen.error, kMemory * at_start.over(length));
-  if (!at_start.known() || missed > at_start.over(length)) {
-    at_start.error = missed;
-    at_start.length = length;
-  }
-  const Eigen::Matrix2d strain = symmetric(offset);
+  const double turned = 0.5 * in_plane_norm((end.tangent - start.tangent) * increment_of(strain).strain());
+  Curvature seen{std::max(missed, turned), distance, Eigen::Matrix2d::Zero()};
   if (strain.norm() > 0.0) seen.direction = strain / strain.norm();
+  // What a short run has shown is mostly the cell's noise; one that is much longer replaces it.
+  if (!at_start.known() || distance >= kMuchLonger * at_start.length) {
+    at_start.error = missed;
+    at_start.length = distance;
+    return seen;
+  }
+  const double expected = at_start.over(distance);
+  seen.error = std::max(seen.error, kMemory * expected);
+  if (missed > expected) {
+    at_start.error = missed;
+    at_start.length = distance;
+  }
   return seen;
 }
 

@@ -26,9 +26,7 @@ class ErrorEstimate {
  public:
   ErrorEstimate() = default;
   /// @param elastic symmetric tangent of the packing at rest
-  /// @param least_length offsets below this say nothing about curvature: noise of the cell hides it
-  ErrorEstimate(const Matrix7& elastic, double least_length)
-      : elastic_(elastic), least_length_(least_length) {}
+  explicit ErrorEstimate(const Matrix7& elastic) : elastic_(elastic) {}
 
   /// Estimated error (Pa) of carrying `answer` by `offset`: what the curvature makes, and half of the stress
   /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
@@ -37,16 +35,13 @@ class ErrorEstimate {
                           const Eigen::Matrix2d& offset) const;
 
   /// What a run from `start` to `end` over `offset` has shown about both ends.
-  /// @param at_start updated: the largest error seen from there
+  /// @param at_start updated: the largest error seen from there, or that of a much longer run
   /// @returns the curvature of the answer at the end
   Curvature learn(const Response& start, const Response& end, const Eigen::Matrix2d& offset,
                   Curvature& at_start) const;
 
-  [[nodiscard]] double least_length() const { return least_length_; }
-
  private:
   Matrix7 elastic_ = Matrix7::Zero();
-  double least_length_ = 0.0;
 };
 
 }  // namespace polargrain::coupler

@@ -16,6 +16,7 @@
 #include "coupler/commands/progress.hpp"
 #include "coupler/commands/result_directory.hpp"
 #include "coupler/commands/summary.hpp"
+#include "coupler/replay/replay.hpp"
 #include "fem/output/vtu.hpp"
 
 namespace polargrain::coupler {
@@ -47,8 +48,10 @@ class RunObserver : public Progress {
 /// One run: its parts in the order they are made.
 class Run {
  public:
-  Run(const RunOptions& options, Case the_case, std::filesystem::path directory)
+  Run(const RunOptions& options, Case the_case, std::filesystem::path directory,
+      std::optional<Listening> listening)
       : case_(std::move(the_case)),
+        listening_(std::move(listening)),
         directory_(std::move(directory)),
         log_("run",
              std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), true)),
@@ -83,7 +86,7 @@ class Run {
 
  private:
   void start() {
-    if (record_.workers > 0) {
+    if (case_.needs_workers()) {
       PoolOptions options;
       options.workers = record_.workers;
       options.directory = directory_;
@@ -91,6 +94,8 @@ class Run {
         log_.warn(text);
         observer_.warn(text);
       };
+      options.patience = case_.patience;
+      options.listening = std::move(listening_);
       pool_.emplace(options);
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
@@ -119,6 +124,7 @@ class Run {
         end_badly(fmt::format("step {} of {} did not converge: {}", step, case_.steps(), report.message));
         return false;
       }
+      log_notes();
       observer_.end_step(report.time);
     }
     return true;
@@ -140,11 +146,6 @@ class Run {
     record_.iterations += report.iterations;
     record_.cuts += report.cuts;
     record_.evaluations += report.evaluations;
-    log_.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
-              report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
-              report.evaluations, report.time);
-  }
-
     record_.within_noise += report.within_noise;
     record_.within_rounding += report.within_rounding;
     record_.limited += report.limited;
@@ -162,6 +163,11 @@ class Run {
       log_.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
                 case_.solver.largest_strain);
     }
+    log_.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
+              report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
+              report.evaluations, report.time);
+  }
+
   [[nodiscard]] std::vector<std::string> history_columns() const {
     std::vector<std::string> columns{"step",        "time",         "substeps",        "cuts",
                                      "iterations",  "evaluations",  "force_residual",  "moment_residual",
@@ -222,22 +228,50 @@ class Run {
     costs_file_.row(row);
   }
 
-  void end_badly(const std::string& message) {
+  void log_notes() {
+    for (auto& [region, material] : case_.problem.materials) {
+      for (const std::string& note : material->take_notes()) {
+        observer_.clear();
+        fmt::print(stderr, "note: region '{}': {}\n", region, note);
+        log_.warn("  region '{}': {}", region, note);
+      }
+    }
+  }
+
+  void end_badly(std::string message) {
     observer_.clear();
+    if (pool_ && pool_->last_failure()) message += write_replay_of(*pool_->last_failure());
     record_.status = "failed";
     record_.message = message;
     log_.error("{}", message);
     finish();
   }
 
+  /// @returns what to tell the user of it
+  std::string write_replay_of(const CellFailure& failure) {
+    const std::filesystem::path replay = directory_ / "replay";
+    try {
+      write_replay(replay, pool_->definition(failure.definition), failure.request,
+                   fmt::format("Point {}: {}", failure.point, failure.reason));
+    } catch (const std::exception& error) {
+      return fmt::format("\nthe replay of the cell that failed could not be written: {}", error.what());
+    }
+    return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
+  }
+
   void finish() {
     if (pool_) record_.pool = pool_->counts();
+    for (const auto& [region, material] : case_.problem.materials) {
+      if (material == nullptr) continue;
+      if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
+    }
     log_.info("{}", record_.status);
     write_summary(directory_ / "summary.json", case_, record_);
   }
 
   Clock::time_point begin_ = Clock::now();
   Case case_;
+  std::optional<Listening> listening_;
   std::filesystem::path directory_;
   spdlog::logger log_;
   RunObserver observer_;
@@ -253,18 +287,25 @@ class Run {
 
 int run(const RunOptions& options) {
   Case the_case = read_case(options.case_file, options.settings);
+  if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
+    throw InputError(
+        {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
+  }
+  std::optional<Listening> listening;
+  if (!options.listen.empty()) listening = Listening{options.listen, read_coordinator_keys(options.keys)};
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
   prepare_result_directory(directory);
   note_interrupts();
   if (!options.quiet) fmt::print("{}\n", the_case.title);
   std::fflush(stdout);
-  Run the_run(options, std::move(the_case), directory);
+  Run the_run(options, std::move(the_case), directory, std::move(listening));
   const bool done = the_run.go();
   const RunRecord& record = the_run.record();
   if (!options.quiet) {
-    fmt::print("\n{}\n{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
-               table_text(the_run.the_case(), record), costs_text(record), directory.string());
+    fmt::print("\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
+               table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
+               directory.string());
   }
   if (!done) fmt::print(stderr, "error: {} (log: {})\n", record.message, (directory / "run.log").string());
   return done ? 0 : 1;

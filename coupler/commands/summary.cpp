@@ -91,6 +91,16 @@ std::string cell_figures(const PoolCounts& pool) {
       .finish("  ");
 }
 
+std::string material_figures(const RunRecord& record) {
+  JsonObject regions;
+  for (const auto& [region, figures] : record.figures) {
+    JsonObject material;
+    for (const fem::Figure& figure : figures) material.real(figure.name, figure.value);
+    regions.raw(region, material.finish("    "));
+  }
+  return regions.finish("  ");
+}
+
 std::string last_values(const RunRecord& record) {
   JsonObject values;
   if (!record.steps.empty()) {
@@ -112,19 +122,20 @@ void write_summary(const std::filesystem::path& file, const Case& the_case, cons
                                .whole("steps_committed", record.steps.empty() ? 0 : record.steps.back().step)
                                .whole("iterations", record.iterations)
                                .whole("cuts", record.cuts)
+                               .whole("substeps_within_noise", record.within_noise)
+                               .whole("substeps_within_rounding", record.within_rounding)
+                               .whole("corrections_limited", record.limited)
                                .whole("point_evaluations", record.evaluations)
                                .whole("workers", record.workers)
                                .raw("values", last_values(record))
                                .raw("errors", error_figures(record))
                                .raw("seconds", cost_figures(record))
                                .raw("cells", cell_figures(record.pool))
+                               .raw("materials", material_figures(record))
                                .finish("");
   std::ofstream out(file, std::ios::trunc);
   out << text << '\n' << std::flush;
   if (!out) throw RunError(fmt::format("{} cannot be written; is the disk full?", file.string()));
-                               .whole("substeps_within_noise", record.within_noise)
-                               .whole("substeps_within_rounding", record.within_rounding)
-                               .whole("corrections_limited", record.limited)
 }
 
 std::string table_text(const Case& the_case, const RunRecord& record) {
@@ -142,17 +153,6 @@ std::string table_text(const Case& the_case, const RunRecord& record) {
       text += fmt::format("  {:>15.6g}", value_of(step.values, name));
     text += fmt::format("  {:>17}\n", step.report.iterations);
   }
-  return text;
-}
-
-std::string costs_text(const RunRecord& record) {
-  const Costs& c = record.costs;
-  std::string text = fmt::format("time spent (s, {:.1f} in all)\n", c.total);
-  const auto part = [&](const char* name, double seconds) {
-    text += fmt::format("  {:<34}{:>9.2f}  {:>5.1f} %\n", name, seconds, 100.0 * seconds / c.total);
-  };
-  if (record.workers > 0) {
-    part("grains", c.grains);
   if (record.within_noise > 0) {
     text += fmt::format("{} substeps were accepted above the tolerance, within the noise of the stresses\n",
                         record.within_noise);
@@ -165,6 +165,17 @@ std::string costs_text(const RunRecord& record) {
     text += fmt::format("{} corrections asked for too large a strain and were shortened or replaced\n",
                         record.limited);
   }
+  return text;
+}
+
+std::string costs_text(const RunRecord& record) {
+  const Costs& c = record.costs;
+  std::string text = fmt::format("time spent (s, {:.1f} in all)\n", c.total);
+  const auto part = [&](const char* name, double seconds) {
+    text += fmt::format("  {:<34}{:>9.2f}  {:>5.1f} %\n", name, seconds, 100.0 * seconds / c.total);
+  };
+  if (record.pool.evaluations > 0) {
+    part("grains", c.grains);
     part("messages", c.messages);
     part("workers waiting for the last cell", c.waiting);
   }
@@ -175,6 +186,16 @@ std::string costs_text(const RunRecord& record) {
     text += fmt::format("cells: {} evaluations on {} workers, {:.4f} s and {:.0f} DEM steps each\n",
                         record.pool.evaluations, record.workers, record.pool.engine_seconds / evaluations,
                         static_cast<double>(record.pool.dem_steps) / evaluations);
+  }
+  return text;
+}
+
+std::string figures_text(const RunRecord& record) {
+  std::string text;
+  for (const auto& [region, figures] : record.figures) {
+    text += fmt::format("material of region '{}'\n", region);
+    for (const fem::Figure& figure : figures)
+      text += fmt::format("  {:<34}{:>9.4g}\n", figure.name, figure.value);
   }
   return text;
 }

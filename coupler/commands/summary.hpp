@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,13 @@ struct RunRecord {
   long evaluations = 0;
   int iterations = 0;
   int cuts = 0;
-  PoolCounts pool;
   int within_noise = 0;  ///< this and the next two: see fem::StepReport
   int within_rounding = 0;
   int limited = 0;
+  PoolCounts pool;
   Costs costs;
+  /// What materials tell of their cost and error, by region; only of those that do.
+  std::map<std::string, std::vector<fem::Figure>> figures;
 };
 
 /// Writes summary.json: status, figures of cost and error, last values of the monitors.
@@ -41,5 +44,8 @@ std::string table_text(const Case& the_case, const RunRecord& record);
 
 /// Where the time went and what the cells cost.
 std::string costs_text(const RunRecord& record);
+
+/// What the materials tell of their cost and error; empty when none does.
+std::string figures_text(const RunRecord& record);
 
 }  // namespace polargrain::coupler

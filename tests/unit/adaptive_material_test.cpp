@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An adaptive material over cells whose law is known, so that the error of every point is.
+#include "coupler/adaptivity/adaptive_material.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <iostream>
+#include <map>
+#include <random>
+
+#include "common/memory_archive.hpp"
+#include "coupler/adaptivity/linearised.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+constexpr double kConfining = 1e5;
+constexpr double kModulus = 3e7;
+/// Strain at which the law has lost half of its stiffness.
+constexpr double kHalf = 4e-3;
+constexpr CosseratParameters kCosserat{16e6, 14e6, 0.02};
+
+/// A law without history: s = -p + 2 G e / (1 + |e| / half). What it keeps as its state is its strain.
+class KnownCells {
+ public:
+  /// Every answer to an increment shorter than this is wrong by `planted` (Pa, in s11).
+  double short_increment = 0.0;
+  double planted = 0.0;
+  /// Fails beyond this strain.
+  double breaks_at = 1e9;
+  int runs = 0;
+
+  static Vector7 stress(const Eigen::Matrix2d& strain) {
+    const double factor = kModulus / (1.0 + strain.norm() / kHalf);
+    Vector7 s = Vector7::Zero();
+    s << factor * strain(0, 0) - kConfining, factor * strain(1, 1) - kConfining, -kConfining,
+        factor * strain(0, 1), factor * strain(0, 1), 0.0, 0.0;
+    return s;
+  }
+
+  CellReply at(const Eigen::Matrix2d& strain) const {
+    CellReply reply;
+    reply.response.stress = stress(strain);
+    const double norm = strain.norm();
+    const double factor = kModulus / (1.0 + norm / kHalf);
+    // d(factor e_ij)/d e_kl, with e_12 = (eps_12 + eps_21) / 2.
+    const double slope = norm > 0.0 ? -factor / (kHalf + norm) / norm : 0.0;
+    const std::array<double, 3> e{strain(0, 0), strain(1, 1), strain(0, 1)};
+    const std::array<std::array<int, 2>, 3> places{{{k11, k11}, {k22, k22}, {k12, k21}}};
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        double d = slope * e[row] * e[column] * (column == 2 ? 2.0 : 1.0) + (row == column ? factor : 0.0);
+        if (column == 2) d *= 0.5;
+        for (const int r : places[row]) {
+          for (const int c : places[column]) reply.response.tangent(r, c) = d;
+        }
+      }
+    }
+    const auto bytes = std::as_bytes(std::span(strain.data(), 4));
+    reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
+    return reply;
+  }
+
+  CellReply answer(const CellRequest& request) {
+    ++runs;
+    Eigen::Matrix2d strain;
+    std::memcpy(strain.data(), request.state->bytes().data(), 4 * sizeof(double));
+    const Eigen::Matrix2d& h = request.increment.displacement_gradient;
+    strain += 0.5 * (h + h.transpose());
+    CellReply reply = at(strain);
+    reply.diagnostics.dem_steps = 10;
+    if (strain.norm() > breaks_at) {
+      reply.response.quality = Quality::failed;
+      reply.response.message = "the box collapsed";
+      reply.state = nullptr;
+    }
+    if (h.norm() < short_increment) reply.response.stress[k11] += planted;
+    return reply;
+  }
+
+  CellCalls calls() {
+    return {[this] { return at(Eigen::Matrix2d::Zero()); },
+            [this](std::span<const CellRequest> requests) {
+              std::vector<CellReply> replies;
+              for (const CellRequest& request : requests) replies.push_back(answer(request));
+              return replies;
+            }};
+  }
+};
+
+class AdaptiveMaterialTest : public ::testing::Test {
+ protected:
+  AdaptiveMaterial material(std::size_t points, double tolerance, double audit = 0.0) {
+    AdaptiveMaterial made(cells_.calls(), kCosserat, {tolerance, audit, 1});
+    made.allocate(points);
+    strain_.assign(points, Eigen::Matrix2d::Zero());
+    return made;
+  }
+
+  /// Takes a step and follows the true strains. @returns the answers
+  std::vector<Response> step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients) {
+    std::vector<Increment> increments;
+    for (std::size_t p = 0; p < gradients.size(); ++p) {
+      increments.push_back(increment_of(gradients[p]));
+      strain_[p] += 0.5 * (gradients[p] + gradients[p].transpose());
+    }
+    std::vector<Response> responses(gradients.size());
+    sand.evaluate(increments, responses);
+    sand.commit();
+    return responses;
+  }
+
+  /// The largest error of any point, as a share of the confining pressure.
+  double error(const std::vector<Response>& responses) const {
+    double largest = 0.0;
+    for (std::size_t p = 0; p < responses.size(); ++p) {
+      largest = std::max(largest, in_plane_norm(responses[p].stress - KnownCells::stress(strain_[p])));
+    }
+    return largest / kConfining;
+  }
+
+  static double figure(const AdaptiveMaterial& sand, const std::string& name) {
+    for (const fem::Figure& figure : sand.figures()) {
+      if (figure.name == name) return figure.value;
+    }
+    ADD_FAILURE() << "no figure " << name;
+    return -1.0;
+  }
+
+  KnownCells cells_;
+  std::vector<Eigen::Matrix2d> strain_;
+};
+
+Eigen::Matrix2d compression(double amount) {
+  Eigen::Matrix2d h;
+  h << 0.4 * amount, 0.0, 0.0, -amount;
+  return h;
+}
+
+/// Points whose strains lie in three bands, a little apart within each: fast, slow, and calm.
+std::vector<Eigen::Matrix2d> three_bands(std::size_t points) {
+  std::vector<Eigen::Matrix2d> gradients;
+  for (std::size_t p = 0; p < points; ++p) {
+    const double within = 1.0 + 0.02 * static_cast<double>(p % 7) / 7.0;
+    const double band = p % 3 == 0 ? 1e-3 : p % 3 == 1 ? 3e-4 : 5e-6;
+    gradients.push_back(compression(band * within));
+  }
+  return gradients;
+}
+
+// The regression test on what adaptivity is for: 90 points in three bands, twenty steps. A cell a point would
+// be 1800 runs. The numbers were counted when the test was written; they may fall, and must not rise
+// unnoticed.
+TEST_F(AdaptiveMaterialTest, FewCellsServeManyPointsOfLikeHistory) {
+  AdaptiveMaterial sand = material(90, 0.02);
+  double largest = 0.0;
+  for (int k = 0; k < 20; ++k) largest = std::max(largest, error(step(sand, three_bands(90))));
+  std::cout << "[figure] " << cells_.runs << " runs for 1800 point steps, " << figure(sand, "cells")
+            << " cells, largest error " << largest << " at a tolerance of 0.02\n";
+  EXPECT_LE(cells_.runs, 60);
+  EXPECT_LE(figure(sand, "cells"), 4.0);
+  EXPECT_LE(largest, 0.02);
+  EXPECT_EQ(figure(sand, "cell_runs"), cells_.runs);
+  const double by_tangent = figure(sand, "point_steps_by_tangent");
+  EXPECT_EQ(by_tangent + figure(sand, "point_steps_by_neighbour") + figure(sand, "point_steps_by_own_cell"),
+            1800.0);
+  // The calm third, and more, needed no run.
+  EXPECT_GE(by_tangent, 600.0);
+}
+
+TEST_F(AdaptiveMaterialTest, CalmPointsNeverAllocateACell) {
+  AdaptiveMaterial sand = material(10, 0.02);
+  std::vector<Eigen::Matrix2d> gradients(10, compression(2e-6));
+  gradients[3] = compression(1e-3);
+  for (int k = 0; k < 10; ++k) step(sand, gradients);
+  std::vector<double> fields(sand.field_names().size());
+  sand.fields(0, fields);
+  EXPECT_EQ(fields[0], static_cast<double>(Source::tangent));
+  EXPECT_EQ(fields[7], 0.0) << "its cell is the packing, which has not been run";
+  EXPECT_EQ(figure(sand, "cells"), 2.0);
+  sand.fields(3, fields);
+  EXPECT_EQ(fields[7], 10.0);
+}
+
+TEST_F(AdaptiveMaterialTest, TheErrorFollowsTheTolerance) {
+  std::map<double, std::pair<double, int>> found;
+  for (const double tolerance : {0.2, 0.02, 0.002}) {
+    cells_.runs = 0;
+    AdaptiveMaterial sand = material(90, tolerance);
+    double largest = 0.0;
+    for (int k = 0; k < 20; ++k) largest = std::max(largest, error(step(sand, three_bands(90))));
+    found[tolerance] = {largest, cells_.runs};
+    std::cout << "[figure] tolerance " << tolerance << ": error " << largest << ", runs " << cells_.runs
+              << '\n';
+    EXPECT_LE(largest, tolerance);
+  }
+  EXPECT_GT(found[0.2].first, 2.0 * found[0.02].first);
+  EXPECT_GT(found[0.02].first, 2.0 * found[0.002].first);
+  EXPECT_LT(found[0.2].second, found[0.02].second);
+  EXPECT_LT(found[0.02].second, found[0.002].second);
+}
+
+// Ten points of a hundred leave the others after ten steps: they take the state along, and one cell is enough
+// for them until they part as well.
+TEST_F(AdaptiveMaterialTest, ClustersSplitWhenTheyPart) {
+  AdaptiveMaterial sand = material(100, 0.02);
+  for (int k = 0; k < 10; ++k) step(sand, std::vector<Eigen::Matrix2d>(100, compression(5e-4)));
+  EXPECT_EQ(figure(sand, "cells"), 1.0);
+  std::vector<Eigen::Matrix2d> gradients(100, compression(5e-4));
+  for (int p = 40; p < 50; ++p) gradients[p] = compression(-5e-4);
+  std::vector<Response> responses;
+  for (int k = 0; k < 4; ++k) responses = step(sand, gradients);
+  EXPECT_EQ(figure(sand, "cells"), 2.0);
+  // The estimate is no bound: a law that unloads along its loading curve leaves it by the square of the
+  // strain.
+  EXPECT_LE(error(responses), 1.5 * 0.02);
+}
+
+TEST_F(AdaptiveMaterialTest, FallsBackToACellAPointWhereNoTwoPointsAreAlike) {
+  constexpr std::size_t kPoints = 30;
+  constexpr int kSteps = 8;
+  AdaptiveMaterial sand = material(kPoints, 1e-3);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
+  double largest = 0.0;
+  std::vector<Eigen::Matrix2d> last(kPoints, Eigen::Matrix2d::Zero());
+  for (int k = 0; k < kSteps; ++k) {
+    std::vector<Eigen::Matrix2d> gradients(kPoints);
+    for (std::size_t p = 0; p < kPoints; ++p) {
+      gradients[p] << entry(random), entry(random), entry(random), entry(random);
+      if (k % 2 == 1) gradients[p] = -0.8 * last[p];  // load reversals
+      last[p] = gradients[p];
+    }
+    largest = std::max(largest, error(step(sand, gradients)));
+  }
+  std::cout << "[figure] " << figure(sand, "point_steps_by_own_cell") << " of " << kPoints * kSteps
+            << " point steps by an own cell, largest error " << largest << '\n';
+  EXPECT_GE(figure(sand, "point_steps_by_own_cell"), 0.95 * kPoints * kSteps);
+  EXPECT_EQ(figure(sand, "cells"), static_cast<double>(kPoints));
+  // Offsets are added as gradients follow each other, the law adds strains: 1e-6 of difference a step.
+  EXPECT_LE(largest, 2e-3);
+}
+
+TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
+  AdaptiveMaterial sand = material(6, 0.0);
+  std::vector<Eigen::Matrix2d> gradients;
+  for (int p = 0; p < 6; ++p) gradients.push_back(compression(1e-4 * (p + 1)));
+  const std::vector<Response> responses = step(sand, gradients);
+  EXPECT_EQ(cells_.runs, 6);
+  EXPECT_EQ(error(responses), 0.0);
+}
+
+// What a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
+TEST_F(AdaptiveMaterialTest, NothingDriftsOverManySmallSteps) {
+  AdaptiveMaterial sand = material(1, 0.02);
+  double largest = 0.0;
+  for (int k = 0; k < 2000; ++k) largest = std::max(largest, error(step(sand, {compression(1e-5)})));
+  std::cout << "[figure] 2000 steps of 1e-5: " << cells_.runs << " runs, largest error " << largest << '\n';
+  EXPECT_LE(largest, 0.02);
+  EXPECT_LT(cells_.runs, 60);
+}
+
+TEST_F(AdaptiveMaterialTest, AnExcursionIsReplayedWithItsTurns) {
+  AdaptiveMaterial sand = material(1, 0.05);
+  step(sand, {compression(2e-3)});  // so that the packing's curvature is known
+  cells_.runs = 0;
+  int quiet = 0;
+  for (const double amount : {3e-4, 3e-4, -6e-4, -3e-4}) {
+    step(sand, {compression(amount)});
+    quiet += cells_.runs == 0 ? 1 : 0;
+  }
+  ASSERT_GE(quiet, 2) << "the excursion was not carried, the test shows nothing";
+  const int before = cells_.runs;
+  const std::vector<Response> responses = step(sand, {compression(-3e-3)});
+  EXPECT_GE(cells_.runs - before, 1);
+  EXPECT_LE(error(responses), 0.05);
+}
+
+TEST_F(AdaptiveMaterialTest, WithinAStepTheAnswerIsLinearAndRepeatable) {
+  AdaptiveMaterial sand = material(3, 0.05);
+  const auto increments = [](double amount) {
+    return std::vector<Increment>{increment_of(compression(amount)), increment_of(compression(1.01 * amount)),
+                                  increment_of(compression(0.98 * amount))};
+  };
+  std::vector<Response> first(3), second(3), between(3), again(3);
+  sand.evaluate(increments(1.00e-3), first);
+  const int runs = cells_.runs;
+  sand.evaluate(increments(1.02e-3), second);
+  sand.evaluate(increments(1.01e-3), between);
+  sand.evaluate(increments(1.00e-3), again);
+  EXPECT_EQ(cells_.runs, runs) << "a correction of 2 % must not ask for new runs";
+  for (int p = 0; p < 3; ++p) {
+    EXPECT_EQ(std::memcmp(first[p].stress.data(), again[p].stress.data(), sizeof(Vector7)), 0);
+    // Linear but for the products of gradients, 1e-3 of 1e-3, and rounding.
+    EXPECT_LT((0.5 * (first[p].stress + second[p].stress) - between[p].stress).cwiseAbs().maxCoeff(), 1e-2);
+  }
+}
+
+TEST_F(AdaptiveMaterialTest, RevertForgetsTheStep) {
+  AdaptiveMaterial sand = material(4, 0.02);
+  AdaptiveMaterial fresh = material(4, 0.02);
+  std::vector<Response> lost(4);
+  sand.evaluate(std::vector<Increment>(4, increment_of(compression(3e-3))), lost);
+  sand.revert();
+  const std::vector<Eigen::Matrix2d> gradients(4, compression(1e-3));
+  const std::vector<Response> a = step(sand, gradients);
+  const std::vector<Response> b = step(fresh, gradients);
+  for (int p = 0; p < 4; ++p) EXPECT_EQ(a[p].stress, b[p].stress);
+}
+
+TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
+  cells_.breaks_at = 5e-3;
+  AdaptiveMaterial sand = material(3, 0.02);
+  std::vector<Increment> increments{increment_of(compression(1e-4)), increment_of(compression(6e-3)),
+                                    increment_of(compression(1e-4))};
+  std::vector<Response> responses(3);
+  sand.evaluate(increments, responses);
+  EXPECT_EQ(responses[1].quality, Quality::failed);
+  EXPECT_EQ(responses[1].message, "the box collapsed");
+  sand.revert();
+  increments[1] = increment_of(compression(1e-4));
+  sand.evaluate(increments, responses);
+  for (const Response& response : responses) EXPECT_EQ(response.quality, Quality::good);
+}
+
+TEST_F(AdaptiveMaterialTest, AuditsMeasureAPlantedErrorAndTighten) {
+  // A wrong answer to short increments: what leaders are asked is long, so no estimate can see it.
+  cells_.short_increment = 2e-4;
+  cells_.planted = 0.05 * kConfining;
+  AdaptiveMaterial sand = material(200, 0.02, 0.1);
+  for (int k = 0; k < 6; ++k) {
+    std::vector<Eigen::Matrix2d> gradients;
+    for (int p = 0; p < 200; ++p) gradients.push_back(compression(1e-3 * (1.0 + 0.05 * (p % 11) / 11.0)));
+    step(sand, gradients);
+  }
+  std::cout << "[figure] planted 0.05, audits measured " << figure(sand, "offset_error_mean") << " from "
+            << figure(sand, "offset_errors") << '\n';
+  // What is measured besides is the true error of carrying, below the tolerance.
+  EXPECT_NEAR(figure(sand, "offset_error_mean"), 0.05, 0.005);
+  EXPECT_GT(figure(sand, "offset_errors"), 50.0);
+  EXPECT_LT(figure(sand, "tolerance_worked_with"), 0.02);
+  const std::vector<std::string> notes = sand.take_notes();
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes.front().find("more than the tolerance of 0.02"), std::string::npos) << notes.front();
+  EXPECT_TRUE(sand.take_notes().empty());
+}
+
+TEST_F(AdaptiveMaterialTest, AuditsOfAGoodRunStayWithinTheTolerance) {
+  AdaptiveMaterial sand = material(90, 0.02, 0.1);
+  for (int k = 0; k < 20; ++k) step(sand, three_bands(90));
+  std::cout << "[figure] audits: 95th percentile " << figure(sand, "offset_error_95_percent")
+            << ", of whole histories " << figure(sand, "history_error_95_percent") << '\n';
+  EXPECT_GT(figure(sand, "offset_errors"), 100.0);
+  EXPECT_GT(figure(sand, "history_errors"), 100.0);
+  EXPECT_LE(figure(sand, "offset_error_95_percent"), 0.02);
+  EXPECT_GT(figure(sand, "offset_error_largest"), 0.0);
+  EXPECT_LE(figure(sand, "history_error_95_percent"), 0.02);
+  EXPECT_EQ(figure(sand, "tolerance_worked_with"), 0.02);
+  EXPECT_TRUE(sand.take_notes().empty());
+}
+
+TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
+  AdaptiveMaterial whole = material(30, 0.02, 0.1);
+  AdaptiveMaterial first = material(30, 0.02, 0.1);
+  std::vector<std::vector<Eigen::Matrix2d>> path;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> size(-2e-4, 1e-3);
+  for (int k = 0; k < 12; ++k) {
+    path.push_back(three_bands(30));
+    for (int p = 0; p < 30; p += 4) path.back()[p] = compression(size(random));
+  }
+  std::vector<Response> expected, answers;
+  for (const auto& gradients : path) expected = step(whole, gradients);
+  for (int k = 0; k < 6; ++k) step(first, path[k]);
+  MemoryArchive archive;
+  first.save(archive);
+  AdaptiveMaterial second = material(30, 0.02, 0.1);
+  second.restore(archive);
+  for (int k = 6; k < 12; ++k) answers = step(second, path[k]);
+  for (int p = 0; p < 30; ++p) {
+    EXPECT_EQ(std::memcmp(expected[p].stress.data(), answers[p].stress.data(), sizeof(Vector7)), 0) << p;
+    EXPECT_EQ(std::memcmp(expected[p].tangent.data(), answers[p].tangent.data(), sizeof(Matrix7)), 0) << p;
+  }
+  const std::vector<fem::Figure> a = whole.figures();
+  const std::vector<fem::Figure> b = second.figures();
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
+  EXPECT_GT(figure(whole, "cells"), 3.0) << "too simple a path to show anything";
+  AdaptiveMaterial other = material(31, 0.02, 0.1);
+  EXPECT_THROW(other.restore(archive), RunError);
+}
+
+}  // namespace
+}  // namespace polargrain::coupler

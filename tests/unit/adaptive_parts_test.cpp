@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The pieces that an adaptive material is made of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "coupler/adaptivity/audits.hpp"
+#include "coupler/adaptivity/error_estimate.hpp"
+#include "coupler/adaptivity/leaders.hpp"
+#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/adaptivity/strain_path.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+Eigen::Matrix2d gradient(double h11, double h12, double h21, double h22) {
+  Eigen::Matrix2d h;
+  h << h11, h12, h21, h22;
+  return h;
+}
+
+TEST(Linearised, OffsetsLeadFromOnePlaceToTheOther) {
+  const Eigen::Matrix2d first = gradient(0.1, -0.2, 0.05, -0.3);
+  const Eigen::Matrix2d second = gradient(-0.05, 0.3, 0.1, 0.2);
+  const Eigen::Matrix2d both = followed_by(first, second);
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  // (I + second)(I + first), computed the long way; entries of order one, so a few roundings of 1e-16.
+  EXPECT_LT(((one + second) * (one + first) - one - both).norm(), 1e-15);
+  EXPECT_LT((offset_between(first, both) - second).norm(), 1e-15);
+  EXPECT_TRUE(offset_between(both, both).isZero(0.0));
+}
+
+TEST(Linearised, ARotationTurnsTheStress) {
+  Response answer;
+  answer.stress << -1e5, -3e5, -2e5, 4e4, 4e4, 0.0, 0.0;
+  const double angle = 1e-4;
+  const Eigen::Matrix2d turn = gradient(0.0, -angle, angle, 0.0);
+  const Vector7 carried = linearised_stress(answer, turn);
+  Eigen::Matrix2d stress;
+  stress << -1e5, 4e4, 4e4, -3e5;
+  const Eigen::Matrix2d rotation =
+      gradient(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle));
+  const Eigen::Matrix2d exact = rotation * stress * rotation.transpose();
+  // What is left out is of second order: angle^2 times the stress difference of 2e5 Pa, 2e-3 Pa.
+  EXPECT_NEAR(carried[k11], exact(0, 0), 5e-3);
+  EXPECT_NEAR(carried[k22], exact(1, 1), 5e-3);
+  EXPECT_NEAR(carried[k12], exact(0, 1), 5e-3);
+  EXPECT_GT(std::abs(exact(0, 1) - 4e4), 10.0) << "the test would see nothing";
+}
+
+TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
+  Matrix7 elastic = Matrix7::Zero();
+  elastic.topLeftCorner<2, 2>() << 3e7, 1e7, 1e7, 3e7;
+  const ErrorEstimate estimate(elastic);
+  Response start;
+  start.tangent = elastic;
+  Curvature packing;
+  const Eigen::Matrix2d offset = gradient(1e-3, 0.0, 0.0, 0.0);
+  EXPECT_EQ(estimate.of(start, packing, Eigen::Matrix2d::Zero()), 0.0);
+  EXPECT_EQ(estimate.of(start, packing, offset), HUGE_VAL);
+  Response end = start;
+  end.stress = linearised_stress(start, offset);
+  end.stress[k11] -= 500.0;  // what the run shows and the tangent did not
+  const Curvature moved = estimate.learn(start, end, offset, packing);
+  EXPECT_DOUBLE_EQ(estimate.of(start, packing, offset), 500.0);
+  EXPECT_DOUBLE_EQ(estimate.of(end, moved, offset), 500.0);
+  // The law of growth: power 3/2 inside of what was seen, the square beyond.
+  EXPECT_NEAR(estimate.of(start, packing, 0.25 * offset), 500.0 / 8.0, 1e-9);
+  EXPECT_NEAR(estimate.of(start, packing, 2.0 * offset), 2000.0, 1e-9);
+}
+
+TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
+  Matrix7 elastic = Matrix7::Zero();
+  elastic(k11, k11) = elastic(k22, k22) = 3e7;
+  Response soft;
+  soft.tangent = 0.1 * elastic;
+  Curvature curvature{1.0, 1e-3, gradient(-1.0, 0.0, 0.0, 0.0)};
+  const ErrorEstimate estimate(elastic);
+  const double onward = estimate.of(soft, curvature, gradient(-1e-3, 0.0, 0.0, 0.0));
+  const double back = estimate.of(soft, curvature, gradient(1e-3, 0.0, 0.0, 0.0));
+  EXPECT_DOUBLE_EQ(onward, 1.0);
+  // Half of the stress between both tangents, 0.9 * 3e7 * 1e-3 Pa.
+  EXPECT_NEAR(back, 1.0 + 0.5 * 27e3, 1e-6);
+}
+
+TEST(StrainPath, TurnsAreFoundAndStraightPiecesAreOne) {
+  std::vector<Eigen::Matrix2d> path;
+  for (int k = 1; k <= 5; ++k) path.push_back(gradient(0.0, 0.0, 0.0, -1e-3 * k));
+  EXPECT_EQ(turning_points(path, 1e-5).size(), 1u);
+  for (int k = 4; k >= -3; --k) path.push_back(gradient(0.0, 0.0, 0.0, -1e-3 * k));
+  const auto turns = turning_points(path, 1e-5);
+  ASSERT_EQ(turns.size(), 2u);
+  EXPECT_EQ(turns[0], gradient(0.0, 0.0, 0.0, -5e-3));
+  EXPECT_EQ(turns[1], gradient(0.0, 0.0, 0.0, 3e-3));
+  EXPECT_EQ(turning_points(path, 1.0).size(), 1u);
+  EXPECT_TRUE(turning_points({}, 1e-5).empty());
+}
+
+TEST(Leaders, EveryPointIsCoveredAndFewLead) {
+  // Points on a line, three clumps 1 wide and 10 apart; a leader covers what is within 1.
+  std::vector<double> places;
+  for (int clump = 0; clump < 3; ++clump) {
+    for (int k = 0; k < 700; ++k) places.push_back(10.0 * clump + k / 700.0);
+  }
+  std::vector<std::size_t> points(places.size());
+  std::iota(points.begin(), points.end(), 0u);
+  const auto covers = [&](std::size_t a, std::size_t b) { return std::abs(places[a] - places[b]) <= 1.0; };
+  const std::vector<std::size_t> leaders = choose_leaders(points, covers);
+  EXPECT_EQ(leaders.size(), 3u);
+  for (const std::size_t point : points) {
+    EXPECT_TRUE(std::any_of(leaders.begin(), leaders.end(), [&](std::size_t l) { return covers(l, point); }));
+  }
+  EXPECT_EQ(choose_leaders(points, covers), leaders);
+  const std::vector<std::size_t> some{4, 9, 2};
+  EXPECT_EQ(choose_leaders(some, [](std::size_t, std::size_t) { return false; }), some);
+}
+
+TEST(Audits, DrawsAreEvenAndAlwaysTheSame) {
+  int chosen = 0;
+  for (std::uint64_t point = 0; point < 1000; ++point) {
+    for (std::uint64_t step = 0; step < 20; ++step) chosen += hashed_share(1, point, step) < 0.02 ? 1 : 0;
+  }
+  // 20000 draws of 2 %: 400, with a standard deviation of 20.
+  EXPECT_NEAR(chosen, 400, 60);
+  // Fixed for ever: restarts and other machines must draw alike. Value of this implementation of SplitMix64.
+  EXPECT_EQ(hashed_share(1, 2, 3), hashed_share(1, 2, 3));
+  EXPECT_NE(hashed_share(1, 2, 3), hashed_share(1, 3, 2));
+  EXPECT_NE(hashed_share(1, 2, 3), hashed_share(2, 2, 3));
+}
+
+TEST(Audits, StatisticsOfKnownErrors) {
+  MeasuredErrors errors;
+  EXPECT_EQ(errors.mean(), 0.0);
+  EXPECT_EQ(errors.largest(), 0.0);
+  for (int k = 100; k >= 1; --k) errors.add(k);
+  EXPECT_EQ(errors.mean(), 50.5);
+  EXPECT_EQ(errors.percentile(0.95), 95.0);
+  EXPECT_EQ(errors.largest(), 100.0);
+  EXPECT_EQ(errors.since(90).largest(), 10.0);
+  EXPECT_EQ(errors.since(500).count(), 0u);
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
