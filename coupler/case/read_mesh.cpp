@@ -9,6 +9,20 @@
 namespace polargrain::coupler {
 namespace {
 
+/// Divides the elements into the region `patch`, whose centres lie within `size` of the lower left corner,
+/// and the region `rest`.
+void make_patch(const Eigen::Vector2d& size, Section& section, fem::Mesh& mesh) {
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    const Eigen::Vector2d centre = mesh.element_positions(e).colwise().mean();
+    mesh.regions[(centre.array() < size.array()).all() ? "patch" : "rest"].push_back(e);
+  }
+  if (mesh.regions.count("patch") == 0 || mesh.regions.count("rest") == 0) {
+    section.fault("patch",
+                  "patch: holds no element, or all of them; its size is measured from the lower left corner "
+                  "to the centres of elements");
+  }
+}
+
 void read_rectangle(const Entry& entry, const std::string& element, CaseParts& parts) {
   const std::size_t faults_before = parts.faults.size();
   Section section(entry, "mesh.rectangle", parts.faults);
@@ -17,9 +31,16 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   const std::vector<int> elements = section.wholes("elements", 2, 1);
   specification.size = {size[0], size[1]};
   specification.elements = {elements[0], elements[1]};
+  Eigen::Vector2d patch = Eigen::Vector2d::Zero();
+  const bool has_patch = section.find("patch") != nullptr;
+  if (has_patch) {
+    const std::vector<double> corner = section.quantities("patch", 2, Dimension::length, Limit::positive);
+    patch << corner[0], corner[1];
+  }
   section.finish();
   if (parts.faults.size() == faults_before && !element.empty()) {
     parts.result.problem.mesh = fem::rectangle(specification, element);
+    if (has_patch) make_patch(patch, section, parts.result.problem.mesh);
   }
 }
 

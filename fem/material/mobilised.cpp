@@ -13,11 +13,6 @@ namespace {
 
 constexpr double kRadian = 180.0 / std::numbers::pi;
 
-Mobilised within(double friction, double dilatancy, const DilatancyLimits& limits) {
-  const double kept = std::clamp(dilatancy, limits.least, limits.most);
-  return {friction, kept, kept != dilatancy};
-}
-
 /// Radius of Mohr's circle of the symmetric in-plane part.
 double in_plane_radius(const ScaledVector<double>& tensor) {
   return std::hypot(0.5 * (tensor(0) - tensor(1)), 0.5 * (tensor(3) + tensor(4)));
@@ -40,24 +35,32 @@ ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
   return plastic;
 }
 
+std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
+                                    double cohesion) {
+  const Split<double> split(stress);
+  const double friction = (deviatoric_stress(split, moduli.weight) - cohesion) / -split.mean;
+  if (!(split.mean < 0.0) || !(friction >= 0.0)) return std::nullopt;
+  return friction;
+}
+
+std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic) {
+  const Split<double> split(plastic);
+  double squared = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (moduli.weight[k] > 0.0) squared += split.part[k].squaredNorm() / moduli.weight[k];
+  }
+  const double shear = std::sqrt(2.0 / 3.0 * squared);  // the increment of gamma_p, B.1
+  if (!(shear > 0.0)) return std::nullopt;
+  return 3.0 * split.mean / shear;
+}
+
 std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
                                    const ScaledVector<double>& plastic, double cohesion,
                                    const DilatancyLimits& limits) {
-  const Split<double> stress_split(stress);
-  const Split<double> plastic_split(plastic);
-  double squared = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (moduli.weight[k] > 0.0) {
-      squared += plastic_split.part[k].squaredNorm() / moduli.weight[k];
-    }
-  }
-  const double shear = std::sqrt(2.0 / 3.0 * squared);  // the increment of gamma_p, B.1
-  const double friction = (deviatoric_stress(stress_split, moduli.weight) - cohesion) / -stress_split.mean;
-  const double dilatancy = 3.0 * plastic_split.mean / shear;
-  if (!(stress_split.mean < 0.0) || !(shear > 0.0) || !(friction >= 0.0)) {
-    return std::nullopt;
-  }
-  return within(friction, dilatancy, limits);
+  const auto friction = cone_friction(moduli, stress, cohesion);
+  const auto dilatancy = cone_dilatancy(moduli, plastic);
+  if (!friction || !dilatancy) return std::nullopt;
+  return within(*friction, *dilatancy, limits);
 }
 
 std::optional<Mobilised> mobilised_in_plane(const ScaledVector<double>& stress,
@@ -75,6 +78,12 @@ std::optional<Mobilised> mobilised_in_plane(const ScaledVector<double>& stress,
       cone_from_plane_strain({std::asin(sin_friction) * kRadian, std::asin(bounded) * kRadian, 0.0});
   const Mobilised read = within(cone.friction, cone.dilatancy, limits);
   return Mobilised{read.friction, read.dilatancy, read.clipped || bounded != sin_dilatancy};
+}
+
+Mobilised within(double friction, double dilatancy, const DilatancyLimits& limits) {
+  const double most = std::min(limits.most, std::max(friction, limits.least));
+  const double kept = std::clamp(dilatancy, limits.least, most);
+  return {friction, kept, kept != dilatancy};
 }
 
 }  // namespace polargrain::fem

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "fem/material/cone.hpp"
 #include "fem/material/stress_subspaces.hpp"
 
 namespace polargrain::fem {
@@ -14,7 +15,8 @@ struct Mobilised {
   bool clipped = false;    ///< the measured dilatancy was outside the limits
 };
 
-/// Measured dilatancies are noisy quotients of small numbers; beyond these they are not believed.
+/// Measured dilatancies are noisy quotients of small numbers; beyond these they are not believed. Beside
+/// them, dilatancy never exceeds friction: flow could then create energy.
 struct DilatancyLimits {
   double least = -0.5;
   double most = 1.0;
@@ -26,22 +28,29 @@ ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
                                     const ScaledVector<double>& strain_increment,
                                     const ScaledVector<double>& stress_increment);
 
-/// mu = (q - k) / (-p) and beta = d eps_v^p / d gamma_p of a micro scale that has an out-of-plane stress,
-/// with the invariants of B.1.
-/// @param stress    scaled average stress at the end of the step, Pa
-/// @param plastic   scaled plastic strain of the step, as plastic_strain() gives it
-/// @param cohesion  k of the frozen cone, Pa
-/// @return nothing when there is nothing to read: no plastic shear, or a mean stress that is not compressive;
-/// the caller then keeps the values it has.
+/// mu = (q - k) / (-p) of a micro scale that has an out-of-plane stress, with the invariants of B.1; nothing
+/// when the mean stress is not compressive or q is below k.
+/// @param stress scaled average stress, Pa @param cohesion k of the cone, Pa
+std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
+                                    double cohesion);
+
+/// beta = d eps_v^p / d gamma_p of a scaled plastic strain, or of its rate; nothing without plastic shear.
+std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic);
+
+/// mu and beta of one step of a micro scale that has an out-of-plane stress; nothing when one of them cannot
+/// be read: the caller then keeps the values it has. @param cohesion k of the frozen cone, Pa
 std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
                                    const ScaledVector<double>& plastic, double cohesion,
                                    const DilatancyLimits& limits = {});
 
 /// The same for a micro scale in the plane (discs), from s11, s22, s12, s21 only: the mobilised in-plane
-/// angles, matched to the cone by B.3.
+/// angles, matched to the cone by B.3, which holds in developed flow.
 /// @return nothing as above, and when the in-plane stress has a tensile or zero principal value.
 std::optional<Mobilised> mobilised_in_plane(const ScaledVector<double>& stress,
                                             const ScaledVector<double>& plastic,
                                             const DilatancyLimits& limits = {});
+
+/// beta inside its limits, with mu.
+Mobilised within(double friction, double dilatancy, const DilatancyLimits& limits);
 
 }  // namespace polargrain::fem

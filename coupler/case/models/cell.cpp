@@ -6,6 +6,7 @@
 
 #include "coupler/case/material_model.hpp"
 #include "coupler/case/models/cell_definition.hpp"
+#include "coupler/case/models/informed_parameters.hpp"
 #include "coupler/cell_material.hpp"
 
 namespace polargrain::coupler {
@@ -48,6 +49,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
     refuse_cosserat_parameters(section);
   } else {
     cosserat = read_cosserat_parameters(section);
+    read_informed_parameters(section, *cosserat);  // checked, and no more: see there
   }
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat);

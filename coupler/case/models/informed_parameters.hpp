@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "coupler/case/section.hpp"
+#include "coupler/cosserat_part.hpp"
+#include "coupler/informed_material.hpp"
+
+namespace polargrain::coupler {
+
+/// Reads what `informed` asks for beside its cells and G, Gc, lc: nu, update, window, dilatancy_limits,
+/// initial_friction, cohesion, invariants; all have defaults. `cell` reads them too and makes no use of them,
+/// so that a case changes from one to the other by one word.
+InformedParameters read_informed_parameters(Section& section, const CosseratParameters& cosserat);
+
+}  // namespace polargrain::coupler

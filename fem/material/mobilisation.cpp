@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/material/mobilisation.hpp"
+
+#include <numbers>
+
+#include "fem/material/cone_matching.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+bool is_loading(const MicroStep& step) {
+  const ScaledVector<double> stress = 0.5 * (step.stress_before + step.stress_after);
+  return plain_dot(Split<double>(stress).part[0], Split<double>(step.strain).part[0]) > 0.0;
+}
+
+/// Least-squares slope of the plastic strain over the deformation; zero with fewer than two samples.
+ScaledVector<double> plastic_slope(const std::vector<Mobilisation::Sample>& samples) {
+  ScaledVector<double> slope = ScaledVector<double>::Zero();
+  double mean = 0.0;
+  for (const auto& sample : samples) mean += sample.deformation / static_cast<double>(samples.size());
+  double squares = 0.0;
+  for (const auto& sample : samples) {
+    slope += (sample.deformation - mean) * sample.plastic_strain;
+    squares += (sample.deformation - mean) * (sample.deformation - mean);
+  }
+  return squares > 0.0 ? ScaledVector<double>(slope / squares) : slope;
+}
+
+void add_to_window(const MicroStep& step, const SubspaceModuli& moduli, int window,
+                   std::vector<Mobilisation::Sample>& samples) {
+  if (samples.empty()) samples.emplace_back();
+  const Mobilisation::Sample& last = samples.back();
+  samples.push_back(
+      {last.deformation + step.strain.norm(),
+       last.plastic_strain + plastic_strain(moduli, step.strain, step.stress_after - step.stress_before)});
+  if (samples.size() > static_cast<std::size_t>(window) + 1) samples.erase(samples.begin());
+}
+
+}  // namespace
+
+Mobilisation initial_mobilisation(const MobilisationOptions& options) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  Mobilisation start;
+  start.cone = cone_from_plane_strain({options.initial_friction * kDegrees, 0.0, options.cohesion});
+  return start;
+}
+
+Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,
+                     const MobilisationOptions& options) {
+  Mobilisation end = start;
+  const bool loading = is_loading(step);
+  if (loading) {
+    add_to_window(step, moduli, options.window, end.samples);
+  } else {
+    end.samples.clear();
+  }
+  const std::optional<double> friction = cone_friction(moduli, step.stress_after, start.cone.cohesion);
+  end.limited = !friction;
+  if (!friction) return end;
+  end.micro_friction = *friction;
+  if (!loading || !step.macro_plastic) return end;
+  const bool softening = *friction < start.micro_friction;
+  if (*friction >= start.cone.friction || softening) end.cone.friction = *friction;
+
+  std::optional<double> dilatancy = cone_dilatancy(moduli, plastic_slope(end.samples));
+  if (!dilatancy) return end;
+  if (options.drift_shear > 0.0) {
+    const double micro_mean = step.stress_after.head<3>().sum() / 3.0;
+    *dilatancy += (step.macro_mean - micro_mean) / (moduli.bulk * options.drift_shear);
+  }
+  const Mobilised cone = within(end.cone.friction, *dilatancy, options.limits);
+  end.cone.dilatancy = cone.dilatancy;
+  end.limited = cone.clipped;
+  return end;
+}
+
+}  // namespace polargrain::fem

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <vector>
+
+#include "fem/material/cone.hpp"
+#include "fem/material/mobilised.hpp"
+
+namespace polargrain::fem {
+
+/// How friction and dilatancy are read from a micro scale, step after step (docs/theory/plasticity.md, B.9).
+struct MobilisationOptions {
+  /// The dilatancy is the slope over this many increments of the micro scale, at least 1.
+  int window = 5;
+  DilatancyLimits limits;
+  double cohesion = 0.0;          ///< of Mohr-Coulomb in plane strain, Pa; small and numerical
+  double initial_friction = 0.0;  ///< angle in plane strain, rad: the cone before anything is read
+  /// Plastic shear over which a difference of mean stress between micro scale and law is worked off by the
+  /// dilatancy; 0: never.
+  double drift_shear = 0.0;
+};
+
+/// One increment of the micro scale. Stresses have all of s11, s22, s33 (docs/theory/plasticity.md, B.9 on
+/// discs) and are turned with the material where it rotates.
+struct MicroStep {
+  ScaledVector<double> strain;         ///< scaled
+  ScaledVector<double> stress_before;  ///< scaled, Pa
+  ScaledVector<double> stress_after;   ///< scaled, Pa
+  double macro_mean = 0.0;             ///< mean stress of the macro law at the end, Pa
+  bool macro_plastic = false;          ///< the macro law yielded in this step
+};
+
+/// What one point knows of its micro scale: a plain value.
+struct Mobilisation {
+  /// A point of the window: plastic strain of the micro scale over a measure of its deformation.
+  struct Sample {
+    double deformation = 0.0;  ///< sum of the norms of the strain increments
+    ScaledVector<double> plastic_strain = ScaledVector<double>::Zero();
+  };
+
+  FrozenCone cone;              ///< for the next step of the macro law
+  double micro_friction = 0.0;  ///< mu, as the micro scale itself showed it last
+  bool limited = false;         ///< what was read last was outside the limits, or the micro scale in tension
+  /// Oldest first, at most window + 1, all of one loading; empty in unloading.
+  std::vector<Sample> samples;
+};
+
+/// Before anything has been read: the cone of the initial friction without dilatancy.
+/// @throws InputError when the angle or the cohesion is outside its range.
+Mobilisation initial_mobilisation(const MobilisationOptions& options);
+
+/// What a point knows after one more increment of its micro scale.
+///
+/// The window holds the increments of one loading: s : d eps > 0 with the deviators of stress and strain. In
+/// unloading it is emptied and the cone stays. The cone also stays while the macro law is elastic, and
+/// friction does not fall when the micro scale, loaded again, is still on its way up to it: it falls only
+/// when the micro scale loses strength while it is being loaded (softening).
+Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,
+                     const MobilisationOptions& options);
+
+}  // namespace polargrain::fem
