@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "band/frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "band/local_strain.hpp"
+#include "common/error.hpp"
+
+namespace polargrain::band {
+namespace {
+
+/// Radius of the neighbourhood that a grain's strain is taken from, in mean distances of the grains.
+constexpr double kNeighbourhood = 2.5;
+
+[[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& message) {
+  throw InputError({file.string(), line, message});
+}
+
+/// step -> file, of the files step-NUMBER with an extension.
+std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& folder,
+                                                  const std::string& extension) {
+  std::map<long, std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() != extension || stem.rfind("step-", 0) != 0) continue;
+    long step = 0;
+    const char* const end = stem.data() + stem.size();
+    if (std::from_chars(stem.data() + 5, end, step).ptr == end) files[step] = entry.path();
+  }
+  return files;
+}
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> words;
+  std::istringstream in(line);
+  for (std::string word; std::getline(in, word, separator);)
+    if (separator == ',' || !word.empty()) words.push_back(word);
+  return words;
+}
+
+double number(const std::string& word, const std::filesystem::path& file, int line) {
+  try {
+    std::size_t end = 0;
+    const double value = std::stod(word, &end);
+    if (end == word.size() || word[end] == '\r') return value;
+  } catch (const std::exception&) {
+  }
+  fail(file, line, fmt::format("'{}' is no number", word));
+}
+
+std::map<long, double> read_strains(const std::filesystem::path& file, const std::string& column) {
+  std::ifstream in(file);
+  std::string line;
+  if (!std::getline(in, line)) fail(file, 0, "the history of the run is missing or empty");
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  const std::vector<std::string> names = split(line, ',');
+  const auto place = [&](const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      fail(file, 1, fmt::format("there is no column '{}'; there are {}", name, fmt::join(names, ", ")));
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  const std::size_t step = place("step");
+  const std::size_t strain = place(column);
+  std::map<long, double> strains{{0, 0.0}};
+  for (int number_of_line = 2; std::getline(in, line); ++number_of_line) {
+    const std::vector<std::string> words = split(line, ',');
+    if (words.size() != names.size())
+      fail(file, number_of_line, "this line has not as many values as there are columns");
+    strains[std::lround(number(words[step], file, number_of_line))] =
+        number(words[strain], file, number_of_line);
+  }
+  return strains;
+}
+
+}  // namespace
+
+Frame read_grain_dump(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  int number_of_line = 0;
+  const std::string head = "ITEM: ATOMS ";
+  do {
+    ++number_of_line;
+    if (!std::getline(in, line)) fail(file, 0, "a LIGGGHTS dump with a line 'ITEM: ATOMS ...' was expected");
+  } while (line.rfind(head, 0) != 0);
+  const std::vector<std::string> names = split(line.substr(head.size()), ' ');
+  const auto place = [&](const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) fail(file, number_of_line, fmt::format("the dump has no column '{}'", name));
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  const std::size_t id = place("id");
+  const std::size_t x = place("x");
+  const std::size_t y = place("y");
+  const std::size_t turned = place("f_turned");
+  std::map<long, std::array<double, 3>> grains;
+  while (std::getline(in, line)) {
+    ++number_of_line;
+    const std::vector<std::string> words = split(line, ' ');
+    if (words.size() < names.size()) fail(file, number_of_line, "this line is short of columns");
+    const auto value = [&](std::size_t column) { return number(words[column], file, number_of_line); };
+    grains[std::lround(value(id))] = {value(x), value(y), value(turned)};
+  }
+  Frame frame;
+  for (const auto& [name, grain] : grains) {
+    frame.positions.emplace_back(grain[0], grain[1]);
+    frame.rotations.push_back(grain[2]);
+  }
+  return frame;
+}
+
+Frames::Frames(const std::filesystem::path& directory, const std::string& strain_column) {
+  std::map<long, std::filesystem::path> files = frame_files(directory / "grains", ".dump");
+  of_grains_ = !files.empty();
+  if (!of_grains_) files = frame_files(directory / "fields", ".vtu");
+  if (files.size() < 2)
+    fail(directory, 0,
+         "a result directory with at least two frames was expected: fields/step-*.vtu or grains/step-*.dump");
+  const std::filesystem::path history = directory / "history.csv";
+  const std::map<long, double> strains = read_strains(history, strain_column);
+  for (const auto& [step, file] : files) {
+    const auto strain = strains.find(step);
+    if (strain == strains.end())
+      fail(history, 0, fmt::format("there is no row of step {}, which {} is of", step, file.string()));
+    if (!axial_strains_.empty() && strain->second <= axial_strains_.back())
+      continue;  // going back, or at rest
+    axial_strains_.push_back(strain->second);
+    files_.push_back(file);
+  }
+  if (files_.size() < 2)
+    fail(history, 0, fmt::format("'{}' does not grow from frame to frame", strain_column));
+}
+
+std::size_t Frames::nearest(double axial_strain) const {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < axial_strains_.size(); ++k)
+    if (std::abs(axial_strains_[k] - axial_strain) < std::abs(axial_strains_[best] - axial_strain)) best = k;
+  return best;
+}
+
+Frame Frames::read(std::size_t index) const {
+  return of_grains_ ? read_grain_dump(files_[index]) : read_element_fields(files_[index]);
+}
+
+Samples Frames::grains(const Frame& first, const Frame& from, const Frame& to, bool current) const {
+  const std::size_t count = from.positions.size();
+  if (to.positions.size() != count || first.positions.size() != count)
+    fail(files_.back(), 0, "the dumps do not hold the same grains");
+  Eigen::Vector2d low = from.positions.front();
+  Eigen::Vector2d high = low;
+  std::vector<Eigen::Vector2d> displacements;
+  for (std::size_t k = 0; k < count; ++k) {
+    displacements.push_back(to.positions[k] - from.positions[k]);
+    low = low.cwiseMin(from.positions[k]);
+    high = high.cwiseMax(from.positions[k]);
+  }
+  const double area = (high - low).prod() / static_cast<double>(count);
+  const std::vector<Eigen::Matrix2d> gradients =
+      displacement_gradients(from.positions, displacements, kNeighbourhood * std::sqrt(area));
+  Samples samples;
+  for (std::size_t k = 0; k < count; ++k)
+    if (gradients[k].allFinite())  // a grain that was lost from the rest has no strain
+      samples.push_back({current ? from.positions[k] : first.positions[k], area, shear_strain(gradients[k]),
+                         gradients[k].trace(), to.rotations[k] - from.rotations[k]});
+  return samples;
+}
+
+Samples Frames::increment(std::size_t from, std::size_t to, bool current) const {
+  const Frame start = read(from);
+  const Frame end = read(to);
+  if (of_grains_) return grains(from == 0 ? start : read(0), start, end, current);
+  if (start.positions.size() != end.positions.size())
+    fail(files_[to], 0, "the mesh is not that of the frame before");
+  Samples samples;
+  for (std::size_t k = 0; k < start.positions.size(); ++k) {
+    const Eigen::Matrix2d strain = end.strains[k] - start.strains[k];
+    samples.push_back({start.positions[k] + (current ? start.displacements[k] : Eigen::Vector2d::Zero()),
+                       start.areas[k], shear_strain(strain), strain.trace(),
+                       end.rotations[k] - start.rotations[k]});
+  }
+  return samples;
+}
+
+}  // namespace polargrain::band
