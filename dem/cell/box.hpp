@@ -34,6 +34,8 @@ class BoxPath {
   BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps);
 
   [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] double rotation() const { return rotation_; }               ///< w of the whole way, rad
+  [[nodiscard]] const Eigen::Matrix2d& strain() const { return stretch_; }  ///< U - I of the whole way
   /// Box after `step` steps, 0 to steps(); continuous rotation angle.
   [[nodiscard]] Box at(int step) const;
 

@@ -30,8 +30,7 @@ constexpr double kHold = 1e-4;
 constexpr double kLargestIncrement = 0.25;
 
 /// Magnitude of the largest principal strain.
-double largest_strain(const Eigen::Matrix2d& displacement_gradient) {
-  const Eigen::Matrix2d strain = 0.5 * (displacement_gradient + displacement_gradient.transpose());
+double largest_principal(const Eigen::Matrix2d& strain) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(strain, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .cwiseAbs()
@@ -210,12 +209,12 @@ double Cell::increment_size(const Increment& increment) const {
 }
 
 int Cell::loading_steps(const Increment& increment) const {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  double size = largest_strain(h);
+  const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
+  double size = largest_principal(whole.strain());
   if (controlled()) {
     // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
     // them; a curvature turns them against each other by that times their distance.
-    size = std::max({size, std::abs(increment.micro_rotation - 0.5 * (h(1, 0) - h(0, 1))),
+    size = std::max({size, std::abs(increment.micro_rotation - whole.rotation()),
                      increment.curvature.norm() * 2.0 * driver_.mean_radius()});
   }
   const double steps =

@@ -86,9 +86,8 @@ TEST(Cell, RigidRotationTurnsTheStress) {
       turned.response.stress(k22);
   std::printf("[figure] stress after a rigid rotation of 0.2 rad differs by %.2e of its norm\n",
               (after - expected).norm() / before.norm());
-  // On the way H(s) = (I + s h) H_0 a rotation shrinks the box by up to 1 - cos(angle/2) = 0.5 % and lets go
-  // again: a small cycle of isotropic strain, whose friction leaves a trace of a few per cent.
-  EXPECT_LT((after - expected).norm(), 0.1 * before.norm());
+  // The box turns and does nothing else; what was left unbalanced (half a percent) creeps on.
+  EXPECT_LT((after - expected).norm(), 2e-3 * before.norm());
 }
 
 TEST(Cell, TiltedBoxGoesOnSmoothlyAfterAFlip) {
@@ -110,36 +109,6 @@ TEST(Cell, TiltedBoxGoesOnSmoothlyAfterAFlip) {
               largest_jump);
   // Steps before the flip scatter by as much: 400 grains under steady flow.
   EXPECT_LT(largest_jump, 0.15);
-}
-
-TEST(Cell, SkewStressIsLimitedBySliding) {
-  // Grains turned against a box at rest: at the limit all contacts slide, and |s21 - s12| = 2 mu p (E.7 e).
-  CellDefinition definition = test::demo_cell();
-  definition.control.rotations = CellRotations::controlled;
-  const auto cell = make_cell_service(definition);
-  CellRequest turn;
-  turn.increment.micro_rotation = 2e-3;
-  const double mu = std::tan(0.5);
-  double ratio = 0.0;
-  double work_error = 0.0;
-  for (int step = 1; step <= 20; ++step) {
-    const CellReply reply = cell->evaluate(turn);
-    ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
-    turn.state = reply.state;
-    const double pressure = -0.5 * (reply.response.stress(k11) + reply.response.stress(k22));
-    const double skew = reply.response.stress(k21) - reply.response.stress(k12);
-    ratio = skew / (2.0 * mu * pressure);
-    // Moments are balanced to the tolerance of the cell, so the multiplier is the skew stress (C.4).
-    work_error = std::max(work_error, std::abs(reply.diagnostics.multiplier - skew) / pressure);
-  }
-  std::printf(
-      "[figure] skew stress over 2 mu p at a relative rotation of 0.04: %.3f; multiplier against skew "
-      "stress: %.1e "
-      "of the pressure\n",
-      ratio, work_error);
-  // Approached from below; a slower, stricter cell comes closer.
-  EXPECT_NEAR(ratio, 1.0, 0.06);
-  EXPECT_LT(work_error, 2e-2);
 }
 
 TEST(Cell, RefusesForeignStatesAndAbsurdIncrements) {

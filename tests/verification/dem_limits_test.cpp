@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a cell with controlled rotations must obey beyond elasticity (docs/theory/grains.md): limits of the
+// skew stress and the couple stress (C.6), virtual work of any motion of the grains (C.2 to C.4), work and
+// stored energy, covariance (E.7 f).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+
+#include "dem/cell/cell_service.hpp"
+#include "dem/cell/linear_contact.hpp"
+#include "tests/support/cell_fixture.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+double pressure(const CellReply& reply) {
+  return -0.5 * (reply.response.stress(k11) + reply.response.stress(k22));
+}
+
+double volume(const Packing& packing) {
+  return packing.volume();
+}
+
+TEST(CellLimits, SkewStressIsTwiceFrictionTimesPressure) {
+  // Grains turned against a box at rest: at the limit all contacts slide.
+  CellDefinition definition = test::demo_cell();
+  definition.control.rotations = CellRotations::controlled;
+  const auto cell = make_cell_service(definition);
+  CellRequest turn;
+  turn.increment.micro_rotation = 2e-3;
+  const double mu = std::tan(0.5);
+  double ratio = 0.0;
+  double difference = 0.0;
+  for (int step = 1; step <= 20; ++step) {
+    const CellReply reply = cell->evaluate(turn);
+    ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+    turn.state = reply.state;
+    const double skew = reply.response.stress(k21) - reply.response.stress(k12);
+    ratio = skew / (2.0 * mu * pressure(reply));
+    // Moments are balanced to the tolerance of the cell, so the multiplier is the skew stress (C.4).
+    difference = std::max(difference, std::abs(reply.diagnostics.multiplier - skew) / pressure(reply));
+  }
+  std::printf(
+      "[figure] skew stress over 2 mu p at a relative rotation of 0.04: %.3f; multiplier against skew "
+      "stress: "
+      "%.1e of the pressure\n",
+      ratio, difference);
+  EXPECT_NEAR(ratio, 1.0, 0.03);
+  // The mean unbalanced moment is below 5e-3 of force times radius, and those of grains cancel.
+  EXPECT_LT(difference, 5e-3);
+}
+
+TEST(CellLimits, CoupleStressIsThatOfContactsAtTheirRollingLimit) {
+  // A curvature alone: at the limit m = (4/pi) mu_th r_c p (C.6); r_c = R* is half a radius for equal discs.
+  constexpr double kFriction = 0.2;
+  CellDefinition definition = test::rolling_cell(1.0, kFriction);
+  definition.control.rotations = CellRotations::controlled;
+  const auto cell = make_cell_service(definition);
+  CellRequest bend;
+  bend.increment.curvature << 0.3, 0.0;
+  double couple_stress = 0.0;
+  double pressure_now = 0.0;
+  double rolling = 0.0;
+  for (int step = 1; step <= 20; ++step) {
+    const CellReply reply = cell->evaluate(bend);
+    ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+    bend.state = reply.state;
+    couple_stress = reply.response.stress(kCurvature1);
+    pressure_now = pressure(reply);
+    rolling = reply.diagnostics.rolling_fraction;
+  }
+  // Mean R* over the contacts, weighted as the limit weights it.
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const Contact& contact : contact_recorder().contacts) {
+    const double weight = contact.branch.norm() * contact.normal_force();
+    sum += weight * contact.arm_first * contact.arm_second / (contact.arm_first + contact.arm_second);
+    weights += weight;
+  }
+  const double limit = 4.0 / std::numbers::pi * kFriction * (sum / weights) * pressure_now;
+  std::printf(
+      "[figure] couple stress over (4/pi) mu_th r_c p at a curvature of 6 rad/m: %.3f, %.0f %% of the "
+      "contacts at "
+      "the limit\n",
+      couple_stress / limit, 100.0 * rolling);
+  EXPECT_NEAR(couple_stress / limit, 1.0, 0.1);
+}
+
+TEST(CellIdentities, VirtualWorkOfAnyMotionIsThatOfTheStress) {
+  // Hill-Mandel (C.4): for any strain E and any fluctuation of the grains whose weighted mean rotation
+  // vanishes, sum over contacts of force . opening = V S . E, as exactly as the grains are balanced.
+  CellDefinition definition = test::rolling_cell(1.0, 0.4);
+  definition.control.rotations = CellRotations::controlled;
+  definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-6;
+  definition.control.damping = 0.1;
+  const auto cell = make_cell_service(definition);
+  CellRequest request;
+  request.increment.displacement_gradient << 1e-3, 5e-4, 0.0, -2e-3;
+  request.increment.micro_rotation = 1e-3;
+  request.increment.curvature << 0.02, -0.05;
+  const CellReply reply = cell->evaluate(request);
+  ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+  const std::vector<Contact>& contacts = contact_recorder().contacts;
+  const double box_volume =
+      volume(definition.packing) *
+      (Eigen::Matrix2d::Identity() + request.increment.displacement_gradient).determinant();
+
+  std::vector<double> capacities(definition.packing.grains.size(), 0.0);
+  std::vector<int> count(capacities.size(), 0);
+  double sum = 0.0;
+  for (const Contact& contact : contacts) {
+    capacities[contact.first] += contact.arm_first * contact.normal_force();
+    capacities[contact.second] += contact.arm_second * contact.normal_force();
+    ++count[contact.first];
+    ++count[contact.second];
+  }
+  for (std::size_t k = 0; k < capacities.size(); ++k)
+    sum += capacities[k] = count[k] < 2 ? 0.0 : capacities[k];
+
+  std::mt19937 numbers(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<Eigen::Vector3d> motion(capacities.size());
+  double mean_rotation = 0.0;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    motion[k] = {1e-2 * uniform(numbers), 1e-2 * uniform(numbers), uniform(numbers)};
+    mean_rotation += motion[k].z() * capacities[k] / sum;
+  }
+  for (Eigen::Vector3d& m : motion) m.z() -= mean_rotation;
+  Vector7 strain;
+  strain << 0.3, -0.7, 0.0, 0.4, -0.2, 30.0, -50.0;
+  double work = 0.0;
+  double size = 0.0;
+  for (const Contact& contact : contacts) {
+    const LinearContact law(contact, Eigen::Matrix2d::Identity());
+    Eigen::Matrix<double, 6, 1> both;
+    both << motion[contact.first], motion[contact.second];
+    const Eigen::Vector3d opening = law.motions * both + law.affine * strain;
+    const double done = contact.force.dot(opening.head<2>()) + contact.moment * opening.z();
+    work += done;
+    size += std::abs(done);
+  }
+  const double of_stress = box_volume * reply.response.stress.dot(strain);
+  std::printf(
+      "[figure] virtual work of the contacts against that of the stress: %.1e of the sum of magnitudes; skew "
+      "stress %.3f of the pressure, couple stress %.2e N/m\n",
+      std::abs(work - of_stress) / size,
+      (reply.response.stress(k21) - reply.response.stress(k12)) / pressure(reply),
+      reply.response.stress.tail<2>().norm());
+  EXPECT_LT(std::abs(work - of_stress), 1e-6 * size);
+}
+
+TEST(CellIdentities, WorkIsTheStoredEnergyWhenNothingSlips) {
+  CellDefinition definition = test::rolling_cell(4.0, 1e3);
+  const std::string friction = "0.5463024898437905";
+  definition.script.replace(definition.script.find(friction), friction.size(), "1e3");
+  definition.control.rotations = CellRotations::controlled;
+  definition.control.inertial_number = 2e-5;
+  definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-4;
+  const auto cell = make_cell_service(definition);
+  const auto energy = [] {
+    double sum = 0.0;
+    for (const Contact& contact : contact_recorder().contacts) {
+      sum += 0.5 * contact.normal_force() * contact.normal_force() / contact.normal_stiffness +
+             0.5 * contact.tangential_force() * contact.tangential_force() / contact.tangential_stiffness +
+             0.5 * contact.moment * contact.moment / contact.rolling_stiffness;
+    }
+    return sum;
+  };
+  CellRequest request;
+  request.increment.displacement_gradient << -1e-5, 4e-5, 0.0, -3e-5;
+  request.increment.micro_rotation = 4e-5;
+  request.increment.curvature << 15e-3, -6e-3;
+  Vector7 stress = cell->initial().response.stress;
+  double start = 0.0;
+  double work = 0.0;
+  double couple_work = 0.0;
+  double now = volume(definition.packing);
+  {
+    CellRequest rest;  // records the contacts of the start
+    start = (cell->evaluate(rest), energy());
+  }
+  for (int step = 0; step < 10; ++step) {
+    const CellReply reply = cell->evaluate(request);
+    ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+    const Vector7 mean = 0.5 * (stress + reply.response.stress);
+    const double middle = now * (1.0 + 0.5 * request.increment.displacement_gradient.trace());
+    work += middle * mean.dot(request.increment.strain());
+    couple_work += middle * mean.tail<2>().dot(request.increment.curvature);
+    now *= (Eigen::Matrix2d::Identity() + request.increment.displacement_gradient).determinant();
+    stress = reply.response.stress;
+    request.state = reply.state;
+  }
+  const double stored = energy() - start;
+  std::printf(
+      "[figure] work of the stresses over the energy that the contacts stored: %.4f, couple stresses' share "
+      "%.3f\n",
+      work / stored, couple_work / work);
+  EXPECT_NEAR(work / stored, 1.0, 0.01);
+  EXPECT_GT(couple_work / work, 0.05);
+}
+
+TEST(CellIdentities, TurningPackingAndPathTurnsTheAnswer) {
+  // The grains turned by 90 degrees in a box whose base vectors change places: another grid, another order of
+  // the contacts, other signs (E.7 f).
+  CellDefinition straight = test::rolling_cell(1.0, 0.4);
+  straight.control.rotations = CellRotations::controlled;
+  straight.control.unbalanced_force_ratio = straight.control.unbalanced_moment_ratio = 1e-5;
+  CellDefinition turned = straight;
+  Eigen::Matrix2d quarter;
+  quarter << 0.0, -1.0, 1.0, 0.0;
+  turned.packing.box.col(0) = -quarter * straight.packing.box.col(1);
+  turned.packing.box.col(1) = quarter * straight.packing.box.col(0);
+  for (Grain& grain : turned.packing.grains)
+    grain.position = quarter * grain.position + turned.packing.box.col(0);
+  CellRequest request;
+  request.increment.displacement_gradient << 2e-4, 1e-4, 0.0, -3e-4;
+  request.increment.micro_rotation = 1e-4;
+  request.increment.curvature << 0.01, -0.02;
+  const CellReply one = make_cell_service(straight)->evaluate(request);
+  request.increment.displacement_gradient =
+      quarter * request.increment.displacement_gradient * quarter.transpose();
+  request.increment.curvature = quarter * request.increment.curvature;
+  const CellReply other = make_cell_service(turned)->evaluate(request);
+  const auto turn_back = [](const Vector7& s) {
+    Vector7 back;
+    back << s(k22), s(k11), s(k33), -s(k21), -s(k12), s(kCurvature2), -s(kCurvature1);
+    return back;
+  };
+  const Vector7 difference = turn_back(other.response.stress) - one.response.stress;
+  std::printf(
+      "[figure] stress of the cell turned by 90 degrees: %.1e of the pressure away, couple stress %.1e of "
+      "itself\n",
+      difference.head<5>().norm() / pressure(one),
+      difference.tail<2>().norm() / one.response.stress.tail<2>().norm());
+  EXPECT_LT(difference.head<5>().norm(), 1e-3 * pressure(one));
+  EXPECT_LT(difference.tail<2>().norm(), 1e-3 * one.response.stress.tail<2>().norm());
+}
+
+}  // namespace
+}  // namespace polargrain::dem
