@@ -332,4 +332,23 @@ void InformedMaterial::fields(std::size_t point, std::span<double> values) const
   std::copy(all.begin(), all.end(), values.begin());
 }
 
+std::vector<fem::Figure> InformedMaterial::figures() const {
+  if (committed_.empty()) return {};
+  std::vector<double> mismatches;
+  double sum = 0.0;
+  double limited = 0.0;
+  for (const PointState& point : committed_) {
+    mismatches.push_back(mismatch(point));
+    sum += mismatches.back();
+    if (point.mobilisation.limited) limited += 1.0;
+  }
+  std::sort(mismatches.begin(), mismatches.end());
+  const auto count = static_cast<double>(mismatches.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count)) - 1;
+  return {{"stress_mismatch_mean", sum / count},
+          {"stress_mismatch_percentile_95", mismatches[rank]},
+          {"stress_mismatch_largest", mismatches.back()},
+          {"dilatancy_limited", limited / count}};
+}
+
 }  // namespace polargrain::coupler

@@ -49,6 +49,9 @@ class InformedMaterial : public fem::Material {
   /// sliding_fraction, dem_steps.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
+  /// stress_mismatch_mean, stress_mismatch_percentile_95, stress_mismatch_largest over the points of the last
+  /// committed step, and dilatancy_limited: the share of them where a limit acts.
+  [[nodiscard]] std::vector<fem::Figure> figures() const override;
 
  private:
   struct PointState {
