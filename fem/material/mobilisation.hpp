@@ -15,8 +15,8 @@ struct MobilisationOptions {
   double cohesion = 0.0;          ///< of Mohr-Coulomb in plane strain, Pa; small and numerical
   double initial_friction = 0.0;  ///< angle in plane strain, rad: the cone before anything is read
   /// Plastic shear over which a difference of mean stress between micro scale and law is worked off by the
-  /// dilatancy; 0: never.
-  double drift_shear = 0.0;
+  /// dilatancy; 0: never (the published scheme).
+  double drift_shear = 0.01;
 };
 
 /// One increment of the micro scale. Stresses have all of s11, s22, s33 (docs/theory/plasticity.md, B.9 on

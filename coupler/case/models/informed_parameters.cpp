@@ -35,7 +35,8 @@ InformedParameters read_informed_parameters(Section& section, const CosseratPara
     section.fault("initial_friction", "initial_friction: must be an angle below 90 degrees");
   }
   reading.initial_friction = angle;
-  reading.drift_shear = section.quantity_or("drift_shear", Dimension::number, Limit::not_negative, 0.0);
+  reading.drift_shear =
+      section.quantity_or("drift_shear", Dimension::number, Limit::not_negative, reading.drift_shear);
   reading.cohesion = section.quantity_or("cohesion", Dimension::pressure, Limit::positive, 100.0);
   if (section.find("invariants") != nullptr) {
     const std::vector<double> a = section.quantities("invariants", 3, Dimension::number, Limit::any);

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Following a micro scale through loading, unloading and softening (docs/theory/plasticity.md, B.9).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/material/cone_matching.hpp"
+#include "fem/material/mobilisation.hpp"
+
+namespace polargrain::fem::test {
+namespace {
+
+constexpr double kMean = -100e3;  // Pa
+
+SubspaceModuli moduli() {
+  ElasticParameters elastic;
+  elastic.young_modulus = 50e6;
+  elastic.poisson_ratio = 0.2;
+  elastic.cosserat_shear_modulus = 10e6;
+  elastic.internal_length = 1e-3;
+  return {elastic, {}};
+}
+
+/// Pure shear of the plane under kMean: q = sqrt(3) tau.
+ScaledVector<double> stress(double mu) {
+  ScaledVector<double> s = ScaledVector<double>::Zero();
+  s.head<3>().setConstant(kMean);
+  s(k12) = s(k21) = -mu * kMean / std::sqrt(3.0);
+  return s;
+}
+
+/// An increment in which the micro scale goes from one friction to another, with `plastic` shear (d gamma_p)
+/// in the direction of the stress (or against it) and the given dilatancy.
+MicroStep step(double from, double to, double plastic, double dilatancy = 0.0) {
+  MicroStep step{};
+  step.stress_before = stress(from);
+  step.stress_after = stress(to);
+  ScaledVector<double> strain = ScaledVector<double>::Zero();
+  strain.head<3>().setConstant(dilatancy * std::abs(plastic) / 3.0);
+  strain(k12) = strain(k21) = 0.5 * std::sqrt(3.0) * plastic +
+                              (step.stress_after(k12) - step.stress_before(k12)) / moduli().stiffness[0];
+  step.strain = strain;
+  step.macro_mean = kMean;
+  step.macro_plastic = true;
+  return step;
+}
+
+MobilisationOptions options(int window) {
+  MobilisationOptions options;
+  options.window = window;
+  return options;
+}
+
+TEST(Mobilisation, ReadsFrictionAtTheEndAndDilatancyOverTheWindow) {
+  Mobilisation point = initial_mobilisation(options(3));
+  EXPECT_EQ(point.cone.friction, 0.0);
+  point = advance(point, step(0.0, 0.6, 1e-3, 0.2), moduli(), options(3));
+  EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
+  EXPECT_NEAR(point.cone.dilatancy, 0.2, 1e-12);
+  // Equal increments: the slope of a line through 0.2, 0.2 and 0.5 by least squares, weights 3, 4, 3 of 10.
+  point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), options(3));
+  point = advance(point, step(0.6, 0.6, 1e-3, 0.5), moduli(), options(3));
+  EXPECT_NEAR(point.cone.dilatancy, 0.29,
+              3e-3);  // the first increment is a little longer, by its elastic part
+  EXPECT_EQ(point.samples.size(), 4U);
+  for (int i = 0; i < 5; ++i) point = advance(point, step(0.6, 0.6, 1e-3, 0.5), moduli(), options(3));
+  EXPECT_NEAR(point.cone.dilatancy, 0.5, 1e-12);
+  EXPECT_EQ(point.samples.size(), 4U);
+}
+
+TEST(Mobilisation, StaysInUnloadingAndDoesNotFallOnTheWayBack) {
+  Mobilisation point = initial_mobilisation(options(5));
+  point = advance(point, step(0.0, 0.8, 1e-3, 0.1), moduli(), options(5));
+  point = advance(point, step(0.8, 0.3, -1e-4), moduli(), options(5));
+  EXPECT_NEAR(point.cone.friction, 0.8, 1e-12);
+  EXPECT_NEAR(point.micro_friction, 0.3, 1e-12);
+  EXPECT_TRUE(point.samples.empty());
+  // Loaded again, still below: the law may yield at 0.8, the micro scale is at 0.6 and rising.
+  point = advance(point, step(0.3, 0.6, 1e-4), moduli(), options(5));
+  EXPECT_NEAR(point.cone.friction, 0.8, 1e-12);
+  point = advance(point, step(0.6, 0.85, 1e-4), moduli(), options(5));
+  EXPECT_NEAR(point.cone.friction, 0.85, 1e-12);
+}
+
+TEST(Mobilisation, FallsWhenTheMicroScaleSoftensUnderLoad) {
+  Mobilisation point = initial_mobilisation(options(5));
+  point = advance(point, step(0.0, 0.8, 1e-3), moduli(), options(5));
+  point = advance(point, step(0.8, 0.75, 1e-3), moduli(), options(5));
+  EXPECT_NEAR(point.cone.friction, 0.75, 1e-12);
+}
+
+TEST(Mobilisation, KeepsTheConeWhileTheLawIsElastic) {
+  MobilisationOptions given = options(5);
+  given.initial_friction = 0.1;
+  const Mobilisation start = initial_mobilisation(given);
+  MicroStep elastic = step(0.0, 0.8, 1e-3);
+  elastic.macro_plastic = false;
+  const Mobilisation point = advance(start, elastic, moduli(), given);
+  EXPECT_EQ(point.cone.friction, start.cone.friction);
+  EXPECT_NEAR(point.micro_friction, 0.8, 1e-12);
+}
+
+TEST(Mobilisation, FlagsEveryLimit) {
+  Mobilisation start = initial_mobilisation(options(1));
+  // Limits: -0.5 and 1, and never above friction.
+  EXPECT_EQ(advance(start, step(0.0, 0.8, 1e-3, -0.7), moduli(), options(1)).cone.dilatancy, -0.5);
+  EXPECT_TRUE(advance(start, step(0.0, 0.8, 1e-3, -0.7), moduli(), options(1)).limited);
+  const Mobilisation above = advance(start, step(0.0, 0.8, 1e-3, 0.9), moduli(), options(1));
+  EXPECT_NEAR(above.cone.dilatancy, 0.8, 1e-12);
+  EXPECT_TRUE(above.limited);
+  EXPECT_FALSE(advance(start, step(0.0, 0.8, 1e-3, 0.7), moduli(), options(1)).limited);
+  MicroStep tension = step(0.0, 0.8, 1e-3);
+  tension.stress_after = -tension.stress_after;
+  EXPECT_TRUE(advance(start, tension, moduli(), options(1)).limited);
+}
+
+TEST(Mobilisation, ADriftOfTheMeanStressIsWorkedOff) {
+  MobilisationOptions given = options(1);
+  given.drift_shear = 0.02;
+  MicroStep compressed = step(0.6, 0.6, 1e-3, 0.1);
+  compressed.macro_mean = kMean + 20e3;  // the micro scale is compressed more than the law
+  const double expected = 0.1 + 20e3 / (moduli().bulk * 0.02);
+  const Mobilisation point = advance(initial_mobilisation(given), compressed, moduli(), given);
+  EXPECT_NEAR(point.cone.dilatancy, expected, 1e-12);
+}
+
+}  // namespace
+}  // namespace polargrain::fem::test
