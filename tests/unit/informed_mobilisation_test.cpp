@@ -54,14 +54,13 @@ MobilisationOptions options(int window) {
 TEST(Mobilisation, ReadsFrictionAtTheEndAndDilatancyOverTheWindow) {
   Mobilisation point = initial_mobilisation(options(3));
   EXPECT_EQ(point.cone.friction, 0.0);
-  point = advance(point, step(0.0, 0.6, 1e-3, 0.2), moduli(), options(3));
+  point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), options(3));
   EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
   EXPECT_NEAR(point.cone.dilatancy, 0.2, 1e-12);
   // Equal increments: the slope of a line through 0.2, 0.2 and 0.5 by least squares, weights 3, 4, 3 of 10.
   point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), options(3));
   point = advance(point, step(0.6, 0.6, 1e-3, 0.5), moduli(), options(3));
-  EXPECT_NEAR(point.cone.dilatancy, 0.29,
-              3e-3);  // the first increment is a little longer, by its elastic part
+  EXPECT_NEAR(point.cone.dilatancy, 0.29, 2e-3);  // the last increment is a little longer, it dilates more
   EXPECT_EQ(point.samples.size(), 4U);
   for (int i = 0; i < 5; ++i) point = advance(point, step(0.6, 0.6, 1e-3, 0.5), moduli(), options(3));
   EXPECT_NEAR(point.cone.dilatancy, 0.5, 1e-12);
