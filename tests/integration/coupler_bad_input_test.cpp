@@ -210,11 +210,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UndampedBeyondOne", "lc: 10 mm", "lc: 10 mm, damping: 1.5",
                  "case.yaml:7: material 'sand': damping: must be less than 1"},
         BadInput{"UnknownControlOfRotations", "lc: 10 mm", "lc: 10 mm, rotations: fixed",
-                 "case.yaml:7: material 'sand': rotations: expected free or controlled, found 'fixed'"},
-        BadInput{
-            "CosseratPartTwice", "G: 40 MPa, Gc: 10 MPa, lc: 10 mm", "rotations: controlled, Gc: 10 MPa",
-            "case.yaml:7: Gc: with 'rotations: controlled' the grains give the skew stress and the couple "
-            "stresses themselves; leave Gc out, or set 'rotations: free'"},
+                 "case.yaml:7: material 'sand': rotations: expected one of free, controlled, found 'fixed'"},
+        BadInput{"CosseratPartTwice", "G: 40 MPa, Gc: 10 MPa, lc: 10 mm", "rotations: controlled, Gc: 10 MPa",
+                 "case.yaml:7: material 'sand': Gc: with 'rotations: controlled' the grains give the skew "
+                 "stress and the couple "
+                 "stresses themselves; leave Gc out, or set 'rotations: free'"},
         BadInput{"UnknownRegion", "  all: sand", "  all: sand\n  core: sand",
                  "case.yaml:11: regions: the mesh has no region 'core'; it has all"},
         BadInput{
