@@ -9,6 +9,7 @@
 
 #include "coupler/case/expression.hpp"
 #include "coupler/case/material_model.hpp"
+#include "coupler/pool/patience.hpp"
 #include "fem/solver/problem.hpp"
 #include "fem/solver/solver.hpp"
 
@@ -52,6 +53,7 @@ struct Case {
   std::vector<Monitor> monitors;
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
+  PatienceLimits patience;         ///< with workers
 
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }

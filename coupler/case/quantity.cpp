@@ -17,7 +17,7 @@ struct Unit {
   double factor;
 };
 
-constexpr std::array<Unit, 21> kUnits{{
+constexpr std::array<Unit, 24> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -39,6 +39,9 @@ constexpr std::array<Unit, 21> kUnits{{
     {Dimension::unit_weight, "N/m3", 1.0},
     {Dimension::unit_weight, "kN/m3", 1e3},
     {Dimension::unit_weight, "MN/m3", 1e6},
+    {Dimension::duration, "s", 1.0},
+    {Dimension::duration, "min", 60.0},
+    {Dimension::duration, "h", 3600.0},
 }};
 
 std::string_view trimmed(std::string_view text) {
@@ -72,6 +75,8 @@ std::string expectation(Dimension dimension) {
       return "a force in N, or with one of the units " + units;
     case Dimension::force_per_length:
       return "a force per thickness in N/m, or with one of the units " + units;
+    case Dimension::duration:
+      return "a time in s, or with one of the units " + units;
     case Dimension::unit_weight:
       return "a force per volume in N/m3, or with one of the units " + units;
     case Dimension::number:

@@ -14,7 +14,8 @@ enum class Dimension {
   angle,
   force,             ///< also a moment per thickness
   force_per_length,  ///< per thickness
-  unit_weight
+  unit_weight,
+  duration
 };
 
 /// "a pressure in Pa, or with one of the units Pa, kPa, MPa, GPa": for messages.

@@ -41,6 +41,7 @@ class CaseReader {
     if (const Entry* entry = top.require("steps", "a map with at least 'count'")) read_steps(*entry, parts_);
     if (const Entry* entry = top.find("monitors")) read_monitors(*entry);
     if (const Entry* entry = top.find("output")) read_output(*entry);
+    if (const Entry* entry = top.find("workers")) read_workers(*entry);
     top.finish();
     if (faults_.empty()) check_micro_rotations();
     if (faults_.empty()) check_whole();
@@ -185,6 +186,16 @@ class CaseReader {
       }
     }
     output.finish();
+  }
+
+  void read_workers(const Entry& entry) {
+    Section workers(entry, "workers", faults_);
+    PatienceLimits& patience = case_.patience;
+    patience.silence_seconds =
+        workers.quantity_or("silence", Dimension::duration, Limit::positive, patience.silence_seconds);
+    patience.cell_seconds =
+        workers.quantity_or("cell_time", Dimension::duration, Limit::positive, patience.cell_seconds);
+    workers.finish();
   }
 
   /// Without Gc nothing ties the micro-rotations to the continuum: a uniform one costs nothing.

@@ -43,6 +43,8 @@ int default_workers() {
 struct WorkerOptions {
   std::string url;
   std::string log;
+  std::string key;
+  double patience_seconds = ServeOptions{}.patience_seconds;
 };
 
 int work(const WorkerOptions& options, const WorkerEngine& engine) {
@@ -52,12 +54,27 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     }
   }
   try {
+    ServeOptions serve_options;
+    serve_options.patience_seconds = options.patience_seconds;
+    if (!options.key.empty()) serve_options.key = read_worker_key(options.key);
     engine.start_process();
-    serve(options.url, engine.make_service);
+    serve(options.url, engine.make_service, serve_options);
+  } catch (const InputError& error) {
+    throw;  // what the user gave is wrong; told like everywhere else
   } catch (const std::exception& error) {
     fmt::print(stderr, "ERROR: {}\n", error.what());
     return kRunFailed;
   }
+  return 0;
+}
+
+int keys(const std::string& directory, const std::string& worker) {
+  make_keys(directory, worker);
+  fmt::print(
+      "{0}/{1}.key is new: copy it to where workers run, and to nowhere else.\n"
+      "  here:  polargrain run CASE.yaml --listen tcp://*:5570 --keys {0}\n"
+      "  there: polargrain worker --connect tcp://HOST:5570 --key {1}.key\n",
+      directory, worker);
   return 0;
 }
 
@@ -105,7 +122,14 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->type_name("DIR");
   run_command->add_option("-w,--workers", run_options.workers, "Worker processes [one a core]")
       ->type_name("N")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(0, 4096));
+  CLI::Option* listen = run_command
+                            ->add_option("--listen", run_options.listen,
+                                         "Where workers of other machines may join, for example tcp://*:5570")
+                            ->type_name("URL");
+  listen->needs(
+      run_command->add_option("--keys", run_options.keys, "Directory of 'polargrain keys', to listen")
+          ->type_name("DIR"));
   run_command->add_flag("--quiet", run_options.quiet, "Print nothing but errors");
   add_settings(*run_command, run_options.settings);
 
@@ -151,10 +175,23 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   worker_command->add_option("--connect", worker_options.url, "The coordinator's endpoint")
       ->required()
       ->type_name("URL");
+  worker_command->add_option("--key", worker_options.key, "Key file of 'polargrain keys', needed for tcp://")
+      ->type_name("FILE");
+  worker_command
+      ->add_option("--patience", worker_options.patience_seconds,
+                   "Give up after so long without a coordinator [60]")
+      ->type_name("SECONDS");
   worker_command->add_option("--log", worker_options.log, "Append all output to this file")
       ->type_name("FILE");
 
-  for (CLI::App* command : {run_command, check_command, point_command, pack_command, worker_command})
+  std::string keys_directory;
+  std::string keys_worker = "worker";
+  CLI::App* keys_command = app.add_subcommand("keys", "Make keys for workers on other machines");
+  keys_command->add_option("DIR", keys_directory, "Directory of the keys of a coordinator")->required();
+  keys_command->add_option("--worker", keys_worker, "Name of the worker's key to add [worker]")
+      ->type_name("NAME");
+
+  for (CLI::App* command : {run_command, check_command, point_command, pack_command, worker_command, keys_command})
     command->footer("");
 
   try {
@@ -167,6 +204,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
     if (check_command->parsed()) return check(check_file, check_settings);
     if (point_command->parsed()) return point(point_options);
     if (pack_command->parsed()) return pack(pack_options, packing_tools);
+    if (keys_command->parsed()) return keys(keys_directory, keys_worker);
     return work(worker_options, engine);
   });
 }

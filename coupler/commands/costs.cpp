@@ -7,9 +7,11 @@ namespace polargrain::coupler {
 
 Costs costs_between(const PoolCounts& before, const PoolCounts& after, int workers, double total,
                     double finite_elements, double materials) {
-  const double engine = (after.engine_seconds - before.engine_seconds) / workers;
-  const double busy = (after.busy_seconds - before.busy_seconds) / workers;
   const double cells = after.wall_seconds - before.wall_seconds;
+  const double present = after.member_seconds - before.member_seconds;
+  const double members = cells > 0.0 && present > 0.0 ? present / cells : workers;  // they may come and go
+  const double engine = (after.engine_seconds - before.engine_seconds) / members;
+  const double busy = (after.busy_seconds - before.busy_seconds) / members;
   Costs costs;
   costs.total = total;
   costs.grains = engine;

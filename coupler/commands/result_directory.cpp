@@ -28,7 +28,7 @@ void prepare_result_directory(const fs::path& directory) try {
   }
   fs::create_directories(directory);
   for (const char* file :
-       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "run.log", "fields", "logs"}) {
+       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "run.log", "fields", "logs", "replay"}) {
     fs::remove_all(directory / file);
   }
 } catch (const fs::filesystem_error& error) {

@@ -99,6 +99,7 @@ class Run {
       pool_.emplace(options);
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
+      if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
     }
     for (auto& [region, material] : case_.problem.materials) {
       // Every region has a material of its own: a fem::Material holds the states of one region's points.

@@ -11,6 +11,8 @@ struct RunOptions {
   std::filesystem::path directory;  ///< empty: default_result_directory
   int workers = 1;
   bool quiet = false;
+  std::string listen;          ///< tcp://HOST:PORT where workers of other machines may join; empty: none may
+  std::filesystem::path keys;  ///< directory of 'polargrain keys', needed to listen
   std::vector<std::string> settings;  ///< of --set
 };
 

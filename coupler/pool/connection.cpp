@@ -68,6 +68,7 @@ void Connection::note_events() {
     if (part.more()) static_cast<void>(monitor_.recv(part));  // the endpoint
     if (event == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) {
       lost_.reset();
+      renewed_ = true;
       stranger_ = false;
       continue;
     }

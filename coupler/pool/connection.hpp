@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 #include <zmq.hpp>
 
 #include "coupler/pool/keys.hpp"
@@ -19,6 +20,8 @@ class Connection {
   /// Waits so long for a message. @returns whether there is one
   bool receive(zmq::message_t& bytes, std::chrono::milliseconds timeout);
 
+  /// Whether a connection was made since the last call: the first one, or a new one after a loss.
+  bool renewed() { return std::exchange(renewed_, false); }
   /// How long there has been no connection, in s; 0 while there is one.
   [[nodiscard]] double lost_seconds() const;
   /// Whether the other side has refused this worker's key.
@@ -33,6 +36,7 @@ class Connection {
   zmq::socket_t socket_{context_, zmq::socket_type::dealer};
   zmq::socket_t monitor_{context_, zmq::socket_type::pair};
   std::optional<std::chrono::steady_clock::time_point> lost_ = std::chrono::steady_clock::now();
+  bool renewed_ = false;
   bool refused_ = false;
   bool stranger_ = false;
 };

@@ -93,6 +93,7 @@ class Crew {
   void praise(const Member& member);
 
   [[nodiscard]] std::list<Member>& members() { return members_; }
+  [[nodiscard]] const Switchboard& switchboard() const { return switchboard_; }
   [[nodiscard]] std::int64_t bytes_sent() const { return bytes_sent_; }
   [[nodiscard]] std::int64_t bytes_received() const { return bytes_received_; }
 

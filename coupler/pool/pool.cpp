@@ -27,8 +27,9 @@ Clock::duration seconds(double value) {
 constexpr int kMostEndsByWork = 2;
 constexpr int kMostEndsFromOutside = 10;
 
-/// How often the clocks of the workers are looked at.
-constexpr std::chrono::milliseconds kTick{500};
+/// How often the clocks of the workers are looked at, at least.
+constexpr std::chrono::milliseconds kLongestTick{500};
+constexpr double kTicksInSilence = 20.0;
 
 /// A request without a sign of life is sent again so many times before its worker is given up for silent.
 constexpr double kResends = 10.0;
@@ -87,11 +88,11 @@ class Pool::Implementation final : private CrewEvents {
     for (Member& member : crew_.members()) give_next(member);
     Clock::time_point last = start;
     while (done_ < tasks.size()) {
-      crew_.listen(kTick);
+      crew_.listen(tick_);
       const Clock::time_point now = Clock::now();
       counts.member_seconds +=
           static_cast<double>(crew_.members().size()) * std::chrono::duration<double>(now - last).count();
-      forgive(now - last - kTick);
+      forgive(now - last - tick_);
       last = now;
       check_clocks();
       if (progress) progress(done_, tasks.size());
@@ -111,6 +112,7 @@ class Pool::Implementation final : private CrewEvents {
   PoolCounts counts;
   std::optional<CellFailure> failure;
   [[nodiscard]] int workers() const { return options_.workers; }
+  [[nodiscard]] const Switchboard& switchboard() const { return crew_.switchboard(); }
 
  private:
   struct Definition {
@@ -320,6 +322,9 @@ class Pool::Implementation final : private CrewEvents {
   }
 
   PoolOptions options_;
+  std::chrono::milliseconds tick_{std::clamp<std::int64_t>(
+      static_cast<std::int64_t>(1e3 * options_.patience.silence_seconds / kTicksInSilence), 1,
+      kLongestTick.count())};
   std::vector<Definition> definitions_;
   Crew crew_;
 
@@ -372,6 +377,12 @@ void Pool::on_progress(std::function<void(std::size_t, std::size_t)> call) {
 
 const PoolCounts& Pool::counts() const {
   return implementation_->counts;
+}
+std::string Pool::listening_url() const {
+  return implementation_->switchboard().remote_url();
+}
+std::size_t Pool::refused() const {
+  return implementation_->switchboard().refused();
 }
 int Pool::workers() const {
   return implementation_->workers();

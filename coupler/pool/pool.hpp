@@ -10,21 +10,11 @@
 #include <vector>
 
 #include "common/cell.hpp"
+#include "coupler/pool/patience.hpp"
 #include "coupler/pool/switchboard.hpp"
 #include "coupler/pool/worker.hpp"
 
 namespace polargrain::coupler {
-
-/// When a worker that does not answer is taken for hung.
-struct PatienceLimits {
-  /// A worker at work that has given no sign of life for so long is given up; alive, it says so thirty times
-  /// as often.
-  double silence_seconds = 30.0;
-  /// A cell may take so long even if its worker says all the while that it works ...
-  double cell_seconds = 600.0;
-  /// ... or this many times as long as the longest of its definition that was answered, whichever is more.
-  double times_longest = 20.0;
-};
 
 struct PoolOptions {
   /// Local worker processes; may be 0 when `listening`.
@@ -107,6 +97,10 @@ class Pool {
   /// the cells asked for.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> call);
   [[nodiscard]] const PoolCounts& counts() const;
+  /// Where workers of other machines may join; empty when nowhere.
+  [[nodiscard]] std::string listening_url() const;
+  /// Connections that were refused so far.
+  [[nodiscard]] std::size_t refused() const;
   /// Local workers, as asked for.
   [[nodiscard]] int workers() const;
 

@@ -81,6 +81,10 @@ void Switchboard::serve_others(const Listening& listening) try {
       error.num() == EADDRINUSE ? "; another coordinator or program holds this port, choose another" : ""));
 }
 
+std::string Switchboard::remote_url() const {
+  return remote_ ? remote_->get(zmq::sockopt::last_endpoint) : std::string();
+}
+
 bool Switchboard::send(const Address& to, const std::string& bytes) try {
   zmq::socket_t& socket = to.remote ? *remote_ : local_;
   // A full queue is like a lost message: who is still waited for is sent it again.

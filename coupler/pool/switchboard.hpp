@@ -38,6 +38,9 @@ class Switchboard {
               std::function<void(const std::string&)> tell);
 
   [[nodiscard]] const std::string& local_url() const { return local_url_; }
+  /// Where others may come to, with the port chosen when the URL left it open (tcp://...:*); empty when not
+  /// listening.
+  [[nodiscard]] std::string remote_url() const;
   /// @returns false when nobody is (any more) at that address
   bool send(const Address& to, const std::string& bytes);
   /// Waits until a message is there, one of the descriptors becomes readable, or the time is over.

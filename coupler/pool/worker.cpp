@@ -121,8 +121,8 @@ class Worker {
       : url_(url), make_service_(make_service), options_(options), connection_(url, options.key) {}
 
   void work() {
-    send_hello();
     for (;;) {
+      if (connection_.renewed()) send_hello();
       zmq::message_t bytes;
       if (connection_.receive(bytes, kHelloPeriod)) {
         heard_ = Clock::now();

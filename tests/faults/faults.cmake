@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Things that die, hang, lie or come uninvited.
+add_executable(faulty_line faults/faulty_line.cpp)
+target_link_libraries(faulty_line PRIVATE polargrain_pool)
+add_executable(strange_worker faults/strange_worker.cpp)
+target_link_libraries(strange_worker PRIVATE polargrain_pool)
+
+polargrain_test(faults_messages_test faults faults/messages_test.cpp LIBS polargrain_pool polargrain_fake_engine)
+target_compile_definitions(faults_messages_test PRIVATE
+  FAKE_WORKER="$<TARGET_FILE:fake_worker>" FAULTY_LINE="$<TARGET_FILE:faulty_line>"
+  STRANGE_WORKER="$<TARGET_FILE:strange_worker>")
+add_dependencies(faults_messages_test fake_worker faulty_line strange_worker)
+
+polargrain_test(faults_guests_test faults faults/guests_test.cpp LIBS polargrain_pool polargrain_fake_engine)
+target_compile_definitions(faults_guests_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>")
+add_dependencies(faults_guests_test fake_worker)
+
+polargrain_test(faults_kills_test faults faults/kills_test.cpp LIBS polargrain_options Threads::Threads)
+target_compile_definitions(faults_kills_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+add_dependencies(faults_kills_test fake_polargrain)
+
+if(TARGET polargrain)
+  polargrain_test(faults_engine_kills_test long faults/engine_kills_test.cpp LIBS polargrain_options Threads::Threads)
+  target_compile_definitions(faults_engine_kills_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                              CASES="${PROJECT_SOURCE_DIR}/cases")
+  add_dependencies(faults_engine_kills_test polargrain)
+endif()

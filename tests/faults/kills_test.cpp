@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Workers killed and stopped at random during whole runs: the results are those of the undisturbed run, to
+// the bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "tests/faults/killer.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+constexpr const char* kCase =
+    "title: Compression of a fake\n"
+    "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}}\n"
+    "materials:\n"
+    "  sand: {model: cell, script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}\n"
+    "regions: {all: sand}\n"
+    "boundary:\n"
+    "  - {on: bottom, fix: [u2]}\n"
+    "  - {on: bottom_left, fix: [u1, w]}\n"
+    "  - {on: top, move: {u2: -8 mm}}\n"
+    "  - {on: [left, right], pressure: 100 kPa}\n"
+    "steps: {count: 30, tolerance: 1e-10}\n"
+    "workers: {silence: 1 s}\n"
+    "monitors: {top_force: {on: top, reaction: u2}}\n";
+
+class KillsTest : public ::testing::Test {
+ protected:
+  KillsTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    write(scratch_.path() / "grains.csv",
+          "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
+    write(scratch_.path() / "case.yaml", kCase);
+    write(scratch_.path() / "fake.in", "");
+    quiet_ = run_in(scratch_.path(), FAKE_POLARGRAIN " run case.yaml -o quiet -w 1 --quiet");
+    write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be killed in
+  }
+
+  [[nodiscard]] std::string disturbed() const {
+    return "env -C '" + scratch_.path().string() +
+           "' " FAKE_POLARGRAIN " run case.yaml -o disturbed -w 3 --quiet";
+  }
+  [[nodiscard]] std::string result(const std::string& file) const { return content(scratch_.path() / file); }
+
+  Scratch scratch_;
+  Outcome quiet_;
+};
+
+int count_of(const std::string& word, const std::string& text) {
+  int count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(KillsTest, AHundredKilledWorkersChangeNothing) {
+  ASSERT_EQ(quiet_.status, 0) << quiet_.errors;
+  Beside run(disturbed());
+  const int kills = kill_workers(run, 100, 0.04, 20250101);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_EQ(kills, 100);
+  EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
+  const std::string log = result("disturbed/run.log");
+  const int told = count_of("killed by signal 9", log);
+  std::cout << "[figure] workers killed " << kills << ", told " << told
+            << ", cells that went to another worker " << count_of("its cell goes to another worker", log)
+            << '\n';
+  // A process that is killed twice, or after the last cell, is told once or not at all.
+  EXPECT_GE(told, 90);
+  EXPECT_LE(told, 100);
+}
+
+TEST_F(KillsTest, StoppedWorkersChangeNothing) {
+  ASSERT_EQ(quiet_.status, 0) << quiet_.errors;
+  Beside run(disturbed());
+  EXPECT_EQ(kill_workers(run, 6, 0.5, 20250102, SIGSTOP), 6);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
+  EXPECT_GE(count_of("it hangs: no sign of life for 1 s", result("disturbed/run.log")), 3);
+}
+
+TEST_F(KillsTest, WorkersDelayedForLessThanTheLimitAreKept) {
+  ASSERT_EQ(quiet_.status, 0) << quiet_.errors;
+  Beside run(disturbed());
+  for (int pause = 0; pause < 10 && run.running(); ++pause) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    const std::vector<pid_t> workers = children_of(run.id());
+    if (workers.empty()) continue;
+    kill(workers.front(), SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    kill(workers.front(), SIGCONT);
+  }
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
+  EXPECT_EQ(count_of("hangs", result("disturbed/run.log")), 0) << result("disturbed/run.log");
+}
+
+TEST_F(KillsTest, ACoordinatorThatWasStoppedDoesNotBlameItsWorkers) {
+  Beside run(disturbed());
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(run.id(), SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  kill(run.id(), SIGCONT);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
+  EXPECT_EQ(count_of("hangs", result("disturbed/run.log")), 0) << result("disturbed/run.log");
+}
+
+TEST_F(KillsTest, ACellThatFailsForEverLeavesAReplay) {
+  write(scratch_.path() / "fake.in", "die_beyond 1e-5\n");
+  const Outcome outcome = run_in(scratch_.path(), FAKE_POLARGRAIN
+                                 " run case.yaml -o out -w 2 --quiet --set steps.cut=1 "
+                                 "--set mesh.rectangle.elements=[1,1]");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("the cell that failed can be run alone: see out/replay/README.md"),
+            std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(result("out/replay/README.md").find("ERROR: Lost atoms"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bad lines and workers that talk nonsense.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <random>
+
+#include "common/error.hpp"
+#include "coupler/pool/pool.hpp"
+#include "tests/integration/command.hpp"
+#include "tests/integration/fake_engine.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+using testing::Scratch;
+
+class MessageFaultsTest : public ::testing::Test {
+ protected:
+  MessageFaultsTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {}
+
+  [[nodiscard]] PoolOptions options(int workers, const std::vector<std::string>& command) {
+    PoolOptions options;
+    options.workers = workers;
+    options.directory = scratch_.path();
+    options.worker_command = command;
+    options.patience.silence_seconds = 1.0;
+    options.tell = [this](const std::string& text) { told_ += text + '\n'; };
+    return options;
+  }
+
+  Scratch scratch_;
+  std::string told_;
+};
+
+std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<CellReply>& from = {}) {
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
+  std::vector<PoolRequest> requests(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
+      value = entry(generator);
+    if (!from.empty()) requests[r].cell.state = from[r].state;
+  }
+  return requests;
+}
+
+/// Ten batches, each from the states of the one before.
+std::vector<CellReply> chain(Pool& pool, std::size_t cells) {
+  pool.define(testing::fake_definition(""));
+  std::vector<CellReply> replies;
+  for (int batch = 0; batch < 10; ++batch) replies = pool.evaluate(random_requests(cells, replies));
+  return replies;
+}
+
+TEST_F(MessageFaultsTest, LostDoubledDelayedAndCutMessagesChangeNothing) {
+  Pool undisturbed(options(1, {FAKE_WORKER}));
+  const std::vector<CellReply> expected = chain(undisturbed, 20);
+  Pool pool(options(4, {FAULTY_LINE, "11", "4", FAKE_WORKER}));
+  const std::vector<CellReply> replies = chain(pool, 20);
+  for (std::size_t r = 0; r < replies.size(); ++r) {
+    EXPECT_EQ(replies[r].response.quality, Quality::good);
+    EXPECT_EQ(
+        std::memcmp(replies[r].response.stress.data(), expected[r].response.stress.data(), sizeof(Vector7)),
+        0);
+    EXPECT_EQ(replies[r].state->name(), expected[r].state->name());
+  }
+  std::cout << "[figure] 200 evaluations over lines that spoil 16 % of all messages; workers given up: "
+            << pool.counts().workers_lost << '\n';
+}
+
+TEST_F(MessageFaultsTest, AWorkerOfAnotherVersionIsRefusedAtTheStart) {
+  try {
+    const Pool pool(options(1, {STRANGE_WORKER, "version"}));
+    FAIL() << "accepted";
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()).find("a worker cannot be used: it speaks version"), 0u)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("use the same polargrain on both sides"), std::string::npos);
+  }
+}
+
+TEST_F(MessageFaultsTest, AWorkerThatSendsGarbageIsGivenUp) {
+  Pool pool(options(1, {STRANGE_WORKER, "garbage"}));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> replies = pool.evaluate(random_requests(1));
+  EXPECT_EQ(replies[0].response.quality, Quality::failed);
+  EXPECT_NE(replies[0].response.message.find(
+                "was given up at work on point 0 of material 'sand' (fake.in): it sent "
+                "what cannot be used"),
+            std::string::npos)
+      << replies[0].response.message;
+}
+
+TEST_F(MessageFaultsTest, AWorkerThatNeverAnswersIsGivenUp) {
+  Pool pool(options(1, {STRANGE_WORKER, "nothing"}));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> replies = pool.evaluate(random_requests(1));
+  EXPECT_EQ(replies[0].response.quality, Quality::failed);
+  EXPECT_NE(replies[0].response.message.find("it hangs"), std::string::npos) << replies[0].response.message;
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
