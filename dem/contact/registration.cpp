@@ -5,8 +5,7 @@
 #include <iostream>
 
 #include "dem/contact/cell_loading.hpp"
-#include "dem/contact/pair_loop.hpp"
-#include "dem/contact/recorded_model.hpp"
+#include "dem/contact/compiled_combination.hpp"
 
 namespace polargrain::dem {
 
@@ -25,27 +24,8 @@ CellLoading& cell_loading() {
 
 namespace {
 
-template <typename Model>
-PairStyles::IGranularPairStyle* create_pair(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::PairGran* parent,
-                                            int64_t hash) {
-  return new PairLoop<RecordedModel<Model>>(lammps, parent, hash);
-}
-
-template <typename Model>
-Walls::IGranularWall* create_wall(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::FixWallGran* parent, int64_t hash) {
-  return new Walls::Granular<Model>(lammps, parent, hash);
-}
-
 /// Any combination, put together at run time through virtual calls.
 using AnyCombination = ContactModel<GranStyle<>>;
-
-/// A combination compiled as one, for speed.
-template <int Normal, int Tangential, int Cohesion, int Rolling>
-void add_compiled() {
-  using Style = GranStyle<Normal, Tangential, Cohesion, Rolling, SURFACE_DEFAULT>;
-  PairStyles::Factory::instance().addStyle("gran", Style::HASHCODE, &create_pair<ContactModel<Style>>);
-  Walls::Factory::instance().addStyle("gran", Style::HASHCODE, &create_wall<ContactModel<Style>>);
-}
 
 void add_names() {
   Factory& factory = Factory::instance();
@@ -99,12 +79,16 @@ void register_contact_models(bool record_all) {
   add_names();
   add_any_combination(record_all);
   if (record_all) {
+    add_compiled<HOOKE, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
     add_compiled<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
+    add_compiled<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
     add_compiled<HERTZ, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
+    add_compiled<HERTZ, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
   }
   add_compiled<HOOKE_RADII, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
   add_compiled<HOOKE_RADII, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
   add_compiled<HOOKE_RADII, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_LI_CHU>();
+  add_compiled<HOOKE_RADII, TANGENTIAL_LI_CHU, COHESION_OFF, ROLLING_OFF>();
   add_compiled<HOOKE_RADII, TANGENTIAL_LI_CHU, COHESION_OFF, ROLLING_LI_CHU>();
   add_compiled<HOOKE_STIFFNESS, TANGENTIAL_LI_CHU, COHESION_OFF, ROLLING_LI_CHU>();
   add_compiled<HERTZ, TANGENTIAL_LI_CHU, COHESION_OFF, ROLLING_LI_CHU>();

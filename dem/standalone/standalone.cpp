@@ -64,11 +64,12 @@ void tell_position() {
 
 }  // namespace
 
-int run_liggghts(int argc, char** argv) {
+int run_liggghts(int argc, char** argv, const std::function<void()>& add_models) {
   MPI_Init(&argc, &argv);
   {
     Engine engine(true, argc, argv);
     register_standalone_fixes(*engine.lammps().modify);
+    if (add_models) add_models();
     running_engine = &engine.lammps();
     // Errors that all processes see end in exit(), others in MPI_Abort().
     on_exit(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <functional>
 
 namespace polargrain::dem {
 
@@ -8,7 +9,8 @@ namespace polargrain::dem {
 /// triclinic boxes repaired. Stock models run through the code compiled here, as in cells: the same digits as
 /// the stock program (tests/verification/contact_standalone_test.cpp), less time. An engine error ends the
 /// process with LIGGGHTS's words, then the script, line and text of the command.
+/// @param add_models called before the script is read: a program's own contact models
 /// @return exit status
-int run_liggghts(int argc, char** argv);
+int run_liggghts(int argc, char** argv, const std::function<void()>& add_models = {});
 
 }  // namespace polargrain::dem
