@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupler/commands/command_line.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +7,8 @@
 
 #include "common/error.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/commands/band.hpp"
+#include "coupler/commands/command_line.hpp"
 #include "coupler/commands/pack.hpp"
 #include "coupler/commands/point.hpp"
 #include "coupler/commands/run.hpp"
@@ -170,6 +170,29 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   pack_command->add_flag("--quiet", pack_options.quiet, "Print nothing but errors");
   add_settings(*pack_command, pack_options.settings);
 
+  BandCommandOptions band_options;
+  CLI::App* band_command =
+      app.add_subcommand("band", "Measure the shear band of a result: inclination, thickness, onset");
+  band_command->add_option("DIR", band_options.directory, "Results of run, or of a specimen made of grains")
+      ->required();
+  band_command->add_option("--from", band_options.from,
+                           "Axial strain where the increment begins [2/3 of the last]");
+  band_command->add_option("--to", band_options.to, "Axial strain where it ends [the last]");
+  band_command
+      ->add_option("--window", band_options.window, "Axial strain of the increments for the onset [0.005]")
+      ->check(CLI::PositiveNumber);
+  band_command
+      ->add_option("--contrast", band_options.contrast, "Least shear of a band over the background [2]")
+      ->check(CLI::Range(1.0, 1e9));
+  band_command
+      ->add_option("--strain", band_options.strain_column, "Column of history.csv with the axial strain")
+      ->type_name("COLUMN")
+      ->capture_default_str();
+  band_command->add_flag("--current", band_options.current,
+                         "Measure where places are at --from, not at the start");
+  band_command->add_option("--fields", band_options.fields, "Write the samples of the increment as CSV")
+      ->type_name("FILE");
+
   WorkerOptions worker_options;
   CLI::App* worker_command = app.add_subcommand("worker", "Serve cells to a coordinator (started by run)");
   worker_command->add_option("--connect", worker_options.url, "The coordinator's endpoint")
@@ -191,7 +214,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   keys_command->add_option("--worker", keys_worker, "Name of the worker's key to add [worker]")
       ->type_name("NAME");
 
-  for (CLI::App* command : {run_command, check_command, point_command, pack_command, worker_command, keys_command})
+  for (CLI::App* command :
+       {run_command, band_command, check_command, point_command, pack_command, worker_command, keys_command})
     command->footer("");
 
   try {
@@ -203,6 +227,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
     if (run_command->parsed()) return run(run_options);
     if (check_command->parsed()) return check(check_file, check_settings);
     if (point_command->parsed()) return point(point_options);
+    if (band_command->parsed()) return band(band_options);
     if (pack_command->parsed()) return pack(pack_options, packing_tools);
     if (keys_command->parsed()) return keys(keys_directory, keys_worker);
     return work(worker_options, engine);
