@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/element/large_tangent.hpp"
 
+#include "fem/material/rotation.hpp"
+
 namespace polargrain::fem {
 namespace {
 
@@ -40,12 +42,16 @@ Variation vary(const PointGeometry& middle, const Increment& increment, Continuu
 }  // namespace
 
 Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& middle,
-                              const Increment& increment, Continuum continuum, const Response& response) {
+                              const Increment& increment, Continuum continuum, const Response& response,
+                              const Vector7& start_stress) {
   const auto nodes = end.shape.size();
   const Vector7& stress = response.stress;
   Eigen::Matrix2d s;
   s << stress(k11), stress(k12), stress(k21), stress(k22);
   const Eigen::Vector2d m = stress.tail<2>();
+  const Vector7 turned = rotated(start_stress, rotation_angle(increment));
+  Eigen::Matrix2d turned_s;
+  turned_s << turned(k11), turned(k12), turned(k21), turned(k22);
   const auto b = strain_matrix(end, continuum);
   Eigen::MatrixXd tangent(3 * nodes, 3 * nodes);
   for (Eigen::Index column = 0; column < 3 * nodes; ++column) {
@@ -56,8 +62,8 @@ Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& mid
     Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
     if (column % 3 < 2) h.row(column % 3) = end.gradient.row(column / 3);
     const Eigen::Matrix2d hs = h * s;
-    const Eigen::Matrix2d ds = s * h.trace() - hs + spin * s - s * spin;
-    const Eigen::Vector2d dm = m * h.trace() - h * m + spin * m;
+    const Eigen::Matrix2d ds = s * h.trace() - hs + spin * turned_s - turned_s * spin;
+    const Eigen::Vector2d dm = m * h.trace() - h * m + spin * turned.tail<2>();
     Vector7 dstress = response.tangent * change.strain;
     dstress(k11) += ds(0, 0);
     dstress(k22) += ds(1, 1);

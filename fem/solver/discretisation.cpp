@@ -89,7 +89,8 @@ Eigen::MatrixXd Discretisation::element_tangent(std::size_t e, std::span<const R
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
     if (middle_ != nullptr) {
-      tangent += large_tangent(points_[i], middle_->point(i), (*increments_)[i], continuum_, responses[i]);
+      tangent += large_tangent(points_[i], middle_->point(i), (*increments_)[i], continuum_, responses[i],
+                               (*start_)[i].stress);
       continue;
     }
     const auto b = strain_matrix(points_[i], continuum_);

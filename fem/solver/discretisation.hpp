@@ -43,8 +43,11 @@ class Discretisation {
   /// The sum of B^T D B times volume over the points of element e.
   [[nodiscard]] Eigen::MatrixXd element_tangent(std::size_t e, std::span<const Response> responses) const;
   /// From now on tangents are those of a mesh that moves along: strains refer to `middle`, increments to the
-  /// evaluation that the responses belong to. Both must outlive this object.
-  void use_large_tangent(const Discretisation* middle, const std::vector<Increment>* increments) {
+  /// evaluation that the responses belong to, `start` holds the stresses at the start of the step. All must
+  /// outlive this object.
+  void use_large_tangent(const Discretisation* middle, const std::vector<Increment>* increments,
+                         const std::vector<Response>* start) {
+    start_ = start;
     middle_ = middle;
     increments_ = increments;
   }
@@ -56,6 +59,7 @@ class Discretisation {
   Continuum continuum_;
   const Discretisation* middle_ = nullptr;
   const std::vector<Increment>* increments_ = nullptr;
+  const std::vector<Response>* start_ = nullptr;
   Eigen::Index nodal_size_;
   std::vector<PointGeometry> points_;
   std::vector<int> element_of_point_;

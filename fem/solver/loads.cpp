@@ -48,6 +48,30 @@ Eigen::Vector3d unit_pressure(const Eigen::Vector2d& normal) {
   return {-normal(0), -normal(1), 0.0};
 }
 
+/// With the tangent t of the side, the force of a unit pressure at node a is N_a (-t2, t1) per reference
+/// length.
+EdgeStiffness unit_pressure_stiffness(const Mesh& mesh, const Edge& edge) {
+  const std::vector<int> numbers = mesh.edge_nodes(edge);
+  const auto size = 2 * static_cast<Eigen::Index>(numbers.size());
+  EdgeStiffness stiffness{{}, Eigen::MatrixXd::Zero(size, size)};
+  for (const int number : numbers) {
+    for (const int component : {0, 1}) stiffness.entries.push_back(3 * number + component);
+  }
+  Eigen::VectorXd value;
+  Eigen::VectorXd derivative;
+  for (const LinePoint& place : gauss_line(3)) {
+    side_shape(numbers.size(), place.position, value, derivative);
+    const Eigen::MatrixXd product = place.weight * value * derivative.transpose();
+    for (Eigen::Index a = 0; a < value.size(); ++a) {
+      for (Eigen::Index b = 0; b < value.size(); ++b) {
+        stiffness.values(2 * a, 2 * b + 1) -= product(a, b);
+        stiffness.values(2 * a + 1, 2 * b) += product(a, b);
+      }
+    }
+  }
+  return stiffness;
+}
+
 }  // namespace
 
 Loads::Loads(const Problem& problem)
@@ -64,7 +88,11 @@ void Loads::add_edge_load(const Problem& problem, const EdgeLoad& load) {
     parts_.push_back({edge_forces(problem.mesh, edges, traction), &table});
   };
   if (load.pressure.largest_magnitude() > 0.0) {
-    pressures_.emplace_back(parts_.size(), &load);
+    Pressure& pressure = pressures_.emplace_back(Pressure{parts_.size(), &load, {}});
+    if (problem.deformation == Deformation::large) {
+      for (const Edge& edge : edges)
+        pressure.stiffness.push_back(unit_pressure_stiffness(problem.mesh, edge));
+    }
     parts_.push_back({edge_forces(problem.mesh, edges, unit_pressure), &load.pressure});
   }
   add(load.traction1, [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(normal.norm(), 0.0, 0.0); });
@@ -103,9 +131,26 @@ void Loads::move_to(const Eigen::VectorXd& nodal) {
   for (std::size_t node = 0; node < moved.nodes.size(); ++node) {
     moved.nodes[node] += nodal.segment<2>(3 * static_cast<Eigen::Index>(node));
   }
-  for (const auto& [part, load] : pressures_) {
-    parts_[part].forces = edge_forces(moved, moved.boundaries.at(load->on), unit_pressure);
+  for (const Pressure& pressure : pressures_) {
+    parts_[pressure.part].forces = edge_forces(moved, moved.boundaries.at(pressure.load->on), unit_pressure);
   }
+}
+
+std::vector<EdgeStiffness> Loads::stiffness(double time) const {
+  std::vector<EdgeStiffness> all;
+  for (const Pressure& pressure : pressures_) {
+    const double value = pressure.load->pressure.at(time);
+    for (const EdgeStiffness& unit : pressure.stiffness) all.push_back({unit.entries, value * unit.values});
+  }
+  return all;
+}
+
+Eigen::VectorXd Loads::linearised(double time, const Eigen::VectorXd& nodal) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  for (const EdgeStiffness& edge : stiffness(time)) {
+    forces(edge.entries) += edge.values * nodal(edge.entries);
+  }
+  return forces;
 }
 
 Eigen::VectorXd Loads::at(double time) const {

@@ -8,8 +8,15 @@
 
 namespace polargrain::fem {
 
+/// Derivative of the nodal forces of one edge with respect to the nodal values of its nodes.
+struct EdgeStiffness {
+  std::vector<int> entries;  ///< of nodal vectors
+  Eigen::MatrixXd values;    ///< a row a force, a column a displacement
+};
+
 /// Nodal forces of the loads of a problem, consistent with the shape functions. Loads keep their direction
-/// and the area they act on (small strain), so each is one nodal vector times its table.
+/// and the area they act on, so each is one nodal vector times its table; only pressures follow the boundary,
+/// when move_to says where it is.
 class Loads {
  public:
   /// @param problem must outlive this object.
@@ -23,6 +30,11 @@ class Loads {
   [[nodiscard]] Eigen::VectorXd at(double time) const;
   /// Change of at() per time just after `time`.
   [[nodiscard]] Eigen::VectorXd slope(double time) const;
+  /// How the forces of the pressures change as the boundary moves, at `time`: an item an edge. Empty in small
+  /// deformation. Exact wherever the boundary is, since the forces are linear in the place of the nodes.
+  [[nodiscard]] std::vector<EdgeStiffness> stiffness(double time) const;
+  /// That stiffness times nodal displacements.
+  [[nodiscard]] Eigen::VectorXd linearised(double time, const Eigen::VectorXd& nodal) const;
   /// Sum over all loads and nodes of the largest absolute nodal force (not moments), N/m.
   [[nodiscard]] double largest_force() const;
 
@@ -38,7 +50,12 @@ class Loads {
   const Problem& problem_;
   Eigen::Index size_;
   std::vector<Part> parts_;
-  std::vector<std::pair<std::size_t, const EdgeLoad*>> pressures_;  ///< which part belongs to which load
+  struct Pressure {
+    std::size_t part;
+    const EdgeLoad* load;
+    std::vector<EdgeStiffness> stiffness;  ///< of a unit pressure; empty in small deformation
+  };
+  std::vector<Pressure> pressures_;
 };
 
 }  // namespace polargrain::fem

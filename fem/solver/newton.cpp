@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -43,9 +44,13 @@ double mean_element_size(const Discretisation& discretisation) {
 }
 
 /// Norm of the strain without rotations, of which a step may hold as many as it likes.
-double strain_norm(const Increment& increment) {
+double strain_norm(const Increment& increment, Deformation deformation) {
   const Eigen::Matrix2d& h = increment.displacement_gradient;
-  return (0.5 * (h + h.transpose())).norm();
+  const double linear = (0.5 * (h + h.transpose())).norm();
+  if (deformation == Deformation::small) return linear;
+  // Rotations come linearised from the solution and exact from the supports: either must not count.
+  const Eigen::Vector2d stretches = (Eigen::Matrix2d::Identity() + h).jacobiSvd().singularValues();
+  return std::min(linear, (stretches - Eigen::Vector2d::Ones()).norm());
 }
 
 }  // namespace
@@ -67,7 +72,7 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
   state.strain.assign(discretisation.points(), Vector7::Zero());
   state.responses.resize(discretisation.points());
   if (problem.deformation == Deformation::large) {
-    discretisation.use_large_tangent(&middle_, &increments_);
+    discretisation.use_large_tangent(&middle_, &increments_, &state.responses);
     materials.use_large_rotations();
   }
 }
@@ -182,11 +187,11 @@ void Newton::evaluate(Iterate& iterate, StepReport& report) {
   iterate.residual = relative(iterate.unbalanced);
 }
 
-bool Newton::factorise(const std::vector<Response>& responses, StepReport& report) {
+bool Newton::factorise(const std::vector<Response>& responses, double time, StepReport& report) {
   const Eigen::SparseMatrix<double>* matrix = nullptr;
   {
     const Stopwatch watch(report.assembly_seconds);
-    matrix = &tangent_.assemble(responses);
+    matrix = &tangent_.assemble(responses, loads.stiffness(time));
   }
   const Stopwatch watch(report.solve_seconds);
   return linear_solver_.factorise(*matrix);
@@ -194,7 +199,7 @@ bool Newton::factorise(const std::vector<Response>& responses, StepReport& repor
 
 bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std::vector<Response>& responses,
                         const Eigen::VectorXd& right_side, Correction& change, StepReport& report) {
-  if (!factorise(responses, report)) return false;
+  if (!factorise(responses, iterate.time, report)) return false;
   const Stopwatch watch(report.solve_seconds);
   const auto add_solution = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
     constraints.add_free(linear_solver_.solve(constraints.restrict_to_free(forces)), nodal);
@@ -203,7 +208,9 @@ bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std:
   if (!goal.controls_time()) {
     // Bordered system: the response to a unit of time, times the time that brings the measure to its goal.
     per_time = constraints.slope(iterate.time);
-    add_solution(loads.slope(iterate.time) - discretisation.linearised_forces(responses, per_time), per_time);
+    const Eigen::VectorXd forces = loads.slope(iterate.time) + loads.linearised(iterate.time, per_time) -
+                                   discretisation.linearised_forces(responses, per_time);
+    add_solution(forces, per_time);
   }
   const auto respond = [&](const Eigen::VectorXd& forces, double growth) {
     Correction response{Eigen::VectorXd::Zero(state.displacement.size()), 0.0};
@@ -227,8 +234,8 @@ double Newton::allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd&
   const std::vector<Increment> added = discretisation.increments(change);
   double share = 1.0;
   for (std::size_t i = 0; i < added.size(); ++i) {
-    const double strain = strain_norm(added[i]);
-    const double room = options.largest_strain - strain_norm(reached[i]);
+    const double strain = strain_norm(added[i], problem.deformation);
+    const double room = options.largest_strain - strain_norm(reached[i], problem.deformation);
     if (strain > room) share = std::min(share, std::max(room, 0.0) / strain);
   }
   return share;
@@ -359,7 +366,8 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   // The consistent predictor: given increments go through the last converged tangent. Moving the boundary
   // alone would strain the elements next to it only and localise there (docs/theory.md, G.6).
   Iterate iterate = start_of(goal);
-  Eigen::VectorXd right_side = loads_at(iterate.time, iterate.released) - internal_before_ -
+  Eigen::VectorXd right_side = loads_at(iterate.time, iterate.released) - internal_before_ +
+                               loads.linearised(iterate.time, iterate.displacement) -
                                discretisation.linearised_forces(state.responses, iterate.displacement);
   Correction change;
   StagnationWatch watch(options.stagnation_window);

@@ -83,7 +83,7 @@ class Newton {
   [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
   void evaluate(Iterate& iterate, StepReport& report);
   void find_increments(const Eigen::VectorXd& displacement_increment);
-  [[nodiscard]] bool factorise(const std::vector<Response>& responses, StepReport& report);
+  [[nodiscard]] bool factorise(const std::vector<Response>& responses, double time, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
                                 const std::vector<Response>& responses, const Eigen::VectorXd& right_side,
                                 Correction& change, StepReport& report);

@@ -58,8 +58,7 @@ struct InitialStress {
 enum class Deformation {
   small,  ///< equilibrium and strain on the mesh as it was made
   /// On the mesh where it is (updated Lagrangian); stresses turn with the material, pressures follow the
-  /// boundary. The tangent leaves out how pressures follow, so Newton's method converges linearly under them,
-  /// and not at all where a pressure is a tenth of Young's modulus.
+  /// boundary, and the tangent knows both.
   large
 };
 

@@ -42,7 +42,7 @@ struct SolverOptions {
   /// symmetric strain. A longer correction is shortened, a predictor that asks for more (its tangent is
   /// nearly singular) gives way to the last step drawn on, or the step is cut; StepReport::limited counts
   /// that.
-  double largest_strain = 0.5;
+  double largest_strain = 1.0;
 };
 
 /// After one evaluation of all materials.

@@ -6,7 +6,9 @@
 namespace polargrain::fem {
 
 TangentMatrix::TangentMatrix(const Discretisation& discretisation, const Constraints& constraints)
-    : discretisation_(discretisation), matrix_(constraints.unknowns(), constraints.unknowns()) {
+    : discretisation_(discretisation),
+      constraints_(constraints),
+      matrix_(constraints.unknowns(), constraints.unknowns()) {
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
     std::vector<int>& equations = equations_.emplace_back();
     for (const int entry : discretisation.element_dofs(e)) {
@@ -41,22 +43,26 @@ void TangentMatrix::find_pattern() {
                                                           starts.data(), all_rows.data(), zeros.data());
 }
 
-void TangentMatrix::find_places() {
+int TangentMatrix::place_of(int row, int column) const {
   const int* starts = matrix_.outerIndexPtr();
   const int* rows = matrix_.innerIndexPtr();
+  return static_cast<int>(std::lower_bound(rows + starts[column], rows + starts[column + 1], row) - rows);
+}
+
+void TangentMatrix::find_places() {
   for (const std::vector<int>& equations : equations_) {
     for (const int column : equations) {
       if (column < 0) continue;
       for (const int row : equations) {
         if (row < 0) continue;
-        const int* place = std::lower_bound(rows + starts[column], rows + starts[column + 1], row);
-        places_.push_back(static_cast<int>(place - rows));
+        places_.push_back(place_of(row, column));
       }
     }
   }
 }
 
-const Eigen::SparseMatrix<double>& TangentMatrix::assemble(std::span<const Response> responses) {
+const Eigen::SparseMatrix<double>& TangentMatrix::assemble(std::span<const Response> responses,
+                                                           const std::vector<EdgeStiffness>& loads) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   auto place = places_.begin();
@@ -68,6 +74,19 @@ const Eigen::SparseMatrix<double>& TangentMatrix::assemble(std::span<const Respo
       for (std::size_t i = 0; i < equations.size(); ++i) {
         if (equations[i] < 0) continue;
         values[*place++] += local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+    }
+  }
+  // The nodes of an edge belong to one element, so the pattern holds their entries.
+  for (const EdgeStiffness& edge : loads) {
+    for (std::size_t j = 0; j < edge.entries.size(); ++j) {
+      const int column = constraints_.equation(static_cast<std::size_t>(edge.entries[j]));
+      if (column < 0) continue;
+      for (std::size_t i = 0; i < edge.entries.size(); ++i) {
+        const int row = constraints_.equation(static_cast<std::size_t>(edge.entries[i]));
+        if (row < 0) continue;
+        values[place_of(row, column)] -=
+            edge.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
     }
   }

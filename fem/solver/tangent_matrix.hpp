@@ -7,6 +7,7 @@
 #include "common/response.hpp"
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/discretisation.hpp"
+#include "fem/solver/loads.hpp"
 
 namespace polargrain::fem {
 
@@ -17,14 +18,17 @@ class TangentMatrix {
   /// Both must outlive this object.
   TangentMatrix(const Discretisation& discretisation, const Constraints& constraints);
 
-  /// Overwrites the values by those of the tangents of the points.
-  const Eigen::SparseMatrix<double>& assemble(std::span<const Response> responses);
+  /// Overwrites the values by those of the tangents of the points, less those of the loads.
+  const Eigen::SparseMatrix<double>& assemble(std::span<const Response> responses,
+                                              const std::vector<EdgeStiffness>& loads);
 
  private:
   void find_pattern();
   void find_places();
+  [[nodiscard]] int place_of(int row, int column) const;
 
   const Discretisation& discretisation_;
+  const Constraints& constraints_;
   std::vector<std::vector<int>> equations_;  ///< of each element's unknowns, -1 where given
   Eigen::SparseMatrix<double> matrix_;
   std::vector<int> places_;  ///< in the values of the matrix, for the free entries of each element in turn

@@ -9,3 +9,4 @@ polargrain_test(fem_footing_test verification verification/fem_footing_test.cpp 
 polargrain_test(fem_cauchy_test verification verification/fem_cauchy_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_large_test verification verification/fem_large_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_hard_cases_test verification verification/fem_hard_cases_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_many_elements_test long verification/fem_many_elements_test.cpp LIBS polargrain_fem)

@@ -9,6 +9,7 @@
 #include "fem/material/elastic.hpp"
 #include "fem/material/local_material.hpp"
 #include "fem/mesh/rectangle.hpp"
+#include "fem/solver/loads.hpp"
 #include "fem/solver/solver.hpp"
 
 using namespace polargrain;
@@ -104,6 +105,56 @@ TEST(large_deformation, pressure_all_round_compresses_by_the_exponential) {
   std::cout << "[figure] pressure 0.05 E all round: relative error of the width " << error << ", iterations "
             << iterations << '\n';
   EXPECT_LT(std::abs(error), 1e-5);  // midpoint rule: step^2 / 12 of a strain of 0.05
+}
+
+TEST(large_deformation, tangent_under_pressure_is_the_derivative_of_the_residual) {
+  // Forces of a pressure on the moved boundary against central differences, which are exact for what is
+  // linear in the place of the nodes: rounding is all that may differ.
+  for (const char* element : {"Q8R", "Q4", "T6"}) {
+    Problem problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
+    problem.mesh = rectangle({{2.0, 1.0}, {3, 2}}, element);
+    problem.edge_loads = {{.on = "top", .pressure = TimeTable::ramp(2e5)},
+                          {.on = "right", .pressure = TimeTable::constant(-1e5)}};
+    Loads loads(problem);
+    Eigen::VectorXd place = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size()));
+    for (Eigen::Index i = 0; i < place.size(); ++i) place(i) = 0.1 * std::sin(1.7 * static_cast<double>(i));
+    Eigen::VectorXd way = place;
+    for (Eigen::Index i = 0; i < way.size(); ++i) way(i) = std::cos(2.3 * static_cast<double>(i));
+    constexpr double kStep = 1e-3;
+    loads.move_to(place + kStep * way);
+    const Eigen::VectorXd after = loads.at(0.7);
+    loads.move_to(place - kStep * way);
+    const Eigen::VectorXd difference = (after - loads.at(0.7)) / (2 * kStep);
+    const double error = (loads.linearised(0.7, way) - difference).norm() / difference.norm();
+    std::cout << "[figure] stiffness of a following pressure, " << element
+              << ": relative error against central differences " << error << '\n';
+    EXPECT_LT(error, 1e-11);  // 1e-16 over the step of 1e-3, with room
+  }
+}
+
+TEST(large_deformation, newton_converges_quadratically_under_a_following_pressure) {
+  Problem problem = elastic_block({{2.0, 1.0}, {4, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
+  problem.prescribed = {{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  // Two tenths of Young's modulus on one side in five steps: bends and shears the block.
+  problem.edge_loads = {{.on = "left", .pressure = TimeTable::ramp(0.2e6)}};
+  SolverOptions options;
+  options.force_tolerance = options.moment_tolerance = 1e-12;
+  Solver solver(std::move(problem), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  StepReport report;
+  for (int step = 1; step <= 5; ++step) {
+    report = solver.advance(step / 5.0);
+    ASSERT_TRUE(report.converged) << report.message;
+    EXPECT_EQ(report.cuts, 0);
+  }
+  std::cout << "[figure] pressure of 0.2 E on one side, residuals of the last step:";
+  for (const double residual : report.force_residuals) std::cout << ' ' << residual;
+  std::cout << '\n';
+  const std::vector<double>& r = report.force_residuals;
+  ASSERT_GE(r.size(), 3U);
+  // Each below ten times the square of the one before while above rounding; without the stiffness of the
+  // pressure they fall by a constant factor.
+  for (std::size_t i = 1; i < r.size(); ++i) EXPECT_LT(r[i], std::max(10.0 * r[i - 1] * r[i - 1], 1e-12));
 }
 
 TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
