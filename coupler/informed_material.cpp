@@ -106,6 +106,8 @@ template <class Visitor>
 void InformedMaterial::visit_numbers(Visitor& visit, PointState& point, int window) {
   visit_vector(visit, point.law.scaled_stress);
   visit(point.law.gamma_p);
+  visit(point.held_friction);
+  visit(point.take_up);
   visit_whole(visit, point.law.regime);
   fem::Mobilisation& m = point.mobilisation;
   for (double* value : {&m.cone.friction, &m.cone.dilatancy, &m.cone.cohesion, &m.micro_friction})
@@ -132,6 +134,7 @@ void InformedMaterial::allocate(std::size_t points) {
   if (stress(k33) == 0.0) stress(k33) = 0.5 * (stress(k11) + stress(k22));  // discs
   start.law.scaled_stress = complete_cell_stress(stress, stress);
   start.mobilisation = fem::initial_mobilisation(parameters_.mobilisation);
+  start.held_friction = start.mobilisation.cone.friction;
   committed_.assign(points, start);
   trial_ = committed_;
   increments_.assign(points, Increment{});
@@ -168,12 +171,27 @@ void InformedMaterial::evaluate(std::span<const Increment> increments, std::span
   }
 }
 
+Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
+  const PointState& before = committed_[point];
+  const fem::FrozenCone& cone = before.mobilisation.cone;
+  const fem::ElastoplasticState start = law_start(point, increment);
+  fem::ElastoplasticState& end = trial_[point].law;
+  if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
+    using fem::PiecewiseLinear;
+    const fem::HardeningCone taken_up{PiecewiseLinear({{start.gamma_p, before.held_friction},
+                                                       {start.gamma_p + before.take_up, cone.friction}}),
+                                      PiecewiseLinear(cone.dilatancy), PiecewiseLinear(cone.cohesion)};
+    Response response = fem::integrate_elastoplastic(frame_, taken_up, start, increment, end);
+    if (response.quality == Quality::good) return response;
+  }
+  // Nothing to take up, or softening too steep to have one answer: at once.
+  return fem::integrate_elastoplastic(frame_, cone, start, increment, end);
+}
+
 void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
-    responses[point] = fem::integrate_elastoplastic(frame_, committed_[point].mobilisation.cone,
-                                                    law_start(point, increments[point]), increments[point],
-                                                    trial_[point].law);
+    responses[point] = integrate(point, increments[point]);
   }
 }
 
@@ -260,6 +278,9 @@ void InformedMaterial::take(const CellReply& reply, const Increment& increment, 
       trial.law.regime == fem::Regime::smooth};
   trial.mobilisation =
       fem::advance(committed_[point].mobilisation, step, frame_.moduli, parameters_.mobilisation);
+  const bool frozen = parameters_.update == InformedUpdate::frozen;
+  trial.held_friction = (frozen ? committed_[point] : trial).mobilisation.cone.friction;
+  trial.take_up = trial.law.gamma_p - committed_[point].law.gamma_p;
   trial.cell = reply;
 }
 

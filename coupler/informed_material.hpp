@@ -57,11 +57,16 @@ class InformedMaterial : public fem::Material {
   struct PointState {
     fem::ElastoplasticState law;
     fem::Mobilisation mobilisation;
+    /// The law takes a change of friction up in a straight line over the plastic shear of the step before:
+    /// from `held_friction` at the start of the step to that of the cone `take_up` later.
+    double held_friction = 0.0;
+    double take_up = 0.0;
     CellReply cell;  ///< its last answer, with its state
   };
 
   template <class Visitor>
   static void visit_numbers(Visitor& visit, PointState& point, int window);
+  [[nodiscard]] Response integrate(std::size_t point, const Increment& increment);
   void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);
   void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
   /// Law and cell turned to the frame at the end of the increment.
