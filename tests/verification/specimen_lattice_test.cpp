@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The biaxial apparatus (platens, membranes) around a lattice of equal discs, whose strength is known: Rowe
+// 1962, docs/theory.md E.7(c).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include "tests/integration/command.hpp"
+
+namespace {
+
+using polargrain::testing::content;
+using polargrain::testing::Scratch;
+
+constexpr double kRadius = 0.005;
+constexpr double kPressure = 1e4;  // contact stiffness over pressure and thickness: 3000
+constexpr int kColumns = 8;
+constexpr int kRows = 15;
+
+void write_lattice(const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out.precision(17);
+  const int count = (kRows / 2 + 1) * kColumns + kRows / 2 * (kColumns - 1);
+  // A sphere of that density has the mass of a disc 0.1 m thick.
+  const double density = 2650.0 * 0.1 * 0.75 / kRadius;
+  out << "lattice\n\n"
+      << count
+      << " atoms\n1 atom types\n\n-0.1 0.3 xlo xhi\n-0.1 0.4 ylo yhi\n-0.05 0.05 zlo zhi\n\nAtoms\n\n";
+  int id = 0;
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns - row % 2; ++column)
+      out << ++id << " 1 " << 2.0 * kRadius << " " << density << " " << kRadius * (2 * column + 1 + row % 2)
+          << " " << kRadius * (1.0 + std::sqrt(3.0) * row) << " 0\n";
+}
+
+/// Runs a script of the specimens; its output.
+std::string run_script(const std::string& script, const std::string& variables) {
+  const std::string command = std::string("cd ") + SPECIMEN_INPUTS + " && " + POLARGRAIN_LIGGGHTS + " -in " +
+                              script + " -log none " + variables + " 2>&1";
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::string text;
+  std::array<char, 4096> block{};
+  while (const std::size_t got = fread(block.data(), 1, block.size(), pipe)) text.append(block.data(), got);
+  EXPECT_EQ(pclose(pipe), 0) << text;
+  return text;
+}
+
+struct Row {
+  double step = 0.0, strain = 0.0, ratio = 0.0, volume = 0.0, width = 0.0, height = 0.0, top = 0.0,
+         bottom = 0.0, unbalanced = 0.0, grains = 0.0;
+};
+
+std::vector<Row> read_history(const std::filesystem::path& file) {
+  std::vector<Row> rows;
+  std::istringstream text(content(file));
+  for (std::string line; std::getline(text, line);) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    Row row;
+    if (words >> row.step >> row.strain >> row.ratio >> row.volume >> row.width >> row.height >> row.top >>
+        row.bottom >> row.unbalanced >> row.grains)
+      rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Seats the lattice and compresses it to 0.25 %; the rows of the compression.
+std::vector<Row> compress(const Scratch& scratch, double friction) {
+  for (const char* folder : {"restart", "grains"}) std::filesystem::create_directory(scratch.path() / folder);
+  write_lattice(scratch.path() / "lattice.data");
+  const std::string common =
+      "-var folder " + scratch.path().string() + " -var pressure " + std::to_string(kPressure);
+  const std::string mu = std::to_string(friction);
+  run_script("seating.in", common + " -var data " + (scratch.path() / "lattice.data").string() +
+                               " -var final_friction " + mu + " -var final_rolling 0 -var steps 1000");
+  run_script("compression.in",
+             common + " -var start " + (scratch.path() / "restart/step-0.restart").string() +
+                 " -var friction " + mu +
+                 " -var rolling 0 -var rate 0.002 -var steps 17000 -var frames 2 -var row_steps 100");
+  return read_history(scratch.path() / "history.csv");
+}
+
+TEST(SpecimenLattice, FailsAtRowesStressRatio) {
+  for (const double friction : {0.1, 0.2}) {
+    const Scratch scratch("specimen_lattice");
+    const std::vector<Row> rows = compress(scratch, friction);
+    ASSERT_EQ(rows.size(), 340U);
+    double peak = 0.0;
+    for (const Row& row : rows) peak = std::max(peak, row.ratio);
+    const double beta = std::numbers::pi / 3.0;
+    const double exact = std::tan(beta) * std::tan(beta + std::atan(friction));
+    std::cout << "[figure] lattice with friction " << friction << ": peak stress ratio " << peak << ", Rowe "
+              << exact << "\n";
+    // 15 rows are no infinite lattice: the outer two are held by platens, and count 1 r instead of sqrt(3) /
+    // 2 r to the height that the pressure acts on.
+    EXPECT_NEAR(peak / exact, 1.0, 0.04);
+    // It softens as the discs climb: the ratio falls from the peak on.
+    EXPECT_LT(rows.back().ratio, 0.98 * peak);
+  }
+}
+
+TEST(SpecimenLattice, IsAtRestUnderThePressureWhenSeated) {
+  const Scratch scratch("specimen_seated");
+  const std::vector<Row> rows = compress(scratch, 0.2);
+  ASSERT_FALSE(rows.empty());
+  // After a hundred steps of the compression the strain is 4e-8: of the elastic stress ratio 1e4 strain.
+  EXPECT_NEAR(rows.front().ratio, 1.0, 0.01);
+  EXPECT_EQ(rows.front().grains, 16.0);  // the default probe, of two radii, rests on every second row
+  // Width between the centre lines of the outer discs, seven diameters, less 1 / 3000 of elastic strain.
+  EXPECT_NEAR(rows.front().width, 14.0 * kRadius, 14.0 * kRadius * 1e-3);
+  EXPECT_NEAR(rows.front().height, kRadius * (2.0 + std::sqrt(3.0) * (kRows - 1)), 1e-3 * 0.13);
+}
+
+}  // namespace
