@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <iostream>
 
@@ -118,6 +119,29 @@ TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
   EXPECT_EQ(std::memcmp(first.stress.data(), second.stress.data(), sizeof(Vector7)), 0);
   sand.revert();
   EXPECT_EQ(evaluate(sand, Increment{}).stress, testing::fake_stress(Increment{}));
+}
+
+TEST_F(CellMaterialTest, WithoutACosseratPartTheCellAnswersWhole) {
+  CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), std::nullopt);
+  sand.allocate(1);
+  EXPECT_EQ(evaluate(sand, some_increment()).stress, testing::fake_stress(some_increment()));
+}
+
+TEST_F(CellMaterialTest, LargeRotationsReachTheCellAboutTheStart) {
+  // A rotation by 0.3 rad about the middle of a step is h = 2 tan(0.15) times a quarter turn; about its start
+  // it is R - I.
+  CellMaterial sand = material("", 1);
+  sand.use_large_rotations();
+  const double angle = 0.3;
+  const double slope = 2.0 * std::tan(0.5 * angle);
+  Increment about_middle;
+  about_middle.displacement_gradient << 0.0, -slope, slope, 0.0;
+  Increment about_start;
+  about_start.displacement_gradient << std::cos(angle) - 1.0, -std::sin(angle), std::sin(angle),
+      std::cos(angle) - 1.0;
+  const Vector7 stress = evaluate(sand, about_middle).stress;
+  const Vector7 expected = testing::fake_stress(about_start);
+  for (const int i : {k11, k22, k33}) EXPECT_NEAR(stress[i], expected[i], 1e-9 * std::abs(expected[i]));
 }
 
 TEST_F(CellMaterialTest, NoCallForAZeroIncrement) {

@@ -105,6 +105,24 @@ TEST_F(EngineTest, GrainsThrownOutOfTheBoxEndTheRun) {
   EXPECT_NE(content(scratch_.path() / "out/summary.json").find("\"status\": \"failed\""), std::string::npos);
 }
 
+TEST_F(EngineTest, AStockRollingModelIsRefusedWhereCurvatureCounts) {
+  std::string script = with_rolling(script_);
+  const std::string model = "rolling_friction li_chu";
+  script.replace(script.find(model), model.size(), "rolling_friction epsd2");
+  const std::size_t stiffness = script.find("fix rolling_stiffness");
+  script.erase(stiffness, script.find('\n', stiffness) + 1 - stiffness);
+  write(scratch_.path() / "cell.in", script);
+  std::string text = case_text("cell.in");
+  const std::string cosserat = "G: 37 MPa, Gc: 33 MPa, lc: 20 mm";
+  text.replace(text.find(cosserat), cosserat.size(), "rotations: controlled");
+  write(scratch_.path() / "case.yaml", text);
+  const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " run case.yaml -o out -w 1 --quiet");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("With controlled rotations the rolling model must be li_chu (or off)"),
+            std::string::npos)
+      << outcome.errors << script;
+}
+
 TEST_F(EngineTest, GrainsThatCarryTheWholeCosseratContinuum) {
   // Between rough plates that hold the rotations, so that curvatures arise; nothing but grains.
   write(scratch_.path() / "cell.in", with_rolling(script_));
