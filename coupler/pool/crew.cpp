@@ -16,8 +16,10 @@ namespace {
 /// How long workers may take to end by themselves after Stop; the engine has nothing left to save.
 constexpr int kStopMilliseconds = 500;
 
-/// Ends of one local worker in a row without any work done, after which its place stays empty.
-constexpr int kMostFruitless = 5;
+/// A local worker's place stays empty after five ends in a row without any work done, or a hundred when
+/// somebody else ended it.
+constexpr int kMostFruitless = 100;
+constexpr int kFruitlessEnd = 20;
 
 /// Messages in a row that make no sense, after which a worker is given up.
 constexpr int kMostUnreadable = 3;
@@ -131,14 +133,15 @@ void Crew::handle_end(Seat& seat) {
   const bool idle = member == nullptr || !member->job;
   seat.process.reset();
   seat.address = {};
-  seat.fruitless = idle ? seat.fruitless + 1 : 0;
-  seat.due = Clock::now() + std::chrono::milliseconds(seat.fruitless > 1 ? 200 * seat.fruitless : 0);
+  seat.fruitless = idle ? seat.fruitless + (outside ? 1 : kFruitlessEnd) : 0;
+  seat.due =
+      Clock::now() + std::chrono::milliseconds(seat.fruitless > kFruitlessEnd ? 10 * seat.fruitless : 0);
   if (member != nullptr) {
     remove(address, loss);
     return;
   }
   last_end_ = fmt::format("worker {} died before it reported: {}{}", seat.number, loss.cause, loss.details);
-  if (starting_) throw RunError(last_end_);
+  if (starting_ && !outside) throw RunError(last_end_);
   say(last_end_);
 }
 
@@ -155,16 +158,19 @@ void Crew::remove(const Address& address, const Loss& loss) {
 void Crew::give_up(Member& member, const std::string& cause) {
   const Address address = member.address;
   std::string details;
+  bool from_outside = false;
   for (Seat& seat : seats_) {
     if (seat.address != address || address.id.empty()) continue;
+    from_outside = seat.process->stopped();
     seat.process->finish(0);
-    details = fmt::format(" (log: {})", seat.log.string());
+    details = fmt::format("{} (log: {})", from_outside ? "; a signal has stopped its process" : "",
+                          seat.log.string());
     seat.process.reset();
     seat.address = {};
     seat.due = Clock::now();
     break;
   }
-  remove(address, {"was given up", cause, details, false});
+  remove(address, {"was given up", cause, details, from_outside});
 }
 
 void Crew::praise(const Member& member) {

@@ -109,7 +109,7 @@ class Crew {
     Address address = {};  ///< of its member; empty before its Hello
     Clock::time_point started = {};
     Clock::time_point due = {};  ///< when an empty seat is to be filled
-    int fruitless = 0;           ///< ends without a job since it last answered
+    int fruitless = 0;           ///< counts ends without a job since it last answered
   };
 
   void fill(Seat& seat);

@@ -12,6 +12,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "common/error.hpp"
 
@@ -91,6 +92,14 @@ std::optional<std::string> Process::end() {
   int status = 0;
   if (!end_ && waitpid(id_, &status, WNOHANG) == id_) note(status);
   return end_;
+}
+
+bool Process::stopped() const {
+  std::ifstream in(fmt::format("/proc/{}/stat", id_));
+  std::string line;
+  std::getline(in, line);
+  const std::size_t name_end = line.rfind(')');  // the name may hold anything
+  return name_end != std::string::npos && line.size() > name_end + 2 && line[name_end + 2] == 'T';
 }
 
 void Process::note(int status) {

@@ -31,6 +31,8 @@ class Process {
   std::optional<std::string> end();
   /// The signal that ended it, once end() has told; nothing when it ended by itself.
   [[nodiscard]] std::optional<int> end_signal() const { return end_signal_; }
+  /// Whether a signal has stopped it (SIGSTOP), so that it cannot even be heard of.
+  [[nodiscard]] bool stopped() const;
   /// Waits so long for the end, then kills.
   void finish(int milliseconds);
 

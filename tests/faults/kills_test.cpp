@@ -24,7 +24,7 @@ constexpr const char* kCase =
     "  - {on: top, move: {u2: -8 mm}}\n"
     "  - {on: [left, right], pressure: 100 kPa}\n"
     "steps: {count: 30, tolerance: 1e-10}\n"
-    "workers: {silence: 1 s}\n"
+    "workers: {silence: 2 s}\n"
     "monitors: {top_force: {on: top, reaction: u2}}\n";
 
 class KillsTest : public ::testing::Test {
@@ -33,19 +33,27 @@ class KillsTest : public ::testing::Test {
     write(scratch_.path() / "grains.csv",
           "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
     write(scratch_.path() / "case.yaml", kCase);
-    write(scratch_.path() / "fake.in", "");
-    quiet_ = run_in(scratch_.path(), FAKE_POLARGRAIN " run case.yaml -o quiet -w 1 --quiet");
-    write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be killed in
+    write(scratch_.path() / "fake.in", "\n");
   }
 
-  [[nodiscard]] std::string disturbed() const {
-    return "env -C '" + scratch_.path().string() +
-           "' " FAKE_POLARGRAIN " run case.yaml -o disturbed -w 3 --quiet";
+  /// Runs the case undisturbed. @returns the command that runs it slowly, to be disturbed
+  [[nodiscard]] std::string prepare(int steps) {
+    const std::string command =
+        FAKE_POLARGRAIN " run case.yaml --quiet --set steps.count=" + std::to_string(steps);
+    const Outcome quiet = run_in(scratch_.path(), command + " -o quiet -w 1");
+    EXPECT_EQ(quiet.status, 0) << quiet.errors;
+    write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be killed in
+    return "env -C '" + scratch_.path().string() + "' " + command + " -o disturbed -w 3";
+  }
+  /// Waits until the workers of the disturbed run have reported.
+  void await_workers(Beside& run) const {
+    while (run.running() && result("disturbed/run.log").find("workers started") == std::string::npos) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
   }
   [[nodiscard]] std::string result(const std::string& file) const { return content(scratch_.path() / file); }
 
   Scratch scratch_;
-  Outcome quiet_;
 };
 
 int count_of(const std::string& word, const std::string& text) {
@@ -55,9 +63,8 @@ int count_of(const std::string& word, const std::string& text) {
 }
 
 TEST_F(KillsTest, AHundredKilledWorkersChangeNothing) {
-  ASSERT_EQ(quiet_.status, 0) << quiet_.errors;
-  Beside run(disturbed());
-  const int kills = kill_workers(run, 100, 0.04, 20250101);
+  Beside run(prepare(100));
+  const int kills = kill_workers(run, 100, 0.06, 20250101);
   EXPECT_EQ(run.wait(), 0);
   EXPECT_EQ(kills, 100);
   EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
@@ -72,17 +79,19 @@ TEST_F(KillsTest, AHundredKilledWorkersChangeNothing) {
 }
 
 TEST_F(KillsTest, StoppedWorkersChangeNothing) {
-  ASSERT_EQ(quiet_.status, 0) << quiet_.errors;
-  Beside run(disturbed());
-  EXPECT_EQ(kill_workers(run, 6, 0.5, 20250102, SIGSTOP), 6);
+  Beside run(prepare(30));
+  await_workers(run);
+  EXPECT_EQ(kill_workers(run, 5, 0.5, 20250102, SIGSTOP), 5);
   EXPECT_EQ(run.wait(), 0);
   EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
-  EXPECT_GE(count_of("it hangs: no sign of life for 1 s", result("disturbed/run.log")), 3);
+  EXPECT_GE(count_of("it hangs: no sign of life for 2 s; a signal has stopped its process",
+                     result("disturbed/run.log")),
+            2);
 }
 
 TEST_F(KillsTest, WorkersDelayedForLessThanTheLimitAreKept) {
-  ASSERT_EQ(quiet_.status, 0) << quiet_.errors;
-  Beside run(disturbed());
+  Beside run(prepare(30));
+  await_workers(run);
   for (int pause = 0; pause < 10 && run.running(); ++pause) {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
     const std::vector<pid_t> workers = children_of(run.id());
@@ -97,10 +106,11 @@ TEST_F(KillsTest, WorkersDelayedForLessThanTheLimitAreKept) {
 }
 
 TEST_F(KillsTest, ACoordinatorThatWasStoppedDoesNotBlameItsWorkers) {
-  Beside run(disturbed());
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  Beside run(prepare(30));
+  await_workers(run);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
   kill(run.id(), SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  std::this_thread::sleep_for(std::chrono::milliseconds(3500));
   kill(run.id(), SIGCONT);
   EXPECT_EQ(run.wait(), 0);
   EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
