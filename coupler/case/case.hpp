@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "coupler/case/case_identity.hpp"
 #include "coupler/case/expression.hpp"
 #include "coupler/case/material_model.hpp"
 #include "coupler/pool/patience.hpp"
@@ -43,6 +44,8 @@ struct StepTarget {
 /// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.
 struct Case {
   std::filesystem::path file;
+  CaseIdentity identity;             ///< what a checkpoint must agree with
+  double checkpoint_minutes = 10.0;  ///< least time between two checkpoints
   std::string title;
   /// Mesh, supports and loads; its materials are null until a run makes them from the recipes.
   fem::Problem problem;

@@ -123,6 +123,11 @@ class CaseReader {
                          built_in_values().end();
       if (taken)
         monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
+      if (member.key.find_first_of(",\"\r\n") != std::string::npos) {
+        monitors.fault(member.key,
+                       "the name of a monitor heads a column of a CSV file: no comma, quotation "
+                       "mark or line break in it");
+      }
       Monitor monitor;
       monitor.name = member.key;
       if (member.value.kind == Entry::Kind::scalar) {
@@ -174,6 +179,8 @@ class CaseReader {
   void read_output(const Entry& entry) {
     Section output(entry, "output", faults_);
     case_.output_every = output.whole_or("every", 1, 1);
+    case_.checkpoint_minutes = output.quantity_or("checkpoint_minutes", Dimension::number,
+                                                  Limit::not_negative, case_.checkpoint_minutes);
     if (output.find("table") != nullptr) {
       case_.table = output.words("table", "a list of monitors");
       const std::vector<std::string> known = known_values();
@@ -258,6 +265,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
   for (const std::string& setting : settings) apply_setting(document, setting);
   Faults faults;
   Case result = CaseReader(file, document, faults).read();
+  result.identity = identity_of(document, file.parent_path());
   // In the order of the file; faults of options and of other files keep their order behind it.
   std::stable_sort(faults.begin(), faults.end(), [&](const Fault& a, const Fault& b) {
     const auto rank = [&](const Fault& fault) {

@@ -9,6 +9,7 @@
 #include "coupler/case/case.hpp"
 #include "coupler/commands/band.hpp"
 #include "coupler/commands/command_line.hpp"
+#include "coupler/commands/interrupt.hpp"
 #include "coupler/commands/pack.hpp"
 #include "coupler/commands/point.hpp"
 #include "coupler/commands/run.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr int kRunFailed = 1;
 constexpr int kInputWrong = 2;
+constexpr int kStopped = 3;
 
 constexpr const char* kIntroduction = R"(polargrain - granular materials on two scales
 A Cosserat finite element model whose material, where you want it, is a box of grains run by LIGGGHTS.)";
@@ -27,12 +29,14 @@ constexpr const char* kExamples = R"(
 Try:
   polargrain check cases/biaxial/case.yaml          all faults of a case at once, nothing is run
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
+  polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
 
 A run writes history.csv (a row a step), fields.pvd (open it in ParaView), costs.csv, summary.json and run.log.
-Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or written).
+Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or written), 3 stopped by a signal
+(go on with --resume).
 The case file is described in docs/user_guide.md.
 )";
 
@@ -92,6 +96,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return kInputWrong;
+  } catch (const Interrupted& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kStopped;
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return kRunFailed;
@@ -130,6 +137,12 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   listen->needs(
       run_command->add_option("--keys", run_options.keys, "Directory of 'polargrain keys', to listen")
           ->type_name("DIR"));
+  run_command->add_flag("--resume", run_options.resume, "Go on from the checkpoint in DIR");
+  run_command
+      ->add_option("--checkpoint-minutes", run_options.checkpoint_minutes,
+                   "Least time between two checkpoints; 0: one a step [of the case: 10]")
+      ->type_name("MINUTES")
+      ->check(CLI::NonNegativeNumber);
   run_command->add_flag("--quiet", run_options.quiet, "Print nothing but errors");
   add_settings(*run_command, run_options.settings);
 

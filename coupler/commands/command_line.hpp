@@ -15,7 +15,8 @@ struct WorkerEngine {
 };
 
 /// The whole program: reads the command line, does what it says.
-/// @returns the exit status: 0 done, 1 the run failed, 2 the input or the command line is wrong
+/// @returns the exit status: 0 done, 1 the run failed, 2 the input or the command line is wrong, 3 stopped by
+/// a signal
 int command_line(int count, char** arguments, const WorkerEngine& engine, const PackingTools& packing_tools);
 
 }  // namespace polargrain::coupler

@@ -2,6 +2,10 @@
 #include "coupler/commands/costs.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "common/error.hpp"
+#include "common/packed_values.hpp"
 
 namespace polargrain::coupler {
 
@@ -30,6 +34,51 @@ Costs& operator+=(Costs& sum, const Costs& more) {
   sum.finite_elements += more.finite_elements;
   sum.rest += more.rest;
   return sum;
+}
+
+namespace {
+
+/// The members of the counts, so that nothing done with all of them forgets one.
+constexpr std::array kWhole{&PoolCounts::evaluations, &PoolCounts::dem_steps,      &PoolCounts::states_sent,
+                            &PoolCounts::bytes_sent,  &PoolCounts::bytes_received, &PoolCounts::workers_lost};
+constexpr std::array kSeconds{&PoolCounts::engine_seconds, &PoolCounts::busy_seconds,
+                              &PoolCounts::wall_seconds, &PoolCounts::member_seconds};
+constexpr std::array kCosts{&Costs::total,   &Costs::grains,          &Costs::messages,
+                            &Costs::waiting, &Costs::finite_elements, &Costs::rest};
+
+}  // namespace
+
+PoolCounts operator+(const PoolCounts& a, const PoolCounts& b) {
+  PoolCounts sum = a;
+  for (const auto member : kWhole) sum.*member += b.*member;
+  for (const auto member : kSeconds) sum.*member += b.*member;
+  return sum;
+}
+
+PoolCounts operator-(const PoolCounts& after, const PoolCounts& before) {
+  PoolCounts difference = after;
+  for (const auto member : kWhole) difference.*member -= before.*member;
+  for (const auto member : kSeconds) difference.*member -= before.*member;
+  return difference;
+}
+
+void save(ArchiveWriter& archive, const Costs& costs, const PoolCounts& counts) {
+  std::vector<double> seconds;
+  std::vector<std::int64_t> whole;
+  for (const auto member : kCosts) seconds.push_back(costs.*member);
+  for (const auto member : kSeconds) seconds.push_back(counts.*member);
+  for (const auto member : kWhole) whole.push_back(counts.*member);
+  archive.write("seconds", std::span<const double>(seconds));
+  archive.write("counts", std::span<const std::int64_t>(whole));
+}
+
+void restore(ArchiveReader& archive, Costs& costs, PoolCounts& counts) {
+  const std::vector<double> seconds = read_lists(archive, "seconds", 1, kCosts.size() + kSeconds.size());
+  const std::vector<std::int64_t> whole = archive.integers("counts");
+  if (whole.size() != kWhole.size()) throw RunError("'counts' does not hold what a run has cost");
+  for (std::size_t i = 0; i < kCosts.size(); ++i) costs.*kCosts[i] = seconds[i];
+  for (std::size_t i = 0; i < kSeconds.size(); ++i) counts.*kSeconds[i] = seconds[kCosts.size() + i];
+  for (std::size_t i = 0; i < kWhole.size(); ++i) counts.*kWhole[i] = whole[i];
 }
 
 }  // namespace polargrain::coupler

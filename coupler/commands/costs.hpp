@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "common/archive.hpp"
 #include "coupler/pool/pool.hpp"
 #include "fem/solver/solver.hpp"
 
@@ -21,5 +22,12 @@ Costs costs_between(const PoolCounts& before, const PoolCounts& after, int worke
                     double finite_elements, double materials);
 
 Costs& operator+=(Costs& sum, const Costs& more);
+PoolCounts operator+(const PoolCounts& a, const PoolCounts& b);
+PoolCounts operator-(const PoolCounts& after, const PoolCounts& before);
+
+/// What a run has cost so far, in a checkpoint.
+void save(ArchiveWriter& archive, const Costs& costs, const PoolCounts& counts);
+/// @throws RunError when the archive does not hold it
+void restore(ArchiveReader& archive, Costs& costs, PoolCounts& counts);
 
 }  // namespace polargrain::coupler

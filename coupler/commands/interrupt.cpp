@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/commands/interrupt.hpp"
 
+#include <fmt/format.h>
 #include <signal.h>
-
-#include "common/error.hpp"
+#include <string.h>
 
 namespace polargrain::coupler {
 namespace {
 
 volatile sig_atomic_t noted = 0;
 
-void note(int) {
-  noted = 1;
+void note(int signal) {
+  noted = signal;
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ void note_interrupts() {
 }
 
 void stop_if_interrupted() {
-  if (noted != 0) throw RunError("stopped by a signal before the end; what was committed is written");
+  if (noted != 0) throw Interrupted(fmt::format("stopped by SIG{}", sigabbrev_np(noted)));
 }
 
 }  // namespace polargrain::coupler

@@ -28,6 +28,10 @@ Progress::Style Progress::style_for(std::FILE* out, bool quiet) {
 
 Progress::Progress(std::FILE* out, Style style, int steps) : out_(out), style_(style), steps_(steps) {}
 
+void Progress::go_on(double time) {
+  time_ = start_time_ = time;
+}
+
 void Progress::begin_step(int step) {
   step_ = step;
   iteration_ = 0;
@@ -60,8 +64,8 @@ std::string Progress::line() const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   if (time_ >= 1.0) {
     text += fmt::format("  done in {}", duration_text(elapsed));
-  } else if (time_ > 0.0) {
-    text += fmt::format("  left {}", duration_text(elapsed / time_ * (1.0 - time_)));
+  } else if (time_ > start_time_) {
+    text += fmt::format("  left {}", duration_text(elapsed / (time_ - start_time_) * (1.0 - time_)));
   }
   return text;
 }

@@ -18,6 +18,8 @@ class Progress : public fem::Observer {
 
   Progress(std::FILE* out, Style style, int steps);
 
+  /// The run goes on from this time: what is left is reckoned from here.
+  void go_on(double time);
   void begin_step(int step);
   /// A step has been committed: `time` of 1 is reached.
   void end_step(double time);
@@ -40,6 +42,7 @@ class Progress : public fem::Observer {
   int iteration_ = 0;
   double residual_ = 0.0;
   double time_ = 0.0;
+  double start_time_ = 0.0;
   std::size_t cells_done_ = 0;
   std::size_t cells_ = 0;
   Clock::time_point start_ = Clock::now();

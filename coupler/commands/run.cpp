@@ -10,14 +10,14 @@
 #include <optional>
 
 #include "common/error.hpp"
+#include "common/prefixed_archive.hpp"
 #include "coupler/case/case.hpp"
-#include "coupler/commands/csv_file.hpp"
+#include "coupler/checkpoint/checkpoint.hpp"
 #include "coupler/commands/interrupt.hpp"
 #include "coupler/commands/progress.hpp"
 #include "coupler/commands/result_directory.hpp"
-#include "coupler/commands/summary.hpp"
+#include "coupler/commands/run_files.hpp"
 #include "coupler/replay/replay.hpp"
-#include "fem/output/vtu.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -45,37 +45,52 @@ class RunObserver : public Progress {
   spdlog::logger& log_;
 };
 
+/// The command that goes on with a run.
+std::string resume_command(const RunOptions& options, const std::filesystem::path& directory) {
+  std::string command =
+      fmt::format("polargrain run {} -o {}", options.case_file.string(), directory.string());
+  for (const std::string& setting : options.settings) command += fmt::format(" --set '{}'", setting);
+  return command + " --resume";
+}
+
 /// One run: its parts in the order they are made.
 class Run {
  public:
+  /// @param from where to go on; null for a run from the start
   Run(const RunOptions& options, Case the_case, std::filesystem::path directory,
-      std::optional<Listening> listening)
+      std::optional<Listening> listening, std::unique_ptr<Checkpoint> from)
       : case_(std::move(the_case)),
         listening_(std::move(listening)),
         directory_(std::move(directory)),
+        from_(std::move(from)),
+        resume_command_(resume_command(options, directory_)),
+        checkpoint_seconds_(60.0 * options.checkpoint_minutes.value_or(case_.checkpoint_minutes)),
         log_("run",
-             std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), true)),
+             std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), !from_)),
         observer_(Progress::style_for(stderr, options.quiet), case_.steps(), log_),
-        history_(directory_ / "history.csv", history_columns()),
-        costs_file_(directory_ / "costs.csv",
-                    {"step", "total", "grains", "messages", "waiting", "finite_elements", "rest",
-                     "cell_evaluations", "dem_steps", "bytes_sent", "bytes_received"}),
-        collection_(directory_ / "fields.pvd") {
+        files_(case_, directory_, from_.get()) {
     log_.flush_on(spdlog::level::info);
+    log_.set_error_handler([](const std::string&) {});  // a full disk shows in the files that matter
     log_.info("polargrain {}: {} ({})", POLARGRAIN_VERSION, case_.title, case_.file.string());
     for (const std::string& setting : options.settings) log_.info("--set {}", setting);
     if (case_.needs_workers()) record_.workers = options.workers;
+    if (from_) go_on();
   }
 
   /// @returns whether the last step was committed
   bool go() {
     try {
-      start();
-      if (!steps()) return false;
+      if (first_step_ <= case_.steps()) {
+        start();
+        if (!steps()) return false;
+      }
       record_.status = "done";
+    } catch (const Interrupted& error) {
+      end_badly("stopped", error.what());
+      throw Interrupted(record_.message);
     } catch (const std::exception& error) {
-      end_badly(error.what());
-      throw;
+      end_badly("failed", error.what());
+      throw RunError(record_.message);
     }
     finish();
     return true;
@@ -85,6 +100,21 @@ class Run {
   [[nodiscard]] const Case& the_case() const { return case_; }
 
  private:
+  /// Takes over what the checkpoint says about the steps taken.
+  void go_on() {
+    first_step_ = from_->step + 1;
+    saved_step_ = from_->step;
+    for (CommittedStep& step : steps_of_history(from_->history, case_)) count(std::move(step));
+    PrefixedReader totals(from_->state, "run/");
+    restore(totals, record_.costs, counts_before_);
+    record_.pool = counts_before_;
+    log_.info("going on behind step {} of {}", from_->step, case_.steps());
+    if (from_->program != POLARGRAIN_VERSION) {
+      log_.warn("the checkpoint was written by version {}: the last bits of results may differ",
+                from_->program);
+    }
+  }
+
   void start() {
     if (case_.needs_workers()) {
       PoolOptions options;
@@ -107,25 +137,43 @@ class Run {
     }
     solver_.emplace(case_.problem, case_.solver);
     solver_->set_observer(&observer_);
+    if (!from_) return;
+    PrefixedReader state(from_->state, "solver/");
+    solver_->restore(state);
+    observer_.go_on(solver_->state().time);
+    last_ = std::move(from_);
+    if (!record_.steps.empty()) files_.write(record_.steps.back(), *solver_);
   }
 
   /// @returns whether all steps were committed
   bool steps() {
-    for (int step = 0; step <= case_.steps(); ++step) {
-      const PoolCounts before = pool_ ? pool_->counts() : PoolCounts{};
-      const Clock::time_point begin = step == 0 ? begin_ : Clock::now();
+    for (int step = first_step_; step <= case_.steps(); ++step) {
+      stop_if_interrupted();
+      const PoolCounts before = counts();
       observer_.begin_step(step);
       log_.info("step {}", step);
       const fem::StepReport report =
           step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
-      count(report);
-      if (report.converged || (step > 0 && report.substeps > 0)) write_step(step, report);
-      write_costs(step, report, before, seconds_since(begin));
+      log(report);
+      // What was committed of a step that was not reached is shown, but is no place to go on from.
+      const bool partly = !report.converged && step > 0 && report.substeps > 0;
+      CommittedStep committed{step, report, {}};
+      if (report.converged || partly) {
+        committed.values = monitor_values(case_.monitors, *solver_);
+        files_.add(committed);
+      }
+      add_costs(step, report, before);
+      if (report.converged) remember(step);
+      if (report.converged || partly) files_.write(committed, *solver_);
+      files_.write_rows();
+      count(std::move(committed));
       if (!report.converged) {
-        end_badly(fmt::format("step {} of {} did not converge: {}", step, case_.steps(), report.message));
+        end_badly("failed",
+                  fmt::format("step {} of {} did not converge: {}", step, case_.steps(), report.message));
         return false;
       }
       log_notes();
+      if (step == case_.steps() || is_due()) save_or_warn();
       observer_.end_step(report.time);
     }
     return true;
@@ -143,13 +191,7 @@ class Run {
     return solver_->advance(target.amount);
   }
 
-  void count(const fem::StepReport& report) {
-    record_.iterations += report.iterations;
-    record_.cuts += report.cuts;
-    record_.evaluations += report.evaluations;
-    record_.within_noise += report.within_noise;
-    record_.within_rounding += report.within_rounding;
-    record_.limited += report.limited;
+  void log(const fem::StepReport& report) {
     if (report.within_noise > 0) {
       log_.warn(
           "  accepted above the tolerance, within the noise of the stresses: force residual {:.3e}, noise "
@@ -169,64 +211,84 @@ class Run {
               report.evaluations, report.time);
   }
 
-  [[nodiscard]] std::vector<std::string> history_columns() const {
-    std::vector<std::string> columns{"step",        "time",         "substeps",        "cuts",
-                                     "iterations",  "evaluations",  "force_residual",  "moment_residual",
-                                     "force_noise", "within_noise", "within_rounding", "limited"};
-    for (const std::string& name : built_in_values()) {
-      if (name != "time") columns.push_back(name);
-    }
-    for (const Monitor& monitor : case_.monitors) columns.push_back(monitor.name);
-    return columns;
+  void count(CommittedStep step) {
+    record_.iterations += step.report.iterations;
+    record_.cuts += step.report.cuts;
+    record_.evaluations += step.report.evaluations;
+    record_.within_noise += step.report.within_noise;
+    record_.within_rounding += step.report.within_rounding;
+    record_.limited += step.report.limited;
+    if (!step.values.empty()) record_.steps.push_back(std::move(step));
   }
 
-  void write_step(int step, const fem::StepReport& report) {
-    const MonitorValues values = monitor_values(case_.monitors, *solver_);
-    std::vector<std::string> row{std::to_string(step),
-                                 exact(report.time),
-                                 std::to_string(report.substeps),
-                                 std::to_string(report.cuts),
-                                 std::to_string(report.iterations),
-                                 std::to_string(report.evaluations),
-                                 exact(report.force_residual),
-                                 exact(report.moment_residual),
-                                 exact(report.force_noise),
-                                 std::to_string(report.within_noise),
-                                 std::to_string(report.within_rounding),
-                                 std::to_string(report.limited)};
-    for (const auto& [name, value] : values) {
-      if (name != "time") row.push_back(exact(value));
-    }
-    history_.row(row);
-    record_.steps.push_back({step, report, values});
-    if (step % case_.output_every == 0 || step == case_.steps() || !report.converged) write_fields(step);
+  /// What the cells have cost since the start of the run, before the checkpoint included.
+  [[nodiscard]] PoolCounts counts() const {
+    return pool_ ? counts_before_ + pool_->counts() : counts_before_;
   }
 
-  void write_fields(int step) {
-    const std::filesystem::path name = std::filesystem::path("fields") / fmt::format("step-{:05}.vtu", step);
-    std::filesystem::create_directories(directory_ / "fields");
-    fem::write_vtu(directory_ / name, case_.problem.mesh, fem::collect_fields(*solver_));
-    collection_.add(solver_->state().time, name);
-  }
-
-  void write_costs(int step, const fem::StepReport& report, const PoolCounts& before, double total) {
-    const PoolCounts after = pool_ ? pool_->counts() : PoolCounts{};
+  void add_costs(int step, const fem::StepReport& report, const PoolCounts& before) {
+    record_.pool = counts();
+    // From the end of the step before, so that output and checkpoints are in it.
+    const double total = seconds_since(lap_);
+    lap_ = Clock::now();
     const Costs costs =
-        costs_between(before, after, std::max(1, record_.workers), total,
+        costs_between(before, record_.pool, std::max(1, record_.workers), total,
                       report.assembly_seconds + report.solve_seconds, report.material_seconds);
     record_.costs += costs;
-    record_.pool = after;
-    std::vector<std::string> row{std::to_string(step)};
-    for (const double seconds :
-         {costs.total, costs.grains, costs.messages, costs.waiting, costs.finite_elements, costs.rest}) {
-      row.push_back(fmt::format("{:.6f}", seconds));
+    files_.add(step, costs, record_.pool - before);
+  }
+
+  /// Keeps the run as it is after a step, so that it can be written whenever it has to stop.
+  void remember(int step) {
+    auto checkpoint = std::make_unique<Checkpoint>();
+    checkpoint->program = POLARGRAIN_VERSION;
+    checkpoint->identity = case_.identity;
+    checkpoint->step = step;
+    checkpoint->history = files_.history();
+    checkpoint->costs = files_.costs();
+    PrefixedWriter totals(checkpoint->state, "run/");
+    save(totals, record_.costs, record_.pool);
+    PrefixedWriter state(checkpoint->state, "solver/");
+    try {
+      // Nothing will follow the last step.
+      if (step < case_.steps()) solver_->save(state);
+      last_ = std::move(checkpoint);
+    } catch (const RunError& error) {
+      if (step == 0) warn(fmt::format("this run cannot be interrupted without loss: {}", error.what()));
     }
-    for (const std::int64_t whole :
-         {after.evaluations - before.evaluations, after.dem_steps - before.dem_steps,
-          after.bytes_sent - before.bytes_sent, after.bytes_received - before.bytes_received}) {
-      row.push_back(std::to_string(whole));
+  }
+
+  void warn(const std::string& text) {
+    log_.warn("  {}", text);
+    observer_.warn(text);
+  }
+
+  [[nodiscard]] bool is_due() const {
+    return saved_step_ < 0 || seconds_since(saved_) >= checkpoint_seconds_;
+  }
+
+  void save_last() {
+    if (!last_ || last_->step == saved_step_) return;
+    const Clock::time_point begin = Clock::now();
+    write_checkpoint(directory_ / kCheckpointFile, *last_);
+    saved_ = Clock::now();
+    saved_step_ = last_->step;
+    log_.info("  checkpoint of step {} written in {:.3f} s", saved_step_, seconds_since(begin));
+  }
+
+  /// A run that computes is worth more than a checkpoint that fails: it goes on and tries again later.
+  void save_or_warn() {
+    try {
+      save_last();
+    } catch (const RunError& error) {
+      saved_ = Clock::now();
+      warn(fmt::format("{}; {}; the run goes on", error.what(), text_of_saved()));
     }
-    costs_file_.row(row);
+  }
+
+  [[nodiscard]] std::string text_of_saved() const {
+    return saved_step_ < 0 ? "there is none yet"
+                           : fmt::format("the last one is of step {} of {}", saved_step_, case_.steps());
   }
 
   void log_notes() {
@@ -237,15 +299,6 @@ class Run {
         log_.warn("  region '{}': {}", region, note);
       }
     }
-  }
-
-  void end_badly(std::string message) {
-    observer_.clear();
-    if (pool_ && pool_->last_failure()) message += write_replay_of(*pool_->last_failure());
-    record_.status = "failed";
-    record_.message = message;
-    log_.error("{}", message);
-    finish();
   }
 
   /// @returns what to tell the user of it
@@ -260,8 +313,31 @@ class Run {
     return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
   }
 
+  /// Ends a run that has not reached its end. Nothing in here throws: the reason why it ends must be told.
+  void end_badly(const std::string& status, const std::string& message) {
+    observer_.clear();
+    record_.status = status;
+    record_.message = message;
+    if (status == "failed" && pool_ && pool_->last_failure()) {
+      record_.message += write_replay_of(*pool_->last_failure());
+    }
+    try {
+      save_last();
+    } catch (const std::exception& error) {
+      record_.message += fmt::format("\n{}", error.what());
+    }
+    record_.message += fmt::format("\ncheckpoint: {}", text_of_saved());
+    if (saved_step_ >= 0) record_.message += fmt::format("; to go on:\n  {}", resume_command_);
+    log_.error("{}", record_.message);
+    try {
+      finish();
+    } catch (const std::exception& error) {
+      record_.message += fmt::format("\n{}", error.what());
+    }
+  }
+
   void finish() {
-    if (pool_) record_.pool = pool_->counts();
+    record_.pool = counts();
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
@@ -270,19 +346,42 @@ class Run {
     write_summary(directory_ / "summary.json", case_, record_);
   }
 
-  Clock::time_point begin_ = Clock::now();
+  Clock::time_point lap_ = Clock::now();    ///< end of the step before
+  Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
   Case case_;
   std::optional<Listening> listening_;
   std::filesystem::path directory_;
+  std::unique_ptr<Checkpoint> from_;
+  std::string resume_command_;
+  double checkpoint_seconds_;
   spdlog::logger log_;
   RunObserver observer_;
-  CsvFile history_;
-  CsvFile costs_file_;
-  fem::PvdCollection collection_;
+  RunFiles files_;
   RunRecord record_;
+  int first_step_ = 0;
+  int saved_step_ = -1;               ///< of the checkpoint on disk; -1: there is none
+  std::unique_ptr<Checkpoint> last_;  ///< after the last committed step
+  PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from
   std::optional<Pool> pool_;
   std::optional<fem::Solver> solver_;
 };
+
+std::unique_ptr<Checkpoint> checkpoint_for(const Case& the_case, const std::filesystem::path& file) {
+  constexpr std::size_t kMostShown = 10;
+  auto checkpoint = std::make_unique<Checkpoint>(read_checkpoint(file));
+  std::vector<std::string> lines = differences(checkpoint->identity, the_case.identity);
+  if (lines.empty()) return checkpoint;
+  if (lines.size() > kMostShown) {
+    const std::size_t more = lines.size() - kMostShown;
+    lines.resize(kMostShown);
+    lines.push_back(fmt::format("and {} more", more));
+  }
+  throw InputError(
+      {file.string(), 0,
+       fmt::format("this checkpoint is of another case than {}:\n  {}\nput back what differs, or run without "
+                   "--resume",
+                   the_case.file.string(), fmt::join(lines, "\n  "))});
+}
 
 }  // namespace
 
@@ -296,11 +395,16 @@ int run(const RunOptions& options) {
   if (!options.listen.empty()) listening = Listening{options.listen, read_coordinator_keys(options.keys)};
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
-  prepare_result_directory(directory);
+  const auto lock = prepare_result_directory(directory, options.resume);
+  std::unique_ptr<Checkpoint> from;
+  if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
   note_interrupts();
-  if (!options.quiet) fmt::print("{}\n", the_case.title);
+  if (!options.quiet) {
+    fmt::print("{}\n", the_case.title);
+    if (from) fmt::print("going on behind step {} of {}\n", from->step, the_case.steps());
+  }
   std::fflush(stdout);
-  Run the_run(options, std::move(the_case), directory, std::move(listening));
+  Run the_run(options, std::move(the_case), directory, std::move(listening), std::move(from));
   const bool done = the_run.go();
   const RunRecord& record = the_run.record();
   if (!options.quiet) {
@@ -308,7 +412,7 @@ int run(const RunOptions& options) {
                table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
                directory.string());
   }
-  if (!done) fmt::print(stderr, "error: {} (log: {})\n", record.message, (directory / "run.log").string());
+  if (!done) fmt::print(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
   return done ? 0 : 1;
 }
 

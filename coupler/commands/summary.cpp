@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "common/error.hpp"
 #include "coupler/commands/csv_file.hpp"
+#include "fem/output/write_file.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -133,9 +133,7 @@ void write_summary(const std::filesystem::path& file, const Case& the_case, cons
                                .raw("cells", cell_figures(record.pool))
                                .raw("materials", material_figures(record))
                                .finish("");
-  std::ofstream out(file, std::ios::trunc);
-  out << text << '\n' << std::flush;
-  if (!out) throw RunError(fmt::format("{} cannot be written; is the disk full?", file.string()));
+  fem::write_file(file, text + '\n');
 }
 
 std::string table_text(const Case& the_case, const RunRecord& record) {

@@ -19,7 +19,7 @@ struct CommittedStep {
 
 /// All that is known of a run when it ends.
 struct RunRecord {
-  std::string status = "running";  ///< then "done" or "failed"
+  std::string status = "running";  ///< then "done", "failed" or "stopped" (by a signal)
   std::string message;             ///< why it failed
   int workers = 0;                 ///< 0: no material needed any
   std::vector<CommittedStep> steps;

@@ -210,16 +210,6 @@ TEST_F(RunTest, ResultsGoBelowTheCurrentDirectoryByDefault) {
   EXPECT_TRUE(std::filesystem::exists(directory() / "results/slope/summary.json"));
 }
 
-TEST_F(RunTest, ASignalStopsTheRunInGoodOrder) {
-  set_script("sleep_milliseconds 30");
-  const Outcome outcome =
-      run_in(directory(), "(" FAKE_POLARGRAIN
-                          " run case.yaml -o out -w 2 --quiet & P=$!; sleep 0.3; kill -TERM $P; wait $P)");
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_EQ(outcome.errors, "error: stopped by a signal before the end; what was committed is written\n");
-  EXPECT_NE(result("out/summary.json").find("stopped by a signal"), std::string::npos);
-}
-
 TEST_F(RunTest, WorkersDieWithTheirCoordinator) {
   set_script("sleep_milliseconds 30");
   const Outcome outcome = run_in(directory(), "(" FAKE_POLARGRAIN

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace polargrain {
+
+enum class Durability {
+  system,  ///< handed to the system: survives the end of the program
+  disk     ///< on the disk, with all that was written before on its file system: survives that of the machine
+};
+
+/// Writes a file beside its final place and renames it, so that readers see it complete or not at all, and
+/// whatever happens it is the former one or the new one.
+/// @throws RunError with the reason when it cannot be written; a former one is then untouched
+void write_file(const std::filesystem::path& file, const std::string& content,
+                Durability durability = Durability::system);
+
+}  // namespace polargrain

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/case/case_identity.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "common/state.hpp"
+#include "coupler/case/data_files.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+std::string name_of_content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(in), {}};
+  return name_of(std::as_bytes(std::span(content))).text();
+}
+
+void collect(const Entry& entry, const std::string& key, const std::filesystem::path& directory,
+             CaseIdentity& identity) {
+  const auto below = [&](const std::string& name) { return key.empty() ? name : key + "." + name; };
+  for (const Entry::Member& member : entry.members) {
+    collect(member.value, below(member.key), directory, identity);
+  }
+  for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    collect(entry.items[i], below(std::to_string(i)), directory, identity);
+  }
+  if (entry.kind != Entry::Kind::scalar) return;
+  identity.values[key] = entry.text;
+  if (const auto file = find_data_file(entry.text, directory)) identity.files[key] = name_of_content(*file);
+}
+
+bool matters(const std::string& key) {
+  return key != "title" && key != "output.checkpoint_minutes" && key.rfind("output.table", 0) != 0;
+}
+
+std::string shown(const std::map<std::string, std::string>& values, const std::string& key) {
+  const auto value = values.find(key);
+  return value == values.end() ? "not given" : "'" + value->second + "'";
+}
+
+}  // namespace
+
+CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory) {
+  CaseIdentity identity;
+  collect(document, "", directory, identity);
+  return identity;
+}
+
+std::vector<std::string> differences(const CaseIdentity& before, const CaseIdentity& now) {
+  std::map<std::string, std::string> all = before.values;
+  all.insert(now.values.begin(), now.values.end());
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : all) {
+    if (!matters(key)) continue;
+    const auto file_before = before.files.find(key);
+    const auto file_now = now.files.find(key);
+    if (file_before != before.files.end() && file_now != now.files.end()) {
+      if (file_before->second != file_now->second) {
+        lines.push_back(fmt::format("{}: the file {} has another content", key, shown(now.values, key)));
+      }
+    } else if (shown(before.values, key) != shown(now.values, key)) {
+      lines.push_back(
+          fmt::format("{}: was {}, is {}", key, shown(before.values, key), shown(now.values, key)));
+    }
+  }
+  return lines;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "coupler/case/document.hpp"
+
+namespace polargrain::coupler {
+
+/// What makes a case the case it is: every value as it was written, with --set, and the content of every file
+/// that a value names. Comments, the order of keys and where the files lie do not matter.
+struct CaseIdentity {
+  std::map<std::string, std::string> values;  ///< by key: "steps.count", "boundary.2.move.u2"
+  std::map<std::string, std::string> files;   ///< key of the value that names the file: name of its content
+};
+
+/// @param directory where the files of the case are looked for (data_files.hpp)
+CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory);
+
+/// What differs, one line each, keys by name; empty when a run of one case may go on as the other. Values
+/// that no result depends on (title, what the table shows, how often checkpoints are written) may differ.
+std::vector<std::string> differences(const CaseIdentity& before, const CaseIdentity& now);
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "common/memory_archive.hpp"
+#include "coupler/case/case_identity.hpp"
+
+namespace polargrain::coupler {
+
+/// A run after one of its steps: all that is needed to go on, and what it had written up to then.
+struct Checkpoint {
+  std::string program;  ///< version that wrote it
+  CaseIdentity identity;
+  int step = 0;         ///< the last step taken
+  std::string history;  ///< history.csv up to that step
+  std::string costs;    ///< costs.csv up to that step
+  MemoryArchive state;  ///< of the solver and the materials; empty when the step was the last of the run
+};
+
+/// Writes a checkpoint beside its final place, brings it to the disk and puts it in place: whatever happens,
+/// `file` is the former one or the new one, whole. States are stored once by their content.
+/// @throws RunError when it cannot be written; a former one is then untouched
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+
+/// @throws InputError when there is none, or when it is damaged, cut short, or of another version
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+}  // namespace polargrain::coupler
