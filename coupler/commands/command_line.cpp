@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "common/error.hpp"
@@ -51,6 +53,19 @@ struct WorkerOptions {
   double patience_seconds = ServeOptions{}.patience_seconds;
 };
 
+/// Makes a worker that srun or mpirun has started forget it: every worker is an MPI world of its own, or its
+/// engine would try to share its grains with the other workers.
+void forget_launcher() {
+  std::vector<std::string> names;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    for (const char* prefix : {"SLURM_", "PMI_", "PMIX_", "PMI2_", "OMPI_", "ORTE_", "HYDRA_"}) {
+      if (text.rfind(prefix, 0) == 0) names.push_back(text.substr(0, text.find('=')));
+    }
+  }
+  for (const std::string& name : names) unsetenv(name.c_str());
+}
+
 int work(const WorkerOptions& options, const WorkerEngine& engine) {
   for (std::FILE* stream : {stdout, stderr}) {
     if (!options.log.empty() && std::freopen(options.log.c_str(), "a", stream) == nullptr) {
@@ -61,6 +76,7 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     ServeOptions serve_options;
     serve_options.patience_seconds = options.patience_seconds;
     if (!options.key.empty()) serve_options.key = read_worker_key(options.key);
+    forget_launcher();
     engine.start_process();
     serve(options.url, engine.make_service, serve_options);
   } catch (const InputError& error) {

@@ -5,8 +5,9 @@
 namespace polargrain::coupler {
 
 /// A new directory for local sockets (and short-lived logs) that nobody but the user can enter (mode 0700),
-/// removed with its content at the end. Lies in $TMPDIR or /tmp: a socket's path must be shorter than 108
-/// characters, which a path below the result directory need not be.
+/// removed with its content at the end. What processes that were killed have left behind is removed when the
+/// next one is made. Lies in $TMPDIR or /tmp: a socket's path must be shorter than 108 characters, which a
+/// path below the result directory need not be.
 class PrivateDirectory {
  public:
   /// @throws RunError when it cannot be made
@@ -21,6 +22,7 @@ class PrivateDirectory {
 
  private:
   bool keep_ = false;
+  int lock_ = -1;  ///< held while this process lives
   std::filesystem::path path_;
 };
 

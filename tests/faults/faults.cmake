@@ -25,3 +25,9 @@ if(TARGET polargrain)
                                                               CASES="${PROJECT_SOURCE_DIR}/cases")
   add_dependencies(faults_engine_kills_test polargrain)
 endif()
+
+if(TARGET polargrain)
+  add_test(NAME slurm COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/faults/slurm.sh $<TARGET_FILE:polargrain>
+           ${PROJECT_SOURCE_DIR}/cases/biaxial/case.yaml --set steps.count=1 --set mesh.rectangle.elements=[1,2])
+  set_tests_properties(slurm PROPERTIES LABELS faults SKIP_RETURN_CODE 77 TIMEOUT 300)
+endif()

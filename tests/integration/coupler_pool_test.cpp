@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -11,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "coupler/pool/pool.hpp"
+#include "coupler/pool/private_directory.hpp"
 #include "tests/integration/fake_engine.hpp"
 #include "tests/support/processes.hpp"
 
@@ -297,6 +299,32 @@ TEST_F(PoolTest, AWorkerThatSaysNothingIsReported) {
   EXPECT_EQ(
       message_of([&] { Pool pool(silent); }),
       "worker 1 did not report within 0.2 s of its start; its log " + log(1) + " ends with:\nthinking\n");
+}
+
+TEST_F(PoolTest, TheSocketsOfAKilledCoordinatorAreRemovedByTheNext) {
+  setenv("TMPDIR", directory_.c_str(), 1);
+  const auto directories = [this] {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+      if (entry.path().filename().string().rfind("polargrain-", 0) == 0) names.push_back(entry.path());
+    }
+    return names;
+  };
+  const PrivateDirectory living;
+  const pid_t killed = fork();
+  if (killed == 0) {
+    const PrivateDirectory left;
+    raise(SIGKILL);
+  }
+  waitpid(killed, nullptr, 0);
+  ASSERT_EQ(directories().size(), 2u);
+  {
+    const PrivateDirectory next;
+    EXPECT_EQ(directories().size(), 2u);
+    EXPECT_TRUE(std::filesystem::exists(living.path()));
+  }
+  EXPECT_EQ(directories(), std::vector<std::string>{living.path()});
+  unsetenv("TMPDIR");
 }
 
 TEST_F(PoolTest, NothingIsLeftBehind) {

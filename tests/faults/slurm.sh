@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# A real Slurm controller and node daemon on the loopback, all in a directory of their own, and a run whose workers
+# srun has launched: its history must be that of a run with local workers.
+#
+#   tests/faults/slurm.sh POLARGRAIN CASE [--set ...]
+#
+# Ends with status 77 (skipped) where Slurm and munge are not installed or this user may not start them.
+set -euo pipefail
+polargrain=$(realpath "$1")
+case_file=$(realpath "$2")
+shift 2
+settings=("$@")
+skip() { echo "skipped: $*"; exit 77; }
+for program in munged slurmctld slurmd srun; do
+  command -v "$program" >/dev/null || PATH="$PATH:/usr/sbin"
+  command -v "$program" >/dev/null || skip "there is no $program (Debian packages slurm-wlm and munge)"
+done
+((EUID == 0)) || skip "only root may start a node daemon that launches tasks"
+
+base=$(mktemp -d /tmp/polargrain-slurm-XXXXXX)
+declare -a daemons=()
+finish() {
+  local status=$?
+  for ((k = ${#daemons[@]} - 1; k >= 0; --k)); do kill "${daemons[k]}" 2>/dev/null || true; done
+  wait 2>/dev/null || true
+  ((status == 0 || status == 77)) || tail -n 20 "$base"/*.log >&2 || true
+  rm -rf "$base"
+}
+trap finish EXIT
+cd "$base"
+mkdir state spool munge
+chmod 755 "$base" && chmod 711 munge
+dd if=/dev/urandom of=munge.key bs=128 count=1 status=none
+chmod 400 munge.key
+port=$((20000 + RANDOM % 20000))
+cat >slurm.conf <<EOF
+ClusterName=polargrain
+SlurmctldHost=$(hostname)(127.0.0.1)
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket=$base/munge/socket
+CredType=cred/munge
+SlurmctldPort=$port
+SlurmdPort=$((port + 1))
+StateSaveLocation=$base/state
+SlurmdSpoolDir=$base/spool
+SlurmctldPidFile=$base/slurmctld.pid
+SlurmdPidFile=$base/slurmd.pid
+SlurmctldLogFile=$base/slurmctld.log
+SlurmdLogFile=$base/slurmd.log
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+SchedulerType=sched/builtin
+SelectType=select/linear
+MpiDefault=none
+ReturnToService=2
+NodeName=$(hostname) NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+EOF
+export SLURM_CONF=$base/slurm.conf
+
+munged --foreground --force --socket="$base/munge/socket" --key-file="$base/munge.key" --pid-file="$base/munge.pid" \
+  --log-file="$base/munged.log" --seed-file="$base/munge.seed" >munged.out.log 2>&1 &
+daemons+=($!)
+slurmctld -D >slurmctld.out.log 2>&1 &
+daemons+=($!)
+slurmd -D >slurmd.out.log 2>&1 &
+daemons+=($!)
+for ((k = 0; k < 100; ++k)); do
+  [[ $(sinfo --noheader -o %T 2>/dev/null) == idle ]] && break
+  sleep 0.2
+done
+[[ $(sinfo --noheader -o %T) == idle ]] || { echo "the node of Slurm did not come up"; exit 1; }
+
+"$polargrain" keys keys >/dev/null
+"$polargrain" run "$case_file" "${settings[@]}" -o local -w 2 --quiet
+url=tcp://127.0.0.1:$((port + 2))
+"$polargrain" run "$case_file" "${settings[@]}" -o cluster -w 0 --listen "$url" --keys keys --quiet &
+run=$!
+srun --ntasks=2 --overcommit "$polargrain" worker --connect "$url" --key keys/worker.key >srun.log 2>&1 &
+workers=$!
+wait $run
+wait $workers || { echo "the workers of srun ended badly"; exit 1; }
+cmp local/history.csv cluster/history.csv
+grep -c "" cluster/history.csv | xargs echo "the same history with workers of srun; lines:"
