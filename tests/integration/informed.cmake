@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(informed_case_test integration integration/informed_case_test.cpp LIBS polargrain_options)
+target_compile_definitions(informed_case_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+add_dependencies(informed_case_test fake_polargrain)
+
+if(TARGET polargrain)
+  polargrain_test(informed_engine_test integration integration/informed_engine_test.cpp LIBS polargrain_coupler)
+  target_compile_definitions(informed_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                          POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  add_dependencies(informed_engine_test polargrain)
+endif()

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Cases of the model informed, with the fake engine in the workers.
+#include <gtest/gtest.h>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+class InformedCaseTest : public ::testing::Test {
+ protected:
+  InformedCaseTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    write(directory() / "fake.in", "\n");
+    write(directory() / "grains.csv",
+          "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
+    write(directory() / "case.yaml",
+          "title: Compression of a fake\n"
+          "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}}\n"
+          "materials:\n"
+          "  sand:\n"
+          "    model: informed\n"
+          "    script: fake.in\n"
+          "    packing: grains.csv\n"
+          "    G: 40 MPa\n"
+          "    Gc: 10 MPa\n"
+          "    lc: 20 mm\n"
+          "    nu: 0.25\n"
+          "    update: frozen\n"
+          "    window: 4\n"
+          "    dilatancy_limits: [-0.3, 0.8]\n"
+          "    initial_friction: 10 deg\n"
+          "    cohesion: 50 Pa\n"
+          "regions: {all: sand}\n"
+          "boundary:\n"
+          "  - {on: bottom, fix: [u2]}\n"
+          "  - {on: bottom_left, fix: [u1, w]}\n"
+          "  - {on: top, move: {u2: -0.8 mm}}\n"
+          "  - {on: [left, right], pressure: 100 kPa}\n"
+          "steps: {count: 4, tolerance: 1e-6}\n"
+          "monitors: {top_force: {on: top, reaction: u2}}\n");
+  }
+  [[nodiscard]] const std::filesystem::path& directory() const { return scratch_.path(); }
+  [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
+    return run_in(directory(), FAKE_POLARGRAIN " " + arguments);
+  }
+  Scratch scratch_;
+};
+
+TEST_F(InformedCaseTest, OneWordChangesTheScheme) {
+  EXPECT_EQ(polargrain("check case.yaml").errors, "");
+  EXPECT_EQ(polargrain("check case.yaml").status, 0);
+  EXPECT_EQ(polargrain("check case.yaml --set materials.sand.model=cell").errors, "");
+  EXPECT_EQ(polargrain("check case.yaml --set materials.sand.model=cell").status, 0);
+  EXPECT_EQ(polargrain("check case.yaml --set materials.sand.update=fixed_point").status, 0);
+}
+
+TEST_F(InformedCaseTest, EveryFaultOfItsKeysHasItsLine) {
+  std::string text = content(directory() / "case.yaml");
+  for (const auto& [good, bad] :
+       std::vector<std::pair<std::string, std::string>>{{"nu: 0.25", "nu: 0.5"},
+                                                        {"update: frozen", "update: froze"},
+                                                        {"window: 4", "window: 0"},
+                                                        {"[-0.3, 0.8]", "[0.8, -0.3]"},
+                                                        {"10 deg", "90 deg"},
+                                                        {"50 Pa", "0 Pa"}}) {
+    text.replace(text.find(good), good.size(), bad);
+  }
+  write(directory() / "case.yaml", text);
+  for (const char* model : {"informed", "cell"}) {
+    const Outcome outcome = polargrain(std::string("check case.yaml --set materials.sand.model=") + model);
+    EXPECT_EQ(outcome.status, 2);
+    for (const char* fault :
+         {"case.yaml:11: material 'sand': nu: must be above -1 and below 0.5",
+          "case.yaml:12: material 'sand': update: expected one of frozen, fixed_point, found 'froze'; did "
+          "you mean 'frozen'?",
+          "case.yaml:13: material 'sand': window: ",
+          "case.yaml:14: material 'sand': dilatancy_limits: expected the least and the most M_psi",
+          "case.yaml:15: material 'sand': initial_friction: must be an angle below 90 degrees",
+          "case.yaml:16: material 'sand': cohesion: "}) {
+      EXPECT_NE(outcome.errors.find(fault), std::string::npos) << fault << "\n" << outcome.errors;
+    }
+  }
+}
+
+TEST_F(InformedCaseTest, AnyNumberOfWorkersWritesTheSameHistory) {
+  for (const char* update : {"frozen", "fixed_point"}) {
+    const std::string options = std::string("--quiet --set materials.sand.update=") + update;
+    const Outcome one = polargrain("run case.yaml -o one -w 1 " + options);
+    ASSERT_EQ(one.status, 0) << one.errors;
+    const Outcome three = polargrain("run case.yaml -o three -w 3 " + options);
+    ASSERT_EQ(three.status, 0) << three.errors;
+    EXPECT_EQ(content(directory() / "one/history.csv"), content(directory() / "three/history.csv"));
+    EXPECT_EQ(content(directory() / "one/fields/step-00004.vtu"),
+              content(directory() / "three/fields/step-00004.vtu"));
+    const std::string summary = content(directory() / "one/summary.json");
+    for (const char* figure : {"stress_mismatch_mean", "stress_mismatch_percentile_95",
+                               "stress_mismatch_largest", "dilatancy_limited"}) {
+      EXPECT_NE(summary.find(figure), std::string::npos) << summary;
+    }
+  }
+}
+
+TEST_F(InformedCaseTest, APatchOfARectangleIsARegion) {
+  std::string text = content(directory() / "case.yaml");
+  const std::string all = "regions: {all: sand}";
+  text.replace(text.find(all), all.size(), "regions: {patch: sand, rest: sand}");
+  write(directory() / "case.yaml", text);
+  EXPECT_EQ(polargrain("check case.yaml --set mesh.rectangle.patch='[0.25 m, 0.25 m]'").errors, "");
+  const Outcome none = polargrain("check case.yaml --set mesh.rectangle.patch='[0.01 m, 0.01 m]'");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.errors.find("patch: holds no element, or all of them"), std::string::npos) << none.errors;
+}
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Both schemes against the cell itself: biaxial compression of one element, grains run by LIGGGHTS (E.8).
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "coupler/cell_material.hpp"
+#include "coupler/informed_material.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/solver.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
+constexpr double kConfining = 100e3;  // Pa
+constexpr double kEnd = 0.022;        // axial strain: beyond the peak of this packing
+
+struct Peak {
+  double ratio = 0.0;
+  double strain = 0.0;
+  void see(double new_ratio, double new_strain) {
+    if (new_ratio > ratio) *this = {new_ratio, new_strain};
+  }
+};
+
+class InformedEngineTest : public ::testing::Test {
+ protected:
+  InformedEngineTest() : scratch_("InformedEngine"), pool_(options()) {
+    sand_ = pool_.define({"sand", "hooke_radii.in", content(kSource / "liggghts_inputs/cells/hooke_radii.in"),
+                          read_packing(kSource / "cases/biaxial/packing400.csv"), CellControl{}});
+  }
+
+  [[nodiscard]] coupler::PoolOptions options() const {
+    coupler::PoolOptions options;
+    options.workers = 2;
+    options.directory = scratch_.path();
+    options.worker_command = {POLARGRAIN, "worker"};
+    return options;
+  }
+
+  /// The cell alone, in steps of 1e-4, its lateral strain led by its own tangent: no finite elements.
+  Peak cell_alone() {
+    CellReply reply = pool_.initial(sand_);
+    Peak peak;
+    constexpr double kStep = 1e-4;
+    for (int step = 1; step <= kEnd / kStep; ++step) {
+      const Response& before = reply.response;
+      Increment increment;
+      increment.displacement_gradient(1, 1) = -kStep;
+      increment.displacement_gradient(0, 0) =
+          (-kConfining - before.stress(k11) + before.tangent(k11, k22) * kStep) / before.tangent(k11, k11);
+      const coupler::PoolRequest request{sand_, {reply.state, increment}};
+      reply = pool_.evaluate({&request, 1}).front();
+      EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+      EXPECT_NEAR(reply.response.stress(k11), -kConfining, 0.1 * kConfining);
+      peak.see(reply.response.stress(k22) / reply.response.stress(k11), step * kStep);
+    }
+    return peak;
+  }
+
+  /// One element between smooth plates in steps of 0.1 %.
+  static Peak element(std::shared_ptr<fem::Material> material, double tolerance) {
+    fem::Problem problem;
+    problem.mesh = fem::rectangle({{0.4, 0.4}, {1, 1}});
+    problem.materials["all"] = std::move(material);
+    problem.prescribed = {{"bottom", fem::Dof::u2, fem::TimeTable::constant(0.0), {}},
+                          {"bottom_left", fem::Dof::u1, fem::TimeTable::constant(0.0), {}},
+                          {"top", fem::Dof::u2, fem::TimeTable::ramp(-kEnd * 0.4), {}}};
+    for (const char* side : {"left", "right"}) {
+      problem.edge_loads.push_back({.on = side, .pressure = fem::TimeTable::constant(kConfining)});
+    }
+    fem::SolverOptions options;
+    options.force_tolerance = options.moment_tolerance = tolerance;
+    options.noise_factor = 2.0;
+    fem::Solver solver(problem, options);
+    EXPECT_TRUE(solver.equilibrate().converged);
+    Peak peak;
+    const int steps = static_cast<int>(kEnd / 1e-3 + 0.5);
+    for (int step = 1; step <= steps; ++step) {
+      const fem::StepReport report = solver.advance(static_cast<double>(step) / steps);
+      EXPECT_TRUE(report.converged) << "step " << step << ": " << report.message;
+      if (!report.converged) break;
+      peak.see(-solver.reaction("top")(1) / (0.4 * kConfining), step * 1e-3);
+    }
+    return peak;
+  }
+
+  Scratch scratch_;
+  coupler::Pool pool_;
+  std::uint32_t sand_ = 0;
+};
+
+TEST_F(InformedEngineTest, PeaksOfBothSchemesAreTheCellsOwn) {
+  const Peak own = cell_alone();
+  const auto direct =
+      std::make_shared<coupler::CellMaterial>(pool_, sand_, coupler::CosseratParameters{16e6, 14e6, 0.02});
+  const Peak cell = element(direct, 5e-3);
+  coupler::InformedParameters parameters;
+  parameters.elastic.young_modulus = 2.0 * 16e6 * 1.2;
+  parameters.elastic.poisson_ratio = 0.2;
+  parameters.elastic.cosserat_shear_modulus = 14e6;
+  parameters.elastic.internal_length = 0.02;
+  parameters.mobilisation.initial_friction = 0.09;
+  parameters.mobilisation.cohesion = 100.0;
+  const auto law = std::make_shared<coupler::InformedMaterial>(coupler::calls_of(pool_, sand_), parameters);
+  const Peak informed = element(law, 1e-3);
+  std::cout << "[figure] peak stress ratio: cell alone " << own.ratio << " at " << own.strain
+            << ", model cell " << cell.ratio << " at " << cell.strain << ", model informed " << informed.ratio
+            << " at " << informed.strain << '\n';
+  for (const fem::Figure& figure : law->figures())
+    std::cout << "[figure] " << figure.name << ' ' << figure.value << '\n';
+  // Asked of the schemes at steps of 0.1 %.
+  EXPECT_NEAR(informed.ratio / own.ratio, 1.0, 0.05);
+  EXPECT_NEAR(cell.ratio / own.ratio, 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace polargrain::testing
