@@ -23,15 +23,17 @@ import sys
 import numpy
 from scipy.optimize import minimize
 
+from laboratory import CURVES
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-# Stress ratio and volume strain (%, dilation negative) over axial strain (%) at 49 kPa up to the peak: Tatsuoka et al.
-# 1986, Fig. 16(a), as digitised by a third party (docs/studies/toyoura.md).
-RATIO = [(0.17, 2.72), (0.26, 3.00), (0.60, 4.00), (1.01, 5.00), (1.30, 5.50), (1.71, 6.00), (2.05, 6.32)]
-VOLUME = [(1.00, 0.00), (1.98, -0.55)]
+# What is fitted: the laboratory's curve at 49 kPa after its start, up to the peak.
+PEAK_STRAIN = 2.05  # %
+RATIO = [point for point in CURVES[49]["ratio"] if 0 < point[0] <= PEAK_STRAIN]
+VOLUME = [point for point in CURVES[49]["volume"] if 0 < point[0] <= PEAK_STRAIN]
 RATIO_SCATTER = 0.2   # what counts as one: the laboratory's 1.5 degrees are 0.5 in the ratio
 VOLUME_SCATTER = 0.2  # %
-START = {"modulus": 1.2e9, "friction": 0.6, "rolling": 0.6}
+START = {"modulus": 9e8, "friction": 0.4, "rolling": 0.3}
 LIMITS = {"modulus": (2e8, 5e9), "friction": (0.2, 1.2), "rolling": (0.0, 2.0)}
 
 CASE = """title: One element of Toyoura sand at {kpa:g} kPa
