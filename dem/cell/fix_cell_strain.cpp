@@ -46,6 +46,7 @@ void FixCellStrain::begin(const BoxPath& path, double damping_rate, std::optiona
   path_ = path;
   rotation_ = rotation;
   multiplier_ = 0.0;
+  held_.clear();
   weights_.clear();  // those of another path say nothing of this one
   thickness_ = domain->boxhi[2] - domain->boxlo[2];
   damping_rate_ = damping_rate;
@@ -77,13 +78,34 @@ double FixCellStrain::affine_spin(int step, const BoxPath::Motion& motion) const
   return rotation_ ? rotation_->micro_rotation * path_.share(step) - motion.rotation : motion.spin();
 }
 
-void FixCellStrain::set_curvature_rate() {
-  if (!rotation_ || rotation_->curvature.isZero(0.0)) return;
-  // Into the position now, and into the frame of the box now.
-  const Eigen::Vector2d curvature = path_.at(step_).frame().transpose() *
-                                    path_.deformation(step_).inverse().transpose() * rotation_->curvature;
-  const double rate = path_.share(step_) / update->dt;
-  cell_loading().curvature_rate = {rate * curvature.x(), rate * curvature.y()};
+Eigen::Vector2d FixCellStrain::curvature_rate() const {
+  if (!rotation_ || rotation_->curvature.isZero(0.0)) return Eigen::Vector2d::Zero();
+  return path_.share(step_) / update->dt *
+         (path_.at(step_).frame().transpose() * path_.deformation(step_).inverse().transpose() *
+          rotation_->curvature);
+}
+
+void FixCellStrain::move_held_grains() {
+  const Eigen::Matrix2d gradient = motion_.gradient / update->dt;
+  const Eigen::Vector2d bending = curvature_rate();
+  const Eigen::Vector2d centre = 0.5 * path_.at(step_ - 1).base_vectors().rowwise().sum();
+  for (int k = 0; k < atom->nlocal; ++k) {
+    if (!held_[k]) continue;
+    const Eigen::Vector2d place(atom->x[k][0], atom->x[k][1]);
+    const Eigen::Vector2d velocity = gradient * place;
+    atom->v[k][0] = velocity.x();
+    atom->v[k][1] = velocity.y();
+    atom->omega[k][2] = spin_ + bending.dot(place - centre);
+  }
+}
+
+void FixCellStrain::take_reactions() {
+  reactions_.assign(held_.size(), Eigen::Vector3d::Zero());
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (!held_[k]) continue;
+    reactions_[k] = -Eigen::Vector3d(atom->f[k][0], atom->f[k][1], atom->torque[k][2]);
+    atom->f[k][0] = atom->f[k][1] = atom->torque[k][2] = 0.0;
+  }
 }
 
 void FixCellStrain::pre_initial_integrate() {
@@ -93,9 +115,15 @@ void FixCellStrain::pre_initial_integrate() {
   const double change_of_spin = spin - spin_;
   motion_ = next;
   spin_ = spin;
-  set_curvature_rate();
-  if (change.isZero(0.0) && change_of_spin == 0.0) return;
+  if (held_.empty()) {
+    const Eigen::Vector2d bending = curvature_rate();
+    cell_loading().curvature_rate = {bending.x(), bending.y()};
+  }
+  if (!change.isZero(0.0) || change_of_spin != 0.0) accelerate(change, change_of_spin);
+  if (!held_.empty()) move_held_grains();
+}
 
+void FixCellStrain::accelerate(const Eigen::Matrix2d& change, double change_of_spin) {
   double** const x = atom->x;
   double** const v = atom->v;
   double** const omega = atom->omega;
@@ -122,6 +150,7 @@ void FixCellStrain::post_force(int) {
 }
 
 void FixCellStrain::balance(bool damped) {
+  if (!held_.empty()) take_reactions();
   sum_unbalanced_forces();
   contact_torques_.resize(static_cast<std::size_t>(atom->nlocal));
   for (int k = 0; k < atom->nlocal; ++k) contact_torques_[k] = atom->torque[k][2];
@@ -173,6 +202,7 @@ void FixCellStrain::damp() {
   double** const v = atom->v;
   double** const f = atom->f;
   for (int k = 0; k < atom->nlocal; ++k) {
+    if (!held_.empty() && held_[k]) continue;
     const double mass_rate = damping_rate_ * atom->rmass[k];
     f[k][0] -= mass_rate * (v[k][0] - gradient(0, 0) * x[k][0] - gradient(0, 1) * x[k][1]);
     f[k][1] -= mass_rate * (v[k][1] - gradient(1, 0) * x[k][0] - gradient(1, 1) * x[k][1]);

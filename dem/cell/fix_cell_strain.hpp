@@ -53,6 +53,14 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   /// @param rotation prescribed mean rotation; nothing leaves the rotations free (mode 1)
   void begin(const BoxPath& path, double damping_rate,
              std::optional<RotationLoading> rotation = std::nullopt);
+  /// Grains, by local index, that are moved affinely and turned by the prescribed rotation and curvature
+  /// instead of following their forces (mode 3); the curvature then acts through them alone. To be set after
+  /// begin, with a RotationLoading.
+  void hold(std::vector<bool> held) { held_ = std::move(held); }
+  /// What holds them, by local index: force in the frame of the box, N, and moment, N m, at the last force
+  /// pass.
+  [[nodiscard]] std::span<const Eigen::Vector3d> reactions() const { return reactions_; }
+
   /// Rotations of the grains about e_3 in the laboratory, by local index, rad: from where they are, carried
   /// on through the steps of this and later paths; before, they count from zero.
   void set_rotations(std::span<const double> rotations) {
@@ -79,7 +87,12 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   /// Spin that the grains have in common in the step that moves the box by `motion`, counted from the frame
   /// of the box, rad a step.
   [[nodiscard]] double affine_spin(int step, const BoxPath::Motion& motion) const;
-  void set_curvature_rate();
+  /// Rate of curvature in the position now and the frame of the box now, rad/(m s).
+  [[nodiscard]] Eigen::Vector2d curvature_rate() const;
+  /// All grains and images get this change of the affine velocity gradient, 1/s, and spin, rad/s.
+  void accelerate(const Eigen::Matrix2d& change, double change_of_spin);
+  void move_held_grains();
+  void take_reactions();
   /// What is done to the forces of a pass: sums for the read-out, damping, mean rotation.
   void balance(bool damped);
   /// The mean rotation is prescribed and there are grains to hold it with.
@@ -97,6 +110,8 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   double damping_rate_ = 0.0;
   double thickness_ = 0.0;
   std::optional<RotationLoading> rotation_;
+  std::vector<bool> held_;  ///< empty in modes 1 and 2
+  std::vector<Eigen::Vector3d> reactions_;
   std::vector<double> weights_;          ///< W_p over the volume: they add up to 1
   std::vector<double> contact_torques_;  ///< about e_3, N m
   std::vector<double> rotations_;        ///< rad
