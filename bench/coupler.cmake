@@ -1,3 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 add_executable(coupler_bench coupler_bench.cpp)
 target_link_libraries(coupler_bench PRIVATE polargrain_pool benchmark::benchmark benchmark::benchmark_main)
+add_executable(coupler_scale coupler_scale.cpp)
+target_link_libraries(coupler_scale PRIVATE polargrain_pool)
