@@ -58,6 +58,41 @@ TEST(Averages, VoigtTangentIsExactForTheLattice) {
   EXPECT_NEAR(tangent(k11, k12), 0.0, 1e-15);
 }
 
+TEST(Averages, CosseratVoigtTangentIsExactForTheLattice) {
+  std::vector<Contact> contacts = lattice(0.01);
+  for (Contact& contact : contacts) contact.rolling_stiffness = 0.02;
+  const Matrix7 tangent = voigt_cosserat_tangent(contacts, Eigen::Matrix2d::Identity(), kArea);
+  const double shear = std::sqrt(3.0) / 4.0 * (kNormal + kTangential);
+  const double cosserat = std::sqrt(3.0) / 2.0 * kTangential;
+  EXPECT_NEAR(tangent(k12, k12), shear + cosserat, 1e-15);
+  EXPECT_NEAR(tangent(k12, k21), shear - cosserat, 1e-15);
+  EXPECT_NEAR(tangent(kCurvature1, kCurvature1), std::sqrt(3.0) * 0.02, 1e-15);
+  EXPECT_NEAR(tangent(kCurvature2, kCurvature2), std::sqrt(3.0) * 0.02, 1e-15);
+  EXPECT_NEAR(tangent(kCurvature1, kCurvature2), 0.0, 1e-15);
+  EXPECT_EQ(tangent.topRightCorner(5, 2).norm(), 0.0);
+}
+
+TEST(Averages, RollingContactAtItsLimitFollowsTheNormalForce) {
+  // One contact along x, M = limit * f_n with limit 0.1: opening by e11 = e takes k_n e from f_n and 0.1 k_n
+  // e from M.
+  std::vector<Contact> contacts = lattice(0.01);
+  contacts.resize(1);
+  contacts[0].moment = 0.1 * 0.01;
+  contacts[0].rolling_stiffness = 0.02;
+  contacts[0].rolling_at_limit = true;
+  const Matrix7 tangent = voigt_cosserat_tangent(contacts, Eigen::Matrix2d::Identity(), 1.0);
+  EXPECT_NEAR(tangent(kCurvature1, k11), -0.1 * kNormal, 1e-15);
+  EXPECT_EQ(tangent(kCurvature1, kCurvature1), 0.0);
+  EXPECT_NEAR(average_couple_stress(contacts, 1.0)(0), 1e-3, 1e-18);
+}
+
+TEST(Averages, FabricOfTheLatticeIsIsotropic) {
+  std::vector<Contact> contacts = lattice(0.01);
+  EXPECT_LT((fabric_tensor(contacts) - 0.5 * Eigen::Matrix2d::Identity()).norm(), 1e-15);
+  contacts.resize(1);
+  EXPECT_NEAR(fabric_tensor(contacts)(0, 0), 1.0, 1e-15);
+}
+
 TEST(Averages, TangentTurnsWithTheFrame) {
   std::vector<Contact> contacts = lattice(0.01);
   contacts.pop_back();  // anisotropic now

@@ -71,6 +71,9 @@ TEST(BoxPath, PureRotationOnlyTurnsTheFrame) {
   h << std::cos(angle) - 1.0, -std::sin(angle), std::sin(angle), std::cos(angle) - 1.0;
   const Box start = Box::from_base_vectors(kBase);
   const BoxPath path(start, h, 10);
+  // All the way, not only at its end.
+  for (int step = 0; step <= 10; ++step)
+    EXPECT_LT((path.at(step).base_vectors() - start.base_vectors()).norm(), 1e-15) << step;
   EXPECT_LT((path.at(10).base_vectors() - start.base_vectors()).norm(), 1e-15);
   EXPECT_NEAR(path.at(10).rotation - start.rotation, angle, 1e-15);
 }

@@ -69,6 +69,15 @@ TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
   Increment turn;
   turn.micro_rotation = kStrain;
   const Vector7 turned = stress_increment(*cell, turn);
+  CellRequest request;
+  request.increment = turn;
+  const CellDiagnostics diagnostics = cell->evaluate(request).diagnostics;
+  EXPECT_NEAR(diagnostics.mean_rotation, kStrain, 1e-12);
+  EXPECT_LT(diagnostics.rotation_spread, 1e-3 * kStrain);
+  EXPECT_NEAR(diagnostics.fabric[0], 0.5, 1e-4);
+  EXPECT_NEAR(diagnostics.fabric[1], 0.5, 1e-4);
+  EXPECT_EQ(diagnostics.rattlers, 0.0);
+  EXPECT_EQ(diagnostics.coordination_number, 6.0);
   EXPECT_NEAR(turned(k21) / kStrain, 2.0 * kCosserat, kTolerance * kShear);
   EXPECT_NEAR(turned(k12) / kStrain, -2.0 * kCosserat, kTolerance * kShear);
   std::printf("[figure] lattice of %d x %d, blocked rotation: G + Gc %.5f, Gc %.5f of the exact\n",
