@@ -12,9 +12,11 @@ namespace {
 
 /// Steps do not count from here, so that a point can be drawn for all of them.
 constexpr std::uint64_t kEveryStep = ~std::uint64_t{0};
-/// Fewer audits say nothing about a 95th percentile.
-constexpr std::size_t kFewestAudits = 5;
+/// Of fewer audits the 95th percentile is their maximum.
+constexpr std::size_t kFewestAudits = 20;
 constexpr double kAuditedShare = 0.95;
+/// A point that is followed costs a run in every step.
+constexpr double kFollowedShare = 0.25;
 
 }  // namespace
 
@@ -25,7 +27,8 @@ void AdaptiveMaterial::choose_followed() {
   std::size_t lowest = 0;
   for (std::size_t point = 0; point < points_.size(); ++point) {
     if (draw(point) < draw(lowest)) lowest = point;
-    if (draw(point) < options_.audit) followed_.push_back({point, cells_.front().answer.state});
+    if (draw(point) < kFollowedShare * options_.audit)
+      followed_.push_back({point, cells_.front().answer.state});
   }
   if (followed_.empty()) followed_.push_back({lowest, cells_.front().answer.state});
 }
@@ -39,21 +42,21 @@ void AdaptiveMaterial::audit() {
 
 void AdaptiveMaterial::audit_offsets() {
   std::vector<CellRequest> requests;
-  std::vector<Vector7> carried;
+  std::vector<Vector7> given;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     if (point.offset.isZero(0.0)) continue;
     if (hashed_share(options_.seed, p, static_cast<std::uint64_t>(step_)) >= options_.audit) continue;
     const CellReply& answer = cells_[point.cell].answer;
     requests.push_back({answer.state, increment_of(point.offset)});
-    carried.push_back(linearised_stress(answer.response, point.offset));
+    given.push_back(linearised_stress(answer.response, point.offset));
   }
   if (requests.empty()) return;
   const std::vector<CellReply> replies = run(requests);
   audits_ += static_cast<std::int64_t>(requests.size());
   for (std::size_t k = 0; k < replies.size(); ++k) {
     if (replies[k].response.quality != Quality::good) continue;
-    offset_errors_.add(in_plane_norm(replies[k].response.stress - carried[k]) / confining_);
+    offset_errors_.add(in_plane_norm(replies[k].response.stress - given[k]) / confining_);
   }
 }
 
@@ -74,8 +77,8 @@ void AdaptiveMaterial::audit_histories() {
     // A cell that cannot follow is let go; its point goes on by what serves it.
     if (replies[k].response.quality != Quality::good) continue;
     const Point& point = points_[followed_[k].point];
-    const Vector7 served = linearised_stress(cells_[point.cell].answer.response, point.offset);
-    history_errors_.add(in_plane_norm(replies[k].response.stress - served) / confining_);
+    const Vector7 given = linearised_stress(cells_[point.cell].answer.response, point.offset);
+    history_errors_.add(in_plane_norm(replies[k].response.stress - given) / confining_);
     going_on.push_back({followed_[k].point, replies[k].state});
   }
   followed_ = std::move(going_on);

@@ -17,8 +17,9 @@ struct AdaptivityOptions {
   /// Error in the in-plane norm of stress that a point may have, as a share of the confining pressure of the
   /// packing. 0: every point has a cell of its own.
   double tolerance = 0.02;
-  /// Share of the saved evaluations that are run in full anyway, and of the points that are followed in full.
-  double audit = 0.02;
+  /// Share of the saved evaluations that are run in full anyway; a quarter of it of the points, one at least,
+  /// is followed in full.
+  double audit = 0.01;
   std::uint64_t seed = 1;
 };
 

@@ -15,50 +15,62 @@ constexpr double kShareOfElastic = 0.5;
 /// What a cell has shown is forgotten by half at each new run.
 constexpr double kMemory = 0.5;
 constexpr double kMuchLonger = 2.0;
+/// Weight of a volume change; the square root of its share of the curvature in shear.
+constexpr double kVolume = 0.35;
 
 Eigen::Matrix2d symmetric(const Eigen::Matrix2d& offset) {
   return 0.5 * (offset + offset.transpose());
 }
 
+Vector7 strain_of(const Eigen::Matrix2d& symmetric_strain) {
+  return increment_of(symmetric_strain).strain();
+}
+
+/// The part of a strain that goes on along the last loading.
+double onward_of(const Eigen::Matrix2d& strain, const Curvature& curvature) {
+  return std::max(0.0, strain.cwiseProduct(curvature.direction).sum());
+}
+
 }  // namespace
 
-double Curvature::over(double distance) const {
-  const double x = distance / length;
+double Curvature::over(double size) const {
+  const double x = size / length;
   return error * (x <= 1.0 ? x * std::sqrt(x) : x * x);
+}
+
+double size_of(const Eigen::Matrix2d& offset) {
+  const Eigen::Matrix2d volume = 0.5 * offset.trace() * Eigen::Matrix2d::Identity();
+  return std::sqrt((offset - volume).squaredNorm() + kVolume * kVolume * volume.squaredNorm());
 }
 
 double ErrorEstimate::of(const Response& answer, const Curvature& curvature,
                          const Eigen::Matrix2d& offset) const {
-  const double distance = offset.norm();
-  if (distance == 0.0) return 0.0;
+  const double size = size_of(offset);
+  if (size == 0.0) return 0.0;
   if (!curvature.known()) return HUGE_VAL;
   const Eigen::Matrix2d strain = symmetric(offset);
-  const double onward = std::max(0.0, strain.cwiseProduct(curvature.direction).sum());
-  const Vector7 turned = increment_of(strain - onward * curvature.direction).strain();
-  const Vector7 apart = (elastic_ - answer.tangent) * turned;
-  return curvature.over(distance) + kShareOfElastic * in_plane_norm(apart);
+  const Eigen::Matrix2d onward = onward_of(strain, curvature) * curvature.direction;
+  const Vector7 apart = (elastic_ - answer.tangent) * strain_of(strain - onward);
+  return curvature.over(size) + kShareOfElastic * in_plane_norm(apart);
 }
 
 Curvature ErrorEstimate::learn(const Response& start, const Response& end, const Eigen::Matrix2d& offset,
                                Curvature& at_start) const {
-  const double distance = offset.norm();
+  const double size = size_of(offset);
   const Eigen::Matrix2d strain = symmetric(offset);
   const double missed = in_plane_norm(end.stress - linearised_stress(start, offset));
+  Curvature seen;
   // The tangent may have turned more than the stress shows.
-  const double turned = 0.5 * in_plane_norm((end.tangent - start.tangent) * increment_of(strain).strain());
-  Curvature seen{std::max(missed, turned), distance, Eigen::Matrix2d::Zero()};
+  seen.error = std::max(missed, 0.5 * in_plane_norm((end.tangent - start.tangent) * strain_of(strain)));
+  seen.length = size;
   if (strain.norm() > 0.0) seen.direction = strain / strain.norm();
   // What a short run has shown is mostly the cell's noise; one that is much longer replaces it.
-  if (!at_start.known() || distance >= kMuchLonger * at_start.length) {
-    at_start.error = missed;
-    at_start.length = distance;
-    return seen;
-  }
-  const double expected = at_start.over(distance);
+  const bool replaces = !at_start.known() || size >= kMuchLonger * at_start.length;
+  const double expected = replaces ? 0.0 : at_start.over(size);
   seen.error = std::max(seen.error, kMemory * expected);
-  if (missed > expected) {
+  if (replaces || missed > expected) {
     at_start.error = missed;
-    at_start.length = distance;
+    at_start.length = size;
   }
   return seen;
 }

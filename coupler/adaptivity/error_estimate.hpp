@@ -6,20 +6,23 @@
 
 namespace polargrain::coupler {
 
-/// What is known of how far an answer of a cell can be carried along its tangent (docs/adaptivity.md, 2).
+/// What is known of how an answer of a cell bends away from its tangent (docs/adaptivity.md, 2).
 struct Curvature {
-  /// In-plane norm of stress (Pa) by which linearisation was wrong over an offset of norm `length`. Unknown
+  /// In-plane norm of stress (Pa) by which linearisation was wrong over an offset of size `length`. Unknown
   /// while length is 0: nothing has been learned of this cell or of those it comes from.
   double error = 0.0;
   double length = 0.0;
   /// Unit symmetric strain that the cell was last loaded along; zero for a packing at rest.
   Eigen::Matrix2d direction = Eigen::Matrix2d::Zero();
-
   [[nodiscard]] bool known() const { return length > 0.0; }
-  /// The error (Pa) that the curvature seen makes over an offset of norm `distance`: it grows with the power
-  /// 3/2 up to the length it was seen over, and with the square beyond.
-  [[nodiscard]] double over(double distance) const;
+  /// The error (Pa) that the curvature seen makes over an offset of some size: it grows with the power 3/2 up
+  /// to the length it was seen over, and with the square beyond.
+  [[nodiscard]] double over(double size) const;
 };
+
+/// What counts of an offset: the norm of its deviatoric strain and its rotation, and a third of its volume
+/// change, to which a packing answers with far less curvature.
+double size_of(const Eigen::Matrix2d& offset);
 
 /// Estimates errors of linearisation for the cells of one packing.
 class ErrorEstimate {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/commands/command_line.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,7 +12,7 @@
 #include "common/error.hpp"
 #include "coupler/case/case.hpp"
 #include "coupler/commands/band.hpp"
-#include "coupler/commands/command_line.hpp"
+#include "coupler/commands/bench.hpp"
 #include "coupler/commands/interrupt.hpp"
 #include "coupler/commands/pack.hpp"
 #include "coupler/commands/point.hpp"
@@ -23,6 +25,7 @@ namespace {
 constexpr int kRunFailed = 1;
 constexpr int kInputWrong = 2;
 constexpr int kStopped = 3;
+constexpr const char* kDemoCase = "cases/biaxial/case.yaml";
 
 constexpr const char* kIntroduction = R"(polargrain - granular materials on two scales
 A Cosserat finite element model whose material, where you want it, is a box of grains run by LIGGGHTS.)";
@@ -35,6 +38,7 @@ Try:
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
+  polargrain bench --quick                          speed against error of the demo, ten minutes
 
 A run writes history.csv (a row a step), fields.pvd (open it in ParaView), costs.csv, summary.json and run.log.
 Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or written), 3 stopped by a signal
@@ -222,6 +226,36 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   band_command->add_option("--fields", band_options.fields, "Write the samples of the increment as CSV")
       ->type_name("FILE");
 
+  BenchOptions bench_options;
+  bench_options.workers = default_workers();
+  bench_options.directory = "bench-results";
+  CLI::App* bench_command =
+      app.add_subcommand("bench", "Measure speed against error over a grid of settings");
+  bench_command
+      ->add_option(
+          "CASE", bench_options.cases,
+          "Case whose settings are varied; further ones are compared with it [cases/biaxial/case.yaml]")
+      ->expected(0, -1);
+  bench_command->add_flag("--quick", bench_options.quick, "Fewer settings and steps: some ten minutes");
+  bench_command->add_option("-o,--output", bench_options.directory, "Result directory [bench-results]")
+      ->type_name("DIR");
+  bench_command->add_option("-w,--workers", bench_options.workers, "Worker processes [one a core]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  bench_command->add_option("--x", bench_options.x, "Monitor along the curve [first of the case's table]")
+      ->type_name("NAME");
+  bench_command->add_option("--y", bench_options.y, "Monitor to compare; may be repeated [the others]")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  bench_command->add_option("--vary", bench_options.vary, "Further values of a key, tried one at a time")
+      ->type_name("KEY=A,B,...")
+      ->allow_extra_args(false);
+  bench_command->add_option("--packing", bench_options.packings, "A further packing to try; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  bench_command->add_flag("--quiet", bench_options.quiet, "Print nothing but errors");
+  add_settings(*bench_command, bench_options.settings);
+
   WorkerOptions worker_options;
   CLI::App* worker_command = app.add_subcommand("worker", "Serve cells to a coordinator (started by run)");
   worker_command->add_option("--connect", worker_options.url, "The coordinator's endpoint")
@@ -243,8 +277,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   keys_command->add_option("--worker", keys_worker, "Name of the worker's key to add [worker]")
       ->type_name("NAME");
 
-  for (CLI::App* command :
-       {run_command, band_command, check_command, point_command, pack_command, worker_command, keys_command})
+  for (CLI::App* command : {run_command, band_command, check_command, point_command, pack_command,
+                            bench_command, worker_command, keys_command})
     command->footer("");
 
   try {
@@ -258,6 +292,10 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
     if (point_command->parsed()) return point(point_options);
     if (band_command->parsed()) return band(band_options);
     if (pack_command->parsed()) return pack(pack_options, packing_tools);
+    if (bench_command->parsed()) {
+      if (bench_options.cases.empty()) bench_options.cases.push_back(kDemoCase);
+      return bench(bench_options);
+    }
     if (keys_command->parsed()) return keys(keys_directory, keys_worker);
     return work(worker_options, engine);
   });

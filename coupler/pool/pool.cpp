@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "coupler/pool/crew.hpp"
+#include "coupler/pool/request_sharing.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -354,16 +355,20 @@ CellReply Pool::initial(std::uint32_t definition) {
 }
 
 std::vector<CellReply> Pool::evaluate(std::span<const PoolRequest> requests) {
+  const std::vector<std::size_t> first = first_alike(requests);
+  std::vector<std::size_t> task_of(requests.size());
   std::vector<Task> tasks;
   tasks.reserve(requests.size());
-  for (const PoolRequest& request : requests) {
+  for (std::size_t r = 0; r < requests.size(); ++r) {
+    const PoolRequest& request = requests[r];
     static_cast<void>(implementation_->definition(request.definition));
-    tasks.push_back({request.definition, &request.cell, request.point});
+    task_of[r] = first[r] == r ? tasks.size() : task_of[first[r]];
+    if (first[r] == r) tasks.push_back({request.definition, &request.cell, request.point});
   }
   implementation_->work(tasks);
   std::vector<CellReply> replies;
-  replies.reserve(tasks.size());
-  for (Task& task : tasks) replies.push_back(std::move(task.reply));
+  replies.reserve(requests.size());
+  for (const std::size_t task : task_of) replies.push_back(tasks[task].reply);
   return replies;
 }
 

@@ -88,7 +88,7 @@ class Pool {
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
   /// The packing of a definition at rest.
   CellReply initial(std::uint32_t definition);
-  /// Evaluates all requests. @returns the replies in the order of the requests.
+  /// Evaluates all requests; equal ones once. @returns the replies in the order of the requests.
   std::vector<CellReply> evaluate(std::span<const PoolRequest> requests);
   /// The first request of the last evaluate whose reply is Quality::failed.
   [[nodiscard]] const std::optional<CellFailure>& last_failure() const;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -42,8 +43,9 @@ class FakeEngine : public CellService {
     std::istringstream script(definition.script);
     std::string command;
     while (script >> command) {
-      if (command != "young" && command != "fail_beyond" && command != "die_beyond" &&
-          command != "refuse_beyond" && command != "hang_beyond" && command != "sleep_milliseconds") {
+      if (command != "young" && command != "softening" && command != "fail_beyond" &&
+          command != "die_beyond" && command != "refuse_beyond" && command != "hang_beyond" &&
+          command != "sleep_milliseconds") {
         die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
       }
       script >> settings_[command];
@@ -74,10 +76,19 @@ class FakeEngine : public CellService {
       failed.response.step_factor = 0.5;
       return failed;
     }
-    const Vector7 change = stiffness_ * request.increment.strain();
     std::array<double, 5> stress{};
-    for (int i = 0; i < 5; ++i) stress[i] = start[i] + change[i];
-    return reply(stress, start[5] + 1.0);
+    std::copy_n(start.begin(), stress.size(), stress.begin());
+    // Small substeps, so that a long increment ends where the same way in short ones does.
+    const Vector7 strain = request.increment.strain();
+    const int substeps =
+        settings_.count("softening") == 0 ? 1 : static_cast<int>(std::ceil(strain.norm() / 1e-5));
+    for (int substep = 0; substep < substeps; ++substep) {
+      const Vector7 change = softened(stress[k11] - stress[k22]) * strain / substeps;
+      for (int i = 0; i < 5; ++i) stress[i] += change[i];
+    }
+    CellReply made = reply(stress, start[5] + 1.0);
+    made.response.tangent = softened(stress[k11] - stress[k22]);
+    return made;
   }
 
  private:
@@ -92,6 +103,13 @@ class FakeEngine : public CellService {
   [[nodiscard]] bool beyond(const std::string& setting, double value) const {
     const auto limit = settings_.find(setting);
     return limit != settings_.end() && value > limit->second;
+  }
+
+  /// The stiffness from a state on: it falls with the stress difference and is constant over an increment.
+  [[nodiscard]] Matrix7 softened(double stress_difference) const {
+    const auto share = settings_.find("softening");
+    if (share == settings_.end()) return stiffness_;
+    return stiffness_ / (1.0 + share->second * std::abs(stress_difference / kConfining));
   }
 
   [[nodiscard]] CellReply reply(const std::array<double, 5>& stress, double evaluations) const {

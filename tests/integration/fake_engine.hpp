@@ -12,6 +12,7 @@ namespace polargrain::testing {
 ///
 ///     young E                Young's modulus in Pa (Poisson's ratio is 0.25); 100e6 without this line
 ///     sleep_milliseconds n   takes so long for an evaluation, with signs of life
+///     softening f          divides the stiffness by 1 + f |s11 - s22| / 100 kPa of the stress reached
 ///     fail_beyond e          answers Quality::failed with step factor 0.5 when an entry of the increment
 ///     exceeds e die_beyond e           then prints what LIGGGHTS prints when grains are lost, and ends the
 ///     process hang_beyond e          then hangs for ever refuse_beyond e        then throws

@@ -326,7 +326,7 @@ TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
 
 TEST_F(AdaptiveMaterialTest, AuditsMeasureAPlantedErrorAndTighten) {
   // A wrong answer to short increments: what leaders are asked is long, so no estimate can see it.
-  cells_.short_increment = 2e-4;
+  cells_.short_increment = 5e-4;
   cells_.planted = 0.05 * kConfining;
   AdaptiveMaterial sand = material(200, 0.02, 0.1);
   for (int k = 0; k < 6; ++k) {
@@ -352,7 +352,7 @@ TEST_F(AdaptiveMaterialTest, AuditsOfAGoodRunStayWithinTheTolerance) {
   std::cout << "[figure] audits: 95th percentile " << figure(sand, "offset_error_95_percent")
             << ", of whole histories " << figure(sand, "history_error_95_percent") << '\n';
   EXPECT_GT(figure(sand, "offset_errors"), 100.0);
-  EXPECT_GT(figure(sand, "history_errors"), 100.0);
+  EXPECT_GE(figure(sand, "history_errors"), 20.0);
   EXPECT_LE(figure(sand, "offset_error_95_percent"), 0.02);
   EXPECT_GT(figure(sand, "offset_error_largest"), 0.0);
   EXPECT_LE(figure(sand, "history_error_95_percent"), 0.02);

@@ -56,12 +56,13 @@ TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
   Response start;
   start.tangent = elastic;
   Curvature packing;
-  const Eigen::Matrix2d offset = gradient(1e-3, 0.0, 0.0, 0.0);
+  const Eigen::Matrix2d offset = gradient(1e-3, 0.0, 0.0, -1e-3);
   EXPECT_EQ(estimate.of(start, packing, Eigen::Matrix2d::Zero()), 0.0);
   EXPECT_EQ(estimate.of(start, packing, offset), HUGE_VAL);
   Response end = start;
   end.stress = linearised_stress(start, offset);
-  end.stress[k11] -= 500.0;  // what the run shows and the tangent did not
+  end.stress[k11] -= 300.0;  // what the run shows and the tangent did not
+  end.stress[k22] += 400.0;
   const Curvature moved = estimate.learn(start, end, offset, packing);
   EXPECT_DOUBLE_EQ(estimate.of(start, packing, offset), 500.0);
   EXPECT_DOUBLE_EQ(estimate.of(end, moved, offset), 500.0);
@@ -75,13 +76,17 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   elastic(k11, k11) = elastic(k22, k22) = 3e7;
   Response soft;
   soft.tangent = 0.1 * elastic;
-  Curvature curvature{1.0, 1e-3, gradient(-1.0, 0.0, 0.0, 0.0)};
+  const Eigen::Matrix2d onward = gradient(-1e-3, 0.0, 0.0, 1e-3);
+  const Curvature curvature{1.0, onward.norm(), onward / onward.norm()};
   const ErrorEstimate estimate(elastic);
-  const double onward = estimate.of(soft, curvature, gradient(-1e-3, 0.0, 0.0, 0.0));
-  const double back = estimate.of(soft, curvature, gradient(1e-3, 0.0, 0.0, 0.0));
-  EXPECT_DOUBLE_EQ(onward, 1.0);
-  // Half of the stress between both tangents, 0.9 * 3e7 * 1e-3 Pa.
-  EXPECT_NEAR(back, 1.0 + 0.5 * 27e3, 1e-6);
+  EXPECT_NEAR(estimate.of(soft, curvature, onward), 1.0, 1e-9);
+  // Half of the stress between both tangents, 0.9 * 3e7 * 1e-3 Pa in two components.
+  EXPECT_NEAR(estimate.of(soft, curvature, -onward), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);
+}
+
+TEST(ErrorEstimate, AVolumeChangeCountsLess) {
+  EXPECT_DOUBLE_EQ(size_of(gradient(0.0, 3e-3, 4e-3, 0.0)), 5e-3);
+  EXPECT_DOUBLE_EQ(size_of(gradient(1e-3, 0.0, 0.0, 1e-3)), 0.35 * std::sqrt(2.0) * 1e-3);
 }
 
 TEST(StrainPath, TurnsAreFoundAndStraightPiecesAreOne) {

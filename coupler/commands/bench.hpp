@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace polargrain::coupler {
+
+struct BenchOptions {
+  /// The first carries the grid of settings and the reference; the others are run as they are and compared
+  /// with the same reference, for example the same problem with other materials.
+  std::vector<std::filesystem::path> cases;
+  std::filesystem::path directory;  ///< of the results
+  int workers = 1;
+  bool quick = false;  ///< fewer settings and at most 7 steps: about ten minutes for the demo
+  bool quiet = false;
+  std::vector<std::string> settings;  ///< of --set, for every run
+  std::vector<std::string> vary;      ///< KEY=A,B,C: further values to try, one at a time
+  std::vector<std::string>
+      packings;                ///< further packings: other sizes, or others of the same kind for scatter
+  std::string x;               ///< monitor along the curve; empty: the first of the case's table
+  std::vector<std::string> y;  ///< monitors whose error counts; empty: the others of the case's table
+};
+
+/// Runs cases over a grid of settings and measures speed against error: bench.csv and bench.html in the
+/// directory, a table on standard output. Each setting departs from the first case alone, all else equal; the
+/// reference has the finest settings of all. A run that stops early is compared as far as it came, and said
+/// to have stopped.
+/// @returns 0 when the reference and at least one other run came to their end, else 1
+/// @throws InputError when a case or an option is wrong (nothing has been run), RunError
+int bench(const BenchOptions& options);
+
+}  // namespace polargrain::coupler

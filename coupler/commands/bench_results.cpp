@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/commands/bench_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace polargrain::coupler {
+
+std::map<std::string, std::vector<double>> read_columns(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  if (!std::getline(in, line)) throw RunError(fmt::format("{} cannot be read", file.string()));
+  std::vector<std::string> names;
+  std::istringstream header(line);
+  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+  std::map<std::string, std::vector<double>> columns;
+  while (std::getline(in, line)) {
+    std::istringstream row(line);
+    std::string cell;
+    for (const std::string& name : names) {
+      if (!std::getline(row, cell, ',')) throw RunError(fmt::format("{}: a row is too short", file.string()));
+      columns[name].push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  }
+  return columns;
+}
+
+double BenchCurve::at(double place) const {
+  for (std::size_t k = 0; k + 1 < x.size(); ++k) {
+    const double low = std::min(x[k], x[k + 1]);
+    const double high = std::max(x[k], x[k + 1]);
+    if (place < low || place > high || low == high) continue;
+    return y[k] + (y[k + 1] - y[k]) * (place - x[k]) / (x[k + 1] - x[k]);
+  }
+  return std::abs(place - x.front()) < std::abs(place - x.back()) ? y.front() : y.back();
+}
+
+BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
+  BenchError error;
+  if (curve.x.empty() || reference.x.empty()) return error;
+  const auto [least, most] = std::minmax_element(reference.y.begin(), reference.y.end());
+  const auto [first, last] = std::minmax_element(reference.x.begin(), reference.x.end());
+  const double range = *most - *least;
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  double peak = 0.0;
+  double reference_peak = 0.0;
+  const double way = 1e-9 * (*last - *first);
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    if (curve.x[k] < *first - way || curve.x[k] > *last + way) continue;
+    const double expected = reference.at(curve.x[k]);
+    error.largest = std::max(error.largest, std::abs(curve.y[k] - expected) / range);
+    peak = std::max(peak, curve.y[k], smaller);
+    reference_peak = std::max(reference_peak, expected, smaller);
+  }
+  if (reference_peak != 0.0) error.peak = std::abs(peak - reference_peak) / std::abs(reference_peak);
+  return error;
+}
+
+void compare(std::vector<BenchResult>& results) {
+  const BenchResult reference = results.front();
+  for (BenchResult& result : results) {
+    result.errors.clear();
+    for (std::size_t k = 0; k < result.curves.size(); ++k) {
+      result.errors.push_back(error_of(result.curves[k], reference.curves[k]));
+    }
+  }
+  const auto counts = [&](const BenchResult& r) {
+    return &r != &results.front() && r.done() && !r.errors.empty();
+  };
+  for (BenchResult& result : results) {
+    result.on_front =
+        counts(result) && std::none_of(results.begin(), results.end(), [&](const BenchResult& other) {
+          return counts(other) && other.seconds < result.seconds &&
+                 other.errors.front().largest < result.errors.front().largest;
+        });
+  }
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "coupler/commands/bench.hpp"
+
+namespace polargrain::coupler {
+
+/// One run of a bench.
+struct BenchSetting {
+  std::filesystem::path case_file;
+  std::string group;                   ///< what is varied: "reference", "as given", "equilibrium", ...
+  std::string label;                   ///< its value, for people
+  std::vector<std::string> overrides;  ///< as --set takes them
+};
+
+/// All runs of a bench in their order, the reference first. What is varied depends on what the first case
+/// has: equilibrium, loading rate, tangent and adaptivity where it has cells, the step size where it counts
+/// steps, packings and keys as the options say.
+/// @throws InputError when the case cannot be read or `vary` is no KEY=VALUES
+std::vector<BenchSetting> bench_settings(const BenchOptions& options);
+
+}  // namespace polargrain::coupler
