@@ -43,6 +43,7 @@ CellDefinition some_definition() {
   cell.packing.grains = {{0, {0.1, 0.1}, 0.007, 0.04, 1e-6}, {-5, {0.0, 0.15}, 0.006, 0.03, 9e-7}};
   cell.control.damping = 0.1;
   cell.control.least_steps = 33;
+  cell.control.rotations = CellRotations::controlled;
   return cell;
 }
 
@@ -70,6 +71,14 @@ TEST(Messages, DoublesKeepTheirBits) {
         std::memcmp(back.cell.response.tangent.data(), reply.cell.response.tangent.data(), sizeof(Matrix7)),
         0);
   }
+}
+
+TEST(Messages, DiagnosticsKeepTheirPlaces) {
+  Reply reply = some_reply();
+  CellDiagnostics& d = reply.cell.diagnostics;
+  d = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7, 8, 9.0, 10.0, 11.0, 12.0, 13.0, {14.0, 15.0, 16.0}};
+  const CellDiagnostics back = round_trip(reply).cell.diagnostics;
+  EXPECT_EQ(std::memcmp(&back, &d, sizeof d), 0);
 }
 
 TEST(Messages, AnIncrementKeepsItsComponents) {
@@ -110,6 +119,7 @@ TEST(Messages, ADefinitionTravelsWhole) {
   EXPECT_EQ(back.control.damping, 0.1);
   EXPECT_EQ(back.control.least_steps, 33);
   EXPECT_EQ(back.control.tangent, CellTangent::condensed);
+  EXPECT_EQ(back.control.rotations, CellRotations::controlled);
 }
 
 TEST(Messages, TheSmallOnesTravelToo) {
