@@ -35,6 +35,13 @@ SECTIONS = [
     ("Newton's method", "fem_solver_test", "Work balance, quadratic rate, steps that are cut."),
     ("Noise, untrue tangents, absurd corrections", "fem_noise_test",
      "What the solver makes of them, and that it says so."),
+    ("Cell: hexagonal lattice (E.7 a)", "dem_lattice_test", "Exact moduli at any size, rotation and flip of the box."),
+    ("Cell: Rowe's packing (E.7 c)", "dem_rowe_test", "Stress ratio of sliding rows, closed form."),
+    ("Cell: limits and identities (C.2 to C.6)", "dem_limits_test", "Skew and couple stress, work, covariance."),
+    ("Cell: tangent (C.7)", "dem_tangent_test", "Against differences of the cell, before and after yield."),
+    ("Cell: independent code", "dem_paths_test", "Two strain paths computed with YADE."),
+    ("Cell: as a value", "dem_cell_test", "Same request, same bits; rigid rotation; large shear."),
+    ("Prescribed boundary (C.5)", "dem_boundary_test", "Why cells do not prescribe one: moduli that follow the size."),
 ]
 
 LONG = [("Many elements", "fem_many_elements_test", "The hard case of 50,000 elements.")]
