@@ -104,6 +104,20 @@ TEST_F(RunTest, WritesWhatItPromises) {
   EXPECT_NE(outcome.out.find("results: out (history.csv"), std::string::npos);
 }
 
+TEST_F(RunTest, SaysWhereStrainsWereLimited) {
+  // 0.2 % of axial strain a step, 0.25 % in norm: more than an iteration may ask for, so every step is cut.
+  const Outcome outcome = polargrain("run case.yaml -o out -w 1 --set steps.largest_strain=0.0015");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_GE(column("out/history.csv", "limited")[1], 1.0);
+  EXPECT_GE(column("out/history.csv", "cuts")[1], 1.0);
+  EXPECT_NE(outcome.out.find("corrections asked for too large a strain"), std::string::npos) << outcome.out;
+  EXPECT_EQ(result("out/summary.json").find("\"corrections_limited\": 0"), std::string::npos);
+  EXPECT_NE(result("out/run.log").find("corrections asked for strains beyond 0.0015"), std::string::npos);
+  // The answer is that of the steps as they were asked for: the cell is linear.
+  const double expected = 1.0 + 100e6 / (1.0 - 0.0625) * 0.01 / 100e3;
+  EXPECT_NEAR(column("out/history.csv", "stress_ratio").back(), expected, 1e-8);
+}
+
 TEST_F(RunTest, OneAndTwoWorkersWriteTheSameHistory) {
   ASSERT_EQ(polargrain("run case.yaml -o one -w 1").status, 0);
   ASSERT_EQ(polargrain("run case.yaml -o two -w 2").status, 0);
