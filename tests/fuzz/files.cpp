@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "tests/fuzz/files.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "common/error.hpp"
+#include "common/packing_file.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/checkpoint/checkpoint.hpp"
+#include "coupler/checkpoint/sealed_file.hpp"
+#include "coupler/commands/point.hpp"
+#include "coupler/pack/read_specification.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+/// A directory in memory with the files that cases name.
+class Place {
+ public:
+  Place() : path_("/dev/shm/polargrain_fuzz_" + std::to_string(getpid())) {
+    std::filesystem::create_directories(path_);
+    std::ofstream(path_ / "fake.in") << "young 1e8\n";
+    std::ofstream(path_ / "grains.csv")
+        << "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n";
+  }
+  ~Place() {
+    std::error_code nothing;
+    std::filesystem::remove_all(path_, nothing);
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  [[nodiscard]] std::filesystem::path write(const char* name, std::string_view bytes) const {
+    std::ofstream(path_ / name, std::ios::binary | std::ios::trunc)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+bool read_as(FileKind kind, std::string_view bytes) {
+  static const Place place;
+  try {
+    switch (kind) {
+      case FileKind::case_file:
+        (void)coupler::read_case(place.write("case.yaml", bytes));
+        break;
+      case FileKind::packing_csv:
+        (void)read_packing(place.write("packing.csv", bytes));
+        break;
+      case FileKind::packing_hdf5:
+        (void)read_packing(place.write("packing.h5", bytes));
+        break;
+      case FileKind::path:
+        (void)coupler::read_path(place.write("path.csv", bytes));
+        break;
+      case FileKind::specification:
+        (void)coupler::read_packing_specification(place.write("specification.yaml", bytes), {});
+        break;
+      case FileKind::checkpoint:
+        (void)coupler::read_checkpoint(place.write("checkpoint.h5", bytes));
+        break;
+      case FileKind::sealed: {
+        std::string whole(bytes);
+        coupler::seal(whole);
+        (void)coupler::read_checkpoint(place.write("sealed.h5", whole));
+      }
+    }
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace polargrain::testing
