@@ -10,17 +10,21 @@
 
 namespace polargrain {
 
-/// A disc (or, with a radius of its own out of plane, a sphere in a single layer).
+/// A disc, or a sphere in a single layer or in space.
 struct Grain {
   std::int64_t id = 0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
   double radius = 0.0;                                 ///< m
   double mass = 0.0;                                   ///< kg
   double moment_of_inertia = 0.0;                      ///< kg m^2, about e_3
+  double height = 0.0;                                 ///< x3 of the centre, m; 0 in a plane packing
 };
 
 /// The prepared initial state of a cell: grains in a periodic box.
 struct Packing {
+  /// 2: a plane packing, what cells are made of. 3: spheres in a box that is periodic in x3 too, with the
+  /// period `thickness`; its box is a right one.
+  int dimension = 2;
   /// Columns are the base vectors of the periodic box, m.
   Eigen::Matrix2d box = Eigen::Matrix2d::Zero();
   /// Out-of-plane thickness, m; stresses are per this true thickness.
@@ -33,9 +37,9 @@ struct Packing {
   [[nodiscard]] double volume() const { return box.determinant() * thickness; }
 };
 
-/// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first line `# cell ... xx=... xy=... yx=... yy=... z=...` with the base
-/// vectors as columns (xy: x component of the second vector), a line of column names `id,x,y,r,mass,Izz`,
-/// then one grain a line.
+/// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first
+/// line `# cell ... xx=... xy=... yx=... yy=... z=...` with the base vectors as columns (xy: x component of
+/// the second vector), a line of column names `id,x,y,r,mass,Izz`, then one grain a line.
 /// @throws InputError naming file and line when the file is missing, a number does not parse, a radius or
 /// mass is not positive, the box has no area, or two grains share an id.
 Packing read_packing(const std::filesystem::path& file);

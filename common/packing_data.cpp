@@ -19,17 +19,20 @@ std::string packing_data(const Packing& packing) {
   Eigen::Matrix2d to_box_frame;
   to_box_frame << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
 
+  const bool space = packing.dimension == 3;
   std::string text =
       "packing of polargrain: grains of one type, density chosen so that a sphere has the grain's mass\n\n";
   text += fmt::format("{} atoms\n1 atom types\n\n", packing.grains.size());
-  text += fmt::format(
-      "0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n{:.17g} 0 0 xy xz yz\n\nAtoms\n\n",
-      length_x, length_y, -0.5 * packing.thickness, 0.5 * packing.thickness, tilt);
+  text += fmt::format("0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n", length_x, length_y,
+                      space ? 0.0 : -0.5 * packing.thickness, (space ? 1.0 : 0.5) * packing.thickness);
+  // The engine's box is a right one unless it is told its tilt, even if that is none.
+  if (!space) text += fmt::format("{:.17g} 0 0 xy xz yz\n", tilt);
+  text += "\nAtoms\n\n";
   for (const Grain& grain : packing.grains) {
     const Eigen::Vector2d position = to_box_frame * grain.position;
     const double sphere = 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
-    text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} 0\n", grain.id + 1, 2.0 * grain.radius,
-                        grain.mass / sphere, position.x(), position.y());
+    text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", grain.id + 1, 2.0 * grain.radius,
+                        grain.mass / sphere, position.x(), position.y(), grain.height);
   }
   return text;
 }

@@ -18,7 +18,8 @@ namespace polargrain {
 
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kPlane = 1;  // versions
+constexpr int kSpace = 2;  // with the heights of the grains
 constexpr hsize_t kMostBytes = hsize_t{1} << 31;
 
 /// A handle of the library, closed when it goes.
@@ -49,6 +50,8 @@ struct Content {
   std::vector<double> grains;    // x, y, radius, mass, moment of inertia of each
   std::vector<double> reached;   // in the order of PackingReached
   std::vector<std::uint8_t> state;
+  std::vector<double> heights;  // of the grains; none in a plane packing, nor in its file
+  int version = kPlane;
 
   /// Visits name, type and array of each part; one list for writing, reading and hashing.
   template <typename Visitor>
@@ -59,6 +62,7 @@ struct Content {
     visitor("reached", H5T_NATIVE_DOUBLE, reached);
     visitor("contact_state", H5T_NATIVE_UINT8, state);
     visitor("specification", H5T_NATIVE_CHAR, specification);
+    if (version == kSpace) visitor("grain_height", H5T_NATIVE_DOUBLE, heights);
   }
 
   std::string name() {
@@ -109,7 +113,9 @@ Content content_of(const PreparedPacking& prepared) {
     for (const double value :
          {grain.position.x(), grain.position.y(), grain.radius, grain.mass, grain.moment_of_inertia})
       content.grains.push_back(value);
+    if (packing.dimension == 3) content.heights.push_back(grain.height);
   }
+  content.version = packing.dimension == 3 ? kSpace : kPlane;
   content.reached = {r.void_ratio,
                      r.coordination_number,
                      r.rattlers,
@@ -135,18 +141,22 @@ PreparedPacking packing_of(const Content& content) {
   require(!content.id.empty() && content.grains.size() == kValues * content.id.size(),
           "the grains are incomplete");
   require(content.reached.size() == 10, "what was reached is incomplete");
-  for (const auto* array : {&content.box, &content.grains, &content.reached})
+  require(content.heights.size() == (content.version == kSpace ? content.id.size() : 0),
+          "the heights of the grains are incomplete");
+  for (const auto* array : {&content.box, &content.grains, &content.reached, &content.heights})
     for (const double value : *array) require(std::isfinite(value), "a value is not finite");
   PreparedPacking prepared;
   prepared.specification = content.specification;
   Packing& packing = prepared.packing;
+  packing.dimension = content.version == kSpace ? 3 : 2;
   packing.box << content.box[0], content.box[2], content.box[1], content.box[3];
   packing.thickness = content.box[4];
   require(packing.volume() > 0.0 && packing.thickness > 0.0, "the box has no volume");
   std::set<std::int64_t> ids;
   for (std::size_t k = 0; k < content.id.size(); ++k) {
     const double* const values = &content.grains[kValues * k];
-    Grain grain{content.id[k], {values[0], values[1]}, values[2], values[3], values[4]};
+    const double height = content.heights.empty() ? 0.0 : content.heights[k];
+    Grain grain{content.id[k], {values[0], values[1]}, values[2], values[3], values[4], height};
     require(grain.radius > 0.0 && grain.mass > 0.0, "a grain has no radius or mass");
     require(grain.id >= 0 && grain.id <= 2'000'000'000 && ids.insert(grain.id).second,
             "the ids of grains are wrong");
@@ -177,7 +187,7 @@ void write_packing_file(const std::filesystem::path& file, const PreparedPacking
     Content content = content_of(packing);
     const Handle out(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
                      "no file");
-    write_array(out, "version", H5T_NATIVE_INT, std::array<int, 1>{kVersion});
+    write_array(out, "version", H5T_NATIVE_INT, std::array<int, 1>{content.version});
     write_array(out, "content_hash", H5T_NATIVE_CHAR, content.name());
     content.visit(
         [&](const char* name, hid_t type, const auto& array) { write_array(out, name, type, array); });
@@ -204,8 +214,10 @@ PreparedPacking read_packing_file(const std::filesystem::path& file) {
   try {
     const Handle in(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened");
     read_array(in, "version", H5T_NATIVE_INT, version);
-    if (version != std::vector<int>{kVersion}) throw RunError("its version is not known to this program");
     Content content;
+    if (version != std::vector<int>{kPlane} && version != std::vector<int>{kSpace})
+      throw RunError("its version is not known to this program");
+    content.version = version.front();
     std::string hash;
     read_array(in, "content_hash", H5T_NATIVE_CHAR, hash);
     content.visit([&](const char* name, hid_t type, auto& array) { read_array(in, name, type, array); });

@@ -22,21 +22,26 @@ struct SizeLaw {
   std::vector<double> radii;   ///< m
   std::vector<double> shares;  ///< list: by number, any sum; sieve: ascending from 0 to 1
   double deviation = 0.0;      ///< lognormal: standard deviation of the logarithm
+  bool spheres = false;        ///< sieve: masses go with the cube of the radius, not with the square
 };
 
-/// What `polargrain pack` is asked for: discs in a periodic box, compressed isotropically.
+/// What `polargrain pack` is asked for: grains in a periodic box, compressed isotropically.
 struct PackingSpecification {
   std::string text;         ///< the user's file, kept with the packing
   std::string script_file;  ///< for messages
   std::string script;       ///< input script of a cell: contact model, time step
   int grains = 0;
   SizeLaw sizes;
+  /// Spheres instead of discs of the thickness of the box: in a single layer (dimension 2) or in space (3).
+  bool spheres = false;
+  int dimension = 2;
   double density = 0.0;    ///< of the grains, kg/m^3
-  double thickness = 0.0;  ///< m
+  double thickness = 0.0;  ///< m; not in dimension 3
   double pressure = 0.0;   ///< Pa, positive in compression
   /// Sliding friction while the packing is made: 0 gives the densest one.
   double friction = 0.0;
-  /// When given, the friction is looked for that leads to this void ratio, between 0 and `friction`.
+  /// When given, the friction is looked for that leads to this void ratio, between 0 and `friction`; where
+  /// the void ratio jumps over it, the grains are placed anew.
   std::optional<double> void_ratio;
   double void_ratio_tolerance = 2e-3;
   std::uint64_t seed = 1;
@@ -49,11 +54,11 @@ struct PackingSpecification {
 
 /// What a packing came to. No times: equal specifications give equal files.
 struct PackingReached {
-  double void_ratio = 0.0;           ///< in plane
+  double void_ratio = 0.0;           ///< in plane; of the volumes in dimension 3
   double coordination_number = 0.0;  ///< 2 contacts / grains
   double rattlers = 0.0;             ///< grains without a contact / grains
-  double pressure = 0.0;             ///< mean of both axes, Pa
-  double anisotropy = 0.0;           ///< (s11 - s22) / (s11 + s22)
+  double pressure = 0.0;             ///< mean of the axes, Pa
+  double anisotropy = 0.0;           ///< (s11 - s22) / (s11 + s22), where it is largest of all pairs of axes
   double shear = 0.0;                ///< (s12 + s21) / (s11 + s22)
   double unbalanced_force_ratio = 0.0;
   double unbalanced_moment_ratio = 0.0;

@@ -81,7 +81,7 @@ bool make_in_child(const PackingSpecification& specification, const PackOptions&
 void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
   const PackingReached& reached = packing.reached;
   fmt::print(
-      "{}: {} grains in {:.6g} m x {:.6g} m\n"
+      "{}: {} grains in {:.6g} m x {:.6g} m{}\n"
       "  void ratio             {:.4f}\n"
       "  coordination number    {:.3f}   (without a contact: {:.1f} % of the grains)\n"
       "  pressure               {:.6g} kPa, anisotropy {:.1e}, shear {:.1e} of it\n"
@@ -90,6 +90,7 @@ void report(const PreparedPacking& packing, double seconds, const std::filesyste
       "  DEM steps              {:.0f}\n"
       "  seconds                {:.2f}\n",
       file.string(), packing.packing.grains.size(), packing.packing.box(0, 0), packing.packing.box(1, 1),
+      packing.packing.dimension == 3 ? fmt::format(" x {:.6g} m", packing.packing.thickness) : "",
       reached.void_ratio, reached.coordination_number, 100.0 * reached.rattlers, 1e-3 * reached.pressure,
       reached.anisotropy, reached.shear, reached.unbalanced_force_ratio, reached.unbalanced_moment_ratio,
       reached.friction, packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps,

@@ -71,6 +71,21 @@ SizeLaw read_sizes(const Entry& entry, Faults& faults) {
   return law;
 }
 
+/// Discs in a plane unless asked otherwise.
+void read_shape(Section& top, PackingSpecification& specification) {
+  specification.dimension = top.choice_or("dimension", {"2", "3"}, "2") == "3" ? 3 : 2;
+  const std::string natural = specification.dimension == 3 ? "spheres" : "discs";
+  specification.spheres = top.choice_or("shape", {"discs", "spheres"}, natural) == "spheres";
+  if (specification.dimension == 2) {
+    specification.thickness = top.quantity("thickness", Dimension::length, Limit::positive);
+    return;
+  }
+  if (!specification.spheres) top.fault("shape", "shape: in dimension 3 grains are spheres");
+  if (top.find("thickness") != nullptr)
+    top.fault("thickness",
+              "thickness: leave it out in dimension 3, where the box is compressed in all directions");
+}
+
 void read_script(Section& top, const std::filesystem::path& directory, PackingSpecification& specification) {
   const std::string name = top.text("script", "the path of a LIGGGHTS input script for cells");
   if (name.empty()) return;
@@ -104,7 +119,7 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   if (const Entry* entry = top.require("sizes", "a map with the size law"))
     specification.sizes = read_sizes(*entry, faults);
   specification.density = top.quantity("density", Dimension::number, Limit::positive);
-  specification.thickness = top.quantity("thickness", Dimension::length, Limit::positive);
+  read_shape(top, specification);
   specification.pressure = top.quantity("pressure", Dimension::pressure, Limit::positive);
   specification.friction = top.quantity("friction", Dimension::number, Limit::not_negative);
   if (top.find("void_ratio") != nullptr)

@@ -23,6 +23,8 @@ struct Contact {
   double moment = 0.0;
   double rolling_stiffness = 0.0;  ///< k_th, N m/rad; known for rolling model li_chu, otherwise 0
   bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling model li_chu)
+  double branch_3 = 0.0;           ///< component of the branch along e_3, m; 0 between discs
+  double force_3 = 0.0;            ///< component of the force along e_3, N; 0 between discs
 
   [[nodiscard]] Eigen::Vector2d normal() const { return branch.normalized(); }  ///< from first to second
   /// Compressive normal force, positive when the grains push each other.

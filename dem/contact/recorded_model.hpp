@@ -40,14 +40,15 @@ class RecordedModel : public Model {
                                    LIGGGHTS::ContactModels::ForceData& force_j) {
     Model::endSurfacesIntersect(data, mesh, force_i, force_j);
     if (contact_recorder().on)
-      record(data.i, data.j, {data.delta[0], data.delta[1]}, {force_i.delta_F[0], force_i.delta_F[1]},
-             data.kn, data.kt, data.cri, data.crj, force_i.delta_torque[2]);
+      record(data.i, data.j, {data.delta[0], data.delta[1], data.delta[2]},
+             {force_i.delta_F[0], force_i.delta_F[1], force_i.delta_F[2]}, data.kn, data.kt, data.cri,
+             data.crj, force_i.delta_torque[2]);
   }
 
  private:
   // Values, not references to the contact: a contact whose address escapes cannot be kept in registers.
-  __attribute__((noinline)) void record(int i, int j, std::array<double, 2> delta,
-                                        std::array<double, 2> force, double normal_stiffness,
+  __attribute__((noinline)) void record(int i, int j, std::array<double, 3> delta,
+                                        std::array<double, 3> force, double normal_stiffness,
                                         double tangential_stiffness, double arm_i, double arm_j,
                                         double torque) {
     const ContactRecorder::Rolling rolling = std::exchange(contact_recorder().rolling, {});
@@ -65,13 +66,15 @@ class RecordedModel : public Model {
     contact.second = j < atom.nlocal ? j : atom.map(atom.tag[j]);
     contact.branch = {-delta[0], -delta[1]};
     contact.force = {force[0], force[1]};
+    contact.branch_3 = -delta[2];
+    contact.force_3 = force[2];
     contact.normal_stiffness = normal_stiffness;
     contact.tangential_stiffness = tangential_stiffness;
     contact.arm_first = arm_i;
     contact.arm_second = arm_j;
     contact.friction = friction_ ? friction_->compute_array(atom.type[i] - 1, atom.type[j] - 1) : 0.0;
     // The force turns the grain by its arm towards the contact; the rest of the torque is the rolling law's.
-    const double towards = arm_i / std::hypot(delta[0], delta[1]);
+    const double towards = arm_i / std::hypot(delta[0], delta[1], delta[2]);
     contact.moment = torque + towards * (delta[0] * force[1] - delta[1] * force[0]);
     contact.rolling_stiffness = rolling.stiffness;
     contact.rolling_at_limit = rolling.at_limit;

@@ -13,14 +13,24 @@ namespace polargrain::dem {
 
 namespace {
 
-/// Random places, each free of those taken before, can fill a share of 0.547 of the plane with equal discs;
-/// well below it a place is found in a few trials.
+/// Random places, each free of those taken before, can fill a share of 0.547 of the plane with equal discs,
+/// and 0.38 of space with equal spheres; well below it a place is found in a few trials.
 constexpr double kSolidFraction = 0.4;
+constexpr double kSolidFractionInSpace = 0.25;
 constexpr int kMostTrials = 100'000;
+
+double area_of_disc(double radius) {
+  return std::numbers::pi * radius * radius;
+}
+
+double volume_of_sphere(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
 
 bool is_free(const Grain& grain, const std::vector<Grain>& placed, double side) {
   return std::none_of(placed.begin(), placed.end(), [&](const Grain& other) {
-    Eigen::Vector2d apart = grain.position - other.position;
+    Eigen::Vector3d apart;
+    apart << grain.position - other.position, grain.height - other.height;
     for (double& component : apart) component -= side * std::round(component / side);
     const double reach = grain.radius + other.radius;
     return apart.squaredNorm() < reach * reach;
@@ -31,13 +41,17 @@ bool is_free(const Grain& grain, const std::vector<Grain>& placed, double side) 
 
 Packing place_grains(const PackingSpecification& specification) {
   RandomNumbers random(specification.seed);
-  std::vector<double> radii = draw_radii(specification.sizes, specification.grains, random);
-  double area = 0.0;
-  for (const double radius : radii) area += std::numbers::pi * radius * radius;
-  const double side = std::sqrt(area / kSolidFraction);
+  const bool space = specification.dimension == 3;
+  SizeLaw law = specification.sizes;
+  law.spheres = specification.spheres;
+  std::vector<double> radii = draw_radii(law, specification.grains, random);
+  double filled = 0.0;  // area or volume
+  for (const double radius : radii) filled += space ? volume_of_sphere(radius) : area_of_disc(radius);
+  const double side = space ? std::cbrt(filled / kSolidFractionInSpace) : std::sqrt(filled / kSolidFraction);
   Packing packing;
+  packing.dimension = specification.dimension;
   packing.box = side * Eigen::Matrix2d::Identity();
-  packing.thickness = specification.thickness;
+  packing.thickness = space ? side : specification.thickness;
 
   // The large ones first: they would find no room later. Names stay in the order of the draw.
   std::vector<std::size_t> order(radii.size());
@@ -48,8 +62,10 @@ Packing place_grains(const PackingSpecification& specification) {
     Grain grain;
     grain.id = static_cast<std::int64_t>(k);
     grain.radius = radii[k];
-    grain.mass = specification.density * std::numbers::pi * radii[k] * radii[k] * specification.thickness;
-    grain.moment_of_inertia = 0.5 * grain.mass * radii[k] * radii[k];
+    grain.mass =
+        specification.density * (specification.spheres ? volume_of_sphere(radii[k])
+                                                       : area_of_disc(radii[k]) * specification.thickness);
+    grain.moment_of_inertia = (specification.spheres ? 0.4 : 0.5) * grain.mass * radii[k] * radii[k];
     int trials = 0;
     do {
       if (++trials > kMostTrials)
@@ -57,6 +73,7 @@ Packing place_grains(const PackingSpecification& specification) {
             "no room was found for a grain: the largest are too large for the box; take more grains");
       grain.position.x() = side * random.uniform();
       grain.position.y() = side * random.uniform();
+      if (space) grain.height = side * random.uniform();
     } while (!is_free(grain, packing.grains, side));
     packing.grains.push_back(grain);
   }

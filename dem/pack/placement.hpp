@@ -7,8 +7,8 @@
 
 namespace polargrain::dem {
 
-/// Discs that do not touch, at random places of a square periodic box: the loose start of a packing.
-/// Determined by the size law, the number of grains and the seed.
+/// Grains that do not touch, at random places of a square (in dimension 3: cubic) periodic box: the loose
+/// start of a packing. Determined by the size law, the number of grains and the seed.
 /// @throws RunError when there is no room for a grain (sizes too different).
 Packing place_grains(const PackingSpecification& specification);
 

@@ -35,14 +35,19 @@ std::pair<std::size_t, double> part_of(const std::vector<double>& weights, doubl
 }
 
 /// Between two sieves a and b the mass spreads evenly over the radius; a disc has a mass of r^2, so the
-/// number goes as r^-2, its integral as 1/a - 1/r, and the number between the sieves as share / (a b).
+/// number goes as r^-2 and its integral as 1/a - 1/r; of spheres as r^-3 and (1/a^2 - 1/r^2) / 2.
 double sieve_radius(const SizeLaw& law, double u) {
+  const double power = law.spheres ? 2.0 : 1.0;
+  const auto integral = [power](double a, double b) {
+    return (std::pow(a, -power) - std::pow(b, -power)) / power;
+  };
   std::vector<double> numbers;
   for (std::size_t k = 0; k + 1 < law.radii.size(); ++k)
-    numbers.push_back((law.shares[k + 1] - law.shares[k]) / (law.radii[k] * law.radii[k + 1]));
+    numbers.push_back((law.shares[k + 1] - law.shares[k]) * integral(law.radii[k], law.radii[k + 1]) /
+                      (law.radii[k + 1] - law.radii[k]));
   const auto [k, fraction] = part_of(numbers, u);
-  const double from = 1.0 / law.radii[k];
-  return 1.0 / (from + fraction * (1.0 / law.radii[k + 1] - from));
+  const double least = std::pow(law.radii[k], -power);
+  return std::pow(least - power * fraction * integral(law.radii[k], law.radii[k + 1]), -1.0 / power);
 }
 
 }  // namespace

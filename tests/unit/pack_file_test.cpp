@@ -32,12 +32,32 @@ PreparedPacking some_packing() {
   return prepared;
 }
 
+/// The same grains as spheres in space.
+PreparedPacking some_packing_in_space() {
+  PreparedPacking prepared = some_packing();
+  prepared.packing.dimension = 3;
+  prepared.packing.box << 0.2, 0.0, 0.0, 0.1;
+  for (Grain& grain : prepared.packing.grains) grain.height = 0.1 / 7.0 * static_cast<double>(grain.id);
+  return prepared;
+}
+
 class PackingFileTest : public testing::Test {
  protected:
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
-                                (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                                 "_pack_file_test.h5");
+  std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_pack_file_test.h5");
 };
+
+TEST_F(PackingFileTest, KeepsTheHeightsOfGrainsInSpace) {
+  const PreparedPacking written = some_packing_in_space();
+  write_packing_file(file_, written);
+  const Packing read = read_packing_file(file_).packing;
+  EXPECT_EQ(read.dimension, 3);
+  for (std::size_t k = 0; k < read.grains.size(); ++k)
+    EXPECT_EQ(read.grains[k].height, written.packing.grains[k].height);
+  write_packing_file(file_, some_packing());
+  EXPECT_EQ(read_packing_file(file_).packing.dimension, 2);
+}
 
 TEST_F(PackingFileTest, KeepsEveryBitAndWritesTheSameBytes) {
   PreparedPacking written = some_packing();

@@ -48,6 +48,20 @@ TEST_F(Specification, IsRead) {
   EXPECT_FALSE(read.script.empty());
 }
 
+TEST_F(Specification, SpheresInSpaceHaveNoThickness) {
+  std::string text = kGood;
+  text.replace(text.find("thickness: 100 mm"), 17, "dimension: 3");
+  std::ofstream(file_) << text;
+  const PackingSpecification read = read_packing_specification(file_, {});
+  EXPECT_EQ(read.dimension, 3);
+  EXPECT_TRUE(read.spheres);
+  EXPECT_EQ(
+      fault("seed: 1", "seed: 1\ndimension: 3"),
+      ":4: packing: thickness: leave it out in dimension 3, where the box is compressed in all directions");
+  EXPECT_EQ(fault("thickness: 100 mm", "dimension: 3\nshape: discs"),
+            ":5: packing: shape: in dimension 3 grains are spheres");
+}
+
 TEST_F(Specification, FaultsNameTheLine) {
   EXPECT_EQ(fault("grains: 400", "grains: 3"),
             ":1: packing: grains: expected a whole number of at least 4, found '3'");

@@ -65,6 +65,11 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   }
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
+      if (definition.packing.dimension != 2)
+        section.fault("packing",
+                      fmt::format("packing: {} holds spheres in space; cells are plane and take packings "
+                                  "made with dimension 2",
+                                  packing.string()));
     } catch (const InputError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include "dem/engine/engine.hpp"
+#include "dem/engine/liggghts.hpp"
+#include "dem/pack/pressed_box.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+/// @returns whether the script has the property for one atom type
+bool set_property(Engine& engine, const char* name, double value) {
+  const LAMMPS_NS::Fix* property = engine.lammps().modify->find_fix_property(
+      name, "property/global", "peratomtypepair", 0, 0, "polargrain pack", false);
+  if (property == nullptr) return false;
+  // A fix given again under its name is replaced.
+  engine.command(
+      fmt::format("fix {} all property/global {} peratomtypepair 1 {:.17g}", property->id, name, value));
+  return true;
+}
+
+}  // namespace
+
+void set_friction(Engine& engine, double friction) {
+  if (!set_property(engine, "coefficientFriction", friction) && friction > 0.0)
+    engine.lammps().error->all(
+        FLERR,
+        "The packing is to be made with friction, but the script has no property/global "
+        "coefficientFriction for one atom type");
+  if (friction == 0.0) set_property(engine, "coefficientRollingFriction", 0.0);
+}
+
+}  // namespace polargrain::dem

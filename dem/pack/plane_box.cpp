@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <cmath>
+#include <span>
+
+#include "dem/cell/averages.hpp"
+#include "dem/cell/cell_state.hpp"
+#include "dem/cell/driver.hpp"
+#include "dem/engine/liggghts.hpp"
+#include "dem/pack/pressed_box.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+class PlaneBox final : public PressedBox {
+ public:
+  PlaneBox(const PackingSpecification& specification, const Packing& packing, double friction)
+      : packing_(packing),
+        driver_(packing, specification.script, specification.script_file,
+                [friction](Engine& engine) { set_friction(engine, friction); }) {
+    if (packing.state) restore_state(driver_.lammps(), *packing.state);
+    driver_.set_up();
+  }
+
+  void move(const Eigen::Vector3d& strain, double shear, int steps, double damping_rate) override {
+    Eigen::Matrix2d h;
+    h << strain(0), shear, 0.0, strain(1);
+    // The last step stands still, so that the grains keep nothing of the affine velocity.
+    driver_.strain().begin(BoxPath(driver_.strain().box().reduced(), h, steps - 1), damping_rate);
+    driver_.run(steps);
+  }
+
+  [[nodiscard]] Look look() const override {
+    const std::span<const Contact> contacts = driver_.contacts();
+    const double volume = driver_.volume();
+    const Equilibrium equilibrium = driver_.equilibrium();
+    Look seen;
+    seen.contacts = static_cast<int>(contacts.size());
+    seen.unbalanced_force_ratio = equilibrium.unbalanced_force_ratio;
+    seen.unbalanced_moment_ratio = equilibrium.unbalanced_moment_ratio;
+    seen.coordination_number = equilibrium.coordination_number;
+    seen.rattlers = equilibrium.rattlers;
+    seen.void_ratio = equilibrium.void_ratio;
+    seen.normal_stiffness = mean_normal_stiffness(contacts);
+    const Eigen::Matrix2d stress = average_stress(contacts, volume);
+    seen.stress << stress(0, 0), stress(1, 1), 0.0;
+    seen.shear = 0.5 * (stress(0, 1) + stress(1, 0));
+    for (const Contact& contact : contacts) {
+      const double length = contact.branch.norm();
+      const Eigen::Array2d part = (contact.branch / length).array().square();
+      const double kn = contact.normal_stiffness * length * length / volume;
+      const double kt = contact.tangential_stiffness * length * length / volume;
+      seen.stiffness.head<2>().array() += kn * part;
+      seen.shear_stiffness += kn * part(0) * part(1) + 0.5 * kt * part(1) * (part(1) - part(0));
+    }
+    return seen;
+  }
+
+  Packing packing(bool keep_contacts) override {
+    LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
+    const Box box = driver_.strain().box().reduced();
+    Packing packing = packing_;
+    packing.box = box.base_vectors();
+    for (int k = 0; k < lammps.atom->nlocal; ++k) {
+      // Grains leave the box between two neighbour lists: fold them back.
+      Eigen::Vector2d position(lammps.atom->x[k][0], lammps.atom->x[k][1]);
+      const double layer = std::floor(position.y() / box.length_y);
+      position.y() -= layer * box.length_y;
+      position.x() -= layer * box.tilt;
+      position.x() -=
+          box.length_x * std::floor((position.x() - position.y() * box.tilt / box.length_y) / box.length_x);
+      // The data file counts the grains, which stand in the order of their ids, from 1.
+      packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)].position = position;
+    }
+    packing.state = keep_contacts ? save_state(lammps, box) : nullptr;
+    return packing;
+  }
+
+  [[nodiscard]] double mean_mass() const override { return driver_.mean_mass(); }
+  [[nodiscard]] double mean_radius() const override { return driver_.mean_radius(); }
+  [[nodiscard]] double time_step() const override { return driver_.strain().time_step(); }
+
+ private:
+  Packing packing_;
+  Driver driver_;
+};
+
+}  // namespace
+
+std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
+                                           double friction) {
+  return std::make_unique<PlaneBox>(specification, packing, friction);
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+
+#include "common/packing.hpp"
+#include "common/packing_specification.hpp"
+
+namespace polargrain::dem {
+
+/// Grains in a periodic box of an engine of their own, that is strained to and fro until the stress is the
+/// one asked for. Of a plane packing the third axis counts for nothing.
+class PressedBox {
+ public:
+  /// What the contacts say at the end of a move. Stresses in Pa, tension positive.
+  struct Look {
+    int contacts = 0;
+    Eigen::Vector3d stress = Eigen::Vector3d::Zero();  ///< normal stresses of the axes
+    double shear = 0.0;  ///< (s12 + s21) / 2; boxes in space have no control of it
+    /// Affine stiffness of the axes against an isotropic strain, of the shear against h12; Pa.
+    Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();
+    double shear_stiffness = 0.0;
+    double normal_stiffness = 0.0;  ///< mean of the contacts, N/m
+    double unbalanced_force_ratio = 0.0;
+    double unbalanced_moment_ratio = 0.0;
+    double coordination_number = 0.0;
+    double rattlers = 0.0;
+    double void_ratio = 0.0;
+  };
+
+  virtual ~PressedBox() = default;
+  /// Takes DEM steps while the box is strained smoothly and stands still in the last.
+  /// @param strain of the axes @param shear h12 of a plane box @param damping_rate viscous, 1/s
+  virtual void move(const Eigen::Vector3d& strain, double shear, int steps, double damping_rate) = 0;
+  [[nodiscard]] virtual Look look() const = 0;
+  /// Grains and box as they are; with `keep_contacts` the state of the contacts as well.
+  virtual Packing packing(bool keep_contacts) = 0;
+
+  [[nodiscard]] virtual double mean_mass() const = 0;    ///< kg
+  [[nodiscard]] virtual double mean_radius() const = 0;  ///< m
+  [[nodiscard]] virtual double time_step() const = 0;    ///< s
+};
+
+/// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's
+std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
+                                           double friction);
+/// Spheres in space.
+std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
+                                           double friction);
+
+class Engine;
+/// Puts the friction that a packing is made with in place of the script's; without friction there is no
+/// rolling friction either. To be called before the models read their parameters.
+void set_friction(Engine& engine, double friction);
+
+}  // namespace polargrain::dem

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "common/error.hpp"
+#include "dem/cell/cell_state.hpp"
+#include "dem/cell/packing_data.hpp"
+#include "dem/contact/contact_recorder.hpp"
+#include "dem/engine/engine.hpp"
+#include "dem/engine/private_access.hpp"
+#include "dem/pack/fix_right_box.hpp"
+#include "dem/pack/pressed_box.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+Eigen::Vector3d branch_of(const Contact& contact) {
+  return {contact.branch.x(), contact.branch.y(), contact.branch_3};
+}
+
+Eigen::Vector3d force_of(const Contact& contact) {
+  return {contact.force.x(), contact.force.y(), contact.force_3};
+}
+
+class SpaceBox final : public PressedBox {
+ public:
+  SpaceBox(const PackingSpecification& specification, const Packing& packing, double friction)
+      : packing_(packing), engine_(true) {
+    const auto count = static_cast<double>(packing.grains.size());
+    for (const Grain& grain : packing.grains) {
+      mean_mass_ += grain.mass / count;
+      mean_radius_ += grain.radius / count;
+      solid_ += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+    }
+    LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
+    fix_table(*lammps.modify)["pack/right_box"] = [](LAMMPS_NS::LAMMPS* owner, int words, char** word) {
+      return static_cast<LAMMPS_NS::Fix*>(new FixRightBox(owner, words, word));
+    };
+    const PackingDataFile data(packing);
+    engine_.command(fmt::format("variable packing index {}", data.path()));
+    engine_.script(specification.script, specification.script_file);
+    set_friction(engine_, friction);
+    engine_.command("fix polargrain_box all pack/right_box");
+    strain_ = dynamic_cast<FixRightBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
+    lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
+    lammps.update->nsteps = 0;
+    lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
+    lammps.update->whichflag = 1;  // dynamics
+    lammps.init();
+    if (packing.state) restore_state(lammps, *packing.state);
+    record([&lammps] { lammps.update->integrate->setup_minimal(1); });
+  }
+
+  void move(const Eigen::Vector3d& strain, double, int steps, double damping_rate) override {
+    LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
+    strain_->begin(strain, steps - 1, damping_rate);
+    lammps.update->laststep =
+        lammps.update->ntimestep + steps + 1;  // no step is the engine's last: it would print
+    lammps.output->next = lammps.update->laststep;
+    lammps.update->integrate->run(steps - 1);
+    record([&lammps] { lammps.update->integrate->run(1); });
+    check_grains();
+  }
+
+  [[nodiscard]] Look look() const override {
+    const std::vector<Contact>& contacts = contact_recorder().contacts;
+    const double volume = strain_->lengths().prod();
+    const auto grains = static_cast<double>(packing_.grains.size());
+    std::vector<bool> touched(packing_.grains.size(), false);
+    Look seen;
+    seen.contacts = static_cast<int>(contacts.size());
+    double force = 0.0;
+    for (const Contact& contact : contacts) {
+      touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
+          true;
+      const Eigen::Vector3d branch = branch_of(contact);
+      const Eigen::Vector3d on_first = force_of(contact);
+      force += on_first.norm() / seen.contacts;
+      seen.normal_stiffness += contact.normal_stiffness / seen.contacts;
+      seen.stress += branch.cwiseProduct(on_first) / volume;
+      seen.shear += 0.5 * (branch.x() * on_first.y() + branch.y() * on_first.x()) / volume;
+      seen.stiffness += contact.normal_stiffness / volume * branch.cwiseAbs2();
+    }
+    const auto carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
+    seen.rattlers = 1.0 - carrying / grains;
+    seen.coordination_number = 2.0 * seen.contacts / grains;
+    seen.void_ratio = volume / solid_ - 1.0;
+    if (!(force > 0.0)) return seen;
+    seen.unbalanced_force_ratio = strain_->sum_of_unbalanced_force() / carrying / force;
+    seen.unbalanced_moment_ratio = strain_->sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
+    return seen;
+  }
+
+  Packing packing(bool keep_contacts) override {
+    LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
+    const Eigen::Vector3d lengths = strain_->lengths();
+    Packing packing = packing_;
+    packing.box = lengths.head<2>().asDiagonal();
+    packing.thickness = lengths.z();
+    for (int k = 0; k < lammps.atom->nlocal; ++k) {
+      Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(lammps.atom->x[k]);
+      for (int axis = 0; axis < 3; ++axis)
+        position(axis) -= lengths(axis) * std::floor(position(axis) / lengths(axis));
+      Grain& grain = packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)];
+      grain.position = position.head<2>();
+      grain.height = position.z();
+    }
+    Box box;
+    box.length_x = lengths.x();
+    box.length_y = lengths.y();
+    packing.state = keep_contacts ? save_state(lammps, box) : nullptr;
+    return packing;
+  }
+
+  [[nodiscard]] double mean_mass() const override { return mean_mass_; }
+  [[nodiscard]] double mean_radius() const override { return mean_radius_; }
+  [[nodiscard]] double time_step() const override { return time_step_; }
+
+ private:
+  template <typename Steps>
+  void record(const Steps& steps) {
+    contact_recorder().contacts.clear();
+    contact_recorder().on = true;
+    steps();
+    contact_recorder().on = false;
+    time_step_ = engine_.lammps().update->dt;
+  }
+
+  void check_grains() {
+    const LAMMPS_NS::Atom& atom = *engine_.lammps().atom;
+    bool finite = true;
+    for (int k = 0; k < atom.nlocal; ++k)
+      finite = finite && std::isfinite(atom.x[k][0] + atom.x[k][1] + atom.x[k][2]);
+    if (!finite || atom.nlocal != static_cast<int>(packing_.grains.size()))
+      engine_.lammps().error->all(
+          FLERR, "Lost atoms: the time step of the script is too large for these grains and contacts");
+  }
+
+  Packing packing_;
+  Engine engine_;
+  FixRightBox* strain_ = nullptr;
+  double mean_mass_ = 0.0;
+  double mean_radius_ = 0.0;
+  double solid_ = 0.0;  // volume of the grains, m^3
+  double time_step_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
+                                           double friction) {
+  return std::make_unique<SpaceBox>(specification, packing, friction);
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+if(TARGET polargrain_dem)
+  polargrain_test(pack_prepare_test verification verification/pack_prepare_test.cpp support/engine_main.cpp
+                  LIBS polargrain_dem fmt::fmt)
+endif()

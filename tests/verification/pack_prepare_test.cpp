@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Packings made by the engine: at rest under the pressure asked for, isostatic without friction, the void
+// ratio asked for or a clear word, and of use as cells.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "common/error.hpp"
+#include "dem/cell/cell_service.hpp"
+#include "dem/pack/prepare.hpp"
+#include "tests/support/cell_fixture.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+PackingSpecification specification(int grains, double friction) {
+  PackingSpecification made;
+  made.script_file = "liggghts_inputs/cells/hooke_radii.in";
+  made.script = test::file_text(made.script_file);
+  made.grains = grains;
+  made.sizes.radii = {3e-3, 7e-3};
+  made.density = 2650.0;
+  made.thickness = 0.1;
+  made.pressure = 1e5;
+  made.friction = friction;
+  made.seed = 3;
+  return made;
+}
+
+PackingSpecification in_space(int grains, double friction) {
+  PackingSpecification made = specification(grains, friction);
+  made.script_file = "liggghts_inputs/cells/spheres_hooke_radii.in";
+  made.script = test::file_text(made.script_file);
+  made.dimension = 3;
+  made.spheres = true;
+  made.thickness = 0.0;
+  return made;
+}
+
+void expect_at_rest(const PackingSpecification& asked, const PackingReached& reached) {
+  EXPECT_NEAR(reached.pressure / asked.pressure, 1.0, asked.pressure_tolerance);
+  EXPECT_LE(reached.anisotropy, asked.pressure_tolerance);
+  EXPECT_LE(reached.unbalanced_force_ratio, asked.unbalanced_force_ratio);
+  EXPECT_LE(reached.unbalanced_moment_ratio, asked.unbalanced_force_ratio);
+}
+
+/// Contacts a grain, of those that carry.
+double coordination(const PackingReached& reached) {
+  return reached.coordination_number / (1.0 - reached.rattlers);
+}
+
+TEST(PackPrepare, FrictionlessDiscsAreIsotropicAndNearlyIsostatic) {
+  const PackingSpecification asked = specification(100, 0.0);
+  const PackingReached reached = prepare_packing(asked, {}).reached;
+  expect_at_rest(asked, reached);
+  EXPECT_LE(std::abs(reached.shear), asked.pressure_tolerance);
+  std::printf("[figure] discs: void ratio %.4f, contacts a carrying grain %.3f\n", reached.void_ratio,
+              coordination(reached));
+  // Isostatic discs have 4 less what the box itself takes up (some contacts in all); the pressure of 2e-4 of
+  // the stiffness adds a few tenths.
+  EXPECT_GT(coordination(reached), 3.9);
+  EXPECT_LT(coordination(reached), 4.5);
+}
+
+TEST(PackPrepare, FrictionlessSpheresAreNearlyIsostatic) {
+  const PackingSpecification asked = in_space(100, 0.0);
+  const PreparedPacking made = prepare_packing(asked, {});
+  expect_at_rest(asked, made.reached);
+  std::printf("[figure] spheres: void ratio %.4f, contacts a carrying grain %.3f\n", made.reached.void_ratio,
+              coordination(made.reached));
+  // Isostatic: 6. Random close packing of spheres fills 0.64 of the space, somewhat more with mixed sizes.
+  EXPECT_GT(coordination(made.reached), 5.8);
+  EXPECT_LT(coordination(made.reached), 6.6);
+  EXPECT_NEAR(1.0 / (1.0 + made.reached.void_ratio), 0.645, 0.015);
+  EXPECT_EQ(made.packing.dimension, 3);
+  for (const Grain& grain : made.packing.grains) {
+    EXPECT_GE(grain.height, 0.0);
+    EXPECT_LT(grain.height, made.packing.thickness);
+  }
+}
+
+TEST(PackPrepare, TheSameSpecificationGivesTheSameBits) {
+  for (const PackingSpecification& asked : {specification(60, 0.3), in_space(40, 0.3)}) {
+    const PreparedPacking once = prepare_packing(asked, {});
+    const PreparedPacking again = prepare_packing(asked, {});
+    EXPECT_EQ(once.packing.box, again.packing.box);
+    for (std::size_t k = 0; k < once.packing.grains.size(); ++k) {
+      EXPECT_EQ(once.packing.grains[k].position, again.packing.grains[k].position);
+      EXPECT_EQ(once.packing.grains[k].height, again.packing.grains[k].height);
+    }
+    ASSERT_TRUE(once.packing.state && again.packing.state);
+    EXPECT_EQ(once.packing.state->name(), again.packing.state->name());
+  }
+}
+
+TEST(PackPrepare, FindsAVoidRatioBetweenTheDensestAndTheLoosest) {
+  PackingSpecification asked = specification(100, 0.5);
+  asked.unbalanced_force_ratio = 5e-3;
+  asked.void_ratio = 0.22;
+  asked.void_ratio_tolerance = 5e-3;  // packings of so few grains jump
+  const PackingReached reached = prepare_packing(asked, {}).reached;
+  expect_at_rest(asked, reached);
+  EXPECT_NEAR(reached.void_ratio, 0.22, asked.void_ratio_tolerance);
+  EXPECT_GT(reached.friction, 0.0);
+}
+
+TEST(PackPrepare, SaysWhatCanBeReached) {
+  PackingSpecification asked = specification(100, 0.3);
+  asked.unbalanced_force_ratio = 5e-3;
+  asked.void_ratio = 0.5;
+  try {
+    prepare_packing(asked, {});
+    FAIL() << "a void ratio of 0.5 cannot be had";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("out of reach: friction from 0 to 0.3 gives 0.1"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(PackPrepare, APackingIsACellUnderItsPressure) {
+  for (const double friction : {0.0, 0.4}) {
+    const PackingSpecification asked = specification(100, friction);
+    CellDefinition cell = test::demo_cell();
+    cell.packing = prepare_packing(asked, {}).packing;
+    EXPECT_EQ(cell.packing.state != nullptr, friction > 0.0);
+    const Vector7 stress = make_cell_service(cell)->initial().response.stress;
+    // The state travels to the bit, positions with the digits of the data file.
+    EXPECT_NEAR(stress(k11) / -1e5, 1.0, 1.5 * asked.pressure_tolerance) << friction;
+    EXPECT_NEAR(stress(k22) / -1e5, 1.0, 1.5 * asked.pressure_tolerance) << friction;
+    EXPECT_NEAR(0.5 * (stress(k12) + stress(k21)) / -1e5, 0.0, 1.5 * asked.pressure_tolerance) << friction;
+  }
+}
+
+TEST(PackPrepare, SpheresInASingleLayerHaveTheMassOfSpheres) {
+  PackingSpecification asked = specification(60, 0.0);
+  asked.spheres = true;
+  asked.unbalanced_force_ratio = 5e-3;
+  const PreparedPacking made = prepare_packing(asked, {});
+  expect_at_rest(asked, made.reached);
+  for (const Grain& grain : made.packing.grains)
+    EXPECT_NEAR(grain.mass / (2650.0 * 4.0 / 3.0 * M_PI * std::pow(grain.radius, 3)), 1.0, 1e-14);
+}
+
+}  // namespace
+}  // namespace polargrain::dem
