@@ -20,7 +20,8 @@ clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-reco
   -o "$work/fuzz"
 mkdir -p "tests/fuzz/corpus/$target" "$work/found"
 "$work/fuzz" -runs="$runs" -max_len=4096 -timeout=10 -rss_limit_mb=1024 -print_final_stats=1 \
-  "$work/found" "tests/fuzz/corpus/$target" 2>&1 | tail -n 12
+  "$work/found" "tests/fuzz/corpus/$target" 2>&1 |
+  grep -E '^(Done|stat::|SUMMARY|==.*ERROR|artifact)' 
 mkdir "$work/merged"
 "$work/fuzz" -merge=1 "$work/merged" "tests/fuzz/corpus/$target" "$work/found" >/dev/null 2>&1
 rm -rf "tests/fuzz/corpus/$target"
