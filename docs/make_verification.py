@@ -32,6 +32,8 @@ SECTIONS = [
     ("Strip footing (E.6)", "fem_footing_test", "Prandtl's bearing capacity from above."),
     ("Large displacements", "fem_large_test", "Rotation of the stress, pressure that follows the boundary."),
     ("Hard cases", "fem_hard_cases_test", "Each runs to its end, or stops and says why."),
+    ("Friction and dilatancy from a micro scale (B.9)", "informed_material_test", "Order of both updates, discs."),
+    ("Both two-scale schemes against the cell alone (E.8)", "informed_engine_test", "Peak of a biaxial test."),
     ("Newton's method", "fem_solver_test", "Work balance, quadratic rate, steps that are cut."),
     ("Noise, untrue tangents, absurd corrections", "fem_noise_test",
      "What the solver makes of them, and that it says so."),
