@@ -8,9 +8,9 @@ namespace polargrain::coupler {
 
 /// Noise of the stress of a cell: mean pressure in the plane times the unbalanced force ratio at read-out,
 /// over the root of the number of grains, as the unbalanced forces of grains are independent. Cells whose
-/// increments differ slightly scatter by as much (docs/performance.md). Skew and couple stresses get none:
-/// with free rotations they are not the grains' and exact; with controlled rotations their noise is not
-/// estimated, and the tolerance of the moments alone decides.
+/// increments differ slightly scatter by as much (docs/performance.md). The same holds for the moments and
+/// the skew stress of a cell with controlled rotations; couple stresses, and what is not the grains' (skew
+/// and couple stress of CosseratParameters), count as exact.
 inline StressNoise noise_of(const CellReply& reply) {
   const CellDiagnostics& cell = reply.diagnostics;
   if (!(cell.coordination_number > 0.0) || cell.contacts == 0) return {};
