@@ -116,8 +116,8 @@ struct SolverState {
 };
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
-/// G.6), steps that are cut when something fails and grow back. A step that has not met its tolerances is
-/// never committed. Same problem, same options: same bits.
+/// G.6), steps that are cut when something fails and grow back. A step that is not balanced is never
+/// committed; above its tolerances only within noise or rounding, flagged. Same problem, options: same bits.
 ///
 /// Order of calls: construct, equilibrate once (evaluates the initial state), then advance to growing times.
 class Solver {
