@@ -3,7 +3,9 @@
 // 64-bit number of bytes and the values.
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -78,19 +80,82 @@ class FieldFile {
   std::string text_;
 };
 
-/// Corners of a VTK cell type: they come first.
-std::size_t corners_of(std::uint8_t type, const FieldFile& file) {
-  switch (type) {
-    case 5:   // triangle
-    case 22:  // quadratic triangle
-      return 3;
-    case 9:   // quadrilateral
-    case 23:  // quadratic quadrilateral
-    case 28:  // biquadratic quadrilateral
-      return 4;
-    default:
-      file.fail(fmt::format("cells of VTK type {} are not known", type));
+/// Nodes of an element: place, displacement, micro-rotation.
+struct Node {
+  Eigen::Vector2d place, displacement;
+  double rotation;
+};
+
+/// Shape functions and their derivatives by the coordinates of the unit square, for its 4 or 8 nodes.
+struct Shape {
+  std::array<double, 8> value;
+  std::array<Eigen::Vector2d, 8> slope;
+};
+
+constexpr std::array<std::array<int, 2>, 8> kUnitSquare{
+    {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+
+Shape shape_at(std::size_t count, double a, double b) {
+  Shape shape{};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double p = kUnitSquare[k][0];
+    const double q = kUnitSquare[k][1];
+    const double f = 1.0 + a * p;
+    const double g = 1.0 + b * q;
+    if (count == 4) {
+      shape.value[k] = 0.25 * f * g;
+      shape.slope[k] = {0.25 * p * g, 0.25 * f * q};
+    } else if (k < 4) {
+      shape.value[k] = 0.25 * f * g * (a * p + b * q - 1.0);
+      shape.slope[k] = {0.25 * p * g * (2.0 * a * p + b * q), 0.25 * q * f * (a * p + 2.0 * b * q)};
+    } else if (p == 0.0) {
+      shape.value[k] = 0.5 * (1.0 - a * a) * g;
+      shape.slope[k] = {-a * g, 0.5 * (1.0 - a * a) * q};
+    } else {
+      shape.value[k] = 0.5 * f * (1.0 - b * b);
+      shape.slope[k] = {0.5 * p * (1.0 - b * b), -b * f};
+    }
   }
+  return shape;
+}
+
+/// The 2 x 2 integration points of a quadrilateral.
+void add_quadrilateral(const std::vector<Node>& nodes, Frame& frame) {
+  const double point = 1.0 / std::sqrt(3.0);
+  for (const double b : {-point, point})
+    for (const double a : {-point, point}) {
+      const Shape shape = shape_at(nodes.size(), a, b);
+      Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();  // d x / d (a, b)
+      Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();     // d u / d (a, b)
+      Node here{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), 0.0};
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        jacobian += nodes[k].place * shape.slope[k].transpose();
+        slope += nodes[k].displacement * shape.slope[k].transpose();
+        here.place += shape.value[k] * nodes[k].place;
+        here.displacement += shape.value[k] * nodes[k].displacement;
+        here.rotation += shape.value[k] * nodes[k].rotation;
+      }
+      frame.positions.push_back(here.place);
+      frame.displacements.push_back(here.displacement);
+      frame.strains.push_back(slope * jacobian.inverse());
+      frame.areas.push_back(jacobian.determinant());
+      frame.rotations.push_back(here.rotation);
+    }
+}
+
+/// A triangle as a whole: the mean gradient follows from the displacements of its corners, which is what a
+/// triangle with straight sides has in the middle.
+void add_triangle(const std::vector<Node>& nodes, Frame& frame) {
+  Eigen::Matrix2d sides;
+  Eigen::Matrix2d stretches;
+  sides << nodes[1].place - nodes[0].place, nodes[2].place - nodes[0].place;
+  stretches << nodes[1].displacement - nodes[0].displacement, nodes[2].displacement - nodes[0].displacement;
+  frame.positions.push_back((nodes[0].place + nodes[1].place + nodes[2].place) / 3.0);
+  frame.displacements.push_back((nodes[0].displacement + nodes[1].displacement + nodes[2].displacement) /
+                                3.0);
+  frame.strains.push_back(stretches * sides.inverse());
+  frame.areas.push_back(0.5 * std::abs(sides.determinant()));
+  frame.rotations.push_back((nodes[0].rotation + nodes[1].rotation + nodes[2].rotation) / 3.0);
 }
 
 }  // namespace
@@ -99,45 +164,33 @@ Frame read_element_fields(const std::filesystem::path& path) {
   const FieldFile file(path);
   const auto points = file.array<double>("Points");
   const auto displacement = file.array<double>("displacement");
-  const auto nodes = file.array<std::int64_t>("connectivity");
+  const auto connectivity = file.array<std::int64_t>("connectivity");
   const auto ends = file.array<std::int64_t>("offsets");
   const auto types = file.array<std::uint8_t>("types");
-  const auto strain = file.array<double>("strain");
   std::vector<double> rotation(points.size() / 3, 0.0);
   if (file.has("micro_rotation")) rotation = file.array<double>("micro_rotation");
-  if (strain.size() != 5 * ends.size() || types.size() != ends.size() ||
-      displacement.size() != points.size() || rotation.size() != points.size() / 3)
+  if (types.size() != ends.size() || displacement.size() != points.size() ||
+      rotation.size() != points.size() / 3)
     file.fail("its arrays do not fit together");
   Frame frame;
   std::size_t begin = 0;
   for (std::size_t element = 0; element < ends.size(); ++element) {
-    const std::size_t count = corners_of(types[element], file);
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-    Eigen::Vector2d moved = Eigen::Vector2d::Zero();
-    double turned = 0.0;
-    double twice_area = 0.0;
-    const auto corner = [&](std::size_t k, const std::vector<double>& values) {
-      const auto node = static_cast<std::size_t>(nodes[begin + k % count]);
-      return Eigen::Vector2d(values[3 * node], values[3 * node + 1]);
-    };
-    for (std::size_t k = 0; k < count; ++k) {
-      const Eigen::Vector2d here = corner(k, points);
-      const Eigen::Vector2d next = corner(k + 1, points);
-      centre += here / static_cast<double>(count);
-      moved += corner(k, displacement) / static_cast<double>(count);
-      turned += rotation[static_cast<std::size_t>(nodes[begin + k])] / static_cast<double>(count);
-      twice_area += here.x() * next.y() - here.y() * next.x();
+    std::vector<Node> nodes;
+    for (; begin < static_cast<std::size_t>(ends[element]); ++begin) {
+      const auto node = static_cast<std::size_t>(connectivity.at(begin));
+      nodes.push_back({{points.at(3 * node), points.at(3 * node + 1)},
+                       {displacement.at(3 * node), displacement.at(3 * node + 1)},
+                       rotation.at(node)});
     }
-    const double* const e = &strain[5 * element];  // 11, 22, 33, 12, 21
-    // eps_12 = u_2,1 - w and eps_21 = u_1,2 + w: their sum is free of the rotation.
-    Eigen::Matrix2d tensor;
-    tensor << e[0], e[4], e[3], e[1];
-    frame.positions.push_back(centre);
-    frame.displacements.push_back(moved);
-    frame.strains.push_back(tensor);
-    frame.areas.push_back(0.5 * std::abs(twice_area));
-    frame.rotations.push_back(turned);
-    begin = static_cast<std::size_t>(ends[element]);
+    const bool quadrilateral = types[element] == 9 || types[element] == 23;  // VTK's numbers
+    const bool triangle = types[element] == 5 || types[element] == 22;
+    if (quadrilateral && (nodes.size() == 4 || nodes.size() == 8)) {
+      add_quadrilateral(nodes, frame);
+    } else if (triangle && nodes.size() >= 3) {
+      add_triangle(nodes, frame);
+    } else {
+      file.fail(fmt::format("cells of VTK type {} are not known", types[element]));
+    }
   }
   return frame;
 }

@@ -10,7 +10,8 @@ namespace polargrain::band {
 
 /// What is known of every place of a body at one time.
 struct Frame {
-  std::vector<Eigen::Vector2d> positions;      ///< of grains: where they are; of elements: undeformed, m
+  std::vector<Eigen::Vector2d>
+      positions;  ///< of grains: where they are; of elements: of their points, undeformed, m
   std::vector<Eigen::Vector2d> displacements;  ///< of elements, since the start, m; of grains empty
   std::vector<Eigen::Matrix2d> strains;  ///< of elements, displacement gradient or strain; of grains empty
   std::vector<double> areas;             ///< of elements, m^2; of grains empty
@@ -22,7 +23,8 @@ struct Frame {
 /// @throws InputError naming file and line
 Frame read_grain_dump(const std::filesystem::path& file);
 
-/// A field file of `polargrain run`: element centres, their areas, strain and mean micro-rotation.
+/// A field file of `polargrain run`: the 2 x 2 integration points of each quadrilateral (a triangle counts as
+/// one point), displacement gradients from the nodes, micro-rotation.
 /// @throws InputError naming the file when it is another kind of .vtu
 Frame read_element_fields(const std::filesystem::path& file);
 

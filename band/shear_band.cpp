@@ -299,6 +299,7 @@ InsideOutside means(const Samples& samples, const Band& band, double Sample::*va
 
 double localisation(const Samples& samples, const Band& band) {
   const InsideOutside shear = means(samples, band, &Sample::shear);
+  if (shear.inside == shear.outside) return 1.0;  // also where nothing deforms
   return shear.inside / shear.outside;
 }
 

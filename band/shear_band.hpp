@@ -45,7 +45,8 @@ struct BandSearch {
 BandSearch find_band(const Samples& samples, const BandOptions& options = {});
 
 /// Mean shear inside the band (within half its thickness of the middle line) over the mean outside (farther
-/// than its thickness). 1 in homogeneous deformation. @throws std::invalid_argument when one side is empty
+/// than its thickness). 1 in homogeneous deformation, and where nothing deforms. @throws
+/// std::invalid_argument when one side is empty
 double localisation(const Samples& samples, const Band& band);
 
 /// Means of a value inside and outside of a band, as localisation() takes them.

@@ -85,7 +85,7 @@ int band(const BandCommandOptions& options) {
   const double begin = frames.axial_strains()[from];
   const double end = frames.axial_strains()[to];
   fmt::print("{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(), begin,
-             end, samples.size(), frames.of_grains() ? "grains" : "elements");
+             end, samples.size(), frames.of_grains() ? "grains" : "integration points");
   const std::filesystem::path summary = options.directory / "band.json";
   if (!search.band) {
     fmt::print("  no band: {}\n", search.reason);

@@ -30,7 +30,8 @@ def read_options():
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="RESULTS")
     parser.add_argument("--grains", type=int, default=800, help="discs of the specimen, about [800]")
     parser.add_argument("--seed", type=int, default=1, help="of the packing [1]")
-    parser.add_argument("--packing", type=pathlib.Path, help="a square packing made before, of twice the grains")
+    parser.add_argument("--packing", type=pathlib.Path, help="a square packing made before, of twice the grains; its "
+                        "own grains and seed count")
     parser.add_argument("--specification", type=pathlib.Path, default=HERE / "../../cases/packings/dense400.yaml",
                         help="what to pack: sizes, pressure [cases/packings/dense400.yaml]")
     parser.add_argument("--rolling", type=float, default=0.4, help="coefficient of rolling friction; 0: none [0.4]")
@@ -39,14 +40,14 @@ def read_options():
     parser.add_argument("--rate", type=float, default=0.02, help="axial strain rate, 1/s [0.02: inertial number 3e-5]")
     parser.add_argument("--frame", type=float, default=0.001, help="axial strain between two frames [0.001]")
     parser.add_argument("--damping", type=float, default=0.2, help="damping ratio of the contacts [0.2]")
-    parser.add_argument("--programs", type=pathlib.Path, help="folder of polargrain and polargrain-liggghts "
-                        "[the build's, else the path's]")
+    parser.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER",
+                        help="where polargrain and polargrain-liggghts are [build/release/app, else the path]")
     return parser.parse_args()
 
 
 def program(options, name):
-    places = [options.programs] if options.programs else [HERE / "../../build/release/app",
-                                                          HERE / "../../build/release/app/standalone"]
+    build = HERE / "../../build/release/app"
+    places = options.programs or [build, build / "standalone"]
     for place in places:
         if (place / name).is_file():
             return str((place / name).resolve())
@@ -124,9 +125,8 @@ def variables(options):
 
 
 def frames_done(options):
-    """Steps of the restart files, ascending. The last may be half written: its frame counts with its dump only."""
-    steps = sorted(int(file.stem.split("-")[1]) for file in (options.output / "restart").glob("step-*.restart"))
-    return steps
+    """Steps of the restart files, ascending."""
+    return sorted(int(file.stem.split("-")[1]) for file in (options.output / "restart").glob("step-*.restart"))
 
 
 def trim_history(options, step):
