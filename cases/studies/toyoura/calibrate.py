@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contact parameters of Toyoura sand from one plane strain compression test, by a Nelder-Mead search (scipy).
 
-    python3 calibrate.py -o results/toyoura                       search, then predictions, some 20 minutes
+    python3 calibrate.py -o results/toyoura                       search, then predictions, some 40 minutes
     python3 calibrate.py -o results/toyoura --evaluations 3       to see that it works
 
 What is fitted: the pre-peak branch and the peak at 49 kPa, nothing else. Three unknowns: contact modulus, coefficient of
@@ -60,7 +60,8 @@ def options():
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     parser.add_argument("--evaluations", type=int, default=30, help="most evaluations of the search [30]")
     parser.add_argument("--grains", type=int, default=200, help="discs of a cell [200]")
-    parser.add_argument("--seed", type=int, default=1, help="of the packing that is calibrated [1]")
+    parser.add_argument("--seed", type=int, default=1, help="of the first packing [1]")
+    parser.add_argument("--packings", type=int, default=3, help="packings whose mean curve is calibrated [3]")
     parser.add_argument("--predictions", type=int, default=3, help="seeds of the predictions [3]")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--program", default=str(ROOT / "build/release/app/polargrain"))
@@ -99,6 +100,14 @@ def curve(given, parameters, pressure, seed, folder, strain):
     return axial, numpy.array([float(row["stress_ratio"]) for row in rows]), volume
 
 
+def mean_curve(given, parameters):
+    """The mean over the packings that are calibrated: one alone is known to some degrees of friction angle only."""
+    axial = numpy.linspace(0, 3, 61)
+    curves = [curve(given, parameters, 49e3, seed, given.output / "work", 0.03)
+              for seed in range(given.seed, given.seed + given.packings)]
+    return (axial, *(numpy.mean([numpy.interp(axial, each[0], each[k]) for each in curves], axis=0) for k in (1, 2)))
+
+
 def misfit(axial, ratio, volume):
     """Mean square of the differences, each over its scatter; the peak of the curve counts as a point."""
     terms = [(numpy.interp(strain, axial, ratio) - value) / RATIO_SCATTER for strain, value in RATIO]
@@ -125,7 +134,7 @@ def search(given):
         key = tuple(f"{parameters[name]:.6g}" for name in names)
         if key not in known:
             parameters = dict(zip(names, map(float, key)))
-            axial, ratio, volume = curve(given, parameters, 49e3, given.seed, given.output / "work", 0.03)
+            axial, ratio, volume = mean_curve(given, parameters)
             known[key] = misfit(axial, ratio, volume)
             row = [*key, f"{known[key]:.6g}", f"{ratio.max():.4f}", f"{axial[ratio.argmax()]:.3f}"]
             with open(record, "a") as file:

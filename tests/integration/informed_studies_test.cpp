@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The commands of the studies at their smallest, with real grains.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
+
+/// The last value of a column of history.csv.
+double last_value(const std::filesystem::path& history, const std::string& name) {
+  std::ifstream in(history);
+  std::string header;
+  std::getline(in, header);
+  std::string line;
+  std::string last;
+  while (std::getline(in, line)) last = line;
+  std::istringstream names(header);
+  std::istringstream values(last);
+  std::string cell;
+  std::string value;
+  while (std::getline(names, cell, ',') && std::getline(values, value, ',') && cell != name) {
+  }
+  return cell == name ? std::stod(value) : -1.0;
+}
+
+TEST(Studies, BothSchemesOfTheBiaxialStudyAgreeInTheirFirstPercent) {
+  const Scratch scratch("Studies");
+  double ratio[2] = {0.0, 0.0};
+  const char* const schemes[2] = {"informed", "cell"};
+  for (int i : {0, 1}) {
+    const std::string scheme = schemes[i];
+    const Outcome outcome =
+        run_in(scratch.path(), std::string(POLARGRAIN) + " run " +
+                                   (kSource / ("cases/studies/biaxial_" + scheme + ".yaml")).string() +
+                                   " -o " + scheme +
+                                   " -w 2 --quiet --set 'mesh.rectangle.elements=[1, 2]'"
+                                   " --set 'mesh.rectangle.patch=[0.15 m, 0.15 m]'"
+                                   " --set boundary.2.move.u2='-3.2 mm' --set steps.count=8");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    ratio[i] = last_value(scratch.path() / scheme / "history.csv", "stress_ratio");
+  }
+  std::cout << "[figure] stress ratio at 0.8 %: informed " << ratio[0] << ", cell " << ratio[1] << '\n';
+  EXPECT_GT(ratio[1], 2.5);
+  // On the steep start the frozen scheme is a step of 0.1 % behind, which is a tenth of the rise.
+  EXPECT_NEAR(ratio[0] / ratio[1], 1.0, 0.1);
+}
+
+TEST(Studies, TheCalibrationKeepsARecordAndGoesOnFromIt) {
+  if (std::system("/usr/bin/python3 -c 'import scipy' 2>/dev/null") != 0) {
+    GTEST_SKIP() << "python3-scipy is not installed; ./bootstrap installs it";
+  }
+  const Scratch scratch("Calibration");
+  const auto calibrate = [&](int evaluations) {
+    return run_in(scratch.path(),
+                  "/usr/bin/python3 " + (kSource / "cases/studies/toyoura/calibrate.py").string() +
+                      " -o out --grains 40 --packings 1 --predictions 0 --workers 2 --program " POLARGRAIN
+                      " --evaluations " +
+                      std::to_string(evaluations));
+  };
+  const Outcome first = calibrate(1);
+  ASSERT_EQ(first.status, 0) << first.errors;
+  const std::string record = content(scratch.path() / "out/record.csv");
+  EXPECT_EQ(std::count(record.begin(), record.end(), '\n'), 2) << record;
+  const Outcome second = calibrate(2);
+  ASSERT_EQ(second.status, 0) << second.errors;
+  const std::string longer = content(scratch.path() / "out/record.csv");
+  EXPECT_EQ(longer.substr(0, record.size()), record);
+  EXPECT_EQ(std::count(longer.begin(), longer.end(), '\n'), 3) << longer;
+  EXPECT_NE(content(scratch.path() / "out/best.txt").find("evaluations = 2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace polargrain::testing
