@@ -60,6 +60,8 @@ class Driver {
 
  private:
   void check_grains();
+  /// Rolling stiffness and limit of the recorded contacts, where the stock model epsd2 keeps them to itself.
+  void complete_rolling();
 
   int grains_ = 0;
   double mean_radius_ = 0.0;
@@ -68,6 +70,8 @@ class Driver {
   double thickness_ = 0.0;
   Engine engine_;
   FixCellStrain* strain_ = nullptr;
+  LAMMPS_NS::Fix* rolling_friction_ =
+      nullptr;  ///< coefficientRollingFriction; null unless the model is epsd2
 };
 
 }  // namespace polargrain::dem

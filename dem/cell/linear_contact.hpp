@@ -12,8 +12,8 @@ namespace polargrain::dem {
 /// grain against the first) to the change of (force, moment) on the first grain.
 ///
 /// A sliding contact keeps f_t = +-mu f_n, a rolling contact at its limit M = +-(limit / f_n) f_n; either
-/// makes the law non-symmetric. The rolling stiffness of models that do not tell it (all but li_chu) counts
-/// as zero.
+/// makes the law non-symmetric. The rolling stiffness of models that do not tell it (all but li_chu
+/// and epsd2) counts as zero.
 struct LinearContact {
   Eigen::Matrix3d stiffness;  ///< N/m, N; N, N m/rad
   Eigen::Matrix<double, 3, 6>

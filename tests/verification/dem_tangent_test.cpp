@@ -126,5 +126,25 @@ TEST(Tangent, AfterYieldItKnowsWhatSlides) {
   }
 }
 
+TEST(Tangent, KnowsTheStockRollingModel) {
+  // epsd2 is li_chu with a stiffness ratio of 1: the same grains, so the same tangent.
+  const CellDefinition ours = test::rolling_cell(1.0, 0.4);
+  CellDefinition stock = ours;
+  const std::string name = "rolling_friction li_chu";
+  stock.script.replace(stock.script.find(name), name.size(), "rolling_friction epsd2");
+  Vector7 step = Vector7::Zero();
+  step(k11) = 1e-3;
+  step(k22) = -1e-3;
+  const CellReply one = evaluate(*make_cell_service(ours), nullptr, step);
+  const CellReply other = evaluate(*make_cell_service(stock), nullptr, step);
+  const double stress = (one.response.stress - other.response.stress).norm() / one.response.stress.norm();
+  const double tangent = (one.response.tangent - other.response.tangent).norm() / one.response.tangent.norm();
+  std::printf("[figure] epsd2 against li_chu with the same parameters: stress %.1e, tangent %.1e apart\n",
+              stress, tangent);
+  EXPECT_LT(stress, 1e-4);
+  EXPECT_LT(tangent, 1e-3);
+  EXPECT_EQ(one.diagnostics.rolling_fraction, other.diagnostics.rolling_fraction);
+}
+
 }  // namespace
 }  // namespace polargrain::dem
