@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-COLOURS = ("#1f4e79", "#b5651d", "#2e7d32", "#8e24aa", "#616161")
+COLOURS = ("#1f4e79", "#616161", "#b5651d", "#2e7d32", "#8e24aa")
 
 
 def columns(file, names):
@@ -39,11 +39,12 @@ def curves(picture, sets):
             axes[0].plot(100 * strain, ratio, color=colour, linewidth=0.9, label=name)
             axes[1].plot(100 * strain, 100 * volume, color=colour, linewidth=0.9, label=name)
     axes[0].set_ylabel("stress ratio")
+    axes[0].set_ylim(top=8.5)
     axes[1].set_ylabel("volume strain, % (dilation positive)")
     for axis in axes:
         axis.set_xlabel("axial strain, %")
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize=8)
+    axes[0].legend(fontsize=7, loc="upper right")
     figure.savefig(picture, dpi=100)
 
 
@@ -61,7 +62,7 @@ def fields(picture, sets):
             axis.set_axis_off()
             figure.colorbar(marks, ax=axis, shrink=0.6)
         axes[0][column].set_title(label, fontsize=9)
-    figure.savefig(picture, dpi=80)
+    figure.savefig(picture, dpi=55)
 
 
 def main(arguments):
