@@ -2,7 +2,6 @@
 #include "common/packing_file.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <array>
 #include <cmath>
@@ -12,35 +11,21 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/hdf5_file.hpp"
+#include "common/sealed_file.hpp"
 #include "common/state.hpp"
+#include "common/write_file.hpp"
 
 namespace polargrain {
+
+using hdf5::Handle;
+using hdf5::read_array;
+using hdf5::write_array;
 
 namespace {
 
 constexpr int kPlane = 1;  // versions
 constexpr int kSpace = 2;  // with the heights of the grains
-constexpr hsize_t kMostBytes = hsize_t{1} << 31;
-
-/// A handle of the library, closed when it goes.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close) {
-    if (id < 0) throw RunError(what);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { close_(id_); }
-  operator hid_t() const { return id_; }  // NOLINT: it stands for the library's own handle
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void check(herr_t status, const char* what) {
-  if (status < 0) throw RunError(what);
-}
 
 /// What a file consists of: named arrays of bytes or doubles, and their hash.
 struct Content {
@@ -53,21 +38,21 @@ struct Content {
   std::vector<double> heights;  // of the grains; none in a plane packing, nor in its file
   int version = kPlane;
 
-  /// Visits name, type and array of each part; one list for writing, reading and hashing.
+  /// Visits name and array of each part; one list for writing, reading and hashing.
   template <typename Visitor>
   void visit(Visitor visitor) {
-    visitor("box", H5T_NATIVE_DOUBLE, box);
-    visitor("grain_id", H5T_NATIVE_INT64, id);
-    visitor("grain_x_y_radius_mass_inertia", H5T_NATIVE_DOUBLE, grains);
-    visitor("reached", H5T_NATIVE_DOUBLE, reached);
-    visitor("contact_state", H5T_NATIVE_UINT8, state);
-    visitor("specification", H5T_NATIVE_CHAR, specification);
-    if (version == kSpace) visitor("grain_height", H5T_NATIVE_DOUBLE, heights);
+    visitor("box", box);
+    visitor("grain_id", id);
+    visitor("grain_x_y_radius_mass_inertia", grains);
+    visitor("reached", reached);
+    visitor("contact_state", state);
+    visitor("specification", specification);
+    if (version == kSpace) visitor("grain_height", heights);
   }
 
   std::string name() {
     std::vector<std::byte> bytes;
-    visit([&bytes](const char*, hid_t, const auto& array) {
+    visit([&bytes](const char*, const auto& array) {
       const std::size_t size = array.size() * sizeof(array[0]);
       const std::size_t place = bytes.size();
       bytes.resize(place + sizeof(size) + size);
@@ -77,29 +62,6 @@ struct Content {
     return name_of(bytes).text();
   }
 };
-
-template <typename Array>
-void write_array(hid_t file, const char* name, hid_t type, const Array& array) {
-  const hsize_t size = array.size();
-  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "no data space");
-  // Times of writing would make equal packings differ.
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "no properties");
-  check(H5Pset_obj_track_times(properties, false), "times");
-  const Handle set(H5Dcreate2(file, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name);
-  if (size > 0) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.data()), name);
-}
-
-template <typename Array>
-void read_array(hid_t file, const char* name, hid_t type, Array& array) {
-  const Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, name);
-  const Handle space(H5Dget_space(set), H5Sclose, name);
-  const hssize_t size = H5Sget_simple_extent_npoints(space);
-  if (H5Sget_simple_extent_ndims(space) != 1 || size < 0 ||
-      static_cast<hsize_t>(size) * sizeof(array[0]) > kMostBytes)
-    throw RunError(name);
-  array.resize(static_cast<std::size_t>(size));
-  if (size > 0) check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.data()), name);
-}
 
 Content content_of(const PreparedPacking& prepared) {
   const Packing& packing = prepared.packing;
@@ -172,55 +134,38 @@ PreparedPacking packing_of(const Content& content) {
   return prepared;
 }
 
-/// The library prints its errors by itself unless told not to.
-void silence() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
 }  // namespace
 
 void write_packing_file(const std::filesystem::path& file, const PreparedPacking& packing) {
-  silence();
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  try {
-    Content content = content_of(packing);
-    const Handle out(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                     "no file");
-    write_array(out, "version", H5T_NATIVE_INT, std::array<int, 1>{content.version});
-    write_array(out, "content_hash", H5T_NATIVE_CHAR, content.name());
-    content.visit(
-        [&](const char* name, hid_t type, const auto& array) { write_array(out, name, type, array); });
-    check(H5Fflush(out, H5F_SCOPE_GLOBAL), "flush");
-  } catch (const RunError&) {
-    throw RunError(fmt::format("cannot write {}: is there room, and may you write there?", file.string()));
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) throw RunError(fmt::format("cannot put {} in place: {}", file.string(), error.message()));
+  hdf5::silence();
+  Content content = content_of(packing);
+  const Handle out = hdf5::make_file();
+  write_array(out, "version", std::array<int, 1>{content.version});
+  write_array(out, "content_hash", content.name());
+  content.visit([&](const char* name, const auto& array) { write_array(out, name, array); });
+  std::string bytes = hdf5::bytes_of_file(out);
+  seal(bytes);
+  write_file(file, bytes);
 }
 
 PreparedPacking read_packing_file(const std::filesystem::path& file) {
-  silence();
+  hdf5::silence();
   const auto fail = [&file](const std::string& message) { return InputError({file.string(), 0, message}); };
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw fail("there is no such file; expected a packing (HDF5)");
-  if (H5Fis_hdf5(file.c_str()) <= 0)
-    throw fail(
-        "this is no HDF5 file, or it was cut short; make it again with 'polargrain pack', or give a CSV "
-        "file");
   std::vector<int> version;
   try {
+    check_seal(file);
     const Handle in(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened");
-    read_array(in, "version", H5T_NATIVE_INT, version);
+    read_array(in, "version", version);
     Content content;
     if (version != std::vector<int>{kPlane} && version != std::vector<int>{kSpace})
       throw RunError("its version is not known to this program");
     content.version = version.front();
     std::string hash;
-    read_array(in, "content_hash", H5T_NATIVE_CHAR, hash);
-    content.visit([&](const char* name, hid_t type, auto& array) { read_array(in, name, type, array); });
+    read_array(in, "content_hash", hash);
+    content.visit([&](const char* name, auto& array) { read_array(in, name, array); });
     if (content.name() != hash) throw RunError("its content does not match its hash");
     return packing_of(content);
   } catch (const RunError& what) {

@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "common/hdf5_file.hpp"
+#include "common/sealed_file.hpp"
 #include "common/write_file.hpp"
-#include "coupler/checkpoint/sealed_file.hpp"
 
 namespace polargrain::coupler {
 namespace {

@@ -11,7 +11,6 @@
 #include "common/packing_file.hpp"
 #include "coupler/case/case.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
-#include "coupler/checkpoint/sealed_file.hpp"
 #include "coupler/commands/point.hpp"
 #include "coupler/pack/read_specification.hpp"
 
@@ -67,11 +66,6 @@ bool read_as(FileKind kind, std::string_view bytes) {
       case FileKind::checkpoint:
         (void)coupler::read_checkpoint(place.write("checkpoint.h5", bytes));
         break;
-      case FileKind::sealed: {
-        std::string whole(bytes);
-        coupler::seal(whole);
-        (void)coupler::read_checkpoint(place.write("sealed.h5", whole));
-      }
     }
   } catch (const InputError&) {
     return false;

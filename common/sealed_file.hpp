@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace polargrain::coupler {
+namespace polargrain {
 
 /// A file that ends with a mark and the hash (XXH3, 128 bits) of all that stands before: what a crash, a full
 /// disk or a bad sector left of it is known before anybody tries to read it. Libraries that read the file do
@@ -15,4 +15,4 @@ void seal(std::string& bytes);
 /// @throws RunError saying what is wrong when the file has no mark at its end or does not match its hash
 void check_seal(const std::filesystem::path& file);
 
-}  // namespace polargrain::coupler
+}  // namespace polargrain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupler/checkpoint/sealed_file.hpp"
+#include "common/sealed_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 #include "common/error.hpp"
 
-namespace polargrain::coupler {
+namespace polargrain {
 namespace {
 
 constexpr std::array<char, 16> kMark{'p', 'o', 'l', 'a', 'r', 'g', 'r', 'a',
@@ -96,4 +96,4 @@ void check_seal(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace polargrain::coupler
+}  // namespace polargrain
