@@ -40,9 +40,9 @@ void AdaptiveMaterial::allocate(std::size_t points) {
     throw RunError("an adaptive material needs a packing under pressure: its tolerance is a share of it");
   }
   const Matrix7& elastic = packing.answer.response.tangent;
-  estimate_ = ErrorEstimate(elastic);
   // Strain whose elastic stress is the tolerance.
   turn_tolerance_ = options_.tolerance * confining_ / elastic.topLeftCorner<2, 2>().norm();
+  estimate_ = ErrorEstimate(elastic, turn_tolerance_);
   cells_.assign(1, packing);
   points_.assign(points, Point{});
   choose_followed();

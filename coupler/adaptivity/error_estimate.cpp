@@ -14,7 +14,6 @@ namespace {
 constexpr double kShareOfElastic = 0.5;
 /// What a cell has shown is forgotten by half at each new run.
 constexpr double kMemory = 0.5;
-constexpr double kMuchLonger = 2.0;
 /// Weight of a volume change; the square root of its share of the curvature in shear.
 constexpr double kVolume = 0.35;
 
@@ -64,8 +63,7 @@ Curvature ErrorEstimate::learn(const Response& start, const Response& end, const
   seen.error = std::max(missed, 0.5 * in_plane_norm((end.tangent - start.tangent) * strain_of(strain)));
   seen.length = size;
   if (strain.norm() > 0.0) seen.direction = strain / strain.norm();
-  // What a short run has shown is mostly the cell's noise; one that is much longer replaces it.
-  const bool replaces = !at_start.known() || size >= kMuchLonger * at_start.length;
+  const bool replaces = !at_start.known() || (at_start.length < noise_length_ && size > at_start.length);
   const double expected = replaces ? 0.0 : at_start.over(size);
   seen.error = std::max(seen.error, kMemory * expected);
   if (replaces || missed > expected) {

@@ -29,7 +29,10 @@ class ErrorEstimate {
  public:
   ErrorEstimate() = default;
   /// @param elastic symmetric tangent of the packing at rest
-  explicit ErrorEstimate(const Matrix7& elastic) : elastic_(elastic) {}
+  /// @param noise_length what runs shorter than this have shown is mostly noise, and any longer one replaces
+  /// it
+  ErrorEstimate(const Matrix7& elastic, double noise_length)
+      : elastic_(elastic), noise_length_(noise_length) {}
 
   /// Estimated error (Pa) of carrying `answer` by `offset`: what the curvature makes, and half of the stress
   /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
@@ -38,13 +41,14 @@ class ErrorEstimate {
                           const Eigen::Matrix2d& offset) const;
 
   /// What a run from `start` to `end` over `offset` has shown about both ends.
-  /// @param at_start updated: the largest error seen from there, or that of a much longer run
+  /// @param at_start updated: the largest error seen from there
   /// @returns the curvature of the answer at the end
   Curvature learn(const Response& start, const Response& end, const Eigen::Matrix2d& offset,
                   Curvature& at_start) const;
 
  private:
   Matrix7 elastic_ = Matrix7::Zero();
+  double noise_length_ = 0.0;
 };
 
 }  // namespace polargrain::coupler

@@ -52,7 +52,7 @@ TEST(Linearised, ARotationTurnsTheStress) {
 TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
   Matrix7 elastic = Matrix7::Zero();
   elastic.topLeftCorner<2, 2>() << 3e7, 1e7, 1e7, 3e7;
-  const ErrorEstimate estimate(elastic);
+  const ErrorEstimate estimate(elastic, 1e-5);
   Response start;
   start.tangent = elastic;
   Curvature packing;
@@ -78,7 +78,7 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   soft.tangent = 0.1 * elastic;
   const Eigen::Matrix2d onward = gradient(-1e-3, 0.0, 0.0, 1e-3);
   const Curvature curvature{1.0, onward.norm(), onward / onward.norm()};
-  const ErrorEstimate estimate(elastic);
+  const ErrorEstimate estimate(elastic, 1e-5);
   EXPECT_NEAR(estimate.of(soft, curvature, onward), 1.0, 1e-9);
   // Half of the stress between both tangents, 0.9 * 3e7 * 1e-3 Pa in two components.
   EXPECT_NEAR(estimate.of(soft, curvature, -onward), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+add_executable(adaptive_bench adaptive_bench.cpp)
+target_link_libraries(adaptive_bench PRIVATE polargrain_coupler)
