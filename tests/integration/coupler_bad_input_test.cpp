@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:18: steps: unknown key 'tolerence'; did you mean 'tolerance'?"},
         BadInput{"UnknownKeyFarFromAll", "  count: 4", "  count: 4\n  colour: red",
                  "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, cut, iterations, "
-                 "tolerance, moment_tolerance, line_search"},
+                 "tolerance, moment_tolerance, noise, acceleration, largest_strain, line_search"},
         BadInput{"UnknownTopKey", "continuum: cosserat", "continum: cosserat",
                  "case.yaml:5: case: unknown key 'continum'; did you mean 'continuum'?"},
         BadInput{"MissingKey", "  count: 4\n", "",
@@ -144,7 +144,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"ListExpected", "  count: 4", "  count: [4]",
                  "case.yaml:17: steps: count: expected a whole number of at least 1, found a list"},
         BadInput{"UnknownModel", "model: cell", "model: cel",
-                 "case.yaml:7: material 'sand': model: expected one of elastic, elastoplastic, cell, found "
+                 "case.yaml:7: material 'sand': model: expected one of elastic, elastoplastic, cell, "
+                 "informed, adaptive, found "
                  "'cel'; did you mean "
                  "'cell'?"},
         BadInput{"MissingPacking", "packing: grains.csv", "packing: grain.csv",
