@@ -7,3 +7,5 @@ if(POLARGRAIN_FUZZ)
   add_executable(fuzz_files fuzz/files.cpp fuzz/files_fuzzer.cpp)
   target_link_libraries(fuzz_files PRIVATE polargrain_coupler -fsanitize=fuzzer)
 endif()
+# Text packings and, when the first byte is odd, HDF5 ones; the corpus is that of a coverage-guided run of fuzz.sh.
+polargrain_fuzz_corpus(packings 3000 LIBS polargrain_common)
