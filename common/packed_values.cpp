@@ -11,7 +11,7 @@ namespace polargrain {
 namespace {
 constexpr std::size_t kStress = 7;
 constexpr std::size_t kTangent = 49;
-constexpr std::size_t kResponse = kStress + kTangent + 2;
+constexpr std::size_t kResponse = kStress + kTangent + 5;
 }  // namespace
 
 std::vector<double> read_lists(ArchiveReader& archive, const std::string& name, std::size_t count,
@@ -30,8 +30,8 @@ void write_responses(ArchiveWriter& archive, const std::string& name, std::span<
   for (const Response& response : responses) {
     values.insert(values.end(), response.stress.data(), response.stress.data() + kStress);
     values.insert(values.end(), response.tangent.data(), response.tangent.data() + kTangent);
-    values.push_back(static_cast<double>(response.quality));
-    values.push_back(response.step_factor);
+    values.insert(values.end(), {static_cast<double>(response.quality), response.step_factor,
+                                 response.noise.symmetric, response.noise.skew, response.noise.couple});
   }
   archive.write(name, std::span<const double>(values));
 }
@@ -49,6 +49,8 @@ std::vector<Response> read_responses(ArchiveReader& archive, const std::string& 
     }
     response.quality = static_cast<Quality>(static_cast<int>(quality));
     response.step_factor = place[kStress + kTangent + 1];
+    response.noise = {place[kStress + kTangent + 2], place[kStress + kTangent + 3],
+                      place[kStress + kTangent + 4]};
     place += kResponse;
   }
   return responses;

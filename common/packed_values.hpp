@@ -15,8 +15,8 @@ namespace polargrain {
 std::vector<double> read_lists(ArchiveReader& archive, const std::string& name, std::size_t count,
                                std::size_t length);
 
-/// Stress, tangent, quality and step factor of committed answers. The message is left out: what is committed
-/// is good and has none.
+/// Stress, tangent, quality, step factor and noise of committed answers. The message is left out: what is
+/// committed is good and has none.
 void write_responses(ArchiveWriter& archive, const std::string& name, std::span<const Response> responses);
 /// @throws RunError when the archive does not hold `count` of them
 std::vector<Response> read_responses(ArchiveReader& archive, const std::string& name, std::size_t count);
