@@ -46,7 +46,8 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
     const Increment& increment = increments[point];
     requests.push_back(
         {definition_,
-         {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment}});
+         {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment},
+         point});
     points.push_back(point);
   }
   std::vector<CellReply> replies = pool_.evaluate(requests);

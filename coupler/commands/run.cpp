@@ -305,8 +305,7 @@ class Run {
   std::string write_replay_of(const CellFailure& failure) {
     const std::filesystem::path replay = directory_ / "replay";
     try {
-      write_replay(replay, pool_->definition(failure.definition), failure.request,
-                   fmt::format("Point {}: {}", failure.point, failure.reason));
+      write_replay(replay, pool_->definition(failure.definition), failure.request, failure.reason);
     } catch (const std::exception& error) {
       return fmt::format("\nthe replay of the cell that failed could not be written: {}", error.what());
     }

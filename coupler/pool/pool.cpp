@@ -40,7 +40,7 @@ constexpr double kHeartbeatsInSilence = 30.0;
 struct Task {
   std::uint32_t definition;
   const CellRequest* cell;  ///< null: the packing at rest
-  std::size_t point = 0;
+  std::optional<std::size_t> point = {};
   CellReply reply = {};
   int ends_by_work = 0;
   int ends_from_outside = 0;
@@ -172,7 +172,7 @@ class Pool::Implementation final : private CrewEvents {
 
   std::string place_of(const Task& task) const {
     const CellDefinition& cell = definitions_[task.definition].cell;
-    const std::string what = task.cell == nullptr ? "a cell" : fmt::format("point {}", task.point);
+    const std::string what = task.point ? fmt::format("point {}", *task.point) : "a cell";
     return fmt::format("{} of material '{}' ({})", what, cell.name, cell.script_file);
   }
 

@@ -38,14 +38,14 @@ struct PoolOptions {
 struct PoolRequest {
   std::uint32_t definition = 0;
   CellRequest cell;
-  std::size_t point = 0;  ///< which point of its material it stands for, for messages
+  std::optional<std::size_t> point = {};  ///< which point of its material it stands for, for messages
 };
 
 /// A cell that no worker could answer, or that answered that it failed.
 struct CellFailure {
   std::uint32_t definition = 0;
   CellRequest request;
-  std::size_t point = 0;
+  std::optional<std::size_t> point;
   std::string reason;
 };
 

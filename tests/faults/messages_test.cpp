@@ -44,6 +44,7 @@ std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<Ce
     for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
       value = entry(generator);
     if (!from.empty()) requests[r].cell.state = from[r].state;
+    requests[r].point = r;
   }
   return requests;
 }
@@ -52,7 +53,10 @@ std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<Ce
 std::vector<CellReply> chain(Pool& pool, std::size_t cells) {
   pool.define(testing::fake_definition(""));
   std::vector<CellReply> replies;
-  for (int batch = 0; batch < 10; ++batch) replies = pool.evaluate(random_requests(cells, replies));
+  for (int batch = 0; batch < 10; ++batch) {
+    replies = pool.evaluate(random_requests(cells, replies));
+    for (const CellReply& reply : replies) EXPECT_EQ(reply.response.quality, Quality::good);
+  }
   return replies;
 }
 

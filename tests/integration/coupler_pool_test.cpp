@@ -53,6 +53,7 @@ std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<Ce
     for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
       value = entry(generator);
     if (!from.empty()) requests[r].cell.state = from[r].state;
+    requests[r].point = r;
   }
   return requests;
 }
