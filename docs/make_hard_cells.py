@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs the hard cases with boxes of grains and prints the rows of their table in docs/hard_cases.md.
+"""Runs the hard cases with boxes of grains and prints the rows of the table in docs/hard_cells.md.
 
 usage: docs/make_hard_cells.py POLARGRAIN [DIRECTORY]      from the root of the project; some minutes
 
@@ -9,6 +9,7 @@ One element (4 points, 100 discs each), model adaptive. Packings are made first,
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -21,7 +22,7 @@ PACKINGS = {
     "loose": ["friction=0.5"],
 }
 
-CASE = """title: {title}
+CASE = """title: "{title}"
 mesh: {{rectangle: {{size: [0.1 m, 0.1 m], elements: [1, 1]}}}}
 materials:
   sand: {{model: adaptive, script: cells/hooke_radii.in, packing: {packing}, G: 16 MPa, Gc: 14 MPa, lc: 20 mm,
@@ -87,7 +88,7 @@ def main():
         with open(os.path.join(results, "history.csv"), encoding="utf-8") as text:
             last = list(csv.DictReader(text))[-1]
         figures = next(iter(summary["materials"].values()))
-        end = "to the end" if summary["status"] == "done" else "stopped, " + summary["message"].replace("\n", " ")
+        end = "to the end" if summary["status"] == "done" else "stopped, " + re.sub(r"\s+checkpoint:.*", "; a checkpoint of the step before is there", summary["message"], flags=re.S)
         print(f"| {title} | {summary['steps_committed']} of {count} | {summary['iterations']} | {summary['cuts']} "
               f"| {figures['cell_runs']:.0f} | {-float(last['pressure']) / 1e3:.4g} | {float(last['shear']) / 1e3:.4g} | {end} |",
               flush=True)
