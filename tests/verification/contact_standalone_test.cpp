@@ -139,10 +139,15 @@ TEST(Standalone, PrintsTheDigitsOfTheStockEngine) {
   EXPECT_NE(run("liggghts", script + " -var normal copy/of/hooke/stiffness").status, 0);
 }
 
-/// A cell of two discs with the given lines in it; returns what the program says.
-Outcome run_script(const std::string& lines) {
+/// A box for discs (dimension 2) or spheres with the given lines in it; returns what the program says.
+Outcome run_script(const std::string& lines,
+                   const std::string& end =
+                       "create_atoms 1 single 0 0 0 units box\nset atom 1 diameter 0.02 "
+                       "density 2500\nrun 0\n",
+                   int dimension = 2) {
   const std::string head =
-      "units si\ndimension 2\natom_style granular\natom_modify map array\nboundary f f p\nnewton off\n"
+      "units si\ndimension " + std::to_string(dimension) +
+      "\natom_style granular\natom_modify map array\nboundary f f p\nnewton off\n"
       "communicate single vel yes\nregion box block -1 1 -1 1 -1 1 units box\ncreate_box 1 box\nneighbor 0.1 "
       "bin\n"
       "fix e all property/global contactModulus peratomtypepair 1 1e7\n"
@@ -150,14 +155,66 @@ Outcome run_script(const std::string& lines) {
       "fix f all property/global coefficientFriction peratomtypepair 1 0.5\n";
   const auto file =
       std::filesystem::temp_directory_path() / ("polargrain_bad_" + std::to_string(getpid()) + ".in");
-  std::ofstream(file)
-      << head << lines
-      << "create_atoms 1 single 0 0 0 units box\nset atom 1 diameter 0.02 density 2500\nrun 0\n";
+  std::ofstream(file) << head << lines << end;
   Outcome outcome = run(kProgram, "-in " + file.string());
   const std::size_t found = outcome.text.find(file.string());
   if (found != std::string::npos) outcome.text.replace(found, file.string().size(), "SCRIPT");
   std::filesystem::remove(file);
   return outcome;
+}
+
+/// Two grains pressed onto each other and onto a wall, moving along both; their speeds after 50 steps.
+Outcome run_combination(const std::string& models, int dimension) {
+  std::string lines =
+      "fix r all property/global coefficientRollingFriction peratomtypepair 1 0.1\n"
+      "fix k all property/global rollingStiffnessRatio peratomtypepair 1 0.5\n"
+      "fix s all property/global rollingFrictionForceStiffnessRatio peratomtypepair 1 0.1\n"
+      "fix q all property/global coefficientRollingFrictionForce peratomtypepair 1 0.1\n"
+      "fix rs all property/global rollingStiffness scalar 2.25\n"
+      "fix rv all property/global coefficientRollingViscousDamping peratomtypepair 1 0.1\n"
+      "fix ym all property/global youngsModulus peratomtype 5e7\n"
+      "fix nu all property/global poissonsRatio peratomtype 0.2\n"
+      "fix cr all property/global coefficientRestitution peratomtypepair 1 0.9\n"
+      "fix cv all property/global characteristicVelocity scalar 1\n"
+      "fix kn all property/global kn peratomtypepair 1 1e6\n"
+      "fix kt all property/global kt peratomtypepair 1 8e5\n"
+      "fix gn all property/global gamman_abs peratomtypepair 1 0\n"
+      "fix gt all property/global gammat_abs peratomtypepair 1 0\n"
+      "fix gan all property/global gamman peratomtypepair 1 0\n"
+      "fix gat all property/global gammat peratomtypepair 1 0\n"
+      "fix ce all property/global cohesionEnergyDensity peratomtypepair 1 1e4\n";
+  lines += "pair_style gran model " + models + "\npair_coeff * *\n";
+  lines += "fix wall all wall/gran model " + models + " primitive type 1 yplane 0\n";
+  return run_script(lines,
+                    "create_atoms 1 single 0 0.0099 0 units box\ncreate_atoms 1 single 0.0199 0.0099 0 units "
+                    "box\nset group all diameter 0.02 density 2500\nvelocity all set 0.1 -0.2 0 units box\n"
+                    "fix integrate all nve/sphere\ntimestep 1e-6\ncompute spin all erotate/sphere\n"
+                    "thermo_style custom step ke c_spin\nthermo_modify norm no\nthermo 50\nrun 50\n",
+                    dimension);
+}
+
+TEST(Standalone, StockModelsCombineWithThisProjects) {
+  for (const std::string models :
+       {"hooke tangential li_chu rolling_friction li_chu", "hertz tangential li_chu rolling_friction epsd2",
+        "hertz/stiffness tangential li_chu", "hooke/stiffness tangential li_chu rolling_friction epsd3",
+        "hooke/radii tangential history rolling_friction cdt",
+        "hooke/radii tangential history rolling_friction epsd",
+        "hooke/radii tangential no_history rolling_friction li_chu",
+        "hooke/radii tangential li_chu cohesion sjkr rolling_friction li_chu",
+        "hooke/radii tangential history cohesion sjkr2 rolling_friction epsd2",
+        "hertz tangential history cohesion sjkr rolling_friction li_chu", "hooke/radii"}) {
+    for (const int dimension : {2, 3}) {
+      const Outcome outcome = run_combination(models, dimension);
+      EXPECT_EQ(outcome.status, 0) << models << "\n" << outcome.text;
+      const auto rows = outcome.rows(3);
+      ASSERT_EQ(rows.size(), 2U) << models << "\n" << outcome.text;
+      // The contacts act: the grains change their speed, and turn where there is a tangential force (the
+      // stock model no_history has only a dashpot, which is zero here).
+      EXPECT_GT(std::abs(rows[1][1] / rows[0][1] - 1.0), 1e-6) << models;
+      const bool turns = models != "hooke/radii" && models.find("no_history") == std::string::npos;
+      EXPECT_EQ(rows[1][2] > 0.0, turns) << models;
+    }
+  }
 }
 
 struct BadScript {
