@@ -37,9 +37,9 @@ class KillsTest : public ::testing::Test {
   }
 
   /// Runs the case undisturbed. @returns the command that runs it slowly, to be disturbed
-  [[nodiscard]] std::string prepare(int steps) {
+  [[nodiscard]] std::string prepare(int steps, const std::string& settings = "") {
     const std::string command =
-        FAKE_POLARGRAIN " run case.yaml --quiet --set steps.count=" + std::to_string(steps);
+        FAKE_POLARGRAIN " run case.yaml --quiet --set steps.count=" + std::to_string(steps) + settings;
     const Outcome quiet = run_in(scratch_.path(), command + " -o quiet -w 1");
     EXPECT_EQ(quiet.status, 0) << quiet.errors;
     write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be killed in
@@ -76,6 +76,19 @@ TEST_F(KillsTest, AHundredKilledWorkersChangeNothing) {
   // A process that is killed twice, or after the last cell, is told once or not at all.
   EXPECT_GE(told, 90);
   EXPECT_LE(told, 100);
+}
+
+// Neither which points run a cell nor what the audits find depends on who died.
+TEST_F(KillsTest, KilledWorkersChangeNoDecisionOfAnAdaptiveRun) {
+  Beside run(prepare(100,
+                     " --set materials.sand.model=adaptive --set materials.sand.tolerance=0.01"
+                     " --set materials.sand.audit=0.5 --set steps.tolerance=1e-6"));
+  const int kills = kill_workers(run, 30, 0.03, 20250103);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_GE(kills, 10);
+  std::cout << "[figure] workers killed " << kills << '\n';
+  EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
+  EXPECT_EQ(result("disturbed/fields/step-00100.vtu"), result("quiet/fields/step-00100.vtu"));
 }
 
 TEST_F(KillsTest, StoppedWorkersChangeNothing) {
