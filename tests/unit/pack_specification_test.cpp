@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `polargrain pack` says about wrong specifications: file, line, what was expected.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -23,7 +24,10 @@ const std::string kGood =
 
 class Specification : public testing::Test {
  protected:
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / "pack_specification_test.yaml";
+  ~Specification() override { std::filesystem::remove(file_); }
+  // A name of its own: ctest runs the cases of this file beside each other.
+  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
+                                ("pack_specification_" + std::to_string(getpid()) + ".yaml");
   std::string fault(const std::string& from, const std::string& to) {
     std::string text = kGood;
     text.replace(text.find(from), from.size(), to);
