@@ -67,7 +67,7 @@ struct CellDiagnostics {
   std::int64_t contacts = 0;
   std::int64_t dem_steps = 0;
   double engine_seconds = 0.0;    ///< wall time inside the engine; never part of a result
-  double rolling_fraction = 0.0;  ///< contacts at the rolling limit / contacts (rolling model li_chu)
+  double rolling_fraction = 0.0;  ///< contacts at the rolling limit / contacts (rolling models li_chu, epsd2)
   double rattlers = 0.0;          ///< grains without a contact / grains
   double mean_rotation = 0.0;     ///< of the grains, since the packing, rad
   double rotation_spread = 0.0;   ///< standard deviation of the rotations of the grains, rad

@@ -21,8 +21,8 @@ struct Contact {
   /// Rolling resistance moment about e_3 on first by second (conjugate to the rotation of second relative to
   /// first), N m, of any rolling model.
   double moment = 0.0;
-  double rolling_stiffness = 0.0;  ///< k_th, N m/rad; known for rolling model li_chu, otherwise 0
-  bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling model li_chu)
+  double rolling_stiffness = 0.0;  ///< k_th, N m/rad; known for rolling models li_chu and epsd2, otherwise 0
+  bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling models li_chu, epsd2)
   double branch_3 = 0.0;           ///< component of the branch along e_3, m; 0 between discs
   double force_3 = 0.0;            ///< component of the force along e_3, N; 0 between discs
 
