@@ -121,7 +121,8 @@ def hard_cases_page(figures):
         "# Hard cases", "",
         "Written by `docs/make_verification.py` from `fem_hard_cases_test` and `fem_many_elements_test`:",
         "biaxial compression or extension of a block, ten steps a leg, to a tolerance of 1e-8. The error is relative to",
-        "the Mohr-Coulomb stress at which a homogeneous block must end; there is none where friction at the platens or a stop leaves no exact answer.", "",
+        "the Mohr-Coulomb stress at which a homogeneous block must end; there is none where friction at the platens or a stop leaves no exact answer.",
+        "[The same kind of cases with boxes of grains](hard_cells.md).", "",
         "| case | iterations | cuts | axial stress, kPa | error | what happened |", "|---|---|---|---|---|---|",
         *rows, "", "Others:", "", *others, ""])
 
