@@ -9,13 +9,13 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/driver.hpp"
+#include "dem/cell/quasi_static.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
 
 namespace {
 
-constexpr int kRelaxationChunk = 20;
 constexpr double kLayer = 0.6;  ///< mean diameters
 
 double mean_radius(const Packing& packing) {

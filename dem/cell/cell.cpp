@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,15 +10,13 @@
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/driver.hpp"
+#include "dem/cell/quasi_static.hpp"
 #include "dem/cell/tangents.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
 
 namespace {
-
-/// DEM steps between two looks at the equilibrium while a cell relaxes.
-constexpr int kRelaxationChunk = 20;
 
 /// Spring that holds each grain in the condensed tangent, over the mean normal stiffness. From 1e-6 to 1e-3
 /// it changes no modulus by more than 1 %.
@@ -28,14 +25,6 @@ constexpr double kHold = 1e-4;
 /// The largest strain, displacement gradient, rotation, or curvature times mean diameter that a cell takes in
 /// one increment.
 constexpr double kLargestIncrement = 0.25;
-
-/// Magnitude of the largest principal strain.
-double largest_principal(const Eigen::Matrix2d& strain) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(strain, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
-}
 
 class Cell final : public CellService {
  public:
@@ -53,7 +42,6 @@ class Cell final : public CellService {
   /// Weights of the grains in the mean rotation, from the recorded contacts (mode 2).
   void renew_weights();
   [[nodiscard]] double increment_size(const Increment& increment) const;
-  [[nodiscard]] int loading_steps(const Increment& increment) const;
   [[nodiscard]] CellDiagnostics measure() const;
   [[nodiscard]] bool in_equilibrium(const Equilibrium& equilibrium) const;
   /// Stress of the recorded contacts, in the laboratory frame.
@@ -126,7 +114,8 @@ CellReply Cell::evaluate(const CellRequest& request) {
     return reply;
   }
   const RestoredState restored = restore_state(lammps, request.state ? *request.state : *initial_.state);
-  const int loading = loading_steps(request.increment);
+  const int loading = loading_steps(control_, request.increment, time_of_grain_, driver_.mean_radius(),
+                                    driver_.strain().time_step());
   const BoxPath path(restored.box, request.increment.displacement_gradient, loading);
   if (controlled())
     driver_.strain().begin(path, damping_rate_,
@@ -177,21 +166,8 @@ void Cell::set_up() {
 }
 
 void Cell::renew_weights() {
-  // Torque that the contacts of a grain can carry, up to the coefficient of friction; none with fewer than
-  // two contacts, or the multiplier would spin up the grains that nothing holds.
-  const auto grains = static_cast<std::size_t>(driver_.grains());
-  std::vector<double> capacities(grains, 0.0);
-  std::vector<int> count(grains, 0);
-  for (const Contact& contact : driver_.contacts()) {
-    const double force = std::max(0.0, contact.normal_force());
-    capacities[contact.first] += contact.arm_first * force;
-    capacities[contact.second] += contact.arm_second * force;
-    ++count[contact.first];
-    ++count[contact.second];
-  }
-  double sum = 0.0;
-  for (std::size_t k = 0; k < grains; ++k) sum += capacities[k] = count[k] < 2 ? 0.0 : capacities[k];
-  if (sum > 0.0) driver_.strain().set_torque_capacities(capacities);
+  const std::vector<double> capacities = torque_capacities(driver_.contacts(), driver_.grains());
+  if (!capacities.empty()) driver_.strain().set_torque_capacities(capacities);
 }
 
 void Cell::run(int steps) {
@@ -206,21 +182,6 @@ void Cell::run(int steps) {
 double Cell::increment_size(const Increment& increment) const {
   return std::max({increment.displacement_gradient.cwiseAbs().maxCoeff(), std::abs(increment.micro_rotation),
                    increment.curvature.norm() * 2.0 * driver_.mean_radius()});
-}
-
-int Cell::loading_steps(const Increment& increment) const {
-  const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
-  double size = largest_principal(whole.strain());
-  if (controlled()) {
-    // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
-    // them; a curvature turns them against each other by that times their distance.
-    size = std::max({size, std::abs(increment.micro_rotation - whole.rotation()),
-                     increment.curvature.norm() * 2.0 * driver_.mean_radius()});
-  }
-  const double steps =
-      std::ceil(size * time_of_grain_ / (control_.inertial_number * driver_.strain().time_step()));
-  if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
-  return std::max(control_.least_steps, static_cast<int>(steps));
 }
 
 CellDiagnostics Cell::measure() const {

@@ -10,6 +10,7 @@
 
 #include "dem/cell/averages.hpp"
 #include "dem/cell/packing_data.hpp"
+#include "dem/cell/quasi_static.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -115,16 +116,10 @@ double Driver::damping_rate(double fraction) const {
 Equilibrium Driver::equilibrium() const {
   Equilibrium found;
   found.void_ratio = strain_->box().area() / grain_area_ - 1.0;
-  std::vector<bool> touched(static_cast<std::size_t>(grains_), false);
-  for (const Contact& contact : contacts())
-    touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
-        true;
-  const auto carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
-  found.rattlers = 1.0 - carrying / grains_;
-  const double force = mean_contact_force(contacts());
-  if (contacts().empty() || !(force > 0.0)) return found;
-  found.unbalanced_force_ratio = strain_->sum_of_unbalanced_force() / carrying / force;
-  found.unbalanced_moment_ratio = strain_->sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
+  const Unbalanced ratios = unbalanced(*strain_, contacts(), mean_radius_);
+  found.unbalanced_force_ratio = ratios.force_ratio;
+  found.unbalanced_moment_ratio = ratios.moment_ratio;
+  found.rattlers = 1.0 - ratios.carrying / grains_;
   found.coordination_number = 2.0 * static_cast<double>(contacts().size()) / grains_;
   return found;
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "dem/cell/averages.hpp"
+#include "dem/cell/quasi_static.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/private_access.hpp"
 
@@ -23,9 +23,6 @@ using LAMMPS_NS::LAMMPS;
 namespace FixConst = LAMMPS_NS::FixConst;
 
 namespace {
-
-/// DEM steps between two looks at the contacts, as in cells.
-constexpr int kChunk = 20;
 
 StatePointer read_state(const std::string& file, LAMMPS_NS::Error& error) {
   std::ifstream in(file, std::ios::binary);
@@ -184,7 +181,7 @@ void FixCellLoad::begin_increment(const Increment& increment) try {
   // steps in between the engine's lists know nothing of the contacts yet.
   const RestoredState restored =
       go_on_from(restored_ ? restored_ : save_state(*lmp, box().reduced(), rotations()));
-  loading_ = loading_steps(increment);
+  loading_ = loading_steps(control_, increment, time_of_grain_, mean_radius_, update->dt);
   done_ = 0;
   const BoxPath path(restored.box, increment.displacement_gradient, loading_);
   if (controlled())
@@ -194,21 +191,6 @@ void FixCellLoad::begin_increment(const Increment& increment) try {
   set_rotations(restored.rotations);
 } catch (const std::exception& fault) {
   error->all(FLERR, fault.what());
-}
-
-int FixCellLoad::loading_steps(const Increment& increment) const {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  const Eigen::Matrix2d strain = 0.5 * (h + h.transpose());
-  double size = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(strain, Eigen::EigenvaluesOnly)
-                    .eigenvalues()
-                    .cwiseAbs()
-                    .maxCoeff();
-  if (controlled())
-    size = std::max({size, std::abs(increment.micro_rotation - 0.5 * (h(1, 0) - h(0, 1))),
-                     increment.curvature.norm() * 2.0 * mean_radius_});
-  const double steps = std::ceil(size * time_of_grain_ / (control_.inertial_number * update->dt));
-  if (!(steps < 1e9)) error->all(FLERR, "The increment asks for more than 1e9 DEM steps");
-  return std::max(control_.least_steps, static_cast<int>(steps));
 }
 
 void FixCellLoad::start_recording() {
@@ -231,7 +213,7 @@ void FixCellLoad::setup(int vflag) {
 
 bool FixCellLoad::ends_chunk() const {
   const int steps = done_ > loading_ ? done_ - loading_ : done_;
-  return done_ == loading_ || steps % kChunk == 0;
+  return done_ == loading_ || steps % kRelaxationChunk == 0;
 }
 
 void FixCellLoad::pre_force(int) {
@@ -248,19 +230,8 @@ void FixCellLoad::post_force(int vflag) {
 }
 
 void FixCellLoad::renew_weights() {
-  const auto count = static_cast<std::size_t>(grains());
-  std::vector<double> capacities(count, 0.0);
-  std::vector<int> touches(count, 0);
-  for (const Contact& contact : contact_recorder().contacts) {
-    const double carried = std::max(0.0, contact.normal_force());
-    capacities[contact.first] += contact.arm_first * carried;
-    capacities[contact.second] += contact.arm_second * carried;
-    ++touches[contact.first];
-    ++touches[contact.second];
-  }
-  double sum = 0.0;
-  for (std::size_t k = 0; k < count; ++k) sum += capacities[k] = touches[k] < 2 ? 0.0 : capacities[k];
-  if (sum > 0.0) set_torque_capacities(capacities);
+  const std::vector<double> capacities = torque_capacities(contact_recorder().contacts, grains());
+  if (!capacities.empty()) set_torque_capacities(capacities);
 }
 
 void FixCellLoad::look() {
@@ -272,20 +243,9 @@ void FixCellLoad::look() {
   // As in cells: with free rotations the couple stress is nobody's business.
   Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();
   if (controlled()) couple_stress = frame * average_couple_stress(contacts, volume);
-  std::vector<bool> touched(static_cast<std::size_t>(grains()), false);
-  for (const Contact& contact : contacts)
-    touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
-        true;
-  const auto carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
-  const double force = mean_contact_force(contacts);
-  double forces = 0.0;
-  double moments = 0.0;
-  if (!contacts.empty() && force > 0.0) {
-    forces = sum_of_unbalanced_force() / carrying / force;
-    moments = sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
-  }
-  const bool at_rest =
-      forces <= control_.unbalanced_force_ratio && moments <= control_.unbalanced_moment_ratio;
+  const Unbalanced ratios = unbalanced(*this, contacts, mean_radius_);
+  const bool at_rest = ratios.force_ratio <= control_.unbalanced_force_ratio &&
+                       ratios.moment_ratio <= control_.unbalanced_moment_ratio;
   const bool given_up = done_ - loading_ >= control_.most_relaxation_steps;
   answer_ = {stress(0, 0),
              stress(1, 1),
@@ -294,8 +254,8 @@ void FixCellLoad::look() {
              stress(1, 0),
              couple_stress(0),
              couple_stress(1),
-             forces,
-             moments,
+             ratios.force_ratio,
+             ratios.moment_ratio,
              done_ >= loading_ && (at_rest || given_up) ? 1.0 : 0.0,
              static_cast<double>(contacts.size())};
 }

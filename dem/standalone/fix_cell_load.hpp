@@ -55,7 +55,6 @@ class FixCellLoad final : public FixCellStrain {
   /// Puts a state into the engine and the box to where it was.
   RestoredState go_on_from(StatePointer state);
   void begin_increment(const Increment& increment);
-  [[nodiscard]] int loading_steps(const Increment& increment) const;
   void report(const char* name) const;
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
   /// A step after which a cell looks at its contacts.

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/quasi_static.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "dem/cell/averages.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+/// Magnitude of the largest principal strain.
+double largest_principal(const Eigen::Matrix2d& strain) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(strain, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+}  // namespace
+
+int loading_steps(const CellControl& control, const Increment& increment, double time_of_grain,
+                  double mean_radius, double time_step) {
+  const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
+  double size = largest_principal(whole.strain());
+  if (control.rotations == CellRotations::controlled) {
+    // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
+    // them; a curvature turns them against each other by that times their distance.
+    size = std::max({size, std::abs(increment.micro_rotation - whole.rotation()),
+                     increment.curvature.norm() * 2.0 * mean_radius});
+  }
+  const double steps = std::ceil(size * time_of_grain / (control.inertial_number * time_step));
+  if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
+  return std::max(control.least_steps, static_cast<int>(steps));
+}
+
+std::vector<double> torque_capacities(std::span<const Contact> contacts, int grains) {
+  std::vector<double> capacities(static_cast<std::size_t>(grains), 0.0);
+  std::vector<int> count(capacities.size(), 0);
+  for (const Contact& contact : contacts) {
+    const double force = std::max(0.0, contact.normal_force());
+    capacities[contact.first] += contact.arm_first * force;
+    capacities[contact.second] += contact.arm_second * force;
+    ++count[contact.first];
+    ++count[contact.second];
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < capacities.size(); ++k)
+    sum += capacities[k] = count[k] < 2 ? 0.0 : capacities[k];
+  if (!(sum > 0.0)) capacities.clear();
+  return capacities;
+}
+
+Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius) {
+  std::vector<bool> touched(static_cast<std::size_t>(strain.grains()), false);
+  for (const Contact& contact : contacts)
+    touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
+        true;
+  Unbalanced found;
+  found.carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
+  const double force = mean_contact_force(contacts);
+  if (contacts.empty() || !(force > 0.0)) return found;
+  found.force_ratio = strain.sum_of_unbalanced_force() / found.carrying / force;
+  found.moment_ratio = strain.sum_of_unbalanced_moment() / found.carrying / (force * mean_radius);
+  return found;
+}
+
+}  // namespace polargrain::dem

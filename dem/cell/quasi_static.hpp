@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "common/cell.hpp"
+#include "dem/cell/fix_cell_strain.hpp"
+#include "dem/contact/contact_recorder.hpp"
+
+namespace polargrain::dem {
+
+// How a cell is loaded and when it is at rest (docs/theory/grains.md, G.3): what the cells of a run and
+// `fix cell/load` of a script must do alike, to the bit.
+
+/// DEM steps between two looks at the equilibrium while a cell relaxes.
+inline constexpr int kRelaxationChunk = 20;
+
+/// DEM steps of the loading ramp of an increment, at the inertial number asked for.
+/// @param time_of_grain mean diameter * sqrt(density / pressure), s @param mean_radius m @param time_step s
+/// @throws RunError when that is more than 1e9
+int loading_steps(const CellControl& control, const Increment& increment, double time_of_grain,
+                  double mean_radius, double time_step);
+
+/// Torque that the contacts of each grain can carry, N m, up to the coefficient of friction: the weights of
+/// the grains in the mean rotation (mode 2). Zero with fewer than two contacts, or the multiplier would spin
+/// up the grains that nothing holds. Empty when nothing carries any.
+std::vector<double> torque_capacities(std::span<const Contact> contacts, int grains);
+
+/// How far grains are from rest; see CellDiagnostics.
+struct Unbalanced {
+  double force_ratio = 0.0;   ///< 0 without contacts
+  double moment_ratio = 0.0;  ///< 0 without contacts
+  double carrying = 0.0;      ///< number of grains that touch others
+};
+
+/// Of the last force pass. @param mean_radius m
+Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius);
+
+}  // namespace polargrain::dem
