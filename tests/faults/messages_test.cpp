@@ -6,15 +6,17 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <random>
 
 #include "common/error.hpp"
 #include "coupler/pool/pool.hpp"
 #include "tests/integration/command.hpp"
 #include "tests/integration/fake_engine.hpp"
+#include "tests/integration/random_requests.hpp"
 
 namespace polargrain::coupler {
 namespace {
+
+using testing::random_requests;
 
 using testing::Scratch;
 
@@ -35,19 +37,6 @@ class MessageFaultsTest : public ::testing::Test {
   Scratch scratch_;
   std::string told_;
 };
-
-std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<CellReply>& from = {}) {
-  std::mt19937_64 generator(7);
-  std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
-  std::vector<PoolRequest> requests(count);
-  for (std::size_t r = 0; r < count; ++r) {
-    for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
-      value = entry(generator);
-    if (!from.empty()) requests[r].cell.state = from[r].state;
-    requests[r].point = r;
-  }
-  return requests;
-}
 
 /// Ten batches, each from the states of the one before.
 std::vector<CellReply> chain(Pool& pool, std::size_t cells) {

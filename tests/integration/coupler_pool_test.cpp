@@ -8,16 +8,18 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <random>
 
 #include "common/error.hpp"
 #include "coupler/pool/pool.hpp"
 #include "coupler/pool/private_directory.hpp"
 #include "tests/integration/fake_engine.hpp"
+#include "tests/integration/random_requests.hpp"
 #include "tests/support/processes.hpp"
 
 namespace polargrain::coupler {
 namespace {
+
+using testing::random_requests;
 
 class PoolTest : public ::testing::Test {
  protected:
@@ -44,19 +46,6 @@ class PoolTest : public ::testing::Test {
 
   std::filesystem::path directory_;
 };
-
-std::vector<PoolRequest> random_requests(std::size_t count, const std::vector<CellReply>& from = {}) {
-  std::mt19937_64 generator(20240917);
-  std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
-  std::vector<PoolRequest> requests(count);
-  for (std::size_t r = 0; r < count; ++r) {
-    for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
-      value = entry(generator);
-    if (!from.empty()) requests[r].cell.state = from[r].state;
-    requests[r].point = r;
-  }
-  return requests;
-}
 
 bool same_bits(const CellReply& a, const CellReply& b) {
   return std::memcmp(a.response.stress.data(), b.response.stress.data(), sizeof(Vector7)) == 0 &&

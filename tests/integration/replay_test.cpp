@@ -73,6 +73,12 @@ TEST(Replay, PrintsTheStressesOfTheCellFromAStateOn) {
   expect_equal_replay(test::demo_cell(), kPath, 2);
 }
 
+// Turned by 0.1 rad and strained by -1e-3, which is what counts for the DEM steps; the symmetric part is
+// -6e-3.
+TEST(Replay, PrintsTheStressesAfterALargeRotation) {
+  expect_equal_replay(test::demo_cell(), {increment(-6e-3, -0.0998, 0.0998, -6e-3)}, 0);
+}
+
 TEST(Replay, PrintsTheCoupleStressOfControlledRotations) {
   CellDefinition definition = test::demo_cell();
   definition.script_file = "liggghts_inputs/cells/hooke_li_chu.in";

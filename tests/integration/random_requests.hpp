@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <random>
+#include <vector>
+
+#include "coupler/pool/pool.hpp"
+
+namespace polargrain::testing {
+
+/// Requests for the first definition with random increments up to 1e-3, the same in every call.
+/// @param from replies whose states they go on from; none: from the packing
+inline std::vector<coupler::PoolRequest> random_requests(std::size_t count,
+                                                         const std::vector<CellReply>& from = {}) {
+  std::mt19937_64 generator(20240917);
+  std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
+  std::vector<coupler::PoolRequest> requests(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
+      value = entry(generator);
+    if (!from.empty()) requests[r].cell.state = from[r].state;
+    requests[r].point = r;
+  }
+  return requests;
+}
+
+}  // namespace polargrain::testing
