@@ -68,9 +68,32 @@ void write_samples(const std::filesystem::path& file, const Samples& samples) {
   fem::write_file(file, text);
 }
 
+void write_summary(const std::filesystem::path& file, const BandMeasurement& measured) {
+  std::string text =
+      fmt::format("{{\n  \"from\": {:.17g},\n  \"to\": {:.17g},\n", measured.begin, measured.end);
+  if (!measured.search.band) {
+    text += fmt::format("  \"found\": false,\n  \"reason\": \"{}\"\n}}\n", measured.search.reason);
+  } else {
+    const Band& found = *measured.search.band;
+    text += fmt::format(
+        "  \"found\": true,\n"
+        "  \"inclination_degrees\": {:.17g},\n  \"thickness\": {:.17g},\n"
+        "  \"resolution\": {:.17g},\n  \"centre\": [{:.17g}, {:.17g}],\n"
+        "  \"peak_shear\": {:.17g},\n  \"background_shear\": {:.17g},\n"
+        "  \"rotation_inside\": {:.17g},\n  \"rotation_outside\": {:.17g},\n"
+        "  \"volume_strain_inside\": {:.17g},\n  \"volume_strain_outside\": {:.17g},\n"
+        "  \"onset_strain\": {}\n}}\n",
+        found.inclination / kDegree, found.thickness, found.resolution, found.centre.x(), found.centre.y(),
+        found.peak, found.background, measured.rotation.inside, measured.rotation.outside,
+        measured.volume_strain.inside, measured.volume_strain.outside,
+        measured.onset ? exact(*measured.onset) : "null");
+  }
+  fem::write_file(file, text);
+}
+
 }  // namespace
 
-int band(const BandCommandOptions& options) {
+BandMeasurement measure_band(const BandCommandOptions& options) {
   const Frames frames(options.directory, options.strain_column);
   const double last_strain = frames.axial_strains().back();
   const std::size_t to = frames.nearest(options.to >= 0.0 ? options.to : last_strain);
@@ -81,25 +104,35 @@ int band(const BandCommandOptions& options) {
                                   options.from, options.to, frames.axial_strains().front(), last_strain)});
   const Samples samples = frames.increment(from, to, options.current);
   if (!options.fields.empty()) write_samples(options.fields, samples);
-  const BandSearch search = find_band(samples, {options.contrast});
-  const double begin = frames.axial_strains()[from];
-  const double end = frames.axial_strains()[to];
-  fmt::print("{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(), begin,
-             end, samples.size(), frames.of_grains() ? "grains" : "integration points");
-  const std::filesystem::path summary = options.directory / "band.json";
-  if (!search.band) {
-    fmt::print("  no band: {}\n", search.reason);
-    fem::write_file(summary, fmt::format("{{\n  \"from\": {:.17g},\n  \"to\": {:.17g},\n  \"found\": false,\n"
-                                         "  \"reason\": \"{}\"\n}}\n",
-                                         begin, end, search.reason));
+  BandMeasurement measured{frames.axial_strains()[from],
+                           frames.axial_strains()[to],
+                           samples.size(),
+                           frames.of_grains(),
+                           find_band(samples, {options.contrast}),
+                           {},
+                           {},
+                           {}};
+  if (measured.search.band) {
+    const Band& found = *measured.search.band;
+    const Increments increments = follow(frames, options, found);
+    measured.onset = polargrain::band::onset_strain(increments.strains, increments.localisations);
+    measured.rotation = means(samples, found, &Sample::rotation);
+    measured.volume_strain = means(samples, found, &Sample::volume_strain);
+  }
+  write_summary(options.directory / "band.json", measured);
+  return measured;
+}
+
+int band(const BandCommandOptions& options) {
+  const BandMeasurement measured = measure_band(options);
+  fmt::print("{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(),
+             measured.begin, measured.end, measured.places,
+             measured.of_grains ? "grains" : "integration points");
+  if (!measured.search.band) {
+    fmt::print("  no band: {}\n", measured.search.reason);
     return 0;
   }
-  const Band& found = *search.band;
-  const Increments increments = follow(frames, options, found);
-  const std::optional<double> onset =
-      polargrain::band::onset_strain(increments.strains, increments.localisations);
-  const auto rotation = means(samples, found, &Sample::rotation);
-  const auto dilation = means(samples, found, &Sample::volume_strain);
+  const Band& found = *measured.search.band;
   fmt::print(
       "  inclination   {:.1f} degrees from the horizontal\n"
       "  thickness     {:.4g} m at half maximum (resolution {:.2g} m)\n"
@@ -108,21 +141,10 @@ int band(const BandCommandOptions& options) {
       "  rotation      {:.4f} rad inside, {:.4f} rad outside\n"
       "  onset         {}\n",
       found.inclination / kDegree, found.thickness, found.resolution, found.peak, found.background,
-      dilation.inside, dilation.outside, rotation.inside, rotation.outside,
-      onset ? fmt::format("axial strain {:.4f}", *onset)
-            : "not within the increments: the last is not localised");
-  fem::write_file(
-      summary,
-      fmt::format("{{\n  \"from\": {:.17g},\n  \"to\": {:.17g},\n  \"found\": true,\n"
-                  "  \"inclination_degrees\": {:.17g},\n  \"thickness\": {:.17g},\n"
-                  "  \"resolution\": {:.17g},\n  \"centre\": [{:.17g}, {:.17g}],\n"
-                  "  \"peak_shear\": {:.17g},\n  \"background_shear\": {:.17g},\n"
-                  "  \"rotation_inside\": {:.17g},\n  \"rotation_outside\": {:.17g},\n"
-                  "  \"volume_strain_inside\": {:.17g},\n  \"volume_strain_outside\": {:.17g},\n"
-                  "  \"onset_strain\": {}\n}}\n",
-                  begin, end, found.inclination / kDegree, found.thickness, found.resolution,
-                  found.centre.x(), found.centre.y(), found.peak, found.background, rotation.inside,
-                  rotation.outside, dilation.inside, dilation.outside, onset ? exact(*onset) : "null"));
+      measured.volume_strain.inside, measured.volume_strain.outside, measured.rotation.inside,
+      measured.rotation.outside,
+      measured.onset ? fmt::format("axial strain {:.4f}", *measured.onset)
+                     : "not within the increments: the last is not localised");
   return 0;
 }
 
