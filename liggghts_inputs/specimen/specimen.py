@@ -13,6 +13,7 @@ Into RESULTS: history.csv (a row every 1e-4 of strain), grains/step-*.dump (id, 
 restart/step-*.restart, packing.h5, specimen.data, options.txt, *.log. Then `polargrain band RESULTS` looks for the band.
 """
 import argparse
+import hashlib
 import math
 import pathlib
 import re
@@ -72,8 +73,15 @@ def run(command, log, folder=None):
 
 
 def remember(options):
-    """Options belong to the folder: a run that goes on must be the one that was begun."""
-    text = "".join(f"{name} {value}\n" for name, value in sorted(vars(options).items())
+    """Options belong to the folder: a run that goes on must be the one that was begun. Files count by what is in them."""
+    def written(value):
+        if not isinstance(value, pathlib.Path):
+            return value
+        if not value.is_file():
+            stop(f"there is no file {value}")
+        return hashlib.sha256(value.read_bytes()).hexdigest()
+
+    text = "".join(f"{name} {written(value)}\n" for name, value in sorted(vars(options).items())
                    if name not in ("output", "programs", "strain"))
     file = options.output / "options.txt"
     if file.exists() and file.read_text() != text:
