@@ -6,30 +6,24 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <numeric>
 
 #include "common/error.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/commands/bench_band.hpp"
 #include "coupler/commands/bench_page.hpp"
-#include "coupler/commands/csv_file.hpp"
 #include "coupler/commands/interrupt.hpp"
 #include "coupler/commands/progress.hpp"
 #include "coupler/commands/run.hpp"
+#include "fem/output/write_file.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What is plotted against what.
-struct Axes {
-  std::string x;
-  std::vector<std::string> y;
-};
-
-Axes axes_of(const BenchOptions& options, const Case& the_case) {
-  Axes axes{options.x, options.y};
+BenchAxes axes_of(const BenchOptions& options, const Case& the_case) {
+  BenchAxes axes{options.x, options.y, !options.band.empty()};
   if (axes.x.empty() && !the_case.table.empty()) axes.x = the_case.table.front();
   if (axes.y.empty() && the_case.table.size() > 1) {
     axes.y.assign(the_case.table.begin() + 1, the_case.table.end());
@@ -43,7 +37,7 @@ Axes axes_of(const BenchOptions& options, const Case& the_case) {
   return axes;
 }
 
-void check_axes(const Axes& axes, const Case& the_case) {
+void check_axes(const BenchAxes& axes, const Case& the_case) {
   std::vector<std::string> known = built_in_values();
   for (const Monitor& monitor : the_case.monitors) known.push_back(monitor.name);
   std::vector<std::string> wanted = axes.y;
@@ -62,8 +56,8 @@ double sum(const std::map<std::string, std::vector<double>>& columns, const std:
 }
 
 BenchResult take(const BenchSetting& setting, const std::filesystem::path& directory,
-                 const BenchOptions& options, const Axes& axes) {
-  BenchResult result{setting, "done", 0, 0.0, 0.0, 0.0, {}, {}, false};
+                 const BenchOptions& options, const BenchAxes& axes) {
+  BenchResult result{setting, "done", 0, 0.0, 0.0, 0.0, {}, {}, {}, false};
   RunOptions run_options;
   run_options.case_file = setting.case_file;
   run_options.directory = directory;
@@ -87,84 +81,92 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
     result.steps = std::max(0, static_cast<int>(curve.x.size()) - 1);
     result.curves.push_back(std::move(curve));
   }
+  if (axes.band) result.band = bench_band(directory, axes.x, options.band.front(), options.band.back());
   return result;
 }
 
-void write_results(const BenchOptions& options, const std::string& title, const Axes& axes,
-                   const std::vector<BenchResult>& results) {
-  std::vector<std::string> columns{"case",  "what",    "setting",          "status",
-                                   "steps", "seconds", "cell_evaluations", "dem_steps"};
-  for (const std::string& y : axes.y) {
-    columns.push_back("error_" + y);
-    columns.push_back("peak_error_" + y);
+/// What is read before anything runs, so that a typing error costs no hour.
+struct Checked {
+  std::string title;
+  BenchAxes axes;
+};
+
+Checked check(const BenchOptions& options, const std::vector<BenchSetting>& settings) {
+  if (!options.band.empty() && options.band.front() >= options.band.back())
+    throw InputError({"--band", 0, "expected FROM,TO, axial strains of which the second is larger"});
+  Checked checked;
+  for (const BenchSetting& setting : settings) {
+    if (setting.grains > 0) continue;  // its packing is not there yet, the rest is that of the case as given
+    const Case the_case = read_case(setting.case_file, setting.overrides);
+    if (checked.title.empty()) checked = {the_case.title, axes_of(options, the_case)};
+    check_axes(checked.axes, the_case);
   }
-  columns.push_back("front");
-  CsvFile file(options.directory / "bench.csv", columns);
-  const auto one_cell = [](std::string text) {
-    std::replace(text.begin(), text.end(), ',', ';');
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-  };
-  for (const BenchResult& result : results) {
-    std::vector<std::string> row{one_cell(result.setting.case_file.string()),
-                                 one_cell(result.setting.group),
-                                 one_cell(result.setting.label),
-                                 one_cell(result.status),
-                                 std::to_string(result.steps),
-                                 fmt::format("{:.3f}", result.seconds),
-                                 fmt::format("{:.0f}", result.evaluations),
-                                 fmt::format("{:.0f}", result.dem_steps)};
-    for (const BenchError& error : result.errors) {
-      row.push_back(exact(error.largest));
-      row.push_back(exact(error.peak));
-    }
-    row.push_back(result.on_front ? "1" : "0");
-    file.row(row);
+  return checked;
+}
+
+/// All that is made of the results so far.
+class Report {
+ public:
+  Report(const BenchOptions& options, Checked checked) : options_(options), checked_(std::move(checked)) {}
+
+  void update(std::vector<BenchResult>& results) {
+    compare(results);
+    const std::vector<SizeScatter> sizes = compare_sizes(results);
+    mark_front(results);
+    table_ = bench_table(checked_.axes, results, sizes);
+    reference_of_sizes_ = reference_of_sizes(sizes);
+    write_csv(options_.directory / "bench.csv", table_);
+    fem::write_file(options_.directory / "bench.html",
+                    bench_page(checked_.title, checked_.axes, results, sizes, table_));
   }
-  std::ofstream page(options.directory / "bench.html", std::ios::trunc);
-  page << bench_page(title, axes.x, axes.y, results) << std::flush;
-  if (!page) throw RunError(fmt::format("{} cannot be written", (options.directory / "bench.html").string()));
+
+  void print(const std::string& reference) const {
+    fmt::print("{}\nreference: {}\n", markdown(table_), reference);
+    if (!reference_of_sizes_.empty())
+      fmt::print("reference of the packings of {}: {}\n", options_.pack.string(), reference_of_sizes_);
+    fmt::print("results: {} (bench.csv, bench.html, and a folder for each run)\n",
+               options_.directory.string());
+  }
+
+ private:
+  const BenchOptions& options_;
+  Checked checked_;
+  BenchTable table_;
+  std::string reference_of_sizes_;
+};
+
+void print_progress(const BenchSetting& setting, std::size_t done, std::size_t all, double spent) {
+  const std::string left =
+      done == 0
+          ? ""
+          : fmt::format(", about {} left",
+                        duration_text(spent / static_cast<double>(done) * static_cast<double>(all - done)));
+  fmt::print(stderr, "run {} of {}: {}{}{}{}\n", done + 1, all, setting.group,
+             setting.label.empty() ? "" : ", ", setting.label, left);
 }
 
 }  // namespace
 
-int bench(const BenchOptions& options) {
-  const std::vector<BenchSetting> settings = bench_settings(options);
-  // Everything is checked before anything runs, so that a typing error costs no hour.
-  std::string title;
-  Axes axes;
-  for (const BenchSetting& setting : settings) {
-    const Case the_case = read_case(setting.case_file, setting.overrides);
-    if (title.empty()) {
-      title = the_case.title;
-      axes = axes_of(options, the_case);
-    }
-    check_axes(axes, the_case);
-  }
+int bench(const BenchOptions& options, const PackingTools& packing_tools) {
+  const std::vector<BenchPacking> packings = bench_packings(options);
+  const std::vector<BenchSetting> settings = bench_settings(options, packings);
+  const Checked checked = check(options, settings);
   std::filesystem::create_directories(options.directory);
+  make_packings(options, packings, packing_tools);
+  Report report(options, checked);
   std::vector<BenchResult> results;
   const Clock::time_point start = Clock::now();
   for (const BenchSetting& setting : settings) {
     stop_if_interrupted();
-    const double spent = std::chrono::duration<double>(Clock::now() - start).count();
     if (!options.quiet) {
-      const std::string left =
-          results.empty() ? ""
-                          : fmt::format(", about {} left",
-                                        duration_text(spent / static_cast<double>(results.size()) *
-                                                      static_cast<double>(settings.size() - results.size())));
-      fmt::print(stderr, "run {} of {}: {}{}{}{}\n", results.size() + 1, settings.size(), setting.group,
-                 setting.label.empty() ? "" : ", ", setting.label, left);
+      const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+      print_progress(setting, results.size(), settings.size(), spent);
     }
     results.push_back(
-        take(setting, options.directory / fmt::format("run-{:02}", results.size()), options, axes));
-    compare(results);
-    write_results(options, title, axes, results);
+        take(setting, options.directory / fmt::format("run-{:02}", results.size()), options, checked.axes));
+    report.update(results);
   }
-  if (!options.quiet) {
-    fmt::print("{}\nreference: {}\nresults: {} (bench.csv, bench.html, and a folder for each run)\n",
-               bench_table(axes.y, results), results.front().setting.label, options.directory.string());
-  }
+  if (!options.quiet) report.print(results.front().setting.label);
   const auto done =
       std::count_if(results.begin(), results.end(), [](const BenchResult& r) { return r.done(); });
   return results.front().done() && done > 1 ? 0 : 1;

@@ -3,16 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "coupler/commands/bench_results.hpp"
+#include "coupler/commands/bench_table.hpp"
 
 namespace polargrain::coupler {
 
-/// The results as one HTML page without any other file: a plot of error against seconds for each y, both axes
-/// logarithmic, and the table. @param y names of the curves, as in BenchResult::curves
-std::string bench_page(const std::string& title, const std::string& x, const std::vector<std::string>& y,
-                       const std::vector<BenchResult>& results);
-
-/// The table of the page as Markdown, for standard output and a README.
-std::string bench_table(const std::vector<std::string>& y, const std::vector<BenchResult>& results);
+/// The results as one HTML page without any other file: a plot of error against seconds for each y, and the
+/// table.
+std::string bench_page(const std::string& title, const BenchAxes& axes,
+                       const std::vector<BenchResult>& results, const std::vector<SizeScatter>& sizes,
+                       const BenchTable& table);
 
 }  // namespace polargrain::coupler

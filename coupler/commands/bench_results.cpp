@@ -41,6 +41,11 @@ double BenchCurve::at(double place) const {
   return std::abs(place - x.front()) < std::abs(place - x.back()) ? y.front() : y.back();
 }
 
+double peak_of(const BenchCurve& curve) {
+  return *std::max_element(curve.y.begin(), curve.y.end(),
+                           [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
 BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
   BenchError error;
   if (curve.x.empty() || reference.x.empty()) return error;
@@ -65,18 +70,27 @@ BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
 void compare(std::vector<BenchResult>& results) {
   const BenchResult reference = results.front();
   for (BenchResult& result : results) {
+    if (result.has_own_packing()) continue;
     result.errors.clear();
     for (std::size_t k = 0; k < result.curves.size(); ++k) {
+      if (result.curves[k].x.empty()) continue;  // stopped before its start was written
       result.errors.push_back(error_of(result.curves[k], reference.curves[k]));
     }
   }
+}
+
+void mark_front(std::vector<BenchResult>& results) {
+  int most_grains = 0;
+  for (const BenchResult& result : results) most_grains = std::max(most_grains, result.setting.grains);
   const auto counts = [&](const BenchResult& r) {
-    return &r != &results.front() && r.done() && !r.errors.empty();
+    const bool is_reference = r.has_own_packing() ? r.setting.grains == most_grains : &r == &results.front();
+    return !is_reference && r.done() && !r.errors.empty();
   };
   for (BenchResult& result : results) {
     result.on_front =
         counts(result) && std::none_of(results.begin(), results.end(), [&](const BenchResult& other) {
-          return counts(other) && other.seconds < result.seconds &&
+          return counts(other) && other.has_own_packing() == result.has_own_packing() &&
+                 other.seconds < result.seconds &&
                  other.errors.front().largest < result.errors.front().largest;
         });
   }

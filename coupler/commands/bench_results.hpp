@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,23 @@ struct BenchCurve {
   [[nodiscard]] double at(double x) const;
 };
 
+/// The value of largest magnitude. @param curve not empty
+double peak_of(const BenchCurve& curve);
+
 /// How far a curve is from a reference: at the curve's own places, as far as both go.
 struct BenchError {
   double largest = 0.0;  ///< of the difference, over the range of the reference
   double peak = 0.0;     ///< difference of the largest magnitudes, over that of the reference
 };
 BenchError error_of(const BenchCurve& curve, const BenchCurve& reference);
+
+/// The shear band of a run, as `polargrain band` measures it.
+struct BenchBand {
+  std::string none;                   ///< why there is none; empty with a band, and when none was looked for
+  std::optional<double> inclination;  ///< magnitude, against the x axis: mirror images are alike; degrees
+  std::optional<double> thickness;    ///< m
+  std::optional<double> onset;        ///< axial strain
+};
 
 /// What one run gave.
 struct BenchResult {
@@ -37,14 +49,19 @@ struct BenchResult {
   double evaluations = 0.0;  ///< of cells
   double dem_steps = 0.0;
   std::vector<BenchCurve> curves;  ///< one for each y
-  std::vector<BenchError> errors;  ///< the same, against the reference
-  bool on_front = false;           ///< no other finished run is both faster and closer
+  BenchBand band;
+  std::vector<BenchError> errors;  ///< one for each y; empty while there is nothing to compare with
+  bool on_front = false;  ///< no other finished run with the same reference is both faster and closer
 
   [[nodiscard]] bool done() const { return status == "done"; }
+  [[nodiscard]] bool has_own_packing() const { return setting.grains > 0; }
 };
 
-/// Compares all with the first, and marks the front (seconds against the largest error of the first y; the
-/// reference takes no part).
+/// Compares all but the packings that bench made (bench_sizes.hpp) with the first.
 void compare(std::vector<BenchResult>& results);
+
+/// Marks the front: seconds against the largest error of the first y, runs with own packings and others each
+/// among themselves. The reference, and packings of the size that is one, take no part.
+void mark_front(std::vector<BenchResult>& results);
 
 }  // namespace polargrain::coupler

@@ -13,22 +13,10 @@ namespace {
 
 constexpr int kQuickSteps = 7;
 
-/// A material of the case with boxes of grains.
-struct CellMaterialName {
-  std::string name;
-  std::string model;
-};
-
-std::vector<CellMaterialName> materials_with_cells(const Entry& document) {
-  std::vector<CellMaterialName> found;
-  const Entry* materials = document.find("materials");
-  if (materials == nullptr) return found;
-  for (const Entry::Member& member : materials->members) {
-    const Entry* model = member.value.find("model");
-    if (model != nullptr && member.value.find("packing") != nullptr)
-      found.push_back({member.key, model->text});
-  }
-  return found;
+Entry document_of(const BenchOptions& options) {
+  Entry document = load_document(options.cases.front());
+  for (const std::string& setting : options.settings) apply_setting(document, setting);
+  return document;
 }
 
 /// The number of steps, 0 where the case has stages instead.
@@ -40,20 +28,19 @@ int steps_of(const Entry& document) {
 
 class Grid {
  public:
-  Grid(const BenchOptions& options, const Entry& document)
-      : options_(options), materials_(materials_with_cells(document)), steps_(steps_of(document)) {
+  explicit Grid(const BenchOptions& options)
+      : options_(options), materials_(cell_materials(options)), steps_(steps_of(document_of(options))) {
+    if (!options.band.empty()) common_.emplace_back("output.every=1");
     if (options.quick && steps_ > kQuickSteps) {
       steps_ = kQuickSteps;
       common_.push_back(fmt::format("steps.count={}", steps_));
     }
   }
 
-  std::vector<BenchSetting> settings() {
+  std::vector<BenchSetting> settings(const std::vector<BenchPacking>& packings) {
     add_reference();
     add("as given", "", {});
-    for (std::size_t k = 1; k < options_.cases.size(); ++k) {
-      runs_.push_back({options_.cases[k], "scheme", options_.cases[k].string(), options_.settings});
-    }
+    add_further_cases();
     if (!materials_.empty()) {
       add_equilibrium();
       add_rates();
@@ -63,6 +50,7 @@ class Grid {
     add_step_sizes();
     for (const std::string& packing : options_.packings) add("packing", packing, for_all("packing", packing));
     for (const std::string& vary : options_.vary) add_varied(vary);
+    for (const BenchPacking& packing : packings) add_packing(packing);
     return std::move(runs_);
   }
 
@@ -87,6 +75,22 @@ class Grid {
     const std::vector<std::string> moments = for_all("unbalanced_moment_ratio", value);
     overrides.insert(overrides.end(), moments.begin(), moments.end());
     return overrides;
+  }
+
+  /// As they are: the steps that suit one scheme do not suit another.
+  void add_further_cases() {
+    for (std::size_t k = 1; k < options_.cases.size(); ++k) {
+      runs_.push_back({options_.cases[k], "scheme", options_.cases[k].string(), options_.settings});
+      if (!options_.band.empty()) runs_.back().overrides.emplace_back("output.every=1");
+    }
+  }
+
+  void add_packing(const BenchPacking& packing) {
+    std::string quoted = "'";  // as YAML takes any path
+    for (const char c : packing.file.string()) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+    add(options_.grains.size() > 1 ? "cell size" : "packing",
+        fmt::format("{} grains, seed {}", packing.grains, packing.seed), for_all("packing", quoted + "'"));
+    runs_.back().grains = packing.grains;
   }
 
   void add_reference() {
@@ -171,7 +175,7 @@ class Grid {
   }
 
   const BenchOptions& options_;
-  std::vector<CellMaterialName> materials_;
+  std::vector<CellMaterial> materials_;
   int steps_;
   std::vector<std::string> common_;
   std::vector<BenchSetting> runs_;
@@ -179,10 +183,23 @@ class Grid {
 
 }  // namespace
 
-std::vector<BenchSetting> bench_settings(const BenchOptions& options) {
-  Entry document = load_document(options.cases.front());
-  for (const std::string& setting : options.settings) apply_setting(document, setting);
-  return Grid(options, document).settings();
+std::vector<CellMaterial> cell_materials(const BenchOptions& options) {
+  const Entry document = document_of(options);
+  std::vector<CellMaterial> found;
+  const Entry* materials = document.find("materials");
+  if (materials == nullptr) return found;
+  for (const Entry::Member& member : materials->members) {
+    const Entry* model = member.value.find("model");
+    const Entry* script = member.value.find("script");
+    if (model != nullptr && member.value.find("packing") != nullptr)
+      found.push_back({member.key, model->text, script == nullptr ? "" : script->text});
+  }
+  return found;
+}
+
+std::vector<BenchSetting> bench_settings(const BenchOptions& options,
+                                         const std::vector<BenchPacking>& packings) {
+  return Grid(options).settings(packings);
 }
 
 }  // namespace polargrain::coupler

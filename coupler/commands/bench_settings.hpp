@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "coupler/commands/bench.hpp"
+#include "coupler/commands/bench_packings.hpp"
 
 namespace polargrain::coupler {
 
@@ -13,12 +14,24 @@ struct BenchSetting {
   std::string group;                   ///< what is varied: "reference", "as given", "equilibrium", ...
   std::string label;                   ///< its value, for people
   std::vector<std::string> overrides;  ///< as --set takes them
+  int grains = 0;                      ///< of the packing that bench makes for this run; 0: it makes none
 };
+
+/// A material of the first case that has boxes of grains.
+struct CellMaterial {
+  std::string name;
+  std::string model;
+  std::string script;  ///< as the case names it
+};
+
+/// @throws InputError when the case cannot be read
+std::vector<CellMaterial> cell_materials(const BenchOptions& options);
 
 /// All runs of a bench in their order, the reference first. What is varied depends on what the first case
 /// has: equilibrium, loading rate, tangent and adaptivity where it has cells, the step size where it counts
 /// steps, packings and keys as the options say.
 /// @throws InputError when the case cannot be read or `vary` is no KEY=VALUES
-std::vector<BenchSetting> bench_settings(const BenchOptions& options);
+std::vector<BenchSetting> bench_settings(const BenchOptions& options,
+                                         const std::vector<BenchPacking>& packings);
 
 }  // namespace polargrain::coupler

@@ -4,7 +4,8 @@ target_compile_definitions(adaptive_run_test PRIVATE FAKE_POLARGRAIN="$<TARGET_F
 add_dependencies(adaptive_run_test fake_polargrain)
 
 polargrain_test(bench_command_test integration integration/bench_command_test.cpp LIBS polargrain_coupler)
-target_compile_definitions(bench_command_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+target_compile_definitions(bench_command_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"
+                                                      CASES="${PROJECT_SOURCE_DIR}/cases")
 add_dependencies(bench_command_test fake_polargrain)
 
 polargrain_test(request_sharing_test integration integration/request_sharing_test.cpp

@@ -45,12 +45,15 @@ class FakeEngine : public CellService {
     while (script >> command) {
       if (command != "young" && command != "softening" && command != "fail_beyond" &&
           command != "die_beyond" && command != "refuse_beyond" && command != "hang_beyond" &&
-          command != "sleep_milliseconds") {
+          command != "sleep_milliseconds" && command != "young_of_mass") {
         die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
       }
       script >> settings_[command];
     }
-    stiffness_ = stiffness(settings_.count("young") != 0 ? settings_["young"] : kYoung);
+    double young = settings_.count("young") != 0 ? settings_["young"] : kYoung;
+    if (settings_.count("young_of_mass") != 0)
+      young = settings_["young_of_mass"] * definition.packing.grains.front().mass;
+    stiffness_ = stiffness(young);
   }
 
   CellReply initial() override { return reply({kConfining, kConfining, kConfining, 0.0, 0.0}, 0.0); }
@@ -150,6 +153,19 @@ Packing fake_packing() {
   packing.thickness = 0.1;
   packing.grains = {{7, {0.5, 0.5}, 0.4, 1.0, 0.08}};
   return packing;
+}
+
+PreparedPacking make_fake_packing(const PackingSpecification& specification) {
+  PreparedPacking made;
+  const int rows = static_cast<int>(std::ceil(std::sqrt(specification.grains)));
+  made.packing.box << rows, 0.0, 0.0, rows;
+  made.packing.thickness = specification.thickness;
+  const double mass =
+      1.0 + 0.01 * (static_cast<double>(specification.seed) - 2.0) + 1.0 / specification.grains;
+  for (int k = 0; k < specification.grains; ++k)
+    made.packing.grains.push_back({k + 1, {k % rows + 0.5, k / rows + 0.5}, 0.4, mass, 0.08 * mass});
+  made.specification = specification.text;
+  return made;
 }
 
 CellDefinition fake_definition(const std::string& script) {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "common/cell.hpp"
+#include "common/packing_specification.hpp"
 
 namespace polargrain::testing {
 
@@ -11,6 +12,7 @@ namespace polargrain::testing {
 /// line:
 ///
 ///     young E                Young's modulus in Pa (Poisson's ratio is 0.25); 100e6 without this line
+///     young_of_mass E        the same times the mass of the first grain of the packing
 ///     sleep_milliseconds n   takes so long for an evaluation, with signs of life
 ///     softening f          divides the stiffness by 1 + f |s11 - s22| / 100 kPa of the stress reached
 ///     fail_beyond e          answers Quality::failed with step factor 0.5 when an entry of the increment
@@ -25,6 +27,10 @@ Vector7 fake_stress(const Increment& increment);
 
 /// A packing of one grain, enough for a fake.
 Packing fake_packing();
+
+/// A packing of as many discs in rows as the specification says, each of the mass 1 + (seed - 2) / 100 +
+/// 1 / grains. The script command young_of_mass turns that into a stiffness.
+PreparedPacking make_fake_packing(const PackingSpecification& specification);
 
 /// A definition with that packing.
 CellDefinition fake_definition(const std::string& script);

@@ -4,5 +4,8 @@
 #include "tests/integration/fake_engine.hpp"
 
 int main(int count, char** arguments) {
-  return polargrain::coupler::command_line(count, arguments, {[] {}, polargrain::testing::make_fake_engine}, {});
+  return polargrain::coupler::command_line(
+      count, arguments, {[] {}, polargrain::testing::make_fake_engine},
+      {[] {}, [](const auto& specification,
+                 const auto&) { return polargrain::testing::make_fake_packing(specification); }});
 }
