@@ -172,7 +172,8 @@ class Study:
             self.processes.discard(process)
         if status != 0:
             lines = log.read_text(errors="replace")[begin:].splitlines()[-8:]
-            raise Failed(f"{pathlib.Path(command[0]).name} ended with status {status}; the end of {log}:\n    " +
+            name = pathlib.Path(command[command[0] == sys.executable]).name
+            raise Failed(f"{name} ended with status {status}; the end of {log}:\n    " +
                          "\n    ".join(lines))
 
     def packing(self, run):

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+if(TARGET polargrain)
+  foreach(size test long)
+    add_executable(study_${size} integration/study_${size}.cpp)
+    target_link_libraries(study_${size} PRIVATE polargrain_options fmt::fmt GTest::gtest GTest::gtest_main)
+    target_compile_definitions(study_${size} PRIVATE
+      POLARGRAIN="$<TARGET_FILE:polargrain>" POLARGRAIN_LIGGGHTS="$<TARGET_FILE:polargrain-liggghts>"
+      STUDY="${PROJECT_SOURCE_DIR}/cases/studies/biaxial.py")
+    add_dependencies(study_${size} polargrain polargrain-liggghts)
+  endforeach()
+  gtest_discover_tests(study_test PROPERTIES LABELS integration TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+  # Twenty minutes on two cores: on request.
+  gtest_discover_tests(study_long PROPERTIES LABELS long TIMEOUT 7200 DISCOVERY_TIMEOUT 60)
+endif()
