@@ -87,10 +87,10 @@ def closed_form(across, words, settings):
 
 
 RUNS = [  # the longest first, so that none is left alone at the end
-    two_scale("informed", 12, 15, wide=True),
+    *(two_scale("informed", 12, lc, wide=True) for lc in (10, 15)),
     two_scale("cell", 4, 15),
     *(specimen(5000, seed, sliding, "full") for sliding in (False, True) for seed in (1, 2, 3)),
-    *(two_scale("informed", across, lc) for across in (12, 8, 4) for lc in (10, 15, 30)),
+    *(two_scale("informed", across, lc) for across in (12, 8, 4) for lc in (5, 10, 15, 30)),
     two_scale("informed", 8, 15, sliding=True),
     two_scale("cell", 2, 15),
     two_scale("informed", 2, 15, "reduced"),
