@@ -51,28 +51,36 @@ TEST(Studies, BothSchemesOfTheBiaxialStudyAgreeInTheirFirstPercent) {
   EXPECT_NEAR(ratio[0] / ratio[1], 1.0, 0.1);
 }
 
-TEST(Studies, TheCalibrationKeepsARecordAndGoesOnFromIt) {
+TEST(Studies, TheCalibrationKeepsARecordAndTheSpecimenUsesIt) {
   if (std::system("/usr/bin/python3 -c 'import scipy' 2>/dev/null") != 0) {
     GTEST_SKIP() << "python3-scipy is not installed; ./bootstrap installs it";
   }
   const Scratch scratch("Calibration");
-  const auto calibrate = [&](int evaluations) {
-    return run_in(scratch.path(),
-                  "/usr/bin/python3 " + (kSource / "cases/studies/toyoura/calibrate.py").string() +
-                      " -o out --grains 40 --packings 1 --predictions 0 --workers 2 --program " POLARGRAIN
-                      " --evaluations " +
-                      std::to_string(evaluations));
+  const auto script = [&](const std::string& name, const std::string& options) {
+    return run_in(scratch.path(), "/usr/bin/python3 " + (kSource / "cases/studies/toyoura" / name).string() +
+                                      " -o out --jobs 2 --program " POLARGRAIN " " + options);
   };
-  const Outcome first = calibrate(1);
+  const std::string reduced = "--grains 40 --packings 2 --starts 1 --evaluations ";
+  const Outcome first = script("calibrate.py", reduced + "1 --no-predictions");
   ASSERT_EQ(first.status, 0) << first.errors;
+  // A point and its three neighbours, behind the header.
   const std::string record = content(scratch.path() / "out/record.csv");
-  EXPECT_EQ(std::count(record.begin(), record.end(), '\n'), 2) << record;
-  const Outcome second = calibrate(2);
+  EXPECT_EQ(std::count(record.begin(), record.end(), '\n'), 5) << record;
+  const Outcome second = script("calibrate.py", reduced + "2");
   ASSERT_EQ(second.status, 0) << second.errors;
   const std::string longer = content(scratch.path() / "out/record.csv");
   EXPECT_EQ(longer.substr(0, record.size()), record);
-  EXPECT_EQ(std::count(longer.begin(), longer.end(), '\n'), 3) << longer;
-  EXPECT_NE(content(scratch.path() / "out/best.txt").find("evaluations = 2"), std::string::npos);
+  EXPECT_EQ(std::count(longer.begin(), longer.end(), '\n'), 9) << longer;
+  EXPECT_NE(content(scratch.path() / "out/best.txt").find("evaluations = 8"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/prediction-98kPa-seed2.csv"));
+
+  const Outcome specimen = script("specimen.py", "--sizes 6:2 --strain 0.6");
+  ASSERT_EQ(specimen.status, 0) << specimen.errors;
+  const std::string figures = content(scratch.path() / "out/specimen.csv");
+  EXPECT_EQ(std::count(figures.begin(), figures.end(), '\n'), 3) << figures;
+  EXPECT_NEAR(last_value(scratch.path() / "out/specimen-98-6-2/out/history.csv", "axial_strain"), 0.006,
+              1e-9);
+  EXPECT_GT(last_value(scratch.path() / "out/specimen-98-6-2/out/history.csv", "stress_ratio"), 2.0);
 }
 
 }  // namespace
