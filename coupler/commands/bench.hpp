@@ -14,7 +14,7 @@ struct BenchOptions {
   std::vector<std::filesystem::path> cases;
   std::filesystem::path directory;  ///< of the results
   int workers = 1;
-  bool quick = false;  ///< fewer settings and at most 7 steps: about ten minutes for the demo
+  bool quick = false;  ///< fewer settings, and a reference that is less fine
   bool quiet = false;
   std::vector<std::string> settings;  ///< of --set, for every run
   std::vector<std::string> vary;      ///< KEY=A,B,C: further values to try, one at a time

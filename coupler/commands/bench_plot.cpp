@@ -129,8 +129,10 @@ std::string grid(const Axis& across, const Axis& up) {
         "<path d='M{0} {1:.1f}H{2}' stroke='#ddd'/><text x='{3}' y='{4:.1f}' "
         "text-anchor='end'>{5:g} %</text>\n",
         kMargin, up.place(error), kWidth - kBorder, kMargin - 6.0, up.place(error) + 4.0, 100.0 * error);
-  return svg + fmt::format("<text x='{}' y='{}' text-anchor='middle'>wall time, s</text>\n", 0.5 * kWidth,
-                           kHeight - 14.0);
+  return svg + fmt::format(
+                   "<text x='{}' y='{}' text-anchor='middle'>wall time, s</text>\n"
+                   "<text x='{}' y='{}'>largest error</text>\n",
+                   0.5 * kWidth, kHeight - 14.0, kMargin + 4.0, kBorder - 6.0);
 }
 
 }  // namespace
@@ -177,7 +179,7 @@ std::string bench_plot(std::size_t y, const std::vector<BenchResult>& results,
     const double place = up.place(std::max(kLeastError, size.deviations[y].largest));
     svg += fmt::format("<path d='M{} {:.1f}H{}' stroke='#6a4' stroke-dasharray='6 4'/>\n", kMargin, place,
                        kWidth - kBorder);
-    svg += names.write(fmt::format("scatter of {} grains", size.grains), kMargin, place - 9.0, 4.0);
+    svg += names.write(fmt::format("scatter of {} grains", size.grains), kWidth - kBorder, place - 9.0, 4.0);
   }
   for (const Mark& mark : marks) {
     const double cx = across.place(mark.seconds);

@@ -80,17 +80,13 @@ void compare(std::vector<BenchResult>& results) {
 }
 
 void mark_front(std::vector<BenchResult>& results) {
-  int most_grains = 0;
-  for (const BenchResult& result : results) most_grains = std::max(most_grains, result.setting.grains);
   const auto counts = [&](const BenchResult& r) {
-    const bool is_reference = r.has_own_packing() ? r.setting.grains == most_grains : &r == &results.front();
-    return !is_reference && r.done() && !r.errors.empty();
+    return &r != &results.front() && r.done() && !r.has_own_packing() && !r.errors.empty();
   };
   for (BenchResult& result : results) {
     result.on_front =
         counts(result) && std::none_of(results.begin(), results.end(), [&](const BenchResult& other) {
-          return counts(other) && other.has_own_packing() == result.has_own_packing() &&
-                 other.seconds < result.seconds &&
+          return counts(other) && other.seconds < result.seconds &&
                  other.errors.front().largest < result.errors.front().largest;
         });
   }

@@ -51,7 +51,7 @@ struct BenchResult {
   std::vector<BenchCurve> curves;  ///< one for each y
   BenchBand band;
   std::vector<BenchError> errors;  ///< one for each y; empty while there is nothing to compare with
-  bool on_front = false;  ///< no other finished run with the same reference is both faster and closer
+  bool on_front = false;           ///< no other finished run is both faster and closer
 
   [[nodiscard]] bool done() const { return status == "done"; }
   [[nodiscard]] bool has_own_packing() const { return setting.grains > 0; }
@@ -60,8 +60,8 @@ struct BenchResult {
 /// Compares all but the packings that bench made (bench_sizes.hpp) with the first.
 void compare(std::vector<BenchResult>& results);
 
-/// Marks the front: seconds against the largest error of the first y, runs with own packings and others each
-/// among themselves. The reference, and packings of the size that is one, take no part.
+/// Marks the front: seconds against the largest error of the first y. The reference takes no part, nor do
+/// packings that bench made: they have another reference, and which of them is close is chance.
 void mark_front(std::vector<BenchResult>& results);
 
 }  // namespace polargrain::coupler

@@ -11,8 +11,6 @@
 namespace polargrain::coupler {
 namespace {
 
-constexpr int kQuickSteps = 7;
-
 Entry document_of(const BenchOptions& options) {
   Entry document = load_document(options.cases.front());
   for (const std::string& setting : options.settings) apply_setting(document, setting);
@@ -31,10 +29,6 @@ class Grid {
   explicit Grid(const BenchOptions& options)
       : options_(options), materials_(cell_materials(options)), steps_(steps_of(document_of(options))) {
     if (!options.band.empty()) common_.emplace_back("output.every=1");
-    if (options.quick && steps_ > kQuickSteps) {
-      steps_ = kQuickSteps;
-      common_.push_back(fmt::format("steps.count={}", steps_));
-    }
   }
 
   std::vector<BenchSetting> settings(const std::vector<BenchPacking>& packings) {

@@ -25,7 +25,6 @@ namespace {
 constexpr int kRunFailed = 1;
 constexpr int kInputWrong = 2;
 constexpr int kStopped = 3;
-constexpr const char* kDemoCase = "cases/biaxial/case.yaml";
 
 constexpr const char* kIntroduction = R"(polargrain - granular materials on two scales
 A Cosserat finite element model whose material, where you want it, is a box of grains run by LIGGGHTS.)";
@@ -111,6 +110,16 @@ int check(const std::string& file, const std::vector<std::string>& settings) {
              the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
              the_case.needs_workers() ? "needs workers" : "needs no workers");
   return 0;
+}
+
+/// What bench does when no case is named: the demo with its packings; quickly, on a coarser mesh.
+void take_demo(BenchOptions& options) {
+  options.cases.emplace_back("cases/biaxial/case.yaml");
+  if (options.quick) options.settings.insert(options.settings.begin(), "mesh.rectangle.elements=[2, 4]");
+  if (!options.pack.empty()) return;
+  options.pack = "cases/packings/dense400.yaml";
+  options.grains =
+      options.quick ? std::vector<int>{100, 200, 400, 800} : std::vector<int>{100, 200, 400, 800, 1600};
 }
 
 int guarded(const std::function<int()>& command) {
@@ -237,9 +246,10 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   bench_command
       ->add_option(
           "CASE", bench_options.cases,
-          "Case whose settings are varied; further ones are compared with it [cases/biaxial/case.yaml]")
+          "Case whose settings are varied; further ones are compared with it [the demo, with packings]")
       ->expected(0, -1);
-  bench_command->add_flag("--quick", bench_options.quick, "Fewer settings and steps: some ten minutes");
+  bench_command->add_flag("--quick", bench_options.quick,
+                          "Fewer settings; ten minutes where no case is named");
   bench_command->add_option("-o,--output", bench_options.directory, "Result directory [bench-results]")
       ->type_name("DIR");
   bench_command->add_option("-w,--workers", bench_options.workers, "Worker processes [one a core]")
@@ -321,7 +331,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
     if (band_command->parsed()) return band(band_options);
     if (pack_command->parsed()) return pack(pack_options, packing_tools);
     if (bench_command->parsed()) {
-      if (bench_options.cases.empty()) bench_options.cases.push_back(kDemoCase);
+      if (bench_options.cases.empty()) take_demo(bench_options);
       return bench(bench_options, packing_tools);
     }
     if (keys_command->parsed()) return keys(keys_directory, keys_worker);
