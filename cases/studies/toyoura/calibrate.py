@@ -154,14 +154,13 @@ class Calibration:
         report = ""
         for number, start in enumerate(STARTS[:self.given.starts], start=1):
             result = self.search(start)
-            found = UNITS * numpy.exp(result.x)
-            report += (f"start {number} = {', '.join(f'{value:.4g}' for value in start)}: ends at "
-                       f"{', '.join(f'{value:.4g}' for value in found)}, misfit {numpy.mean(result.fun**2):.4g}, "
-                       f"{result.nfev} corrections, {result.message}\n")
-        best = min(self.known, key=lambda key: float(self.known[key]["misfit"]))
-        text = "".join(f"{name} = {value}\n" for name, value in zip(sand.NAMES, best))
-        (self.output / "best.txt").write_text(f"{text}misfit = {self.known[best]['misfit']}\n"
-                                              f"evaluations = {len(self.known)}\n{report}")
+            found = ", ".join(f"{value:.4g}" for value in UNITS * numpy.exp(result.x))
+            report += (f"start {number} = {', '.join(f'{value:.4g}' for value in start)}: ends at {found}, "
+                       f"misfit {numpy.mean(result.fun**2):.4g}, {result.nfev} corrections, {result.message}\n")
+            best = min(self.known, key=lambda key: float(self.known[key]["misfit"]))
+            text = "".join(f"{name} = {value}\n" for name, value in zip(sand.NAMES, best))
+            (self.output / "best.txt").write_text(f"{text}misfit = {self.known[best]['misfit']}\n"
+                                                  f"evaluations = {len(self.known)}\n{report}")
         print((self.output / "best.txt").read_text(), flush=True)
         return best
 
