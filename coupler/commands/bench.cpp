@@ -57,7 +57,7 @@ double sum(const std::map<std::string, std::vector<double>>& columns, const std:
 
 BenchResult take(const BenchSetting& setting, const std::filesystem::path& directory,
                  const BenchOptions& options, const BenchAxes& axes) {
-  BenchResult result{setting, "done", 0, 0.0, 0.0, 0.0, {}, {}, {}, false};
+  BenchResult result{setting, "done", 0, 0.0, 0.0, 0.0, {}, {}, {}, {}, false};
   RunOptions run_options;
   run_options.case_file = setting.case_file;
   run_options.directory = directory;

@@ -31,7 +31,7 @@ BenchBand bench_band(const std::filesystem::path& directory, const std::string& 
     const double farthest = kFarthest * (to - from);
     if (std::abs(measured.begin - from) > farthest || std::abs(measured.end - to) > farthest) {
       band.none = fmt::format("the fields nearest to {:g} and {:g} are of {:.4g} and {:.4g}", from, to,
-                              measured.begin, measured.end);
+                              measured.begin + 0.0, measured.end);  // no -0
     } else if (!measured.search.band) {
       band.none = measured.search.reason;
     } else {

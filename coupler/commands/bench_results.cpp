@@ -46,24 +46,42 @@ double peak_of(const BenchCurve& curve) {
                            [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
+BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference) {
+  const auto [first, last] = std::minmax_element(reference.x.begin(), reference.x.end());
+  const double way = 1e-9 * (*last - *first);
+  const double least = *first - way;
+  const double most = *last + way;
+  const auto inside = [&](double place) { return place >= least && place <= most; };
+  BenchCurve part;
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    // Where it leaves or enters the range, the place on the way counts too.
+    if (k > 0 && inside(curve.x[k]) != inside(curve.x[k - 1])) {
+      const double outside = inside(curve.x[k]) ? curve.x[k - 1] : curve.x[k];
+      const double edge = outside > most ? *last : *first;
+      const double share = (edge - curve.x[k - 1]) / (curve.x[k] - curve.x[k - 1]);
+      part.x.push_back(edge);
+      part.y.push_back(curve.y[k - 1] + share * (curve.y[k] - curve.y[k - 1]));
+    }
+    if (!inside(curve.x[k])) continue;
+    part.x.push_back(curve.x[k]);
+    part.y.push_back(curve.y[k]);
+  }
+  return part;
+}
+
 BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
   BenchError error;
-  if (curve.x.empty() || reference.x.empty()) return error;
+  const BenchCurve part = common_part(curve, reference);
+  if (part.x.empty()) return error;
   const auto [least, most] = std::minmax_element(reference.y.begin(), reference.y.end());
-  const auto [first, last] = std::minmax_element(reference.x.begin(), reference.x.end());
   const double range = *most - *least;
-  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  double peak = 0.0;
-  double reference_peak = 0.0;
-  const double way = 1e-9 * (*last - *first);
-  for (std::size_t k = 0; k < curve.x.size(); ++k) {
-    if (curve.x[k] < *first - way || curve.x[k] > *last + way) continue;
-    const double expected = reference.at(curve.x[k]);
-    error.largest = std::max(error.largest, std::abs(curve.y[k] - expected) / range);
-    peak = std::max(peak, curve.y[k], smaller);
-    reference_peak = std::max(reference_peak, expected, smaller);
+  BenchCurve expected{part.x, {}};
+  for (std::size_t k = 0; k < part.x.size(); ++k) {
+    expected.y.push_back(reference.at(part.x[k]));
+    error.largest = std::max(error.largest, std::abs(part.y[k] - expected.y[k]) / range);
   }
-  if (reference_peak != 0.0) error.peak = std::abs(peak - reference_peak) / std::abs(reference_peak);
+  const double reference_peak = peak_of(expected);
+  if (reference_peak != 0.0) error.peak = std::abs(peak_of(part) - reference_peak) / std::abs(reference_peak);
   return error;
 }
 
@@ -72,9 +90,11 @@ void compare(std::vector<BenchResult>& results) {
   for (BenchResult& result : results) {
     if (result.has_own_packing()) continue;
     result.errors.clear();
+    result.peaks.clear();
     for (std::size_t k = 0; k < result.curves.size(); ++k) {
-      if (result.curves[k].x.empty()) continue;  // stopped before its start was written
+      if (result.curves[k].x.empty() || reference.curves[k].x.empty()) continue;  // stopped before its start
       result.errors.push_back(error_of(result.curves[k], reference.curves[k]));
+      result.peaks.push_back(peak_of(common_part(result.curves[k], reference.curves[k])));
     }
   }
 }

@@ -25,7 +25,10 @@ struct BenchCurve {
 /// The value of largest magnitude. @param curve not empty
 double peak_of(const BenchCurve& curve);
 
-/// How far a curve is from a reference: at the curve's own places, as far as both go.
+/// What of a curve lies in the range of x of a reference, up to the edge itself.
+BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference);
+
+/// How far a curve is from a reference: at the curve's own places, as far as both go, and where that ends.
 struct BenchError {
   double largest = 0.0;  ///< of the difference, over the range of the reference
   double peak = 0.0;     ///< difference of the largest magnitudes, over that of the reference
@@ -51,6 +54,7 @@ struct BenchResult {
   std::vector<BenchCurve> curves;  ///< one for each y
   BenchBand band;
   std::vector<BenchError> errors;  ///< one for each y; empty while there is nothing to compare with
+  std::vector<double> peaks;       ///< of each y, as far as the reference goes; empty as `errors`
   bool on_front = false;           ///< no other finished run is both faster and closer
 
   [[nodiscard]] bool done() const { return status == "done"; }

@@ -148,8 +148,9 @@ class Grid {
 
   void add_step_sizes() {
     if (steps_ < 2) return;
-    add("step size", fmt::format("{} steps", (steps_ + 1) / 2),
-        {fmt::format("steps.count={}", (steps_ + 1) / 2)});
+    const int half = (steps_ + 1) / 2;
+    add("step size", half == 1 ? "1 step" : fmt::format("{} steps", half),
+        {fmt::format("steps.count={}", half)});
     if (!options_.quick)
       add("step size", fmt::format("{} steps", 2 * steps_), {fmt::format("steps.count={}", 2 * steps_)});
   }

@@ -116,14 +116,18 @@ std::vector<SizeScatter> compare_sizes(std::vector<BenchResult>& results) {
   const int most_grains = *std::max_element(sizes.begin(), sizes.end());
   const Runs largest = runs_of(most_grains);
   for (BenchResult& result : results)
-    if (result.has_own_packing()) result.errors.clear();
+    if (result.has_own_packing()) {
+      result.errors.clear();
+      result.peaks.clear();
+    }
   if (largest.empty()) return {};
   const SizeReference reference(largest);
   for (BenchResult& result : results) {
     if (!result.has_own_packing()) continue;
     for (std::size_t y = 0; y < result.curves.size(); ++y) {
       if (result.curves[y].x.empty()) continue;
-      result.errors.push_back(reference.error(y, result.curves[y], peak_of(result.curves[y])));
+      result.peaks.push_back(peak_of(result.curves[y]));
+      result.errors.push_back(reference.error(y, result.curves[y], result.peaks[y]));
     }
   }
   std::vector<SizeScatter> scatters;

@@ -74,8 +74,7 @@ BenchRow row_of(const BenchAxes& axes, const BenchResult& result, const BandValu
   for (std::size_t y = 0; y < axes.y.size(); ++y) {
     const bool compared = y < result.errors.size();
     row.figures.push_back(compared ? std::optional(result.errors[y].largest) : std::nullopt);
-    row.figures.push_back(result.curves[y].y.empty() ? std::nullopt
-                                                     : std::optional(peak_of(result.curves[y])));
+    row.figures.push_back(compared ? std::optional(result.peaks[y]) : std::nullopt);
     row.figures.push_back(compared ? std::optional(result.errors[y].peak) : std::nullopt);
   }
   if (axes.band) add_band(row.figures, values_of(result.band), reference);

@@ -25,14 +25,17 @@ TEST(BenchErrors, AreThoseOfKnownCurves) {
   EXPECT_DOUBLE_EQ(error.largest, 0.1);
   EXPECT_DOUBLE_EQ(error.peak, 0.1);
   EXPECT_DOUBLE_EQ(reference.at(1.25), 12.5);
-  // A run that goes further than the reference is compared as far as both go.
-  EXPECT_DOUBLE_EQ(error_of({{0.0, 1.0, 5.0}, {0.0, 10.0, 99.0}}, reference).largest, 0.0);
+  // A run that goes further than the reference is compared as far as both go: to 20 at 2, halfway between the
+  // run's 10 and 34.
+  EXPECT_DOUBLE_EQ(error_of({{0.0, 1.0, 3.0}, {0.0, 10.0, 34.0}}, reference).largest, 0.1);
+  EXPECT_DOUBLE_EQ(error_of({{0.0, 1.0, 3.0}, {0.0, 10.0, 34.0}}, reference).peak, 0.1);
+  EXPECT_DOUBLE_EQ(error_of({{0.0, -1.0, -4.0}, {0.0, 10.0, 40.0}}, {{0.0, -2.0}, {0.0, 20.0}}).largest, 0.0);
   // Compression: x falls.
   EXPECT_DOUBLE_EQ(BenchCurve({{0.0, -1.0}, {0.0, 4.0}}).at(-0.5), 2.0);
 }
 
 BenchResult result(double seconds, double error, const std::string& status) {
-  return {{}, status, 1, seconds, 0.0, 0.0, {{{0.0, 1.0}, {0.0, 1.0 + error}}}, {}, {}, false};
+  return {{}, status, 1, seconds, 0.0, 0.0, {{{0.0, 1.0}, {0.0, 1.0 + error}}}, {}, {}, {}, false};
 }
 
 /// The same with a packing of bench's own.
