@@ -8,8 +8,11 @@ if(TARGET polargrain)
   target_compile_definitions(informed_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                           POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(informed_engine_test polargrain)
+endif()
+if(TARGET polargrain AND TARGET polargrain-liggghts)
   polargrain_test(informed_studies_test integration integration/informed_studies_test.cpp LIBS polargrain_options)
   target_compile_definitions(informed_studies_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                           POLARGRAIN_LIGGGHTS="$<TARGET_FILE:polargrain-liggghts>"
                                                            POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
-  add_dependencies(informed_studies_test polargrain)
+  add_dependencies(informed_studies_test polargrain polargrain-liggghts)
 endif()

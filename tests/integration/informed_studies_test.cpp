@@ -58,7 +58,9 @@ TEST(Studies, TheCalibrationKeepsARecordAndTheSpecimenUsesIt) {
   const Scratch scratch("Calibration");
   const auto script = [&](const std::string& name, const std::string& options) {
     return run_in(scratch.path(), "/usr/bin/python3 " + (kSource / "cases/studies/toyoura" / name).string() +
-                                      " -o out --jobs 2 --program " POLARGRAIN " " + options);
+                                      " -o out --jobs 2 --program " POLARGRAIN
+                                      " --liggghts " POLARGRAIN_LIGGGHTS " " +
+                                      options);
   };
   const std::string reduced = "--grains 40 --packings 2 --starts 1 --evaluations ";
   const Outcome first = script("calibrate.py", reduced + "1 --no-predictions");

@@ -23,19 +23,15 @@ NAMES = ("modulus", "friction", "rolling")
 def add_programs(parser):
     build = ROOT / "build/release/app"
     parser.add_argument("--program", default=str(build / "polargrain"))
-    parser.add_argument("--liggghts", help="polargrain-liggghts [standalone/ beside the program]")
+    parser.add_argument("--liggghts", default=str(build / "standalone/polargrain-liggghts"))
 
 
 def programs(given):
     """Absolute paths of polargrain and polargrain-liggghts."""
-    polargrain = pathlib.Path(given.program).resolve()
-    liggghts = pathlib.Path(given.liggghts).resolve() if given.liggghts else None
-    for place in (polargrain.parent / "polargrain-liggghts", polargrain.parent / "standalone/polargrain-liggghts"):
-        liggghts = liggghts or (place if place.exists() else None)
-    if not polargrain.exists() or not liggghts:
-        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: no polargrain, or no polargrain-liggghts beside it: {polargrain}; "
-                 "build them, or name them with --program and --liggghts")
-    return str(polargrain), str(liggghts)
+    for program in (given.program, given.liggghts):
+        if not os.access(program, os.X_OK):
+            sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {program} cannot be run; build it, or name it with --program and --liggghts")
+    return os.path.abspath(given.program), os.path.abspath(given.liggghts)
 
 
 def run(command, folder):

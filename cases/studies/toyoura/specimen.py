@@ -62,7 +62,7 @@ def options():
     parser.add_argument("--sizes", nargs="+", default=["12:4", "18:4", "18:6", "30:10"], metavar="WIDTH:ELEMENTS",
                         help="specimens [12:4 18:4 18:6 30:10]: width in d50, elements across")
     parser.add_argument("--pressures", nargs="+", type=int, default=[49, 98], help="kPa, 49 or 98 [both]")
-    parser.add_argument("--strain", type=float, default=7.0, help="axial strain at the end, %% [7]")
+    parser.add_argument("--strain", type=float, default=8.0, help="axial strain at the end, %% [8]")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="worker processes of all runs together [cores]")
     sand.add_programs(parser)
     return parser.parse_args()
