@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The reduced biaxial study: three specimens of 800 grains with and without rolling resistance, and two
-// scales on 2 x 4 elements.
+// scales.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,38 +38,50 @@ std::map<std::string, std::map<std::string, double>> table(const std::filesystem
   return rows;
 }
 
-TEST(Study, TwoScalesPeakAsSpecimensOfGrainsDo) {
+TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {
   const Scratch scratch("study_long");
   const Outcome outcome = run_in(scratch.path(), study("--jobs 2 -w 1"));
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   std::cout << content(scratch.path() / "out/table.md");
   auto rows = table(scratch.path() / "out/table.csv");
-  for (const std::string law : {"", "-sliding"}) {
+  struct Comparison {
+    std::string two_scales;
+    std::string law;
+    double most;  ///< peak over that of the grains
+  };
+  // Aimed at: 10 %. With rolling resistance a specimen falls short of its own packing taken as a cell by 16
+  // %, for it deforms unevenly from the start, at platens and membranes; and cells of 400 grains scatter by 6
+  // % (docs/studies/biaxial.md).
+  for (const Comparison& compared : {Comparison{"informed-4x8-lc15", "", 1.16 * 1.06},
+                                     Comparison{"informed-2x4-lc15-sliding", "-sliding", 1.10}}) {
     double peak = 0.0;
-    for (const std::string seed : {"1", "2", "3"})
-      peak += rows.at("grains-800-seed" + seed + law).at("peak") / 3.0;
-    const double two_scales = rows.at("informed-2x4-lc15" + law).at("peak");
-    std::cout << "[figure] peak" << law << ": grains " << peak << ", two scales " << two_scales << " ("
-              << 100.0 * (two_scales / peak - 1.0) << " %)\n";
-    // What was aimed at is 10 %. Specimens of 800 grains with rolling resistance fall short of their own
-    // packing taken as a cell by 16 %: they deform unevenly from the start, at platens and membranes
-    // (docs/studies/biaxial.md). To that comes the scatter of three packings, 2 %.
-    EXPECT_GT(two_scales / peak, 0.9);
-    EXPECT_LT(two_scales / peak, law.empty() ? 1.2 : 1.1);
-    // Up to 1 % nothing localises: the curves agree within the scatter of packings.
-    EXPECT_NEAR(
-        rows.at("informed-2x4-lc15" + law).at("ratio_1%") / rows.at("grains-800-seed1" + law).at("ratio_1%"),
-        1.0, 0.12);
-  }
-  // Inclinations are those of grains only: elements of 100 mm cannot resolve a band of 50 mm. Every band that
-  // is found lies where Mohr-Coulomb theory allows it, between the zero-extension and the stress direction:
-  // 45 to 68 degrees for a friction angle up to 42 degrees, and 10 degrees of scatter of a specimen 20 grains
-  // wide.
-  for (const auto& [name, row] : rows)
-    if (row.count("inclination_degrees") > 0) {
-      EXPECT_GT(std::abs(row.at("inclination_degrees")), 35.0) << name;
-      EXPECT_LT(std::abs(row.at("inclination_degrees")), 70.0) << name;
+    double at_one_percent = 0.0;
+    for (const std::string seed : {"1", "2", "3"}) {
+      const auto& grains = rows.at("grains-800-seed" + seed + compared.law);
+      peak += grains.at("peak") / 3.0;
+      at_one_percent += grains.at("ratio_1%") / 3.0;
     }
+    const auto& row = rows.at(compared.two_scales);
+    std::cout << "[figure] " << compared.two_scales << ": peak " << row.at("peak") << ", grains " << peak
+              << " (" << 100.0 * (row.at("peak") / peak - 1.0) << " %)\n";
+    EXPECT_GT(row.at("peak") / peak, 0.9);
+    EXPECT_LT(row.at("peak") / peak, compared.most);
+    EXPECT_NEAR(row.at("ratio_1%") / at_one_percent, 1.0, 0.1);  // nothing localises yet
+  }
+  // The band of the two scales within 6 degrees of the mean of the specimens that have one.
+  double inclination = 0.0;
+  int bands = 0;
+  for (const std::string seed : {"1", "2", "3"}) {
+    const auto& grains = rows.at("grains-800-seed" + seed);
+    if (grains.count("inclination_degrees") == 0) continue;
+    inclination += std::abs(grains.at("inclination_degrees"));
+    ++bands;
+  }
+  ASSERT_GE(bands, 2);
+  inclination /= bands;
+  const double found = std::abs(rows.at("informed-4x8-lc15").at("inclination_degrees"));
+  std::cout << "[figure] inclination: two scales " << found << ", grains " << inclination << " degrees\n";
+  EXPECT_NEAR(found, inclination, 6.0);
 }
 
 }  // namespace
