@@ -2,6 +2,7 @@
 """Tables and figures of biaxial.py, from the folders of its runs. The tables need no packages, the figures matplotlib."""
 import csv
 import json
+import re
 
 STRAINS = (0.005, 0.01, 0.02, 0.03, 0.05)  # where stress ratios are tabled
 GROUPS = {"rolling": "With rolling resistance", "sliding": "Without rolling resistance",
@@ -62,8 +63,8 @@ def figures(run, output):
     return row
 
 
-def text(value, form, factor=1.0):
-    return "-" if value is None else format(factor * value, form)
+def text(value, form, factor=1.0, unit=""):
+    return "-" if value is None else format(factor * value, form) + unit
 
 
 def markdown(head, rows):
@@ -79,8 +80,8 @@ def group_tables(rows):
               f"**{row['peak']:.2f}** ({100 * row['peak_strain']:.1f} %)",
               f"{row['residual']:.2f} ({100 * row['last_strain']:.1f} %)", f"{100 * row['largest_contraction']:.2f} %",
               f"{100 * row['last_volume_strain']:.1f} %",
-              "none" if row["inclination_degrees"] is None else f"{row['inclination_degrees']:.1f} deg",
-              text(row["thickness"], ".0f", 1000) + " mm", text(row["onset_strain"], ".1f", 100) + " %",
+              text(row["inclination_degrees"], ".1f", 1, " deg"),
+              text(row["thickness"], ".0f", 1000, " mm"), text(row["onset_strain"], ".1f", 100, " %"),
               text(row["rotation_inside"], ".2f") + ", " + text(row["rotation_outside"], ".2f"),
               text(row["mismatch"], ".2f") + ", " + text(row["largest_mismatch"], ".2f")] for row in rows]
     written = markdown(head, table)
@@ -99,7 +100,7 @@ def group_tables(rows):
         return "-" if None in (row[name], means[name]) else f"{100 * (row[name] / means[name] - 1):+.0f} %"
 
     lines = [[f"mean of {len(specimens)} of grains", *(text(means[name], ".2f") for name in compared),
-              text(inclination, ".0f") + " deg", text(thickness, ".0f", 1000) + " mm"]]
+              text(inclination, ".0f", 1, " deg"), text(thickness, ".0f", 1000, " mm")]]
     lines += [[row["run"], *(difference(row, name) for name in compared),
                "-" if None in (row["inclination_degrees"], inclination)
                else f"{abs(row['inclination_degrees']) - inclination:+.0f} deg",
@@ -127,7 +128,7 @@ def draw_curves(plt, runs, output, picture):
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
     colours = iter(COLOURS * len(runs))
     grains_named = False
-    for run in sorted(runs, key=lambda run: not run.grains):
+    for run in runs:
         curve = history(output / run.name)
         style = {"color": "#9e9e9e", "linewidth": 0.7} if run.grains else {"color": next(colours), "linewidth": 1.1}
         label = "grains" if run.grains and not grains_named else None if run.grains else run.name
@@ -152,8 +153,8 @@ def draw_fields(plt, runs, output, picture):
         samples = columns(output / f"{run.name}.samples.csv")
         x, y = samples["x"], samples["y"]
         height = max(y) - min(y)
-        # Marks as wide as what they stand for: 5.2 inches of height, 72 points an inch.
-        sizes = [area * (72 * 2.5 / height) ** 2 for area in samples["area"]]
+        # Marks about as wide as what they stand for: a picture is 2.7 inches high, with 72 points an inch.
+        sizes = [area * (72 * 2.7 / height) ** 2 for area in samples["area"]]
         for axis, values, colour_map, sided in ((axes[0][column], samples["shear"], "viridis", False),
                                                 (axes[1][column], samples["rotation"], "RdBu", True)):
             high = sorted(abs(value) for value in values)[int(0.97 * (len(values) - 1))] or 1.0
@@ -189,6 +190,8 @@ def write(runs, output):
     if not runs:
         print("no run has come to its first step: no tables")
         return
+    runs = sorted(runs, key=lambda run: (not run.grains, [int(part) if part.isdigit() else part
+                                                          for part in re.split(r"(\d+)", run.name)]))
     write_tables([figures(run, output) for run in runs], output)
     draw(runs, output)
     print(f"{output / 'table.md'}: {len(runs)} runs")
