@@ -103,8 +103,8 @@ def draw_fields(results):
                 centre = numpy.array(band["centre"]) / D50
                 slope = numpy.tan(numpy.radians(band["inclination_degrees"]))
                 axis.axline(centre, slope=slope, color="k", lw=0.8, ls="--")
-            axis.set(title=f"{pressure} kPa: " + ("shear strain" if name == "shear" else "rotation, rad"), xlabel="d50",
-                     xlim=(0, columns * side), ylim=(0, rows * side))
+            axis.set_title(f"{pressure} kPa: " + ("shear strain" if name == "shear" else "rotation, rad"), fontsize=9)
+            axis.set(xlabel="d50", xlim=(0, columns * side), ylim=(0, rows * side))
             figure.colorbar(drawn, ax=axis, shrink=0.7)
     finish(figure, "toyoura_fields.png")
 

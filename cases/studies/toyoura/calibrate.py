@@ -69,7 +69,7 @@ def options():
     parser.add_argument("--evaluations", type=int, default=15, help="most corrections of a search [15]")
     parser.add_argument("--starts", type=int, default=len(STARTS), help="searches, each from a start of its own [3]")
     parser.add_argument("--grains", type=int, default=400, help="discs of a cell [400]")
-    parser.add_argument("--packings", type=int, default=8, help="seeds 1, 2, ... whose mean curve is calibrated [8]")
+    parser.add_argument("--packings", type=int, default=6, help="seeds 1, 2, ... whose mean curve is calibrated [6]")
     parser.add_argument("--no-predictions", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes at a time [cores]")
     sand.add_programs(parser)

@@ -23,15 +23,18 @@ NAMES = ("modulus", "friction", "rolling")
 def add_programs(parser):
     build = ROOT / "build/release/app"
     parser.add_argument("--program", default=str(build / "polargrain"))
-    parser.add_argument("--liggghts", default=str(build / "standalone/polargrain-liggghts"))
+    parser.add_argument("--liggghts", help="polargrain-liggghts [beside the program, or in standalone/ there]")
 
 
 def programs(given):
     """Absolute paths of polargrain and polargrain-liggghts."""
-    for program in (given.program, given.liggghts):
+    folder = pathlib.Path(given.program).parent
+    beside = folder / "polargrain-liggghts"
+    liggghts = given.liggghts or (beside if beside.exists() else folder / "standalone/polargrain-liggghts")
+    for program in (given.program, liggghts):
         if not os.access(program, os.X_OK):
             sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {program} cannot be run; build it, or name it with --program and --liggghts")
-    return os.path.abspath(given.program), os.path.abspath(given.liggghts)
+    return os.path.abspath(given.program), os.path.abspath(liggghts)
 
 
 def run(command, folder):
