@@ -3,34 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
-#include <map>
 #include <vector>
 
-#include "tests/integration/command.hpp"
+#include "tests/integration/csv.hpp"
 
 namespace polargrain::testing {
 namespace {
-
-/// Columns of a history.csv by name.
-std::map<std::string, std::vector<double>> history(const std::filesystem::path& directory) {
-  std::istringstream in(content(directory / "history.csv"));
-  std::map<std::string, std::vector<double>> columns;
-  std::vector<std::string> names;
-  bool is_first = true;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream cells(line);
-    std::size_t column = 0;
-    for (std::string cell; std::getline(cells, cell, ','); ++column) {
-      if (is_first) {
-        names.push_back(cell);
-      } else {
-        columns[names[column]].push_back(std::stod(cell));
-      }
-    }
-    is_first = false;
-  }
-  return columns;
-}
 
 class ReadyCase : public ::testing::Test {
  protected:
@@ -46,13 +24,14 @@ class ReadyCase : public ::testing::Test {
 TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
   const Outcome outcome = run(CASES "/footing/case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const auto columns = history(scratch_.path() / "out");
-  const auto& pressure = columns.at("pressure");
+  const Csv columns(scratch_.path() / "out/history.csv");
+  const auto pressure = columns.numbers("pressure");
+  const auto base_force = columns.numbers("base_force");
   const double weight = 6.0 * 4.0 * 18e3 + 5.0 * 10e3;
   for (std::size_t step = 0; step < pressure.size(); ++step) {
-    EXPECT_NEAR(columns.at("base_force")[step], weight + pressure[step], 1e-6 * 5e6);
+    EXPECT_NEAR(base_force[step], weight + pressure[step], 1e-6 * 5e6);
   }
-  EXPECT_EQ(columns.at("iterations").front(), 0.0);  // the initial stress balances the weight
+  EXPECT_EQ(columns.numbers("iterations").front(), 0.0);  // the initial stress balances the weight
   EXPECT_NEAR(pressure.front(), 10e3, 1.0);
   // Terzaghi's formula with factors of Prandtl, Reissner and Vesic for 25 deg: 20.72 c + 10.66 q + 10.88
   // gamma B/2. Settlement, the internal length and the dilatancy below the friction move the figure; hence a
@@ -66,11 +45,11 @@ TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
 TEST_F(ReadyCase, SlopeCarriesItsWeightAndYieldsUnderTheLoad) {
   const Outcome outcome = run(CASES "/slope/case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const auto columns = history(scratch_.path() / "out");
+  const Csv columns(scratch_.path() / "out/history.csv");
   const double area = 18.0 * 3.0 + 8.0 * 5.0 + 0.5 * 5.0 * 5.0;
-  EXPECT_NEAR(columns.at("base_force")[4], area * 18e3, 1e-6 * area * 18e3);
-  EXPECT_NEAR(columns.at("base_force").back(), area * 18e3 + 3.0 * 150e3, 1e-6 * area * 18e3);
-  const auto& settlement = columns.at("crest_settlement");
+  EXPECT_NEAR(columns.numbers("base_force")[4], area * 18e3, 1e-6 * area * 18e3);
+  EXPECT_NEAR(columns.numbers("base_force").back(), area * 18e3 + 3.0 * 150e3, 1e-6 * area * 18e3);
+  const auto settlement = columns.numbers("crest_settlement");
   // The last of ten equal steps of the load settles more than the first, which is elastic.
   const double first = settlement[5] - settlement[4];
   const double last = settlement.back() - settlement[settlement.size() - 2];
@@ -101,11 +80,11 @@ monitors: {length: {on: top, displacement: u2}}
   write(scratch_.path() / "case.yaml", text);
   const Outcome outcome = run("case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const auto columns = history(scratch_.path() / "out");
-  const auto& time = columns.at("time");
+  const Csv columns(scratch_.path() / "out/history.csv");
+  const auto time = columns.numbers("time");
   ASSERT_EQ(time.size(), 10U);
   // Plane strain: u2 = s22 (1 - nu^2) / E * 2 m, that is 1.92 mm a unit of time.
-  EXPECT_NEAR(columns.at("length")[2], 0.5 * 1.92e-3, 1e-12);
+  EXPECT_NEAR(columns.numbers("length")[2], 0.5 * 1.92e-3, 1e-12);
   EXPECT_NEAR(time[5], 1.0, 1e-9);
   for (std::size_t step = 6; step < time.size(); ++step) {
     EXPECT_NEAR(time[step] - time[step - 1], time[6] - time[5], 1e-9);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "tests/integration/command.hpp"
+#include "tests/integration/csv.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -50,20 +50,7 @@ class RunTest : public ::testing::Test {
 
   /// Values of a column of a CSV file, from its second line.
   [[nodiscard]] std::vector<double> column(const std::string& file, const std::string& name) const {
-    std::ifstream in(directory() / file);
-    std::vector<double> values;
-    std::string line;
-    std::getline(in, line);
-    std::size_t place = 0;
-    std::istringstream names(line);
-    for (std::string cell; std::getline(names, cell, ',') && cell != name;) ++place;
-    while (std::getline(in, line)) {
-      std::istringstream row(line);
-      std::string cell;
-      for (std::size_t c = 0; c <= place; ++c) std::getline(row, cell, ',');
-      values.push_back(std::stod(cell));
-    }
-    return values;
+    return Csv(directory() / file).numbers(name);
   }
 
   Scratch scratch_;

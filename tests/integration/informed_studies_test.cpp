@@ -5,29 +5,12 @@
 #include <algorithm>
 #include <iostream>
 
-#include "tests/integration/command.hpp"
+#include "tests/integration/csv.hpp"
 
 namespace polargrain::testing {
 namespace {
 
 const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
-
-/// The last value of a column of history.csv.
-double last_value(const std::filesystem::path& history, const std::string& name) {
-  std::ifstream in(history);
-  std::string header;
-  std::getline(in, header);
-  std::string line;
-  std::string last;
-  while (std::getline(in, line)) last = line;
-  std::istringstream names(header);
-  std::istringstream values(last);
-  std::string cell;
-  std::string value;
-  while (std::getline(names, cell, ',') && std::getline(values, value, ',') && cell != name) {
-  }
-  return cell == name ? std::stod(value) : -1.0;
-}
 
 TEST(Studies, BothSchemesOfTheBiaxialStudyAgreeInTheirFirstPercent) {
   const Scratch scratch("Studies");
@@ -43,7 +26,7 @@ TEST(Studies, BothSchemesOfTheBiaxialStudyAgreeInTheirFirstPercent) {
                                    " --set 'mesh.rectangle.patch=[0.15 m, 0.15 m]'"
                                    " --set boundary.2.move.u2='-3.2 mm' --set steps.count=8");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
-    ratio[i] = last_value(scratch.path() / scheme / "history.csv", "stress_ratio");
+    ratio[i] = Csv(scratch.path() / scheme / "history.csv").numbers("stress_ratio").back();
   }
   std::cout << "[figure] stress ratio at 0.8 %: informed " << ratio[0] << ", cell " << ratio[1] << '\n';
   EXPECT_GT(ratio[1], 2.5);
@@ -80,9 +63,9 @@ TEST(Studies, TheCalibrationKeepsARecordAndTheSpecimenUsesIt) {
   ASSERT_EQ(specimen.status, 0) << specimen.errors;
   const std::string figures = content(scratch.path() / "out/specimen.csv");
   EXPECT_EQ(std::count(figures.begin(), figures.end(), '\n'), 3) << figures;
-  EXPECT_NEAR(last_value(scratch.path() / "out/specimen-98-6-2/out/history.csv", "axial_strain"), 0.006,
-              1e-9);
-  EXPECT_GT(last_value(scratch.path() / "out/specimen-98-6-2/out/history.csv", "stress_ratio"), 2.0);
+  EXPECT_NEAR(Csv(scratch.path() / "out/specimen-98-6-2/out/history.csv").numbers("axial_strain").back(),
+              0.006, 1e-9);
+  EXPECT_GT(Csv(scratch.path() / "out/specimen-98-6-2/out/history.csv").numbers("stress_ratio").back(), 2.0);
 }
 
 }  // namespace

@@ -2,13 +2,10 @@
 #pragma once
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <string>
-#include <vector>
 
-#include "tests/integration/command.hpp"
+#include "tests/integration/csv.hpp"
 
 namespace polargrain::testing {
 
@@ -19,21 +16,6 @@ inline Outcome run_specimen(const std::filesystem::path& directory, const std::s
   };
   return run_in(directory, fmt::format("python3 {}/specimen.py {} --programs {} {}", SPECIMEN_INPUTS, options,
                                        folder(POLARGRAIN), folder(POLARGRAIN_LIGGGHTS)));
-}
-
-/// Rows of history.csv without its head: step, axial strain, stress ratio, volume strain, ...
-inline std::vector<std::vector<double>> specimen_history(const std::filesystem::path& file) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream text(content(file));
-  std::string line;
-  std::getline(text, line);
-  while (std::getline(text, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::vector<double>& row = rows.emplace_back();
-    for (double value = 0.0; words >> value;) row.push_back(value);
-  }
-  return rows;
 }
 
 }  // namespace polargrain::testing
