@@ -5,7 +5,8 @@ import json
 import re
 
 STRAINS = (0.005, 0.01, 0.02, 0.03, 0.05)  # where stress ratios are tabled
-GROUPS = {"rolling": "With rolling resistance", "sliding": "Without rolling resistance",
+GROUPS = {"rolling": "With rolling resistance", "small": "With rolling resistance, cells of 100 grains",
+          "sliding": "Without rolling resistance",
           "wide": "0.5 m x 1 m, with rolling resistance", "widesliding": "0.5 m x 1 m, without rolling resistance",
           "law": "The law in closed form: friction 40 to 32 degrees over a plastic shear of 0.1"}
 COLOURS = ("#b5651d", "#2e7d32", "#8e24aa", "#c62828", "#00838f", "#f9a825", "#5d4037", "#3949ab", "#7cb342", "#d81b60")
