@@ -9,10 +9,12 @@
 
 namespace polargrain::coupler {
 
-/// The cells a material asks: the packing at rest, and a batch of requests answered in their order.
+/// The cells a material asks: the packing at rest, and a batch of requests answered in their order. For
+/// messages each request comes with the point of the material that it stands for.
 struct CellCalls {
   std::function<CellReply()> initial;
-  std::function<std::vector<CellReply>(std::span<const CellRequest>)> evaluate;
+  std::function<std::vector<CellReply>(std::span<const CellRequest>, std::span<const std::size_t> points)>
+      evaluate;
 };
 
 class Pool;

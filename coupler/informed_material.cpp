@@ -154,7 +154,7 @@ Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increme
 }
 
 Increment InformedMaterial::for_cell(const Increment& increment) const {
-  if (large_rotations_) return increment;
+  if (large_rotations_) return fem::about_start(increment);
   Increment straight = increment;
   const Eigen::Matrix2d& h = increment.displacement_gradient;
   straight.displacement_gradient = 0.5 * (h + h.transpose());
@@ -206,7 +206,7 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
     requests.push_back({committed_[point].cell.state, for_cell(increments[point])});
     points.push_back(point);
   }
-  const std::vector<CellReply> replies = calls_.evaluate(requests);
+  const std::vector<CellReply> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     const std::size_t point = points[r];
     const Response& cell = replies[r].response;
@@ -250,12 +250,12 @@ void InformedMaterial::follow(std::span<const std::size_t> points) {
     }
     for (const std::size_t point : pending) last[point] = CellReply{{}, {}, committed_[point].cell.state};
     std::vector<std::size_t> following = pending;
-    for (int part = 0; part < parts; ++part) {
+    for (int part = 0; part < parts && !following.empty(); ++part) {
       std::vector<CellRequest> requests;
       for (const std::size_t point : following) {
         requests.push_back({last[point].state, part_of(for_cell(increments_[point]), parts)});
       }
-      std::vector<CellReply> replies = calls_.evaluate(requests);
+      std::vector<CellReply> replies = calls_.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {
         replies[r].diagnostics.dem_steps += last[following[r]].diagnostics.dem_steps;
         last[following[r]] = std::move(replies[r]);

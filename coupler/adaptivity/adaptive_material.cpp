@@ -10,6 +10,7 @@
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/adaptivity/strain_path.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -64,10 +65,15 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
   if (branches_.empty()) begin_step();
   increments_.assign(increments.begin(), increments.end());
   for (std::size_t point = 0; point < points_.size(); ++point) {
-    target_[point] = followed_by(points_[point].offset, increments[point].displacement_gradient);
+    target_[point] = followed_by(points_[point].offset, gradient_of_step(point));
   }
   settle();
   for (std::size_t point = 0; point < points_.size(); ++point) responses[point] = response_of(point);
+}
+
+Eigen::Matrix2d AdaptiveMaterial::gradient_of_step(std::size_t point) const {
+  const Increment& increment = increments_[point];
+  return (about_middle_ ? fem::about_start(increment) : increment).displacement_gradient;
 }
 
 double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
@@ -140,7 +146,7 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
     requests.push_back(
         {start.answer.state, increment_of(offset_between(start.place, target_[start.leader]))});
   }
-  std::vector<CellReply> replies = run(requests);
+  std::vector<CellReply> replies = run(requests, leaders);
   runs_ += static_cast<std::int64_t>(requests.size());
   bool all_good = true;
   for (std::size_t k = 0; k < starts.size(); ++k) {
@@ -182,14 +188,16 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
   for (std::size_t turn = 0; turn < longest; ++turn) {
     std::vector<CellRequest> requests;
     std::vector<Branch*> moving;
+    std::vector<std::size_t> leaders;
     for (std::size_t k = 0; k < starts.size(); ++k) {
       if (turn >= turns[k].size()) continue;
       requests.push_back(
           {starts[k].answer.state, increment_of(offset_between(starts[k].place, turns[k][turn]))});
       starts[k].place = turns[k][turn];
       moving.push_back(&starts[k]);
+      leaders.push_back(starts[k].leader);
     }
-    std::vector<CellReply> replies = run(requests);
+    std::vector<CellReply> replies = run(requests, leaders);
     runs_ += static_cast<std::int64_t>(requests.size());
     for (std::size_t k = 0; k < replies.size(); ++k) {
       moving[k]->answer = std::move(replies[k]);
@@ -202,8 +210,9 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
   return true;
 }
 
-std::vector<CellReply> AdaptiveMaterial::run(std::span<const CellRequest> requests) const {
-  std::vector<CellReply> replies = calls_.evaluate(requests);
+std::vector<CellReply> AdaptiveMaterial::run(std::span<const CellRequest> requests,
+                                             std::span<const std::size_t> points) const {
+  std::vector<CellReply> replies = calls_.evaluate(requests, points);
   for (CellReply& reply : replies) make_symmetric(reply);
   return replies;
 }

@@ -51,6 +51,7 @@ class AdaptiveMaterial : public fem::Material {
   /// Runs the audits of the step; tightens the tolerance worked with when they break the one asked for.
   void commit() override;
   void revert() override;
+  void use_large_rotations() override { about_middle_ = true; }
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
@@ -101,7 +102,10 @@ class AdaptiveMaterial : public fem::Material {
   /// The answer that a leader's branch starts from, and its place: that of its cell, taken along the turns of
   /// the path that the point has gone without it. @returns false when a cell has failed
   bool replay_paths(std::vector<Branch>& starts);
-  [[nodiscard]] std::vector<CellReply> run(std::span<const CellRequest> requests) const;
+  [[nodiscard]] std::vector<CellReply> run(std::span<const CellRequest> requests,
+                                           std::span<const std::size_t> points) const;
+  /// The displacement gradient that takes a point through the step, about its start.
+  [[nodiscard]] Eigen::Matrix2d gradient_of_step(std::size_t point) const;
   [[nodiscard]] Response response_of(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * confining_; }
   void choose_followed();
@@ -113,7 +117,8 @@ class AdaptiveMaterial : public fem::Material {
   CellCalls calls_;
   CosseratParameters cosserat_;
   AdaptivityOptions options_;
-  double confining_ = 0.0;  ///< mean in-plane pressure of the packing, Pa
+  bool about_middle_ = false;  ///< increments come with gradients about the middle of the step
+  double confining_ = 0.0;     ///< mean in-plane pressure of the packing, Pa
   ErrorEstimate estimate_;
   double turn_tolerance_ =
       0.0;  ///< strain by which a path must leave a straight one to be replayed in pieces

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstring>
 #include <iostream>
 #include <map>
@@ -30,6 +32,8 @@ class KnownCells {
   /// Fails beyond this strain.
   double breaks_at = 1e9;
   int runs = 0;
+  CellRequest last_request;
+  std::size_t last_point = 0;  ///< that it was said to stand for
 
   static Vector7 stress(const Eigen::Matrix2d& strain) {
     const double factor = kModulus / (1.0 + strain.norm() / kHalf);
@@ -81,9 +85,12 @@ class KnownCells {
 
   CellCalls calls() {
     return {[this] { return at(Eigen::Matrix2d::Zero()); },
-            [this](std::span<const CellRequest> requests) {
+            [this](std::span<const CellRequest> requests, std::span<const std::size_t> points) {
               std::vector<CellReply> replies;
+              EXPECT_EQ(requests.size(), points.size());
               for (const CellRequest& request : requests) replies.push_back(answer(request));
+              last_request = requests.back();
+              last_point = points.back();
               return replies;
             }};
   }
@@ -252,6 +259,20 @@ TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
 }
 
 // What a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
+TEST_F(AdaptiveMaterialTest, GrainsAreTurnedByAllOfALargeRotation) {
+  // About the middle of the step a rotation by 0.6 has the gradient 2 tan 0.3: exact, with sines and cosines.
+  AdaptiveMaterial sand = material(2, 0.0);
+  sand.use_large_rotations();
+  const double angle = 0.6;
+  Eigen::Matrix2d about_middle;
+  about_middle << 0.0, -2.0 * std::tan(angle / 2.0), 2.0 * std::tan(angle / 2.0), 0.0;
+  step(sand, {Eigen::Matrix2d::Zero(), about_middle});
+  const Eigen::Matrix2d& told = cells_.last_request.increment.displacement_gradient;
+  EXPECT_LT((Eigen::Matrix2d::Identity() + told - Eigen::Rotation2Dd(angle).toRotationMatrix()).norm(),
+            1e-15);
+  EXPECT_EQ(cells_.last_point, 1u);
+}
+
 TEST_F(AdaptiveMaterialTest, NothingDriftsOverManySmallSteps) {
   AdaptiveMaterial sand = material(1, 0.02);
   double largest = 0.0;

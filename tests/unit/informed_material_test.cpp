@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -32,7 +33,9 @@ class KnownCells {
   explicit KnownCells(bool discs) : discs_(discs), law_({elasticity(), {}, micro_strength()}) {}
 
   int calls = 0;
-  double fails_beyond = 1e9;  ///< of a strain increment
+  CellRequest last_request;
+  std::size_t last_point = 0;  ///< that it was said to stand for
+  double fails_beyond = 1e9;   ///< of a strain increment
 
   CellReply initial() { return reply(law_.initial_state(), elasticity().initial_stress); }
 
@@ -59,9 +62,12 @@ class KnownCells {
 
   CellCalls calls_to_it() {
     return {[this] { return initial(); },
-            [this](std::span<const CellRequest> requests) {
+            [this](std::span<const CellRequest> requests, std::span<const std::size_t> points) {
               std::vector<CellReply> replies;
+              EXPECT_EQ(requests.size(), points.size());
               for (const CellRequest& request : requests) replies.push_back(evaluate(request));
+              last_request = requests.back();
+              last_point = points.back();
               return replies;
             }};
   }
@@ -185,6 +191,21 @@ TEST_F(InformedPointTest, FrozenAsksItsCellOnceACommittedStep) {
   evaluate(sand, compression(1e-3));
   sand.revert();
   EXPECT_EQ(cells_.calls, 1);
+}
+
+TEST_F(InformedPointTest, GrainsAreTurnedByAllOfALargeRotation) {
+  // About the middle of the step a rotation by 0.6 has the gradient 2 tan 0.3: exact, with sines and cosines.
+  const double angle = 0.6;
+  Increment turn;
+  turn.displacement_gradient << 0.0, -2.0 * std::tan(angle / 2.0), 2.0 * std::tan(angle / 2.0), 0.0;
+  turn.micro_rotation = angle;
+  InformedMaterial sand = make(InformedUpdate::frozen);
+  sand.use_large_rotations();
+  evaluate(sand, turn);
+  sand.commit();
+  const Eigen::Matrix2d& told = cells_.last_request.increment.displacement_gradient;
+  EXPECT_LT((Eigen::Matrix2d::Identity() + told - Eigen::Rotation2Dd(angle).toRotationMatrix()).norm(),
+            1e-15);
 }
 
 TEST_F(InformedPointTest, FixedPointAsksItsCellInEveryEvaluation) {
