@@ -26,8 +26,8 @@ import numpy
 import sand
 
 PROPORTIONS = {49: 2.5, 98: 2.0}  # height over width
-# Up to so much axial strain (%) in steps of so much. In the band a step is several times as large.
-STEPS = [(0.4, 0.025), (1.8, 0.1), (100.0, 0.05)]
+# Up to so much axial strain (%) in steps of so much, then in those of --step: in the band a step is several times as large.
+FIRST_STEPS = [(0.4, 0.025), (1.8, 0.1)]
 
 CASE = """title: Toyoura sand at {kpa} kPa, {width:g} d50 wide
 mesh:
@@ -52,7 +52,7 @@ monitors:
   shortening: {{on: top, displacement: u2}}
   axial_strain: -shortening / {h:.6g} m
   stress_ratio: -top_force / {kpa} kPa / {w:.6g} m
-output: {{every: 2, checkpoint_minutes: 2, table: [axial_strain, stress_ratio, volume_strain]}}
+output: {{every: 1, checkpoint_minutes: 2, table: [axial_strain, stress_ratio, volume_strain]}}
 """
 
 
@@ -63,6 +63,7 @@ def options():
                         help="specimens [12:4 18:4 18:6 30:10]: width in d50, elements across")
     parser.add_argument("--pressures", nargs="+", type=int, default=[49, 98], help="kPa, 49 or 98 [both]")
     parser.add_argument("--strain", type=float, default=8.0, help="axial strain at the end, %% [8]")
+    parser.add_argument("--step", type=float, default=0.05, help="of axial strain from 1.8 %% on, %% [0.05]")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="worker processes of all runs together [cores]")
     sand.add_programs(parser)
     return parser.parse_args()
@@ -88,10 +89,10 @@ def seeds_of(results):
     return min(peaks, key=lambda seed: abs(peaks[seed] - mean)), weakest
 
 
-def stages(end):
+def stages(end, last_step):
     """The stages of steps up to an axial strain in %."""
     result, start = [], 0.0
-    for until, step in STEPS:
+    for until, step in [*FIRST_STEPS, (end, last_step)]:
         until = min(until, end)
         if until > start:
             result.append(f"{{until: {until / end:.10g}, count: {max(1, round((until - start) / step))}}}")
@@ -121,7 +122,7 @@ class Specimen:
         (self.folder / "case.yaml").write_text(CASE.format(
             kpa=self.pressure, width=self.width, w=width, h=height, across=self.across, along=self.along, patch=0.3 * width,
             sand=sand.material(parameters, f"packing{seeds[0]}.csv"), weak=sand.material(parameters, f"packing{seeds[1]}.csv"),
-            move=height * given.strain / 100, stages=stages(given.strain)))
+            move=height * given.strain / 100, stages=stages(given.strain, given.step)))
 
     def done(self):
         summary = self.folder / "out/summary.json"
