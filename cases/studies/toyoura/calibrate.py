@@ -44,21 +44,24 @@ DIFFERENCE = 0.12
 # shorter than 0.005 of their length (about 7: 3 % of a parameter).
 MISFIT_TOLERANCE, STEP_TOLERANCE = 0.02, 0.005
 
+# One point, in effect: of all that the element could do but deform evenly, shear is left, and held by G and Gc as w is fixed.
 CASE = """title: One element of Toyoura sand at {kpa:g} kPa
-mesh: {{rectangle: {{size: [1, 1], elements: [1, 1]}}}}
+mesh: {{rectangle: {{size: [10 mm, 10 mm], elements: [1, 1]}}, element: Q4}}
 materials:
   sand: {material}
 regions: {{all: sand}}
 boundary:
   - {{on: bottom, fix: [u2]}}
-  - {{on: bottom_left, fix: [u1]}}
-  - {{on: top, move: {{u2: -{strain:g}}}}}
-  - {{on: [left, right], pressure: {kpa:g} kPa}}
+  - {{on: left, fix: [u1]}}
+  - {{on: [left, right], fix: [w]}}
+  - {{on: top, move: {{u2: -{move:g} mm}}}}
+  - {{on: right, pressure: {kpa:g} kPa}}
 steps: {{tolerance: 2e-3, line_search: 3, acceleration: 5, stages: [{{until: {first:.6g}, count: 16}}, {{until: 1, count: {count}}}]}}
 monitors:
   top_force: {{on: top, reaction: u2}}
   shortening: {{on: top, displacement: u2}}
-  stress_ratio: -top_force / {kpa:g} kPa / 1 m
+  axial_strain: -shortening / 10 mm
+  stress_ratio: -top_force / {kpa:g} kPa / 10 mm
 output: {{every: 1000, checkpoint_minutes: 60}}
 """
 
@@ -105,7 +108,7 @@ class Calibration:
         sand.consolidate(self.liggghts, self.packings[seed], parameters, pressure, folder)
         sand.write_script(folder / "cell.in", parameters)
         (folder / "case.yaml").write_text(CASE.format(
-            kpa=pressure / 1e3, strain=strain, first=0.004 / strain, count=round((strain - 0.004) / 1e-3),
+            kpa=pressure / 1e3, move=10 * strain, first=0.004 / strain, count=round((strain - 0.004) / 1e-3),
             material=sand.material(parameters, "packing.csv")))
         try:
             sand.run([self.polargrain, "run", "case.yaml", "-o", "out", "--quiet", "-w", "1"], folder)
@@ -114,7 +117,7 @@ class Calibration:
         with open(folder / "out/history.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         shutil.rmtree(folder)
-        return numpy.array([[-100 * float(row["shortening"]), float(row["stress_ratio"]),
+        return numpy.array([[100 * float(row["axial_strain"]), float(row["stress_ratio"]),
                              -100 * float(row["volume_strain"])] for row in rows]).T
 
     def evaluate(self, keys):

@@ -132,4 +132,4 @@ def material(parameters, packing):
     changes by 0.5 % at 1 % of strain and at the peak, and by up to 4 % before."""
     shear = 16e6 * parameters["modulus"] / 6e8
     return (f"{{model: informed, script: cell.in, packing: {packing}, G: {shear:.6g}, Gc: {shear:.6g}, lc: {1.5 * D50:g}, "
-            "drift_shear: 0.01, dilatancy_limits: [-0.5, 0.8], unbalanced_force_ratio: 4e-2, unbalanced_moment_ratio: 4e-2}")
+            "drift_shear: 0.004, dilatancy_limits: [-0.5, 0.8], unbalanced_force_ratio: 4e-2, unbalanced_moment_ratio: 4e-2}")
