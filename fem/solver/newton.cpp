@@ -346,6 +346,27 @@ Newton::Balance Newton::balance_of(const Iterate& iterate, bool last_chance) con
   return Balance::none;
 }
 
+std::string Newton::singular_text(const std::vector<Response>& responses) const {
+  constexpr double kNothing = 1e-9;  // of the largest stiffness there is
+  double largest = 0.0;
+  for (const Response& response : responses)
+    largest = std::max(largest, response.tangent.cwiseAbs().maxCoeff());
+  std::size_t apart = 0;
+  double stress = 0.0;
+  for (const Response& response : responses) {
+    if (response.tangent.topLeftCorner<2, 2>().cwiseAbs().maxCoeff() > kNothing * largest) continue;
+    ++apart;
+    stress = std::max(stress, response.stress.head<2>().cwiseAbs().maxCoeff());
+  }
+  const std::string text = "the tangent is singular";
+  if (apart == 0) return text;
+  return text +
+         fmt::format(
+             ": {} of {} points have come apart: they have no stiffness against strain and carry at most "
+             "{:.2g} Pa",
+             apart, responses.size(), stress);
+}
+
 std::string Newton::residual_text(const Residual& residual) const {
   std::string text = fmt::format("{:.3g} (force), {:.3g} (moment)", residual.force, residual.moment);
   const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
@@ -373,9 +394,8 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   StagnationWatch watch(options.stagnation_window);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
-    if (!correction(goal, iterate, predictor ? state.responses : trial_, right_side, change, report)) {
-      return {false, "the tangent is singular"};
-    }
+    const std::vector<Response>& known = predictor ? state.responses : trial_;
+    if (!correction(goal, iterate, known, right_side, change, report)) return {false, singular_text(known)};
     const Attempt limited = predictor ? limit_predictor(goal, iterate, change, report)
                                       : limit_correction(iterate, change, report);
     if (!limited.converged) return limited;

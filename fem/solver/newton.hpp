@@ -92,6 +92,8 @@ class Newton {
   [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
                                         StepReport& report) const;
   void remember(const Iterate& iterate);
+  /// Why a tangent that held before is singular now.
+  [[nodiscard]] std::string singular_text(const std::vector<Response>& responses) const;
   [[nodiscard]] std::string residual_text(const Residual& residual) const;
   void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);
   void line_search(Iterate& iterate, const Correction& change, double excess_before, StepReport& report);

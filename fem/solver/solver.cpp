@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
+#include "fem/solver/jump_watch.hpp"
 #include "fem/solver/newton.hpp"
 #include "fem/solver/state_archive.hpp"
 
@@ -30,6 +31,7 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
   constexpr double kNearlyAll = 1.0 - 1e-6;
   double done = 0.0;
   int cuts_in_a_row = 0;
+  JumpWatch jumps;
   while (done < 1.0) {
     const bool cut = state.next_step > 0.0 && state.next_step < kNearlyAll * (1.0 - done);
     const double step = cut ? state.next_step : 1.0 - done;
@@ -39,14 +41,19 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
     if (result.converged) {
       ++report.substeps;
       cuts_in_a_row = 0;
+      jumps.clear();
       done = end;
       if (state.next_step > 0.0) state.next_step = std::max(state.next_step, kGrowth * step);
       continue;
     }
     revert();
+    if (!report.force_residuals.empty()) {
+      const Residual first{report.force_residuals.front(), report.moment_residuals.front()};
+      jumps.failed(step, first.force, excess(first));
+    }
     if (cuts_in_a_row == options.most_cuts) {
-      report.message =
-          fmt::format("the step was cut {} times in a row and still fails: {}", cuts_in_a_row, result.reason);
+      report.message = fmt::format("the step was cut {} times in a row and still fails: {}{}", cuts_in_a_row,
+                                   result.reason, jumps.statement());
       report.time = state.time;
       return report;
     }

@@ -241,6 +241,69 @@ TEST(solver, gives_up_when_the_iteration_stagnates) {
   EXPECT_LT(report.iterations, 12);
 }
 
+/// Elastic, but the stress falls by a fixed amount under any strain, however small, as that of a few grains
+/// whose contacts rearrange.
+struct JumpingLaw {
+  struct State {};
+  Matrix7 stiffness;
+  State initial_state() const { return {}; }
+  Response integrate(const State&, const Increment& increment, State&) const {
+    Response response;
+    response.stress = stiffness * increment.strain();
+    response.tangent = stiffness;
+    // On which side of the jump it is depends on the strain: no strain makes up for it.
+    if (!increment.strain().isZero(0.0)) response.stress(k11) += increment.strain()(k11) > 0.0 ? 1e7 : -1e7;
+    return response;
+  }
+};
+
+TEST(solver, says_that_no_cut_will_help_where_stresses_jump) {
+  SolverOptions options;
+  options.most_cuts = 4;
+  Solver solver(
+      biaxial(std::make_shared<LocalMaterial<JumpingLaw>>(JumpingLaw{elastic_stiffness(sand())}), 0.0),
+      options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.message.find("the stresses jump here"), std::string::npos) << report.message;
+  EXPECT_EQ(solver.state().time, 0.0);
+}
+
+TEST(solver, says_no_jump_where_a_step_fails_for_its_length) {
+  const auto material = brittle(1e-6, Quality::unreliable, 2000.0);
+  SolverOptions options;
+  options.most_cuts = 6;
+  Solver solver(biaxial(material, 0.0), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.message.find("jump"), std::string::npos) << report.message;
+}
+
+TEST(solver, says_which_points_have_come_apart) {
+  /// Breaks at the first strain and bears nothing from then on.
+  struct BreakingLaw {
+    using State = double;  // 1: broken
+    Matrix7 stiffness;
+    double initial_state() const { return 0.0; }
+    Response integrate(const double& start, const Increment& increment, double& trial) const {
+      trial = start == 1.0 || !increment.strain().isZero(0.0) ? 1.0 : 0.0;
+      Response response;
+      if (trial == 0.0) response.tangent = stiffness;
+      return response;
+    }
+  };
+  Solver solver(
+      biaxial(std::make_shared<LocalMaterial<BreakingLaw>>(BreakingLaw{elastic_stiffness(sand())}), 0.0),
+      {.reference_force = 1.0});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  ASSERT_TRUE(solver.advance(0.5).converged);  // nothing resists, nothing is out of balance
+  const StepReport report = solver.advance(1.0);
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.message.find("32 of 32 points have come apart"), std::string::npos) << report.message;
+}
+
 TEST(solver, refuses_a_problem_with_faults) {
   Problem problem = biaxial(elastic(0.0));
   problem.prescribed.clear();
