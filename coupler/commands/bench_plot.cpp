@@ -174,7 +174,12 @@ std::string bench_plot(std::size_t y, const std::vector<BenchResult>& results,
       kWidth, kHeight);
   svg += grid(across, up);
   Names names;
-  for (const SizeScatter& size : sizes) {
+  // From below, so that names which make way for others keep the order of their lines.
+  std::vector<SizeScatter> ascending = sizes;
+  std::sort(ascending.begin(), ascending.end(), [y](const SizeScatter& a, const SizeScatter& b) {
+    return a.deviations[y].largest < b.deviations[y].largest;
+  });
+  for (const SizeScatter& size : ascending) {
     if (size.deviations[y].largest <= 0.0) continue;
     const double place = up.place(std::max(kLeastError, size.deviations[y].largest));
     svg += fmt::format("<path d='M{} {:.1f}H{}' stroke='#6a4' stroke-dasharray='6 4'/>\n", kMargin, place,
