@@ -100,6 +100,7 @@ RUNS = [  # the longest first, so that none is left alone at the end
     *(two_scale("informed", 4, lc, "reduced" if lc == 15 else "full") for lc in (5, 10, 15, 30)),
     two_scale("informed", 12, 10, small=True),
     *(two_scale("informed", across, lc, small=True) for across in (8, 4) for lc in (5, 10, 15)),
+    two_scale("informed", 2, 15, small=True),
     *(two_scale("cell", across, 15, small=True) for across in (4, 2)),
     two_scale("informed", 8, 15, sliding=True),
     two_scale("cell", 2, 15),

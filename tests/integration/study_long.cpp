@@ -47,9 +47,9 @@ TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {
     double most;  ///< peak over that of the grains
   };
   // Aimed at: 10 %. With rolling resistance a specimen falls short of its own packing taken as a cell by 16
-  // %, for it deforms unevenly from the start, at platens and membranes; and cells of 400 grains scatter by 6
-  // % (docs/studies/biaxial.md).
-  for (const Comparison& compared : {Comparison{"informed-4x8-lc15", "", 1.16 * 1.06},
+  // %, for it deforms unevenly from the start, at platens and membranes; cells of 400 grains scatter by 6 %,
+  // the mean of three specimens by 6 % (docs/studies/biaxial.md).
+  for (const Comparison& compared : {Comparison{"informed-4x8-lc15", "", 1.16 * 1.085},
                                      Comparison{"informed-2x4-lc15-sliding", "-sliding", 1.10}}) {
     double peak = 0.0;
     double at_one_percent = 0.0;
@@ -66,7 +66,8 @@ TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {
     EXPECT_NEAR(table.at(compared.two_scales, "ratio_1%") / at_one_percent, 1.0,
                 0.1);  // nothing localises yet
   }
-  // The band of the two scales within 6 degrees of the mean of the specimens that have one.
+  // The band of the two scales within 6 degrees of the mean of the specimens that have one (specimen 1 fails
+  // in a wedge at a platen).
   double inclination = 0.0;
   int bands = 0;
   for (const std::string seed : {"1", "2", "3"}) {
