@@ -79,6 +79,7 @@ Cell::Cell(const CellDefinition& definition)
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
   time_of_grain_ = 2.0 * driver_.mean_radius() * std::sqrt(density / pressure);
   damping_rate_ = driver_.damping_rate(control_.damping);
+  driver_.set_least_force(kLeastForce * mean_contact_force(driver_.contacts()));
   initial_.state = save_state(lammps, driver_.strain().box());
 }
 

@@ -116,7 +116,7 @@ double Driver::damping_rate(double fraction) const {
 Equilibrium Driver::equilibrium() const {
   Equilibrium found;
   found.void_ratio = strain_->box().area() / grain_area_ - 1.0;
-  const Unbalanced ratios = unbalanced(*strain_, contacts(), mean_radius_);
+  const Unbalanced ratios = unbalanced(*strain_, contacts(), mean_radius_, least_force_);
   found.unbalanced_force_ratio = ratios.force_ratio;
   found.unbalanced_moment_ratio = ratios.moment_ratio;
   found.rattlers = 1.0 - ratios.carrying / grains_;

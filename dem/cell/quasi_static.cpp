@@ -54,14 +54,15 @@ std::vector<double> torque_capacities(std::span<const Contact> contacts, int gra
   return capacities;
 }
 
-Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius) {
+Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius,
+                      double least_force) {
   std::vector<bool> touched(static_cast<std::size_t>(strain.grains()), false);
   for (const Contact& contact : contacts)
     touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
         true;
   Unbalanced found;
   found.carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
-  const double force = mean_contact_force(contacts);
+  const double force = std::max(mean_contact_force(contacts), least_force);
   if (contacts.empty() || !(force > 0.0)) return found;
   found.force_ratio = strain.sum_of_unbalanced_force() / found.carrying / force;
   found.moment_ratio = strain.sum_of_unbalanced_moment() / found.carrying / (force * mean_radius);

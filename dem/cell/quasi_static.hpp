@@ -33,7 +33,15 @@ struct Unbalanced {
   double carrying = 0.0;      ///< number of grains that touch others
 };
 
+/// Share of the mean contact force of the packing that unbalanced forces are compared with at least. Grains
+/// that press on each other less than that carry nothing that counts: without it a cell whose stress has gone
+/// to zero could never be at rest, as what grains that barely touch are out of balance is all the force there
+/// is.
+inline constexpr double kLeastForce = 1e-3;
+
 /// Of the last force pass. @param mean_radius m
-Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius);
+/// @param least_force the ratios are to the mean contact force, and to this when that is less, N
+Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius,
+                      double least_force);
 
 }  // namespace polargrain::dem

@@ -126,6 +126,7 @@ void FixCellLoad::post_create() {
                "stiffness in the script is not the one the packing was made with");
   time_of_grain_ = 2.0 * mean_radius_ * std::sqrt(density_ / pressure);
   rate_ = 2.0 * control_.damping * std::sqrt(mean_normal_stiffness(contact_recorder().contacts) / mean_mass_);
+  least_force_ = kLeastForce * mean_contact_force(contact_recorder().contacts);
 }
 
 void FixCellLoad::find_mean_grain() {
@@ -243,7 +244,7 @@ void FixCellLoad::look() {
   // As in cells: with free rotations the couple stress is nobody's business.
   Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();
   if (controlled()) couple_stress = frame * average_couple_stress(contacts, volume);
-  const Unbalanced ratios = unbalanced(*this, contacts, mean_radius_);
+  const Unbalanced ratios = unbalanced(*this, contacts, mean_radius_, least_force_);
   const bool at_rest = ratios.force_ratio <= control_.unbalanced_force_ratio &&
                        ratios.moment_ratio <= control_.unbalanced_moment_ratio;
   const bool given_up = done_ - loading_ >= control_.most_relaxation_steps;

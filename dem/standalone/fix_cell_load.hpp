@@ -70,8 +70,9 @@ class FixCellLoad final : public FixCellStrain {
   double turned_ = 0.0;
   std::string packing_state_;
   double time_of_grain_ = 0.0;
-  double rate_ = 0.0;      // of the damping, 1/s
-  StatePointer restored_;  // null once forces have been computed with it
+  double rate_ = 0.0;         // of the damping, 1/s
+  double least_force_ = 0.0;  // see unbalanced(), N
+  StatePointer restored_;     // null once forces have been computed with it
   int loading_ = 0;
   int done_ = 0;  // steps of the increment
   std::array<double, 11> answer_{};
