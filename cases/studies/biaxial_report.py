@@ -154,8 +154,8 @@ def draw_fields(plt, runs, output, picture):
         samples = columns(output / f"{run.name}.samples.csv")
         x, y = samples["x"], samples["y"]
         height = max(y) - min(y)
-        # Marks about as wide as what they stand for: a picture is 2.7 inches high, with 72 points an inch.
-        sizes = [area * (72 * 2.7 / height) ** 2 for area in samples["area"]]
+        # Marks about as wide as what they stand for, in a picture 3 inches high, 72 points an inch.
+        sizes = [area * (72 * 3.0 / height) ** 2 for area in samples["area"]]
         for axis, values, colour_map, sided in ((axes[0][column], samples["shear"], "viridis", False),
                                                 (axes[1][column], samples["rotation"], "RdBu", True)):
             high = sorted(abs(value) for value in values)[int(0.97 * (len(values) - 1))] or 1.0
