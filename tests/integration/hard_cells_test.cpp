@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The hard cases of docs/hard_cells.md, shortened, with real grains: each holds, or stops with a statement
+// that is true and with a checkpoint to go on from.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
+const std::string kDense = kSource + "/cases/footing_cells/packing100.h5";
+const std::string kSmooth = "  - {on: bottom, fix: [u2]}\n  - {on: bottom_left, fix: [u1]}\n";
+/// Ramps longer than soft networks take to settle, less damping, a tighter equilibrium: docs/hard_cells.md.
+const std::string kLowStress =
+    "tolerance: 0, damping: 0.005, least_steps: 5000, unbalanced_force_ratio: 1e-4, "
+    "unbalanced_moment_ratio: 1e-4, most_relaxation_steps: 200000";
+
+class HardCells : public ::testing::Test {
+ protected:
+  HardCells() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {}
+
+  /// One element, 4 points. @param steps the content of `steps` @param boundary its entries, a line each
+  void write_case(const std::string& grains, const std::string& steps, const std::string& boundary,
+                  const std::string& packing = kDense, const std::string& element = "Q8R") const {
+    write(scratch_.path() / "case.yaml",
+          "title: A hard case\n"
+          "mesh: {rectangle: {size: [0.1 m, 0.1 m], elements: [1, 1]}, element: " +
+              element +
+              "}\n"
+              "materials:\n  sand: {model: adaptive, script: " +
+              kSource + "/liggghts_inputs/cells/hooke_radii.in, packing: " + packing +
+              ", G: 16 MPa, Gc: 14 MPa, lc: 20 mm, " + grains +
+              "}\n"
+              "regions: {all: sand}\nboundary:\n" +
+              boundary + "steps: {cut: 6, iterations: 20, " + steps +
+              "}\n"
+              "monitors:\n  top_force: {on: top, reaction: u2}\n  pressure: -top_force / 0.1 m\n");
+  }
+  [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
+    return run_in(scratch_.path(), POLARGRAIN " " + arguments);
+  }
+  [[nodiscard]] Outcome run() const { return polargrain("run case.yaml -o out --quiet"); }
+  [[nodiscard]] std::string history() const { return content(scratch_.path() / "out/history.csv"); }
+  /// A column of history.csv.
+  [[nodiscard]] std::vector<double> column(const std::string& name) const {
+    std::istringstream lines(history());
+    const auto cells_of = [](const std::string& line) {
+      std::vector<std::string> cells;
+      std::istringstream in(line);
+      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+      return cells;
+    };
+    std::string line;
+    std::getline(lines, line);
+    const std::vector<std::string> names = cells_of(line);
+    const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    std::vector<double> values;
+    while (std::getline(lines, line)) values.push_back(std::stod(cells_of(line).at(place)));
+    return values;
+  }
+  /// That the stop is what the words say, and that the run goes on from its checkpoint: to the same stop, as
+  /// nothing has changed, and with the same digits.
+  void expect_stop(const Outcome& outcome, const std::string& words) const {
+    EXPECT_EQ(outcome.status, 1) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("--resume"), std::string::npos) << outcome.errors;
+    const std::string before = history();
+    const Outcome again = polargrain("run case.yaml -o out --quiet --resume");
+    EXPECT_EQ(again.status, outcome.status) << again.errors;
+    EXPECT_NE(again.errors.find(words), std::string::npos) << again.errors;
+    EXPECT_EQ(history(), before);
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(HardCells, ShearToLargeStrainHolds) {
+  write_case("tolerance: 2 %", "count: 60, tolerance: 1e-2",
+             "  - {on: bottom, fix: [u1, u2]}\n  - {on: top, move: {u1: 30 mm}, fix: [u2]}\n");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
+TEST_F(HardCells, CyclesHold) {
+  write_case("tolerance: 2 %", "count: 20, tolerance: 1e-2",
+             kSmooth +
+                 "  - {on: top, move: {u2: [[0, 0], [0.25, -0.5 mm], [0.5, 0], [0.75, -0.5 mm], [1, 0]]}}\n"
+                 "  - {on: [left, right], pressure: 100 kPa}\n");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
+TEST_F(HardCells, UnloadingHoldsDownToOneKilopascal) {
+  write_case(kLowStress, "count: 20, tolerance: 3e-4, largest_strain: 1e-3",
+             kSmooth +
+                 "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 "
+                 "kPa]]}\n");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
+TEST_F(HardCells, UnloadingWithTooShortRampsStopsWhereStressesJump) {
+  write_case("tolerance: 0", "count: 20, tolerance: 3e-4, largest_strain: 1e-3",
+             kSmooth +
+                 "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 "
+                 "kPa]]}\n");
+  expect_stop(run(), "the stresses jump here, however small the strain");
+}
+
+TEST_F(HardCells, ExtensionEndsWhereTheGrainsHaveComeApart) {
+  write_case(kLowStress, "count: 20, tolerance: 1e-3",
+             kSmooth + "  - {on: top, move: {u2: 2 mm}}\n  - {on: [left, right], fix: [u1]}\n");
+  expect_stop(run(),
+              "4 of 4 points have come apart: they have no stiffness against strain and carry at most 0 Pa");
+  // Of the 100 kPa of the packing nothing is left, and nothing pulls.
+  const std::vector<double> pressure = column("pressure");
+  EXPECT_NEAR(pressure.front(), 100e3, 1e3);
+  EXPECT_NEAR(pressure.back(), 0.0, 1e-6);
+}
+
+TEST_F(HardCells, LoosePackingLosesItsStressAtConstantVolumeAndHolds) {
+  const Outcome packed =
+      run_in(kSource, POLARGRAIN " pack cases/packings/dense400.yaml --quiet -o " +
+                          (scratch_.path() / "loose.h5").string() + " --set grains=100 --set friction=0.5");
+  ASSERT_EQ(packed.status, 0) << packed.errors;
+  std::string grains = kLowStress;
+  grains.replace(grains.find("5000"), 4, "2000");
+  write_case(grains, "count: 30, tolerance: 1e-3",
+             kSmooth +
+                 "  - {on: top, move: {u2: -3 mm}}\n  - {on: right, move: {u1: 3 mm}}\n"
+                 "  - {on: left, fix: [u1]}\n",
+             "loose.h5", "Q4");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  // It contracts, and at constant volume nothing is left of its stress: below the thousandth of the packing's
+  // contact forces from which on a cell is at rest (kLeastForce).
+  const std::vector<double> pressure = column("pressure");
+  EXPECT_NEAR(pressure.front(), 100e3, 1e3);
+  EXPECT_LT(std::abs(pressure.back()), 1e-3 * pressure.front());
+}
+
+}  // namespace
+}  // namespace polargrain::testing
