@@ -61,7 +61,7 @@ def draw_calibration(results):
 
 def specimens(results, pressure):
     """Folders of a pressure, the smallest specimen first."""
-    folders = [path for path in results.glob(f"specimen-{pressure}-*") if (path / "out/history.csv").exists()]
+    folders = [path for path in results.glob(f"specimen-{pressure}-*") if (path / "band-end.csv").exists()]
     return sorted(folders, key=lambda path: [float(word) for word in path.name.split("-")[2:]])
 
 

@@ -71,7 +71,7 @@ def make_packing(polargrain, folder, seed, grains):
     return data
 
 
-# Newton's method for the mean stress, with a bulk modulus that is known well enough. The normal stresses differ by some 2 % then:
+# Newton's method for the mean stress, with a bulk modulus that is known well enough. The normal stresses differ by some percent then:
 # without friction, almost nothing holds them equal, and what would correct them makes the grains slip into another packing.
 CONSOLIDATION = """# The packing without friction, brought to another pressure.
 variable        packing index {packing}
