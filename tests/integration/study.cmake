@@ -9,6 +9,6 @@ if(TARGET polargrain)
     add_dependencies(study_${size} polargrain polargrain-liggghts)
   endforeach()
   gtest_discover_tests(study_test PROPERTIES LABELS integration TIMEOUT 600 DISCOVERY_TIMEOUT 60)
-  # Twenty minutes on two cores: on request.
+  # Ten minutes on two cores: on request.
   gtest_discover_tests(study_long PROPERTIES LABELS long TIMEOUT 7200 DISCOVERY_TIMEOUT 60)
 endif()
