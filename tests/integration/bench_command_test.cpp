@@ -5,10 +5,12 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <sstream>
 
 #include "coupler/commands/bench_page.hpp"
 #include "coupler/commands/bench_plot.hpp"
 #include "tests/integration/command.hpp"
+#include "tests/integration/csv.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -149,21 +151,11 @@ class BenchCommandTest : public ::testing::Test {
   }
   /// "what,setting": the cells of the row by column.
   [[nodiscard]] std::map<std::string, std::map<std::string, std::string>> read_rows() const {
-    std::istringstream csv(content(directory() / "out/bench.csv"));
-    const auto cells_of = [](const std::string& line) {
-      std::vector<std::string> cells;
-      std::istringstream in(line);
-      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-      return cells;
-    };
-    std::string line;
-    std::getline(csv, line);
-    const std::vector<std::string> names = cells_of(line);
+    const testing::Csv csv(directory() / "out/bench.csv");
     std::map<std::string, std::map<std::string, std::string>> rows;
-    while (std::getline(csv, line)) {
-      const std::vector<std::string> cells = cells_of(line);
-      EXPECT_EQ(cells.size(), names.size()) << line;
-      for (std::size_t k = 0; k < names.size(); ++k) rows[cells[1] + "," + cells[2]][names[k]] = cells[k];
+    for (std::size_t k = 0; k < csv.rows(); ++k) {
+      const std::map<std::string, std::string> row = csv.row(k);
+      rows[row.at("what") + "," + row.at("setting")] = row;
     }
     return rows;
   }

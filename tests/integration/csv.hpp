@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -32,6 +33,15 @@ class Csv {
     const auto at = std::find(names_.begin(), names_.end(), name);
     if (at == names_.end()) throw std::runtime_error(file_ + " has no column " + name);
     return rows_.at(row).at(static_cast<std::size_t>(at - names_.begin()));
+  }
+  /// The cells of a row by column. @throws std::runtime_error when they are not as many as the columns
+  [[nodiscard]] std::map<std::string, std::string> row(std::size_t row) const {
+    const std::vector<std::string>& cells = rows_.at(row);
+    if (cells.size() != names_.size())
+      throw std::runtime_error(file_ + ": row " + std::to_string(row + 1) + " has not a cell a column");
+    std::map<std::string, std::string> found;
+    for (std::size_t k = 0; k < names_.size(); ++k) found[names_[k]] = cells[k];
+    return found;
   }
   [[nodiscard]] std::size_t rows() const { return rows_.size(); }
 

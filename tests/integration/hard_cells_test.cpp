@@ -3,12 +3,10 @@
 // that is true and with a checkpoint to go on from.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
-#include "tests/integration/command.hpp"
+#include "tests/integration/csv.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -49,20 +47,7 @@ class HardCells : public ::testing::Test {
   [[nodiscard]] std::string history() const { return content(scratch_.path() / "out/history.csv"); }
   /// A column of history.csv.
   [[nodiscard]] std::vector<double> column(const std::string& name) const {
-    std::istringstream lines(history());
-    const auto cells_of = [](const std::string& line) {
-      std::vector<std::string> cells;
-      std::istringstream in(line);
-      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-      return cells;
-    };
-    std::string line;
-    std::getline(lines, line);
-    const std::vector<std::string> names = cells_of(line);
-    const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-    std::vector<double> values;
-    while (std::getline(lines, line)) values.push_back(std::stod(cells_of(line).at(place)));
-    return values;
+    return Csv(scratch_.path() / "out/history.csv").numbers(name);
   }
   /// That the stop is what the words say, and that the run goes on from its checkpoint: to the same stop, as
   /// nothing has changed, and with the same digits.
