@@ -14,6 +14,7 @@
 #include "coupler/commands/bench_page.hpp"
 #include "coupler/commands/interrupt.hpp"
 #include "coupler/commands/progress.hpp"
+#include "coupler/commands/result_directory.hpp"
 #include "coupler/commands/run.hpp"
 #include "fem/output/write_file.hpp"
 
@@ -62,11 +63,14 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
   run_options.case_file = setting.case_file;
   run_options.directory = directory;
   run_options.workers = options.workers;
+  run_options.resume = options.resume && std::filesystem::exists(directory / kCheckpointFile);
   run_options.quiet = true;
   run_options.settings = setting.overrides;
   try {
     if (run(run_options) != 0)
       result.status = fmt::format("stopped; see {}", (directory / "run.log").string());
+  } catch (const Interrupted&) {
+    throw;
   } catch (const RunError& error) {
     result.status = error.what();
   }
@@ -157,13 +161,18 @@ int bench(const BenchOptions& options, const PackingTools& packing_tools) {
   std::vector<BenchResult> results;
   const Clock::time_point start = Clock::now();
   for (const BenchSetting& setting : settings) {
-    stop_if_interrupted();
     if (!options.quiet) {
       const double spent = std::chrono::duration<double>(Clock::now() - start).count();
       print_progress(setting, results.size(), settings.size(), spent);
     }
-    results.push_back(
-        take(setting, options.directory / fmt::format("run-{:02}", results.size()), options, checked.axes));
+    const std::filesystem::path directory = options.directory / fmt::format("run-{:02}", results.size());
+    try {
+      stop_if_interrupted();
+      results.push_back(take(setting, directory, options, checked.axes));
+    } catch (const Interrupted& error) {
+      throw Interrupted(
+          fmt::format("{}\nthe whole bench goes on with the same command and --resume", error.what()));
+    }
     report.update(results);
   }
   if (!options.quiet) report.print(results.front().setting.label);

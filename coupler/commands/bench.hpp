@@ -14,6 +14,7 @@ struct BenchOptions {
   std::vector<std::filesystem::path> cases;
   std::filesystem::path directory;  ///< of the results
   int workers = 1;
+  bool resume = false;  ///< runs whose checkpoint is in the directory go on from it
   bool quick = false;  ///< fewer settings, and a reference that is less fine
   bool quiet = false;
   std::vector<std::string> settings;  ///< of --set, for every run
@@ -35,7 +36,8 @@ struct BenchOptions {
 /// the mean of those with the most grains, and with their own mean, which gives their scatter. A run that
 /// stops early is compared as far as it came, and said to have stopped.
 /// @returns 0 when the reference and at least one other run came to their end, else 1
-/// @throws InputError when a case or an option is wrong (nothing has been run), RunError
+/// @throws InputError when a case or an option is wrong (nothing has been run), or, with resume, when the
+/// checkpoint of a run is of another case; RunError; Interrupted, after which the bench can be resumed
 int bench(const BenchOptions& options, const PackingTools& packing_tools);
 
 }  // namespace polargrain::coupler

@@ -250,6 +250,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->expected(0, -1);
   bench_command->add_flag("--quick", bench_options.quick,
                           "Fewer settings; ten minutes where no case is named");
+  bench_command->add_flag("--resume", bench_options.resume,
+                          "Go on where a bench with the same settings was broken off");
   bench_command->add_option("-o,--output", bench_options.directory, "Result directory [bench-results]")
       ->type_name("DIR");
   bench_command->add_option("-w,--workers", bench_options.workers, "Worker processes [one a core]")

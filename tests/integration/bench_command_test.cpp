@@ -309,6 +309,28 @@ TEST_F(BenchCommandTest, NothingRunsWhenPackingsAreWrong) {
   EXPECT_FALSE(std::filesystem::exists(directory() / "out"));
 }
 
+TEST_F(BenchCommandTest, GoesOnWhereItWasBrokenOff) {
+  ASSERT_EQ(polargrain("bench case.yaml --quick -o out -w 1").status, 0);
+  const auto expected = read_rows();
+  const std::string log = content(directory() / "out/run-01/run.log");
+  std::filesystem::remove_all(directory() / "out/run-04");
+  std::filesystem::remove(directory() / "out/bench.csv");
+  const Outcome again = polargrain("bench case.yaml --quick -o out -w 1 --resume");
+  EXPECT_EQ(again.status, 0) << again.errors;
+  const auto rows = read_rows();
+  ASSERT_EQ(rows.size(), expected.size());
+  for (const auto& [name, row] : expected) {
+    for (const char* column : {"status", "steps", "cell_evaluations", "dem_steps", "error_force"})
+      EXPECT_EQ(rows.at(name).at(column), row.at(column)) << name << ", " << column;
+  }
+  // What was done has not been done again.
+  EXPECT_EQ(content(directory() / "out/run-01/run.log").substr(0, log.size()), log);
+
+  const Outcome other = polargrain("bench case.yaml --quick -o out -w 1 --resume --set steps.count=3");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.errors.find("this checkpoint is of another case"), std::string::npos) << other.errors;
+}
+
 TEST_F(BenchCommandTest, NothingRunsWhenACaseIsWrong) {
   write_case("wrong.yaml", "{model: elastic, E: -1, nu: 0.25, Gc: 10 MPa, lc: 20 mm}");
   const Outcome outcome = polargrain("bench law.yaml wrong.yaml -o out");
