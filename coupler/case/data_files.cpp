@@ -2,6 +2,8 @@
 #include "coupler/case/data_files.hpp"
 
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 
 namespace polargrain::coupler {
 
@@ -25,6 +27,13 @@ std::optional<std::filesystem::path> find_data_file(const std::string& name,
     }
   }
   return std::nullopt;
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 }  // namespace polargrain::coupler

@@ -16,4 +16,7 @@ std::vector<std::filesystem::path> data_places(const std::filesystem::path& case
 std::optional<std::filesystem::path> find_data_file(const std::string& name,
                                                     const std::filesystem::path& case_directory);
 
+/// The bytes of a file; none of one that cannot be read.
+std::string content_of(const std::filesystem::path& file);
+
 }  // namespace polargrain::coupler

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "common/error.hpp"
 #include "coupler/case/data_files.hpp"
@@ -18,13 +16,6 @@
 
 namespace polargrain::coupler {
 namespace {
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 void refuse_repeated(const std::vector<int>& values, const char* option) {
   std::set<int> known;
@@ -40,14 +31,14 @@ std::vector<std::string> settings_of(int grains, int seed) {
 
 /// Packings at rest with one contact model are not at rest with another.
 void check_script(const BenchOptions& options, const PackingSpecification& specification) {
-  const std::vector<CellMaterial> materials = cell_materials(options);
+  const std::vector<MaterialWithCells> materials = materials_with_cells(options);
   if (materials.empty())
     throw InputError({options.cases.front().string(), 0,
                       "has no material with cells, so --pack has no use; leave it out"});
   const Entry document = load_document(options.pack);
   const Entry* entry = document.find("script");
   Faults faults;
-  for (const CellMaterial& material : materials) {
+  for (const MaterialWithCells& material : materials) {
     const auto file = find_data_file(material.script, options.cases.front().parent_path());
     if (!file || content_of(*file) == specification.script) continue;  // read_case tells what is not there
     faults.push_back(entry->fault(

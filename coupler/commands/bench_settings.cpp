@@ -27,7 +27,7 @@ int steps_of(const Entry& document) {
 class Grid {
  public:
   explicit Grid(const BenchOptions& options)
-      : options_(options), materials_(cell_materials(options)), steps_(steps_of(document_of(options))) {
+      : options_(options), materials_(materials_with_cells(options)), steps_(steps_of(document_of(options))) {
     if (!options.band.empty()) common_.emplace_back("output.every=1");
   }
 
@@ -170,7 +170,7 @@ class Grid {
   }
 
   const BenchOptions& options_;
-  std::vector<CellMaterial> materials_;
+  std::vector<MaterialWithCells> materials_;
   int steps_;
   std::vector<std::string> common_;
   std::vector<BenchSetting> runs_;
@@ -178,9 +178,9 @@ class Grid {
 
 }  // namespace
 
-std::vector<CellMaterial> cell_materials(const BenchOptions& options) {
+std::vector<MaterialWithCells> materials_with_cells(const BenchOptions& options) {
   const Entry document = document_of(options);
-  std::vector<CellMaterial> found;
+  std::vector<MaterialWithCells> found;
   const Entry* materials = document.find("materials");
   if (materials == nullptr) return found;
   for (const Entry::Member& member : materials->members) {

@@ -18,14 +18,14 @@ struct BenchSetting {
 };
 
 /// A material of the first case that has boxes of grains.
-struct CellMaterial {
+struct MaterialWithCells {
   std::string name;
   std::string model;
   std::string script;  ///< as the case names it
 };
 
 /// @throws InputError when the case cannot be read
-std::vector<CellMaterial> cell_materials(const BenchOptions& options);
+std::vector<MaterialWithCells> materials_with_cells(const BenchOptions& options);
 
 /// All runs of a bench in their order, the reference first. What is varied depends on what the first case
 /// has: equilibrium, loading rate, tangent and adaptivity where it has cells, the step size where it counts

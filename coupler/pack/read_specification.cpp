@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "common/error.hpp"
 #include "coupler/case/data_files.hpp"
@@ -17,13 +15,6 @@ namespace {
 
 /// Placing the grains takes the square of their number; the engine's share grows with the number alone.
 constexpr int kMostGrains = 20000;
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// How many items the list of a key has; at least one, so that its length can be asked for.
 std::size_t length_of(Section& section, const std::string& key) {

@@ -14,6 +14,9 @@ namespace {
 const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
 const std::string kDense = kSource + "/cases/footing_cells/packing100.h5";
 const std::string kSmooth = "  - {on: bottom, fix: [u2]}\n  - {on: bottom_left, fix: [u1]}\n";
+const std::string kUnloading =
+    kSmooth +
+    "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 kPa]]}\n";
 /// Ramps longer than soft networks take to settle, less damping, a tighter equilibrium: docs/hard_cells.md.
 const std::string kLowStress =
     "tolerance: 0, damping: 0.005, least_steps: 5000, unbalanced_force_ratio: 1e-4, "
@@ -82,19 +85,13 @@ TEST_F(HardCells, CyclesHold) {
 }
 
 TEST_F(HardCells, UnloadingHoldsDownToOneKilopascal) {
-  write_case(kLowStress, "count: 20, tolerance: 3e-4, largest_strain: 1e-3",
-             kSmooth +
-                 "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 "
-                 "kPa]]}\n");
+  write_case(kLowStress, "count: 20, tolerance: 3e-4, largest_strain: 1e-3", kUnloading);
   const Outcome outcome = run();
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
 }
 
 TEST_F(HardCells, UnloadingWithTooShortRampsStopsWhereStressesJump) {
-  write_case("tolerance: 0", "count: 20, tolerance: 3e-4, largest_strain: 1e-3",
-             kSmooth +
-                 "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 "
-                 "kPa]]}\n");
+  write_case("tolerance: 0", "count: 20, tolerance: 3e-4, largest_strain: 1e-3", kUnloading);
   expect_stop(run(), "the stresses jump here, however small the strain");
 }
 

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "common/error.hpp"
 #include "coupler/case/data_files.hpp"
 
@@ -23,13 +20,6 @@ std::filesystem::path file_of(Section& section, const std::string& key, const st
                             "correct the path or put the file there",
                             key, name));
   return {};
-}
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 CellControl read_control(Section& section) {
