@@ -22,6 +22,11 @@ enum class CellTangent { none, voigt, condensed };
 /// (mode 2).
 enum class CellRotations { free, controlled };
 
+/// Which loop steps the grains of a cell. `automatic`: the loop over discs where it knows the scene
+/// (docs/theory/grains.md), else the engine's own. The others are for comparison: always the engine's own, and
+/// the plain twin of the loop over discs.
+enum class CellLoop { automatic, engine, plain };
+
 /// How a cell is loaded and when its answer counts as quasi-static (mechanics G.3).
 struct CellControl {
   /// Mean loading rate as an inertial number I = rate * mean diameter * sqrt(grain density / pressure).
@@ -39,6 +44,7 @@ struct CellControl {
   int most_relaxation_steps = 20000;
   CellTangent tangent = CellTangent::condensed;
   CellRotations rotations = CellRotations::free;
+  CellLoop loop = CellLoop::automatic;
 };
 
 /// What a worker must know to stand in for cells of one material. Sent whole, so that a worker needs no file.

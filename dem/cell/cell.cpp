@@ -10,8 +10,10 @@
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/driver.hpp"
+#include "dem/cell/engine_box.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/tangents.hpp"
+#include "dem/discs/disc_box.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -35,6 +37,8 @@ class Cell final : public CellService {
  private:
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
   void check_rolling_model();
+  /// The loop over discs where it knows the scene, else the engine's own.
+  std::unique_ptr<GrainBox> choose_box(const Packing& packing);
   /// Neighbours and forces at the positions as they are; no step.
   void set_up();
   /// DEM steps; the contacts of the last force pass are recorded.
@@ -42,6 +46,8 @@ class Cell final : public CellService {
   /// Weights of the grains in the mean rotation, from the recorded contacts (mode 2).
   void renew_weights();
   [[nodiscard]] double increment_size(const Increment& increment) const;
+  [[nodiscard]] double volume() const { return grains_->box().area() * thickness_; }
+  [[nodiscard]] Equilibrium equilibrium() const;
   [[nodiscard]] CellDiagnostics measure() const;
   [[nodiscard]] bool in_equilibrium(const Equilibrium& equilibrium) const;
   /// Stress of the recorded contacts, in the laboratory frame.
@@ -52,19 +58,27 @@ class Cell final : public CellService {
   CellControl control_;
   double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this
   double damping_rate_ = 0.0;   // 1/s
+  double least_force_ = 0.0;    // N, see kLeastForce
+  double thickness_ = 0.0;      // m
   Driver driver_;
+  std::unique_ptr<GrainBox> grains_;
   CellReply initial_;
 };
 
 Cell::Cell(const CellDefinition& definition)
-    : control_(definition.control), driver_(definition.packing, definition.script, definition.script_file) {
-  driver_.progress = [this] {
-    if (progress) progress();
-  };
+    : control_(definition.control),
+      thickness_(definition.packing.thickness),
+      driver_(definition.packing, definition.script, definition.script_file) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   if (controlled()) check_rolling_model();
   const Packing& packing = definition.packing;
   if (packing.state) restore_state(lammps, *packing.state);
+  driver_.set_up();
+  grains_ = choose_box(packing);
+  grains_->progress = [this] {
+    if (progress) progress();
+  };
+  grains_->begin(BoxPath(grains_->box(), Eigen::Matrix2d::Zero(), 0), 0.0, std::nullopt);
   set_up();
 
   initial_.response = respond();
@@ -78,9 +92,22 @@ Cell::Cell(const CellDefinition& definition)
         "script is not the one the packing was made with");
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
   time_of_grain_ = 2.0 * driver_.mean_radius() * std::sqrt(density / pressure);
-  damping_rate_ = driver_.damping_rate(control_.damping);
-  driver_.set_least_force(kLeastForce * mean_contact_force(driver_.contacts()));
-  initial_.state = save_state(lammps, driver_.strain().box());
+  damping_rate_ = 2.0 * control_.damping *
+                  std::sqrt(mean_normal_stiffness(grains_->contacts()) / driver_.mean_mass());
+  least_force_ = kLeastForce * mean_contact_force(grains_->contacts());
+  initial_.state = grains_->save();
+}
+
+std::unique_ptr<GrainBox> Cell::choose_box(const Packing& packing) {
+  LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
+  const DiscSelection selection = disc_combination(lammps);
+  if (control_.loop == CellLoop::engine || !selection.combination)
+    return std::make_unique<EngineBox>(driver_);
+  DiscBox::Definition discs = disc_definition(lammps, *selection.combination, packing.thickness);
+  discs.plain = control_.loop == CellLoop::plain;
+  auto box = std::make_unique<DiscBox>(std::move(discs));
+  box->restore(disc_snapshot(lammps, *selection.combination, driver_.strain().box(), {}));
+  return box;
 }
 
 void Cell::check_rolling_model() {
@@ -102,8 +129,6 @@ CellReply Cell::initial() {
 
 CellReply Cell::evaluate(const CellRequest& request) {
   const auto start = std::chrono::steady_clock::now();
-  LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
-  lammps.update->ntimestep = 0;  // nothing of an earlier evaluation may show in this one
   if (const double size = increment_size(request.increment); !(size <= kLargestIncrement)) {
     // An iteration gone astray; running it would cost hours and answer nothing.
     CellReply reply;
@@ -114,16 +139,13 @@ CellReply Cell::evaluate(const CellRequest& request) {
                     kLargestIncrement);
     return reply;
   }
-  const RestoredState restored = restore_state(lammps, request.state ? *request.state : *initial_.state);
+  grains_->restore(request.state ? *request.state : *initial_.state);
   const int loading = loading_steps(control_, request.increment, time_of_grain_, driver_.mean_radius(),
                                     driver_.strain().time_step());
-  const BoxPath path(restored.box, request.increment.displacement_gradient, loading);
-  if (controlled())
-    driver_.strain().begin(path, damping_rate_,
-                           RotationLoading{request.increment.micro_rotation, request.increment.curvature});
-  else
-    driver_.strain().begin(path, damping_rate_);
-  driver_.strain().set_rotations(restored.rotations);
+  std::optional<RotationLoading> rotation;
+  if (controlled()) rotation = {request.increment.micro_rotation, request.increment.curvature};
+  grains_->begin(BoxPath(grains_->box(), request.increment.displacement_gradient, loading), damping_rate_,
+                 rotation);
   set_up();
 
   run(loading);
@@ -131,53 +153,58 @@ CellReply Cell::evaluate(const CellRequest& request) {
   // Taken while the box still moves: the contacts that slide now are those that slide along the increment. At
   // rest most of them have just come off their limit, and the tangent would be that of unloading.
   const Matrix7 loading_tangent = tangent();
-  Equilibrium equilibrium = driver_.equilibrium();
+  Equilibrium rest = equilibrium();
   int relaxed = 0;
-  while (!in_equilibrium(equilibrium) && relaxed < control_.most_relaxation_steps) {
+  while (!in_equilibrium(rest) && relaxed < control_.most_relaxation_steps) {
     run(kRelaxationChunk);
     relaxed += kRelaxationChunk;
-    equilibrium = driver_.equilibrium();
+    rest = equilibrium();
   }
   reply.diagnostics = measure();
   reply.response = respond();
   reply.response.tangent = loading_tangent;
-  if (!in_equilibrium(equilibrium)) {
+  if (!in_equilibrium(rest)) {
     reply.response.quality = Quality::unreliable;
     reply.response.step_factor = 0.5;
     reply.response.message = fmt::format(
         "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
         "moment ratio {:.2e} (asked {:.2e})",
-        relaxed, equilibrium.unbalanced_force_ratio, control_.unbalanced_force_ratio,
-        equilibrium.unbalanced_moment_ratio, control_.unbalanced_moment_ratio);
+        relaxed, rest.unbalanced_force_ratio, control_.unbalanced_force_ratio,
+        rest.unbalanced_moment_ratio, control_.unbalanced_moment_ratio);
   }
   reply.diagnostics.dem_steps = loading + relaxed;
-  reply.state = save_state(lammps, driver_.strain().box().reduced(), driver_.strain().rotations());
+  reply.state = grains_->save();
   reply.diagnostics.engine_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return reply;
 }
 
 void Cell::set_up() {
-  driver_.set_up();
+  grains_->set_up();
   if (!controlled()) return;
   // The weights come from these contacts, never from an earlier evaluation; with them, the torques that hold
   // the mean rotation can be added to the first forces.
   renew_weights();
-  driver_.strain().setup(0);
+  grains_->hold_rotation();
 }
 
 void Cell::renew_weights() {
-  const std::vector<double> capacities = torque_capacities(driver_.contacts(), driver_.grains());
-  if (!capacities.empty()) driver_.strain().set_torque_capacities(capacities);
+  const std::vector<double> capacities = torque_capacities(grains_->contacts(), driver_.grains());
+  if (!capacities.empty()) grains_->set_torque_capacities(capacities);
 }
 
 void Cell::run(int steps) {
-  if (!controlled()) return driver_.run(steps);
+  if (!controlled()) return grains_->run(steps);
   // The weights follow the forces, a chunk behind.
   for (; steps > 0; steps -= kRelaxationChunk) {
-    driver_.run(std::min(steps, kRelaxationChunk));
+    grains_->run(std::min(steps, kRelaxationChunk));
     renew_weights();
   }
+}
+
+Equilibrium Cell::equilibrium() const {
+  return equilibrium_of(grains_->contacts(), grains_->imbalance(), driver_.mean_radius(), least_force_,
+                        grains_->box().area(), driver_.grain_area());
 }
 
 double Cell::increment_size(const Increment& increment) const {
@@ -186,16 +213,16 @@ double Cell::increment_size(const Increment& increment) const {
 }
 
 CellDiagnostics Cell::measure() const {
-  const Equilibrium equilibrium = driver_.equilibrium();
+  const Equilibrium rest = equilibrium();
   CellDiagnostics diagnostics;
-  diagnostics.unbalanced_force_ratio = equilibrium.unbalanced_force_ratio;
-  diagnostics.unbalanced_moment_ratio = equilibrium.unbalanced_moment_ratio;
-  diagnostics.void_ratio = equilibrium.void_ratio;
-  diagnostics.coordination_number = equilibrium.coordination_number;
-  diagnostics.rattlers = equilibrium.rattlers;
-  diagnostics.multiplier = driver_.strain().multiplier();
+  diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
+  diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
+  diagnostics.void_ratio = rest.void_ratio;
+  diagnostics.coordination_number = rest.coordination_number;
+  diagnostics.rattlers = rest.rattlers;
+  diagnostics.multiplier = grains_->multiplier();
 
-  const std::span<const Contact> contacts = driver_.contacts();
+  const std::span<const Contact> contacts = grains_->contacts();
   const auto fraction = [&contacts](auto property) {
     const auto count = std::count_if(contacts.begin(), contacts.end(), property);
     return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());
@@ -203,11 +230,11 @@ CellDiagnostics Cell::measure() const {
   diagnostics.contacts = static_cast<std::int64_t>(contacts.size());
   diagnostics.sliding_fraction = fraction([](const Contact& contact) { return contact.sliding(); });
   diagnostics.rolling_fraction = fraction([](const Contact& contact) { return contact.rolling_at_limit; });
-  const Eigen::Matrix2d frame = driver_.strain().box().frame();
+  const Eigen::Matrix2d frame = grains_->box().frame();
   const Eigen::Matrix2d fabric = frame * fabric_tensor(contacts) * frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
 
-  const std::span<const double> rotations = driver_.strain().rotations();
+  const std::span<const double> rotations = grains_->rotations();
   if (rotations.empty()) return diagnostics;
   const auto grains = static_cast<double>(rotations.size());
   for (const double rotation : rotations) diagnostics.mean_rotation += rotation / grains;
@@ -224,31 +251,31 @@ bool Cell::in_equilibrium(const Equilibrium& equilibrium) const {
 }
 
 Response Cell::respond() const {
-  const Eigen::Matrix2d frame = driver_.strain().box().frame();
-  const double volume = driver_.volume();
-  const Eigen::Matrix2d stress = frame * average_stress(driver_.contacts(), volume) * frame.transpose();
+  const Eigen::Matrix2d frame = grains_->box().frame();
+  const double v = volume();
+  const Eigen::Matrix2d stress = frame * average_stress(grains_->contacts(), v) * frame.transpose();
   Response response;
   response.stress(k11) = stress(0, 0);
   response.stress(k22) = stress(1, 1);
   response.stress(k12) = stress(0, 1);
   response.stress(k21) = stress(1, 0);
-  if (controlled()) response.stress.tail<2>() = frame * average_couple_stress(driver_.contacts(), volume);
+  if (controlled()) response.stress.tail<2>() = frame * average_couple_stress(grains_->contacts(), v);
   return response;
 }
 
 Matrix7 Cell::tangent() const {
   if (control_.tangent == CellTangent::none) return Matrix7::Zero();
-  const std::span<const Contact> contacts = driver_.contacts();
-  const Eigen::Matrix2d frame = driver_.strain().box().frame();
-  const double volume = driver_.volume();
+  const std::span<const Contact> contacts = grains_->contacts();
+  const Eigen::Matrix2d frame = grains_->box().frame();
+  const double v = volume();
   if (control_.tangent == CellTangent::condensed) {
     const auto condensed =
-        controlled() ? condensed_cosserat_tangent(contacts, driver_.strain().weights(), frame, volume, kHold)
-                     : condensed_tangent(contacts, driver_.grains(), frame, volume, kHold);
+        controlled() ? condensed_cosserat_tangent(contacts, grains_->weights(), frame, v, kHold)
+                     : condensed_tangent(contacts, driver_.grains(), frame, v, kHold);
     if (condensed) return *condensed;
   }
-  return controlled() ? voigt_cosserat_tangent(contacts, frame, volume)
-                      : voigt_tangent(contacts, frame, volume);
+  return controlled() ? voigt_cosserat_tangent(contacts, frame, v)
+                      : voigt_tangent(contacts, frame, v);
 }
 
 }  // namespace

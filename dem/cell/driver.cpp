@@ -114,14 +114,8 @@ double Driver::damping_rate(double fraction) const {
 }
 
 Equilibrium Driver::equilibrium() const {
-  Equilibrium found;
-  found.void_ratio = strain_->box().area() / grain_area_ - 1.0;
-  const Unbalanced ratios = unbalanced(*strain_, contacts(), mean_radius_, least_force_);
-  found.unbalanced_force_ratio = ratios.force_ratio;
-  found.unbalanced_moment_ratio = ratios.moment_ratio;
-  found.rattlers = 1.0 - ratios.carrying / grains_;
-  found.coordination_number = 2.0 * static_cast<double>(contacts().size()) / grains_;
-  return found;
+  return equilibrium_of(contacts(), strain_->imbalance(), mean_radius_, least_force_, strain_->box().area(),
+                        grain_area_);
 }
 
 }  // namespace polargrain::dem

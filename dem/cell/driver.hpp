@@ -6,21 +6,11 @@
 
 #include "common/packing.hpp"
 #include "dem/cell/fix_cell_strain.hpp"
+#include "dem/cell/quasi_static.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
 
 namespace polargrain::dem {
-
-/// How near a packing is to rest, and how its grains touch.
-struct Equilibrium {
-  /// Mean unbalanced force on the grains that touch others, over the mean contact force; 0 without contacts.
-  double unbalanced_force_ratio = 0.0;
-  /// The same for moments, over the mean contact force times the mean radius.
-  double unbalanced_moment_ratio = 0.0;
-  double void_ratio = 0.0;           ///< in plane
-  double coordination_number = 0.0;  ///< 2 contacts / grains
-  double rattlers = 0.0;             ///< grains without a contact / grains
-};
 
 /// One engine with one packing in a periodic box that follows a path: what cells and the making of packings
 /// share. DEM steps are taken without the engine's own run, which prints and looks for lost grains only then.

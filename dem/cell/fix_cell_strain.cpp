@@ -43,20 +43,16 @@ void FixCellStrain::init() {
 }
 
 void FixCellStrain::begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
-  path_ = path;
-  rotation_ = rotation;
+  motion_ = BoxMotion(path, rotation, update->dt);
   multiplier_ = 0.0;
   held_.clear();
   weights_.clear();  // those of another path say nothing of this one
   thickness_ = domain->boxhi[2] - domain->boxlo[2];
   damping_rate_ = damping_rate;
-  step_ = 0;
-  motion_ = {};
-  spin_ = 0.0;
   cell_loading() = {};
   std::fill_n(domain->h_rate, 6, 0.0);
   std::fill_n(domain->h_ratelo, 3, 0.0);
-  set_box(path_.at(0));
+  set_box(motion_.box());
 }
 
 void FixCellStrain::set_box(const Box& box) {
@@ -74,28 +70,17 @@ void FixCellStrain::setup(int) {
   balance(false);
 }
 
-double FixCellStrain::affine_spin(int step, const BoxPath::Motion& motion) const {
-  return rotation_ ? rotation_->micro_rotation * path_.share(step) - motion.rotation : motion.spin();
-}
-
-Eigen::Vector2d FixCellStrain::curvature_rate() const {
-  if (!rotation_ || rotation_->curvature.isZero(0.0)) return Eigen::Vector2d::Zero();
-  return path_.share(step_) / update->dt *
-         (path_.at(step_).frame().transpose() * path_.deformation(step_).inverse().transpose() *
-          rotation_->curvature);
-}
-
 void FixCellStrain::move_held_grains() {
-  const Eigen::Matrix2d gradient = motion_.gradient / update->dt;
-  const Eigen::Vector2d bending = curvature_rate();
-  const Eigen::Vector2d centre = 0.5 * path_.at(step_ - 1).base_vectors().rowwise().sum();
+  const Eigen::Matrix2d gradient = motion_.gradient_before();
+  const Eigen::Vector2d& bending = motion_.curvature_rate();
+  const Eigen::Vector2d centre = 0.5 * motion_.box_before().base_vectors().rowwise().sum();
   for (int k = 0; k < atom->nlocal; ++k) {
     if (!held_[k]) continue;
     const Eigen::Vector2d place(atom->x[k][0], atom->x[k][1]);
     const Eigen::Vector2d velocity = gradient * place;
     atom->v[k][0] = velocity.x();
     atom->v[k][1] = velocity.y();
-    atom->omega[k][2] = spin_ + bending.dot(place - centre);
+    atom->omega[k][2] = motion_.spin() + bending.dot(place - centre);
   }
 }
 
@@ -109,40 +94,36 @@ void FixCellStrain::take_reactions() {
 }
 
 void FixCellStrain::pre_initial_integrate() {
-  const BoxPath::Motion next = path_.motion(++step_);
-  const double spin = affine_spin(step_, next) / update->dt;
-  const Eigen::Matrix2d change = (next.gradient - motion_.gradient) / update->dt;
-  const double change_of_spin = spin - spin_;
-  motion_ = next;
-  spin_ = spin;
+  motion_.advance();
   if (held_.empty()) {
-    const Eigen::Vector2d bending = curvature_rate();
+    const Eigen::Vector2d& bending = motion_.curvature_rate();
     cell_loading().curvature_rate = {bending.x(), bending.y()};
   }
-  if (!change.isZero(0.0) || change_of_spin != 0.0) accelerate(change, change_of_spin);
+  if (motion_.moving()) accelerate();
   if (!held_.empty()) move_held_grains();
 }
 
-void FixCellStrain::accelerate(const Eigen::Matrix2d& change, double change_of_spin) {
+void FixCellStrain::accelerate() {
   double** const x = atom->x;
   double** const v = atom->v;
   double** const omega = atom->omega;
+  const Eigen::Matrix2d& change = motion_.change_of_gradient();
   for (int k = 0; k < atom->nlocal; ++k) {
     v[k][0] += change(0, 0) * x[k][0] + change(0, 1) * x[k][1];
     v[k][1] += change(1, 0) * x[k][0] + change(1, 1) * x[k][1];
-    omega[k][2] += change_of_spin;
+    omega[k][2] += motion_.change_of_spin();
   }
-  // Velocity of a face: gradient times base vector, in the engine's order xx, yy, zz, yz, xz, xy.
-  const Eigen::Matrix2d rate = motion_.gradient * path_.at(step_ - 1).base_vectors() / update->dt;
+  // Velocity of a face, in the engine's order xx, yy, zz, yz, xz, xy.
+  const Eigen::Matrix2d& rate = motion_.rate();
   domain->h_rate[0] = rate(0, 0);
   domain->h_rate[1] = rate(1, 1);
   domain->h_rate[5] = rate(0, 1);
 }
 
 void FixCellStrain::post_integrate() {
-  if (step_ <= path_.steps()) set_box(path_.at(step_));
+  if (motion_.moving()) set_box(motion_.box());
   rotations_.resize(static_cast<std::size_t>(atom->nlocal), 0.0);
-  for (int k = 0; k < atom->nlocal; ++k) rotations_[k] += update->dt * atom->omega[k][2] + motion_.rotation;
+  for (int k = 0; k < atom->nlocal; ++k) rotations_[k] += update->dt * atom->omega[k][2] + motion_.turn();
 }
 
 void FixCellStrain::post_force(int) {
@@ -178,26 +159,27 @@ void FixCellStrain::control_mean_rotation() {
     mean_spin += weights_[k] * (atom->omega[k][2] + gain * atom->torque[k][2]);
     compliance += weights_[k] * weights_[k] * gain;
   }
-  multiplier_ = (spin_ - mean_spin) / (compliance * volume);
+  multiplier_ = (motion_.spin() - mean_spin) / (compliance * volume);
   for (int k = 0; k < atom->nlocal; ++k) atom->torque[k][2] += multiplier_ * volume * weights_[k];
 }
 
 void FixCellStrain::sum_unbalanced_forces() {
-  unbalanced_force_ = 0.0;
+  imbalance_.force = 0.0;
+  imbalance_.grains = atom->nlocal;
   double** const f = atom->f;
   for (int k = 0; k < atom->nlocal; ++k)
-    unbalanced_force_ += std::sqrt(f[k][0] * f[k][0] + f[k][1] * f[k][1]);
+    imbalance_.force += std::sqrt(f[k][0] * f[k][0] + f[k][1] * f[k][1]);
 }
 
 void FixCellStrain::sum_unbalanced_moments() {
-  unbalanced_moment_ = 0.0;
+  imbalance_.moment = 0.0;
   const double imposed = controlled() ? multiplier_ * box().area() * thickness_ : 0.0;
   for (int k = 0; k < atom->nlocal; ++k)
-    unbalanced_moment_ += std::abs(contact_torques_[k] + (controlled() ? imposed * weights_[k] : 0.0));
+    imbalance_.moment += std::abs(contact_torques_[k] + (controlled() ? imposed * weights_[k] : 0.0));
 }
 
 void FixCellStrain::damp() {
-  const Eigen::Matrix2d gradient = motion_.gradient / update->dt;
+  const Eigen::Matrix2d& gradient = motion_.gradient();
   double** const x = atom->x;
   double** const v = atom->v;
   double** const f = atom->f;
@@ -207,7 +189,7 @@ void FixCellStrain::damp() {
     f[k][0] -= mass_rate * (v[k][0] - gradient(0, 0) * x[k][0] - gradient(0, 1) * x[k][1]);
     f[k][1] -= mass_rate * (v[k][1] - gradient(1, 0) * x[k][0] - gradient(1, 1) * x[k][1]);
     const double moment_of_inertia = 0.5 * atom->rmass[k] * atom->radius[k] * atom->radius[k];  // disc
-    atom->torque[k][2] -= damping_rate_ * moment_of_inertia * (atom->omega[k][2] - spin_);
+    atom->torque[k][2] -= damping_rate_ * moment_of_inertia * (atom->omega[k][2] - motion_.spin());
   }
 }
 

@@ -4,20 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "dem/cell/box.hpp"
+#include "dem/cell/box_motion.hpp"
+#include "dem/cell/quasi_static.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
-
-/// What mode 2 adds to the path of the box (C.6).
-struct RotationLoading {
-  /// Change of the mean rotation of the grains over the path, in the laboratory, rad; its rate follows the
-  /// path's.
-  double micro_rotation = 0.0;
-  /// d(micro-rotation)/d x_i over the path, in the laboratory, x the position at the start, rad/m. Contacts
-  /// of `rolling_friction li_chu` see it as an eigen-rotation.
-  Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
-};
 
 /// fix ID all cell/strain [damping RATE]
 ///
@@ -70,54 +61,43 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   /// Weights of the grains in the mean rotation, by local index, m N; not all zero. To be set before the
   /// first force pass of a path with a RotationLoading, and as often as the forces have changed.
   void set_torque_capacities(std::span<const double> capacities);
-  [[nodiscard]] Box box() const { return path_.at(step_); }
+  [[nodiscard]] const Box& box() const { return motion_.box(); }
   [[nodiscard]] int grains() const { return atom->nlocal; }
   [[nodiscard]] double time_step() const { return update->dt; }
 
   [[nodiscard]] std::span<const double> weights() const { return weights_; }
 
-  /// Sum over grains of the magnitude of the resultant force, N, and torque, N m, at the last force pass.
-  [[nodiscard]] double sum_of_unbalanced_force() const { return unbalanced_force_; }
-  [[nodiscard]] double sum_of_unbalanced_moment() const { return unbalanced_moment_; }
+  /// Resultants of the last force pass.
+  [[nodiscard]] const Imbalance& imbalance() const { return imbalance_; }
   /// lambda of the last force pass, Pa: sigma_21 - sigma_12 that holds the mean rotation; 0 in mode 1.
   [[nodiscard]] double multiplier() const { return multiplier_; }
 
  private:
   void set_box(const Box& box);
-  /// Spin that the grains have in common in the step that moves the box by `motion`, counted from the frame
-  /// of the box, rad a step.
-  [[nodiscard]] double affine_spin(int step, const BoxPath::Motion& motion) const;
-  /// Rate of curvature in the position now and the frame of the box now, rad/(m s).
-  [[nodiscard]] Eigen::Vector2d curvature_rate() const;
-  /// All grains and images get this change of the affine velocity gradient, 1/s, and spin, rad/s.
-  void accelerate(const Eigen::Matrix2d& change, double change_of_spin);
+  /// All grains and images get the change of the affine velocity gradient and spin of the step under way.
+  void accelerate();
   void move_held_grains();
   void take_reactions();
   /// What is done to the forces of a pass: sums for the read-out, damping, mean rotation.
   void balance(bool damped);
   /// The mean rotation is prescribed and there are grains to hold it with.
-  [[nodiscard]] bool controlled() const { return rotation_ && !weights_.empty(); }
+  [[nodiscard]] bool controlled() const { return motion_.rotation() && !weights_.empty(); }
   void sum_unbalanced_forces();
   void sum_unbalanced_moments();
   void damp();
   /// Adds lambda W to the torques; `contact_torques` are the sums of the contacts, before damping.
   void control_mean_rotation();
 
-  BoxPath path_;
-  int step_ = 0;            ///< steps of the path done
-  BoxPath::Motion motion_;  ///< motion of the step under way
-  double spin_ = 0.0;       ///< affine spin of that step, counted from the frame, rad/s
+  BoxMotion motion_;
   double damping_rate_ = 0.0;
   double thickness_ = 0.0;
-  std::optional<RotationLoading> rotation_;
   std::vector<bool> held_;  ///< empty in modes 1 and 2
   std::vector<Eigen::Vector3d> reactions_;
   std::vector<double> weights_;          ///< W_p over the volume: they add up to 1
   std::vector<double> contact_torques_;  ///< about e_3, N m
   std::vector<double> rotations_;        ///< rad
   double multiplier_ = 0.0;
-  double unbalanced_force_ = 0.0;
-  double unbalanced_moment_ = 0.0;
+  Imbalance imbalance_;
 };
 
 /// Makes the fixes of this project known to the engine.

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "dem/cell/averages.hpp"
+#include "dem/cell/box.hpp"
 
 namespace polargrain::dem {
 
@@ -54,9 +55,9 @@ std::vector<double> torque_capacities(std::span<const Contact> contacts, int gra
   return capacities;
 }
 
-Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius,
+Unbalanced unbalanced(const Imbalance& imbalance, std::span<const Contact> contacts, double mean_radius,
                       double least_force) {
-  std::vector<bool> touched(static_cast<std::size_t>(strain.grains()), false);
+  std::vector<bool> touched(static_cast<std::size_t>(imbalance.grains), false);
   for (const Contact& contact : contacts)
     touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
         true;
@@ -64,8 +65,20 @@ Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> cont
   found.carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
   const double force = std::max(mean_contact_force(contacts), least_force);
   if (contacts.empty() || !(force > 0.0)) return found;
-  found.force_ratio = strain.sum_of_unbalanced_force() / found.carrying / force;
-  found.moment_ratio = strain.sum_of_unbalanced_moment() / found.carrying / (force * mean_radius);
+  found.force_ratio = imbalance.force / found.carrying / force;
+  found.moment_ratio = imbalance.moment / found.carrying / (force * mean_radius);
+  return found;
+}
+
+Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& imbalance, double mean_radius,
+                           double least_force, double area, double grain_area) {
+  Equilibrium found;
+  found.void_ratio = area / grain_area - 1.0;
+  const Unbalanced ratios = unbalanced(imbalance, contacts, mean_radius, least_force);
+  found.unbalanced_force_ratio = ratios.force_ratio;
+  found.unbalanced_moment_ratio = ratios.moment_ratio;
+  found.rattlers = 1.0 - ratios.carrying / imbalance.grains;
+  found.coordination_number = 2.0 * static_cast<double>(contacts.size()) / imbalance.grains;
   return found;
 }
 

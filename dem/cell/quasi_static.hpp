@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "common/cell.hpp"
-#include "dem/cell/fix_cell_strain.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
 namespace polargrain::dem {
@@ -26,6 +25,13 @@ int loading_steps(const CellControl& control, const Increment& increment, double
 /// up the grains that nothing holds. Empty when nothing carries any.
 std::vector<double> torque_capacities(std::span<const Contact> contacts, int grains);
 
+/// Resultants of the contacts of the grains, and of what holds their mean rotation, before damping.
+struct Imbalance {
+  double force = 0.0;   ///< sum over grains of its magnitude, N
+  double moment = 0.0;  ///< the same, N m
+  int grains = 0;
+};
+
 /// How far grains are from rest; see CellDiagnostics.
 struct Unbalanced {
   double force_ratio = 0.0;   ///< 0 without contacts
@@ -41,7 +47,22 @@ inline constexpr double kLeastForce = 1e-3;
 
 /// Of the last force pass. @param mean_radius m
 /// @param least_force the ratios are to the mean contact force, and to this when that is less, N
-Unbalanced unbalanced(const FixCellStrain& strain, std::span<const Contact> contacts, double mean_radius,
+Unbalanced unbalanced(const Imbalance& imbalance, std::span<const Contact> contacts, double mean_radius,
                       double least_force);
+
+/// How near a packing is to rest, and how its grains touch.
+struct Equilibrium {
+  /// Mean unbalanced force on the grains that touch others, over the mean contact force; 0 without contacts.
+  double unbalanced_force_ratio = 0.0;
+  /// The same for moments, over the mean contact force times the mean radius.
+  double unbalanced_moment_ratio = 0.0;
+  double void_ratio = 0.0;           ///< in plane
+  double coordination_number = 0.0;  ///< 2 contacts / grains
+  double rattlers = 0.0;             ///< grains without a contact / grains
+};
+
+/// @param least_force see unbalanced @param area of the box, m^2 @param grain_area sum, m^2
+Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& imbalance, double mean_radius,
+                           double least_force, double area, double grain_area);
 
 }  // namespace polargrain::dem

@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 
+#include "dem/contact/spoken_settings.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -12,12 +13,14 @@ namespace polargrain::dem {
 /// additions, so that both give the same bits. All calls are inlined into it, which lets the compiler keep a
 /// contact in registers; bench/contact_loop measures what that saves.
 template <typename Model>
-class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model> {
+class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public SettingsSource {
   using Base = LIGGGHTS::PairStyles::Granular<Model>;
 
  public:
   PairLoop(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::PairGran* pair, int64_t hash)
       : Base(lammps, pair, hash), lammps_(*lammps), model_(*Model::last_made()) {}
+
+  [[nodiscard]] const SpokenSettings& spoken_settings() const override { return model_.spoken_settings(); }
 
   void init_granular() override {
     Base::init_granular();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dem/contact/contact_recorder.hpp"
+#include "dem/contact/spoken_settings.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -16,7 +17,7 @@ class RecordedModel : public Model {
  public:
   RecordedModel(LAMMPS_NS::LAMMPS* lammps, LIGGGHTS::IContactHistorySetup* history, bool is_wall,
                 int64_t hash)
-      : Model(lammps, history, is_wall, hash), lammps_(*lammps) {
+      : Model(lammps, history, is_wall, hash), lammps_(*lammps), hash_(hash) {
     last_made() = this;
   }
   RecordedModel(const RecordedModel&) = delete;
@@ -27,6 +28,12 @@ class RecordedModel : public Model {
     static RecordedModel* model = nullptr;
     return model;
   }
+
+  void registerSettings(Settings& settings) {
+    Model::registerSettings(settings);
+    spoken_.listen(settings, hash_);
+  }
+  [[nodiscard]] const SpokenSettings& spoken_settings() const { return spoken_; }
 
   void connectToProperties(PropertyRegistry& registry) {
     Model::connectToProperties(registry);
@@ -82,6 +89,8 @@ class RecordedModel : public Model {
   }
 
   LAMMPS_NS::LAMMPS& lammps_;
+  int64_t hash_;
+  SpokenSettings spoken_;
   LAMMPS_NS::Fix* friction_ = nullptr;
 };
 

@@ -27,6 +27,7 @@
 #include <neighbor.h>
 #include <output.h>
 #include <pair_gran.h>
+#include <pair_gran_proxy.h>
 #include <timer.h>
 #include <update.h>
 #include <variable.h>

@@ -244,7 +244,7 @@ void FixCellLoad::look() {
   // As in cells: with free rotations the couple stress is nobody's business.
   Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();
   if (controlled()) couple_stress = frame * average_couple_stress(contacts, volume);
-  const Unbalanced ratios = unbalanced(*this, contacts, mean_radius_, least_force_);
+  const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_radius_, least_force_);
   const bool at_rest = ratios.force_ratio <= control_.unbalanced_force_ratio &&
                        ratios.moment_ratio <= control_.unbalanced_moment_ratio;
   const bool given_up = done_ - loading_ >= control_.most_relaxation_steps;

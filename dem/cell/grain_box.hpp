@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "common/state.hpp"
+#include "dem/cell/box_motion.hpp"
+#include "dem/cell/quasi_static.hpp"
+#include "dem/contact/contact_recorder.hpp"
+
+namespace polargrain::dem {
+
+/// Grains in a periodic box that can be carried along a path: what a cell drives. Order of calls: restore,
+/// begin, set_up, then run as often as wanted; the rest tells of the last force pass.
+class GrainBox {
+ public:
+  virtual ~GrainBox() = default;
+
+  /// Puts a state in place of what is there. @throws RunError when it is none of these grains and models
+  virtual void restore(const State& state) = 0;
+  /// The grains as they are, in their box, folded back into it (Box::reduced).
+  [[nodiscard]] virtual StatePointer save() = 0;
+
+  /// Sets the path of the steps to come; the box is at its start. Nothing leaves the rotations free (mode 1).
+  /// @param damping_rate of the viscous damping against the affine flow, 1/s
+  virtual void begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) = 0;
+  /// Contacts and forces at the positions as they are. No step.
+  virtual void set_up() = 0;
+  /// DEM steps, at least 1.
+  virtual void run(int steps) = 0;
+  /// Called now and then while it runs; may be empty.
+  std::function<void()> progress;
+
+  /// Weights of the grains in the mean rotation, m N, not all zero (mode 2). Before the first step
+  /// `hold_rotation` puts the torques that hold the mean to the forces of set_up.
+  virtual void set_torque_capacities(std::span<const double> capacities) = 0;
+  virtual void hold_rotation() = 0;
+  /// W_p over the volume: they add up to 1; empty while there are none.
+  [[nodiscard]] virtual std::span<const double> weights() const = 0;
+  /// sigma_21 - sigma_12 that holds the mean rotation, Pa; 0 in mode 1.
+  [[nodiscard]] virtual double multiplier() const = 0;
+
+  [[nodiscard]] virtual Box box() const = 0;
+  /// Of the last force pass; grains are counted from 0 as in the packing.
+  [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
+  /// Resultants of the last force pass.
+  [[nodiscard]] virtual Imbalance imbalance() const = 0;
+  /// Rotations in the laboratory since the packing, rad.
+  [[nodiscard]] virtual std::span<const double> rotations() const = 0;
+};
+
+}  // namespace polargrain::dem

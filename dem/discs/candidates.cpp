@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/discs/candidates.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace polargrain::dem {
+
+namespace {
+
+/// Where a disc lies: which bin, and which copy of the box its centre has wandered into.
+struct Place {
+  int column = 0;
+  int row = 0;
+  LatticeVector copy;
+};
+
+/// Bins of a periodic box that is divided evenly along its base vectors, none narrower than it must be where
+/// the box allows.
+class Bins {
+ public:
+  Bins(std::span<const Disc> discs, const Eigen::Matrix2d& base, double reach) {
+    const double area = base.determinant();
+    // Distances between opposite faces.
+    const double width_1 = area / base.col(1).norm();
+    const double width_2 = area / base.col(0).norm();
+    columns_ = std::max(1, static_cast<int>(width_1 / reach));
+    rows_ = std::max(1, static_cast<int>(width_2 / reach));
+    span_1 = static_cast<int>(std::ceil(reach * columns_ / width_1));
+    span_2 = static_cast<int>(std::ceil(reach * rows_ / width_2));
+    const Eigen::Matrix2d inverse = base.inverse();
+    places.resize(discs.size());
+    starts_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+    for (std::size_t k = 0; k < discs.size(); ++k) {
+      const double s = inverse(0, 0) * discs[k].x + inverse(0, 1) * discs[k].y;
+      const double t = inverse(1, 0) * discs[k].x + inverse(1, 1) * discs[k].y;
+      Place& place = places[k];
+      place.copy = {static_cast<std::int32_t>(std::floor(s)), static_cast<std::int32_t>(std::floor(t))};
+      place.column = std::min(columns_ - 1, static_cast<int>((s - place.copy.p) * columns_));
+      place.row = std::min(rows_ - 1, static_cast<int>((t - place.copy.q) * rows_));
+      ++starts_[bin(place) + 1];
+    }
+    for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
+    members_.resize(discs.size());
+    std::vector<std::int32_t> next(starts_.begin(), starts_.end() - 1);
+    for (std::size_t k = 0; k < discs.size(); ++k)
+      members_[next[bin(places[k])]++] = static_cast<std::int32_t>(k);
+  }
+
+  /// Calls `visit(members, copy)` for the bins around a place; `copy`: which copy of the box they are seen in.
+  template <typename Visit>
+  void around(const Place& place, Visit visit) const {
+    for (int dy = -span_2; dy <= span_2; ++dy)
+      for (int dx = -span_1; dx <= span_1; ++dx) {
+        const int column = place.column + dx;
+        const int row = place.row + dy;
+        const LatticeVector copy{floor_divide(column, columns_), floor_divide(row, rows_)};
+        const std::size_t b =
+            static_cast<std::size_t>(row - copy.q * rows_) * columns_ + (column - copy.p * columns_);
+        visit(std::span(members_).subspan(starts_[b], starts_[b + 1] - starts_[b]), copy);
+      }
+  }
+
+  std::vector<Place> places;  ///< of the discs
+  int span_1 = 1;             ///< bins on either side that the reach covers
+  int span_2 = 1;
+
+ private:
+  static std::int32_t floor_divide(int number, int by) {
+    return number >= 0 ? number / by : -((by - 1 - number) / by);
+  }
+  [[nodiscard]] std::size_t bin(const Place& place) const {
+    return static_cast<std::size_t>(place.row) * columns_ + place.column;
+  }
+
+  int columns_ = 1;
+  int rows_ = 1;
+  std::vector<std::int32_t> starts_;
+  std::vector<std::int32_t> members_;
+};
+
+std::uint16_t image_number(std::vector<LatticeVector>& images, const LatticeVector& wanted) {
+  const auto found = std::find(images.begin(), images.end(), wanted);
+  const auto number = static_cast<std::uint16_t>(found - images.begin());
+  if (found == images.end()) images.push_back(wanted);
+  return number;
+}
+
+/// A disc that touches its own image sees it on both sides; one of them is counted.
+bool counts(std::int32_t first, std::int32_t second, const LatticeVector& image) {
+  if (first != second) return first < second;
+  return image.q > 0 || (image.q == 0 && image.p > 0);
+}
+
+}  // namespace
+
+void CandidateList::find(std::span<const Disc> discs, std::span<const int> types, int kinds,
+                         const Eigen::Matrix2d& base, double skin) {
+  double largest = 0.0;
+  for (const Disc& disc : discs) largest = std::max(largest, disc.radius);
+  const Bins bins(discs, base, 2.0 * largest + skin);
+  rows.assign(1, 0);
+  pairs.clear();
+  images.assign(1, LatticeVector{});
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const Disc& first = discs[i];
+    const LatticeVector& home = bins.places[i].copy;
+    bins.around(bins.places[i], [&](std::span<const std::int32_t> members, const LatticeVector& copy) {
+      for (const std::int32_t j : members) {
+        const Disc& second = discs[j];
+        const LatticeVector& away = bins.places[j].copy;
+        const LatticeVector image{copy.p + home.p - away.p, copy.q + home.q - away.q};
+        if (!counts(static_cast<std::int32_t>(i), j, image)) continue;
+        const double dx = first.x - second.x - (base(0, 0) * image.p + base(0, 1) * image.q);
+        const double dy = first.y - second.y - (base(1, 0) * image.p + base(1, 1) * image.q);
+        const double sum = first.radius + second.radius;
+        if (!(dx * dx + dy * dy < (sum + skin) * (sum + skin))) continue;
+        pairs.push_back({j, image_number(images, image),
+                         static_cast<std::uint16_t>(types[i] * kinds + types[j]),
+                         first.radius * second.radius / sum});
+      }
+    });
+    rows.push_back(static_cast<std::int32_t>(pairs.size()));
+  }
+  values.assign(pairs.size() * static_cast<std::size_t>(springs), 0.0);
+}
+
+void CandidateList::take_springs(const CandidateList& other) {
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    for (std::int32_t c = rows[i]; c < rows[i + 1]; ++c)
+      for (std::int32_t o = other.rows[i]; o < other.rows[i + 1]; ++o) {
+        if (other.pairs[o].second != pairs[c].second ||
+            !(other.images[other.pairs[o].image] == images[pairs[c].image]))
+          continue;
+        std::copy_n(&other.values[static_cast<std::size_t>(o) * springs], springs,
+                    &values[static_cast<std::size_t>(c) * springs]);
+        break;
+      }
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/discs/disc_box.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "dem/discs/laws.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+/// Gap up to which two discs are candidates, over the mean radius: at strains of 1e-3 a list lasts an
+/// increment and holds few pairs that do not touch.
+constexpr double kSkin = 0.05;
+
+/// Steps between two calls of `progress`.
+constexpr int kProgressChunk = 200;
+
+/// Smallest stretch of a deformation gradient.
+double least_stretch(const Eigen::Matrix2d& f) {
+  const double mean = 0.5 * f.squaredNorm();
+  const double determinant = f.determinant();
+  const double root = std::sqrt(std::max(0.0, mean * mean - determinant * determinant));
+  return std::sqrt(std::max(0.0, mean - root));
+}
+
+}  // namespace
+
+DiscBox::DiscBox(Definition definition)
+    : definition_(std::move(definition)),
+      loop_(definition_.plain ? make_plain_contact_loop(definition_.combination)
+                              : make_contact_loop(definition_.combination)) {
+  const std::size_t count = definition_.radii.size();
+  discs_.resize(count);
+  forces_.resize(count);
+  motions_.resize(count);
+  rotations_.resize(count);
+  listed_places_.resize(count);
+  double mean = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double radius = definition_.radii[k];
+    mean += radius / static_cast<double>(count);
+    largest_radius_ = std::max(largest_radius_, radius);
+    discs_[k].radius = radius;
+    discs_[k].inverse_mass = 1.0 / definition_.masses[k];
+    discs_[k].inverse_inertia = 2.0 / (definition_.masses[k] * radius * radius);  // disc
+  }
+  skin_ = kSkin * mean;
+  list_.springs = former_.springs = spring_count(definition_.combination.rolling);
+  contacts_.reserve(3 * count);
+}
+
+void DiscBox::restore(const State& state) {
+  restore(decode_discs(state));
+}
+
+void DiscBox::restore(const DiscSnapshot& snapshot) {
+  if (snapshot.discs.size() != discs_.size() || snapshot.code != definition_.combination.code() ||
+      snapshot.springs != list_.springs)
+    throw RunError("this state belongs to a cell of another packing or another input script");
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const DiscSnapshot::Motion& from = snapshot.discs[k];
+    Disc& disc = discs_[k];
+    disc.x = from.x;
+    disc.y = from.y;
+    disc.vx = from.vx;
+    disc.vy = from.vy;
+    disc.spin = from.spin;
+    motions_[k] = {0.0, 0.0, 0.0, from.turned};
+  }
+  motion_ = BoxMotion(BoxPath(snapshot.box, Eigen::Matrix2d::Zero(), 0), std::nullopt, definition_.time_step);
+  // The springs wait in the form of a list for the one that is made next.
+  former_.images.assign(1, LatticeVector{});
+  former_.rows.assign(1, 0);
+  former_.pairs.clear();
+  for (const DiscSnapshot::Springs& contact : snapshot.contacts) {
+    while (static_cast<std::int32_t>(former_.rows.size()) <= contact.first)
+      former_.rows.push_back(static_cast<std::int32_t>(former_.pairs.size()));
+    auto image = std::find(former_.images.begin(), former_.images.end(), contact.image);
+    if (image == former_.images.end()) image = former_.images.insert(image, contact.image);
+    former_.pairs.push_back(
+        {contact.second, static_cast<std::uint16_t>(image - former_.images.begin()), 0, 0.0});
+  }
+  former_.rows.resize(discs_.size() + 1, static_cast<std::int32_t>(former_.pairs.size()));
+  former_.values = snapshot.values;
+  list_.find(discs_, definition_.types, definition_.combination.types, snapshot.box.base_vectors(), skin_);
+  list_.take_springs(former_);
+  find_candidates();
+}
+
+StatePointer DiscBox::save() {
+  const Box box = motion_.box();
+  DiscSnapshot snapshot;
+  snapshot.box = box.reduced();
+  snapshot.code = definition_.combination.code();
+  snapshot.springs = list_.springs;
+  // b_2 of the reduced box is b_2 + fold b_1.
+  const auto fold = static_cast<std::int32_t>(std::lround((snapshot.box.tilt - box.tilt) / box.length_x));
+  const Eigen::Matrix2d base = snapshot.box.base_vectors();
+  const Eigen::Matrix2d inverse = base.inverse();
+  std::vector<LatticeVector> copies(discs_.size());
+  snapshot.discs.resize(discs_.size());
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const Disc& disc = discs_[k];
+    LatticeVector& copy = copies[k];
+    copy.p = static_cast<std::int32_t>(std::floor(inverse(0, 0) * disc.x + inverse(0, 1) * disc.y));
+    copy.q = static_cast<std::int32_t>(std::floor(inverse(1, 0) * disc.x + inverse(1, 1) * disc.y));
+    snapshot.discs[k] = {disc.x - (base(0, 0) * copy.p + base(0, 1) * copy.q),
+                         disc.y - (base(1, 0) * copy.p + base(1, 1) * copy.q),
+                         disc.vx,
+                         disc.vy,
+                         disc.spin,
+                         motions_[k].turned};
+  }
+  for (std::size_t i = 0; i < discs_.size(); ++i)
+    for (std::int32_t c = list_.rows[i]; c < list_.rows[i + 1]; ++c) {
+      const double* const values = &list_.values[static_cast<std::size_t>(c) * list_.springs];
+      if (std::all_of(values, values + list_.springs, [](double value) { return value == 0.0; })) continue;
+      const Candidate& pair = list_.pairs[c];
+      const LatticeVector& old = list_.images[pair.image];
+      const LatticeVector& away = copies[pair.second];
+      // p b_1 + q b_2 = (p - q fold) b_1 + q (b_2 + fold b_1)
+      snapshot.contacts.push_back(
+          {static_cast<std::int32_t>(i),
+           pair.second,
+           {old.p - old.q * fold + away.p - copies[i].p, old.q + away.q - copies[i].q}});
+      snapshot.values.insert(snapshot.values.end(), values, values + list_.springs);
+    }
+  return encode(snapshot);
+}
+
+void DiscBox::find_candidates() {
+  listed_base_ = motion_.box().base_vectors();
+  wandered_ = 0.0;
+  for (std::size_t k = 0; k < discs_.size(); ++k) listed_places_[k] = {discs_[k].x, discs_[k].y};
+  images_.resize(list_.images.size());
+  place_images();
+}
+
+double DiscBox::room() const {
+  const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_base_.inverse();
+  const double stretch = least_stretch(f);
+  return 0.5 * (stretch * skin_ - (1.0 - stretch) * 2.0 * largest_radius_);
+}
+
+bool DiscBox::outgrown() {
+  const double left = room();
+  if (wandered_ < left) return false;
+  // The bound adds up speeds; the way itself is shorter.
+  const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_base_.inverse();
+  double longest = 0.0;
+  for (std::size_t k = 0; k < discs_.size(); ++k)
+    longest = std::max(longest, (Eigen::Vector2d(discs_[k].x, discs_[k].y) - f * listed_places_[k]).squaredNorm());
+  wandered_ = std::sqrt(longest);
+  return !(wandered_ < 0.8 * left);
+}
+
+void DiscBox::place_images() {
+  const Eigen::Matrix2d base = motion_.box().base_vectors();
+  const Eigen::Matrix2d& rate = motion_.rate();
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const LatticeVector& image = list_.images[k];
+    images_[k] = {base(0, 0) * image.p + base(0, 1) * image.q, base(1, 0) * image.p + base(1, 1) * image.q,
+                  rate(0, 0) * image.p + rate(0, 1) * image.q, rate(1, 0) * image.p + rate(1, 1) * image.q};
+  }
+}
+
+void DiscBox::begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
+  motion_ = BoxMotion(path, rotation, definition_.time_step);
+  damping_rate_ = damping_rate;
+  multiplier_ = 0.0;
+  weights_.clear();  // those of another path say nothing of this one
+}
+
+void DiscBox::clear_forces() {
+  std::fill(forces_.begin(), forces_.end(), DiscForce{});
+}
+
+void DiscBox::compute_forces(bool advance, bool record) {
+  const ContactLoop::Scene scene{discs_, images_, motion_.curvature_rate(), definition_.time_step, advance};
+  if (!record) {
+    loop_->add_forces(scene, list_, forces_);
+    return;
+  }
+  contacts_.clear();
+  loop_->record_forces(scene, list_, forces_, contacts_);
+}
+
+void DiscBox::set_up() {
+  clear_forces();
+  compute_forces(false, true);
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    motions_[k].ax = forces_[k].x * discs_[k].inverse_mass;
+    motions_[k].ay = forces_[k].y * discs_[k].inverse_mass;
+    motions_[k].angular = forces_[k].torque * discs_[k].inverse_inertia;
+  }
+}
+
+void DiscBox::set_torque_capacities(std::span<const double> capacities) {
+  double sum = 0.0;
+  for (const double capacity : capacities) sum += capacity;
+  weights_.assign(capacities.begin(), capacities.end());
+  for (double& weight : weights_) weight /= sum;
+}
+
+void DiscBox::hold_rotation() {
+  if (!controlled()) return;
+  control_rotation(false);
+  for (std::size_t k = 0; k < discs_.size(); ++k)
+    motions_[k].angular = forces_[k].torque * discs_[k].inverse_inertia;
+}
+
+void DiscBox::control_rotation(bool damped) {
+  // The spins of the next half step must average to the prescribed one, sum W (spin + dt (T + lambda W) / I)
+  // = V rate with W = V weight (C.6); what the rate changes until then all grains get alike.
+  const double step = definition_.time_step;
+  const double rate = damped ? damping_rate_ : 0.0;
+  const double volume = motion_.box().area() * definition_.thickness;
+  double mean_spin = 0.0;
+  double compliance = 0.0;
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const Disc& disc = discs_[k];
+    const double angular = forces_[k].torque * disc.inverse_inertia - rate * (disc.spin - motion_.spin());
+    mean_spin += weights_[k] * (disc.spin + step * angular);
+    compliance += weights_[k] * weights_[k] * step * disc.inverse_inertia;
+  }
+  multiplier_ = (motion_.spin() - mean_spin) / (compliance * volume);
+  const double torque = multiplier_ * volume;
+  for (std::size_t k = 0; k < discs_.size(); ++k) forces_[k].torque += torque * weights_[k];
+}
+
+void DiscBox::begin_step() {
+  const double step = definition_.time_step;
+  const double half = 0.5 * step;
+  const Eigen::Matrix2d change = motion_.change_of_gradient();
+  const Eigen::Matrix2d flow = motion_.gradient_before();
+  const double change_of_spin = motion_.change_of_spin();
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    Disc& disc = discs_[k];
+    DiscMotion& motion = motions_[k];
+    disc.vx += change(0, 0) * disc.x + change(0, 1) * disc.y;
+    disc.vy += change(1, 0) * disc.x + change(1, 1) * disc.y;
+    disc.spin += change_of_spin;
+    disc.vx += half * motion.ax;
+    disc.vy += half * motion.ay;
+    disc.spin += half * motion.angular;
+    const double ux = disc.vx - (flow(0, 0) * disc.x + flow(0, 1) * disc.y);
+    const double uy = disc.vy - (flow(1, 0) * disc.x + flow(1, 1) * disc.y);
+    fastest = std::max(fastest, ux * ux + uy * uy);
+    disc.x += step * disc.vx;
+    disc.y += step * disc.vy;
+    motion.turned += step * disc.spin + motion_.turn();
+    forces_[k] = DiscForce{};
+  }
+  wandered_ += step * std::sqrt(fastest);
+}
+
+void DiscBox::end_step() {
+  const double half = 0.5 * definition_.time_step;
+  const double rate = damping_rate_;
+  const Eigen::Matrix2d flow = motion_.gradient();
+  const double spin = motion_.spin();
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    Disc& disc = discs_[k];
+    const DiscForce& force = forces_[k];
+    DiscMotion& motion = motions_[k];
+    motion.ax =
+        force.x * disc.inverse_mass - rate * (disc.vx - (flow(0, 0) * disc.x + flow(0, 1) * disc.y));
+    motion.ay =
+        force.y * disc.inverse_mass - rate * (disc.vy - (flow(1, 0) * disc.x + flow(1, 1) * disc.y));
+    motion.angular = force.torque * disc.inverse_inertia - rate * (disc.spin - spin);
+    disc.vx += half * motion.ax;
+    disc.vy += half * motion.ay;
+    disc.spin += half * motion.angular;
+  }
+}
+
+void DiscBox::run(int steps) {
+  for (int done = 1; done <= steps; ++done) {
+    motion_.advance();
+    begin_step();
+    if (outgrown()) {
+      std::swap(list_, former_);
+      list_.find(discs_, definition_.types, definition_.combination.types, motion_.box().base_vectors(),
+                 skin_);
+      list_.take_springs(former_);
+      find_candidates();
+    } else if (motion_.moving()) {
+      place_images();
+    }
+    compute_forces(true, done == steps);
+    if (controlled()) control_rotation(damping_rate_ > 0.0);
+    end_step();
+    if (progress && done % kProgressChunk == 0) progress();
+  }
+}
+
+Imbalance DiscBox::imbalance() const {
+  Imbalance sums;
+  sums.grains = static_cast<int>(discs_.size());
+  for (const DiscForce& force : forces_) {
+    sums.force += std::sqrt(force.x * force.x + force.y * force.y);
+    sums.moment += std::abs(force.torque);
+  }
+  return sums;
+}
+
+std::span<const double> DiscBox::rotations() const {
+  for (std::size_t k = 0; k < motions_.size(); ++k) rotations_[k] = motions_[k].turned;
+  return rotations_;
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "dem/cell/grain_box.hpp"
+#include "dem/discs/contact_loop.hpp"
+#include "dem/discs/disc_state.hpp"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace polargrain::dem {
+
+/// A box of discs that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet, the
+/// same box motion, damping and control of rotations as `fix cell/strain` with `fix nve/sphere`, in three passes
+/// a step: one over the contacts and two over the discs. Tests hold it to the engine's own loop.
+class DiscBox final : public GrainBox {
+ public:
+  /// What of the discs never changes.
+  struct Definition {
+    DiscCombination combination;
+    std::vector<double> radii;   ///< m
+    std::vector<double> masses;  ///< kg
+    std::vector<int> types;      ///< from 0
+    double thickness = 0.0;      ///< of the box, m
+    double time_step = 0.0;      ///< s
+    bool plain = false;          ///< run the plain twin of the loop over contacts
+  };
+  explicit DiscBox(Definition definition);
+
+  void restore(const State& state) override;
+  /// The same from a snapshot. @throws RunError when it is none of these discs and laws
+  void restore(const DiscSnapshot& snapshot);
+  [[nodiscard]] StatePointer save() override;
+  void begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) override;
+  void set_up() override;
+  void run(int steps) override;
+
+  void set_torque_capacities(std::span<const double> capacities) override;
+  void hold_rotation() override;
+  [[nodiscard]] std::span<const double> weights() const override { return weights_; }
+  [[nodiscard]] double multiplier() const override { return multiplier_; }
+  [[nodiscard]] Box box() const override { return motion_.box(); }
+  [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
+  [[nodiscard]] Imbalance imbalance() const override;
+  [[nodiscard]] std::span<const double> rotations() const override;
+
+ private:
+  void find_candidates();
+  /// Whether two discs that are no candidates may have come to touch.
+  [[nodiscard]] bool outgrown();
+  /// How far the discs may move against the affine flow before that, m; less than 0 when it is too late.
+  [[nodiscard]] double room() const;
+  void place_images();
+  void clear_forces();
+  void compute_forces(bool advance, bool record);
+  /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
+  void control_rotation(bool damped);
+  /// First half of a step: what the box adds to the velocities, half a kick, drift.
+  void begin_step();
+  /// Second half: damping, half a kick.
+  void end_step();
+  [[nodiscard]] bool controlled() const { return motion_.rotation() && !weights_.empty(); }
+
+  Definition definition_;
+  std::unique_ptr<ContactLoop> loop_;
+  double skin_ = 0.0;  ///< m
+  std::vector<Disc> discs_;
+  std::vector<DiscForce> forces_;
+  std::vector<DiscMotion> motions_;
+  CandidateList list_;
+  CandidateList former_;
+  std::vector<MovingImage> images_;
+  Eigen::Matrix2d listed_base_ = Eigen::Matrix2d::Identity();  ///< box when the list was made
+  std::vector<Eigen::Vector2d> listed_places_;
+  /// Bound of how far a disc has moved against the affine flow since the list was made, m.
+  double wandered_ = 0.0;
+  double largest_radius_ = 0.0;  ///< m
+  BoxMotion motion_;
+  double damping_rate_ = 0.0;
+  std::vector<double> weights_;
+  double multiplier_ = 0.0;
+  std::vector<Contact> contacts_;
+  mutable std::vector<double> rotations_;
+};
+
+/// The discs of an initialised engine as they stand there, with the springs of its contact histories.
+DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
+                                    double thickness);
+DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box& box,
+                           std::span<const double> rotations);
+
+}  // namespace polargrain::dem
