@@ -84,15 +84,4 @@ Box BoxPath::at(int step) const {
   return box;
 }
 
-BoxPath::Motion BoxPath::motion(int step) const {
-  Motion motion;
-  if (step < 1 || step > steps_) return motion;
-  const Box before = at(step - 1);
-  const Box after = at(step);
-  motion.gradient = (after.base_vectors() - before.base_vectors()) *
-                    before.base_vectors().triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
-  motion.rotation = after.rotation - before.rotation;
-  return motion;
-}
-
 }  // namespace polargrain::dem

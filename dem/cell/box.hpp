@@ -45,16 +45,6 @@ class BoxPath {
   /// F(s) after `step` steps, in the laboratory.
   [[nodiscard]] Eigen::Matrix2d deformation(int step) const;
 
-  /// What carries a grain from step - 1 to step in the box frame: x -> (I + gradient) x, while the frame
-  /// itself turns by `rotation`. Zero outside 1 .. steps().
-  struct Motion {
-    Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();
-    double rotation = 0.0;
-    /// Rotation of the continuum, counted from the frame.
-    [[nodiscard]] double spin() const { return 0.5 * (gradient(1, 0) - gradient(0, 1)); }
-  };
-  [[nodiscard]] Motion motion(int step) const;
-
  private:
   [[nodiscard]] double fraction(int step) const;
 

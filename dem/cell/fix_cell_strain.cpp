@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "dem/contact/cell_loading.hpp"
+#include "dem/contact/closing_factor.hpp"
 #include "dem/engine/private_access.hpp"
 
 namespace polargrain::dem {
@@ -28,6 +29,9 @@ FixCellStrain::FixCellStrain(LAMMPS* lammps, int count, char** words) : Fix(lamm
   if (!domain->triclinic)
     error->all(FLERR, "Fix cell/strain needs a triclinic box (a line 'xy xz yz' in the data)");
   if (domain->dimension != 2) error->all(FLERR, "Fix cell/strain needs dimension 2");
+  // Cells forget the springs of contacts that open, also those of stock models, which would keep them until the
+  // next neighbour list.
+  neighbor->register_contact_dist_factor(kClosingFactor);
 }
 
 int FixCellStrain::setmask() {

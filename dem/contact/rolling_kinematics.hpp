@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "dem/contact/cell_loading.hpp"
+#include "dem/contact/closing_factor.hpp"
 
 namespace polargrain::dem {
 
@@ -26,15 +27,18 @@ inline Vector cross(const double* a, const double* b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The engine tells contact models of an opened contact between grains only as long as the gap is below this
-/// factor of the sum of radii, and by default (factor 1) never: the stock springs of a contact that opens and
-/// closes again between two builds of the neighbour list go on where they were. Models that must forget ask
-/// for this factor. Grains do not part by one per cent of their size in a step.
-inline constexpr double kClosingFactor = 1.01;
-
 /// R* = r_i r_j / (r_i + r_j); a wall is a grain of infinite radius.
 inline double reduced_radius(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact) {
   return contact.is_wall ? contact.radi : contact.radi * contact.radj / (contact.radi + contact.radj);
+}
+
+/// +1 where i is the grain A of docs/theory/grains.md, D, -1 where it is B: A is the one with the lower id. The
+/// rolling friction force changes its sign when A and B are exchanged (D.3), so both grains of a contact across
+/// a periodic face, which compute it separately, must agree on who is who.
+inline double side(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact, const int* tag) {
+  if (contact.is_wall || tag[contact.i] < tag[contact.j]) return 1.0;
+  if (tag[contact.i] > tag[contact.j]) return -1.0;
+  return contact.delta[1] > 0.0 || (contact.delta[1] == 0.0 && contact.delta[0] > 0.0) ? 1.0 : -1.0;
 }
 
 /// Rate of the rotation of i relative to j, rad/s, the curvature of the cell included (grains only). Walls do

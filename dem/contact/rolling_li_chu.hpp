@@ -150,7 +150,8 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
   /// k_r R* en x s: the moment on i that is conjugate to the rolling friction force (D.3).
   polargrain::dem::Vector coupling_moment(const SurfacesIntersectData& contact) const {
     if (!symmetric_) return {0.0, 0.0, 0.0};
-    const double factor = force_stiffness_ratio_[contact.itype][contact.jtype] * contact.kt *
+    const double factor = polargrain::dem::side(contact, atom->tag) *
+                          force_stiffness_ratio_[contact.itype][contact.jtype] * contact.kt *
                           polargrain::dem::reduced_radius(contact);
     const polargrain::dem::Vector turning =
         polargrain::dem::cross(contact.en, &contact.contact_history[sliding_]);

@@ -5,7 +5,8 @@
 //   f_s = -k_s s - c_s ds/dt,  |k_s s| <= mu_s f_n          f_r = -k_r r - c_r dr/dt,  |k_r r| <= mu_r f_n
 //   |f_s + f_r| <= mu_s f_n                                 f_n = compressive normal force, 0 when it pulls
 //
-// s: sliding displacement; r = R* en x (relative rotation): rolling displacement. k_s and c_s come from the
+// s: sliding displacement; r = R* en x (relative rotation): rolling displacement, i the grain with the lower id
+// (seen from the other one the law would be another: docs/theory/grains.md, D.3). k_s and c_s come from the
 // normal model. A spring beyond its limit is scaled to it and loses its dashpot.
 //
 // mu_s       `coefficientFriction`                 >= 0
@@ -22,6 +23,7 @@ TANGENTIAL_MODEL(TANGENTIAL_LI_CHU, li_chu, 20)
 #else
 #ifndef POLARGRAIN_TANGENTIAL_LI_CHU_HPP
 #define POLARGRAIN_TANGENTIAL_LI_CHU_HPP
+#include <atom.h>
 #include <contact_models.h>
 #include <error.h>
 #include <neighbor.h>
@@ -139,7 +141,7 @@ class TangentialModel<TANGENTIAL_LI_CHU> : public TangentialModelBase {
     using namespace polargrain::dem;
     const double time_step = update->dt;
     const double kr = stiffness_ratio_[contact.itype][contact.jtype] * contact.kt;
-    const double radius = reduced_radius(contact);
+    const double radius = side(contact, atom->tag) * reduced_radius(contact);
     const Vector spin = relative_spin(contact, loading_);
     const Vector rate = cross(contact.en, spin.data());
     bool rolls_freely = false;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/error.hpp"
 #include "dem/discs/laws.hpp"
@@ -15,6 +16,11 @@ namespace {
 /// Gap up to which two discs are candidates, over the mean radius: at strains of 1e-3 a list lasts an
 /// increment and holds few pairs that do not touch.
 constexpr double kSkin = 0.05;
+
+/// Bounds of what a state may say: area of the box over that of the discs, sides over each other, rotations, rad.
+constexpr double kLeastArea = 0.3;
+constexpr double kMostArea = 1e3;
+constexpr double kMostTurns = 1e6;
 
 /// Steps between two calls of `progress`.
 constexpr int kProgressChunk = 200;
@@ -61,6 +67,7 @@ void DiscBox::restore(const DiscSnapshot& snapshot) {
   if (snapshot.discs.size() != discs_.size() || snapshot.code != definition_.combination.code() ||
       snapshot.springs != list_.springs)
     throw RunError("this state belongs to a cell of another packing or another input script");
+  check(snapshot);
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const DiscSnapshot::Motion& from = snapshot.discs[k];
     Disc& disc = discs_[k];
@@ -89,6 +96,26 @@ void DiscBox::restore(const DiscSnapshot& snapshot) {
   list_.find(discs_, definition_.types, definition_.combination.types, snapshot.box.base_vectors(), skin_);
   list_.take_springs(former_);
   find_candidates();
+}
+
+void DiscBox::check(const DiscSnapshot& snapshot) const {
+  // Numbers that no evaluation leaves behind would make lists without end, not answers.
+  double area = 0.0;
+  for (const double radius : definition_.radii) area += std::numbers::pi * radius * radius;
+  const Box& box = snapshot.box;
+  bool sound = box.area() > kLeastArea * area && box.area() < kMostArea * area &&
+               std::abs(box.tilt) <= 0.6 * box.length_x && box.length_x < kMostArea * box.length_y &&
+               box.length_y < kMostArea * box.length_x && std::abs(box.rotation) < kMostTurns;
+  const double step = definition_.time_step;
+  for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
+    const DiscSnapshot::Motion& disc = snapshot.discs[k];
+    const double radius = definition_.radii[k];
+    sound = sound && disc.y >= -radius && disc.y <= box.length_y + radius &&
+            std::abs(disc.x) <= 2.0 * box.length_x + radius && std::abs(disc.vx) * step < radius &&
+            std::abs(disc.vy) * step < radius && std::abs(disc.spin) * step < 1.0 &&
+            std::abs(disc.turned) < kMostTurns;
+  }
+  if (!sound) throw RunError("this state of a cell is damaged");
 }
 
 StatePointer DiscBox::save() {

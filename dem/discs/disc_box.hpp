@@ -48,6 +48,8 @@ class DiscBox final : public GrainBox {
   [[nodiscard]] std::span<const double> rotations() const override;
 
  private:
+  /// @throws RunError when the numbers are none that an evaluation leaves behind
+  void check(const DiscSnapshot& snapshot) const;
   void find_candidates();
   /// Whether two discs that are no candidates may have come to touch.
   [[nodiscard]] bool outgrown();

@@ -36,7 +36,7 @@ struct NormalAnswer {
 };
 
 template <NormalLaw Law>
-inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& settings, const Touch& touch) {
+[[gnu::always_inline]] inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& settings, const Touch& touch) {
   NormalAnswer answer;
   double dashpot = 0.0;
   if constexpr (Law == NormalLaw::hooke_radii) {
@@ -71,7 +71,7 @@ inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& setti
 }
 
 /// Cuts a number down to a limit, keeping its sign. @return whether it was beyond.
-inline bool cut(double& value, double limit) {
+[[gnu::always_inline]] inline bool cut(double& value, double limit) {
   if (!(std::abs(value) > limit)) return false;
   value = std::copysign(limit, value);
   return true;
@@ -85,7 +85,7 @@ constexpr int spring_count(RollingLaw rolling) { return rolling == RollingLaw::o
 
 /// Tangential force on the first disc along t, N; moves the springs by a step when `advance`.
 template <TangentialLaw Law>
-inline double tangential_law(const PairParameters& p, const LawSettings& settings, const Touch& touch,
+[[gnu::always_inline]] inline double tangential_law(const PairParameters& p, const LawSettings& settings, const Touch& touch,
                              const NormalAnswer& normal, double step, bool advance, double* springs) {
   const double kt = normal.kt;
   if constexpr (Law == TangentialLaw::history) {
@@ -144,7 +144,7 @@ struct RollingAnswer {
 
 /// Rolling resistance; comes after the tangential law of the same contact.
 template <RollingLaw Law>
-inline RollingAnswer rolling_law(const PairParameters& p, const LawSettings& settings, const Touch& touch,
+[[gnu::always_inline]] inline RollingAnswer rolling_law(const PairParameters& p, const LawSettings& settings, const Touch& touch,
                                  const NormalAnswer& normal, double step, bool advance, double* springs) {
   RollingAnswer answer;
   if constexpr (Law == RollingLaw::epsd2) {
