@@ -7,4 +7,6 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_rowe_test verification verification/dem_rowe_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_limits_test verification verification/dem_limits_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_boundary_test verification verification/dem_boundary_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(dem_masses_test verification verification/dem_masses_test.cpp support/engine_main.cpp
+                  LIBS polargrain_contact_models)
 endif()
