@@ -9,6 +9,17 @@
 
 namespace polargrain {
 
+namespace {
+
+/// The density with which the engine gives the grain its mass: in dimension 2 it multiplies by the area of
+/// the disc (unit thickness), else by the volume of the sphere.
+double data_density(const Grain& grain, bool space) {
+  const double area = std::numbers::pi * grain.radius * grain.radius;
+  return grain.mass / (space ? 4.0 / 3.0 * area * grain.radius : area);
+}
+
+}  // namespace
+
 std::string packing_data(const Packing& packing) {
   const Eigen::Vector2d first = packing.box.col(0);
   const double length_x = first.norm();
@@ -20,8 +31,8 @@ std::string packing_data(const Packing& packing) {
   to_box_frame << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
 
   const bool space = packing.dimension == 3;
-  std::string text =
-      "packing of polargrain: grains of one type, density chosen so that a sphere has the grain's mass\n\n";
+  std::string text = fmt::format("packing of polargrain: grains of one type, density is mass over {}\n\n",
+                                 space ? "volume" : "area (dimension 2: unit thickness)");
   text += fmt::format("{} atoms\n1 atom types\n\n", packing.grains.size());
   text += fmt::format("0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n", length_x, length_y,
                       space ? 0.0 : -0.5 * packing.thickness, (space ? 1.0 : 0.5) * packing.thickness);
@@ -30,9 +41,8 @@ std::string packing_data(const Packing& packing) {
   text += "\nAtoms\n\n";
   for (const Grain& grain : packing.grains) {
     const Eigen::Vector2d position = to_box_frame * grain.position;
-    const double sphere = 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
     text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", grain.id + 1, 2.0 * grain.radius,
-                        grain.mass / sphere, position.x(), position.y(), grain.height);
+                        data_density(grain, space), position.x(), position.y(), grain.height);
   }
   return text;
 }

@@ -47,8 +47,8 @@ struct PackingSpecification {
   std::uint64_t seed = 1;
   double pressure_tolerance = 1e-3;      ///< relative, for the normal stress of each axis
   double unbalanced_force_ratio = 1e-3;  ///< mean unbalanced force over mean contact force; moments alike
-  double inertial_number = 1e-3;         ///< greatest rate of compression, under the pressure aimed at
-  double damping = 0.01;                 ///< as CellControl::damping; more holds the slow motions up
+  double inertial_number = 1.2e-2;       ///< greatest rate of compression, under the pressure aimed at
+  double damping = 0.12;                 ///< as CellControl::damping; more holds the slow motions up
   std::int64_t most_steps = 2'000'000;
 };
 

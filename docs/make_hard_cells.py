@@ -44,7 +44,7 @@ output: {{every: 100, table: [pressure, shear]}}
 USUAL = {"element": "Q8R", "grains": "tolerance: 2 %", "balance": "tolerance: 1e-2"}
 LOW_STRESS = {
     "element": "Q8R",
-    "grains": "tolerance: 0, damping: 0.005, least_steps: 5000, unbalanced_force_ratio: 1e-4,\n"
+    "grains": "tolerance: 0, damping: 0.06, least_steps: 950, unbalanced_force_ratio: 1e-4,\n"
     "    unbalanced_moment_ratio: 1e-4, most_relaxation_steps: 200000",
     "balance": "tolerance: 3e-4, largest_strain: 1e-3",
 }

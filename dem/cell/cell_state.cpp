@@ -2,6 +2,9 @@
 #include "dem/cell/cell_state.hpp"
 
 #include <cstring>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "common/error.hpp"
 #include "dem/engine/liggghts.hpp"
@@ -28,6 +31,25 @@ LAMMPS_NS::PairGran& granular_pair(LAMMPS_NS::LAMMPS& lammps) {
 void gather_histories(LAMMPS_NS::LAMMPS& lammps) {
   if (auto* history = granular_pair(lammps).get_fix_history()) history->pre_exchange();
 }
+
+/// Mass and density of each grain by its tag. A packed grain carries them too, but they are the packing's
+/// business, not the state's: states written before discs weighed what their packing says hold other ones.
+class GrainMasses {
+ public:
+  explicit GrainMasses(const LAMMPS_NS::Atom& atom) : values_(static_cast<std::size_t>(atom.nlocal)) {
+    for (int k = 0; k < atom.nlocal; ++k)
+      if (const auto place = static_cast<std::size_t>(atom.tag[k] - 1); place < values_.size())
+        values_[place] = {atom.rmass[k], atom.density[k]};
+  }
+  void put_back(LAMMPS_NS::Atom& atom) const {
+    for (int k = 0; k < atom.nlocal; ++k)
+      if (const auto place = static_cast<std::size_t>(atom.tag[k] - 1); place < values_.size())
+        std::tie(atom.rmass[k], atom.density[k]) = values_[place];
+  }
+
+ private:
+  std::vector<std::pair<double, double>> values_;
+};
 
 }  // namespace
 
@@ -72,6 +94,7 @@ RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
 
   gather_histories(lammps);
   LAMMPS_NS::Atom& atom = *lammps.atom;
+  const GrainMasses masses(atom);
   atom.nlocal = 0;
   atom.nghost = 0;
   std::size_t place = 0;
@@ -82,6 +105,7 @@ RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
       throw RunError("this state of a cell is damaged");
     place += static_cast<std::size_t>(atom.avec->unpack_exchange(&values[place]));
   }
+  masses.put_back(atom);
   RestoredState restored{header.box, std::vector<double>(header.grains, 0.0)};
   if (bytes.size() > length)
     std::memcpy(restored.rotations.data(), bytes.data() + length, length_of_rotations);

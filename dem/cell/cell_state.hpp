@@ -22,7 +22,8 @@ struct RestoredState {
   std::vector<double> rotations;  ///< rad, one a grain; zero when the state has none
 };
 
-/// Puts a state into the engine in place of what is there. Forces and neighbour lists are not set up yet.
+/// Puts a state into the engine in place of what is there; the grains keep the masses they have in the
+/// engine, which are the packing's. Forces and neighbour lists are not set up yet.
 /// @throws RunError when the bytes are not a state of this engine (another length, another number of history
 /// values).
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state);

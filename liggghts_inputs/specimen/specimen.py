@@ -21,7 +21,7 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-TIME_STEP = 4.5e-5  # s, that of material.in
+TIME_STEP = 1e-5  # s, that of material.in
 COLUMNS = ("step,axial_strain,stress_ratio,volume_strain,width,height,top_force,bottom_force,unbalanced_ratio,"
            "membrane_grains")
 
@@ -38,7 +38,7 @@ def read_options():
     parser.add_argument("--rolling", type=float, default=0.4, help="coefficient of rolling friction; 0: none [0.4]")
     parser.add_argument("--friction", type=float, default=math.tan(0.5), help="coefficient of friction [tan 0.5]")
     parser.add_argument("--strain", type=float, default=0.10, help="axial strain at the end [0.1]")
-    parser.add_argument("--rate", type=float, default=0.02, help="axial strain rate, 1/s [0.02: inertial number 3e-5]")
+    parser.add_argument("--rate", type=float, default=0.24, help="axial strain rate, 1/s [0.24: inertial number 3.6e-4]")
     parser.add_argument("--frame", type=float, default=0.001, help="axial strain between two frames [0.001]")
     parser.add_argument("--damping", type=float, default=0.2, help="damping ratio of the contacts [0.2]")
     parser.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER",
@@ -158,7 +158,7 @@ def main():
              "-var", "final_friction", options.friction, "-var", "final_rolling", options.rolling],
             options.output / "seating.log", HERE)
     steps = round(options.frame / (options.rate * TIME_STEP))
-    row_steps = max(1, steps // 10)
+    row_steps = max(1, round(steps / 10))
     steps = 10 * row_steps
     last = round(options.strain / options.frame) * steps
     done = frames_done(options)

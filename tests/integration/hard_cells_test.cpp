@@ -19,7 +19,7 @@ const std::string kUnloading =
     "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 kPa]]}\n";
 /// Ramps longer than soft networks take to settle, less damping, a tighter equilibrium: docs/hard_cells.md.
 const std::string kLowStress =
-    "tolerance: 0, damping: 0.005, least_steps: 5000, unbalanced_force_ratio: 1e-4, "
+    "tolerance: 0, damping: 0.06, least_steps: 950, unbalanced_force_ratio: 1e-4, "
     "unbalanced_moment_ratio: 1e-4, most_relaxation_steps: 200000";
 
 class HardCells : public ::testing::Test {

@@ -48,10 +48,10 @@ inline CellDefinition lattice(int columns, int rows, CellRotations rotations) {
       grain.moment_of_inertia = 0.5 * grain.mass * grain.radius * grain.radius;
       definition.packing.grains.push_back(grain);
     }
-  definition.control.inertial_number = 2e-5;
+  definition.control.inertial_number = 2.4e-4;
   definition.control.unbalanced_force_ratio = 1e-7;
   definition.control.unbalanced_moment_ratio = 1e-7;
-  definition.control.damping = 0.1;
+  definition.control.damping = 0.5;
   definition.control.rotations = rotations;
   return definition;
 }

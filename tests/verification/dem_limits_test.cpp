@@ -28,6 +28,9 @@ TEST(CellLimits, SkewStressIsTwiceFrictionTimesPressure) {
   // Grains turned against a box at rest: at the limit all contacts slide.
   CellDefinition definition = test::demo_cell();
   definition.control.rotations = CellRotations::controlled;
+  // Where every contact slides, grains that ring let go in turns: at a damping of 0.24 and less the ratio is
+  // 0.5 to 0.97, with the rate and the time step; at 0.5 it is the same for any.
+  definition.control.damping = 0.5;
   const auto cell = make_cell_service(definition);
   CellRequest turn;
   turn.increment.micro_rotation = 2e-3;
@@ -95,7 +98,7 @@ TEST(CellIdentities, VirtualWorkOfAnyMotionIsThatOfTheStress) {
   CellDefinition definition = test::rolling_cell(1.0, 0.4);
   definition.control.rotations = CellRotations::controlled;
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-6;
-  definition.control.damping = 0.1;
+  definition.control.damping = 0.5;
   const auto cell = make_cell_service(definition);
   CellRequest request;
   request.increment.displacement_gradient << 1e-3, 5e-4, 0.0, -2e-3;
@@ -156,8 +159,10 @@ TEST(CellIdentities, WorkIsTheStoredEnergyWhenNothingSlips) {
   CellDefinition definition = test::rolling_cell(4.0, 1e3);
   const std::string friction = "0.5463024898437905";
   definition.script.replace(definition.script.find(friction), friction.size(), "1e3");
+  const std::string time_step = "timestep        2e-5";  // rolling springs four times as stiff want less
+  definition.script.replace(definition.script.find(time_step), time_step.size(), "timestep 1.5e-5");
   definition.control.rotations = CellRotations::controlled;
-  definition.control.inertial_number = 2e-5;
+  definition.control.inertial_number = 2.4e-4;
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-4;
   const auto cell = make_cell_service(definition);
   const auto energy = [] {

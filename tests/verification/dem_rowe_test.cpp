@@ -47,7 +47,7 @@ TEST_P(Rowe, StressRatioFollowsTheContactAngle) {
   for (Grain& grain : definition.packing.grains) grain.position = scale * grain.position;
   definition.packing.box = now;
   definition.control = {};
-  definition.control.inertial_number = 1e-3;
+  definition.control.inertial_number = 1.2e-2;
   const auto cell = make_cell_service(definition);
   StatePointer state;
   double largest = 0.0;

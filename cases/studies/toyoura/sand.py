@@ -50,7 +50,7 @@ def write_script(path, parameters):
     for pattern, value in (("contactModulus peratomtypepair 1 ", parameters["modulus"]),
                            ("coefficientFriction peratomtypepair 1 ", parameters["friction"]),
                            ("coefficientRollingFriction peratomtypepair 1 ", parameters["rolling"]),
-                           ("\ntimestep +", 4.5e-5 * math.sqrt(6e8 / parameters["modulus"]))):
+                           ("\ntimestep +", 2e-5 * math.sqrt(6e8 / parameters["modulus"]))):
         script, count = re.subn(f"({pattern})[-0-9.e]+", lambda found: found.group(1) + f"{value:.8g}", script)
         assert count == 1, pattern
     path.write_text(script)
@@ -76,7 +76,7 @@ def make_packing(polargrain, folder, seed, grains):
 CONSOLIDATION = """# The packing without friction, brought to another pressure.
 variable        packing index {packing}
 include         smooth.in
-fix             cell all cell/load inertial_number 1e-3 damping 0.02 least_steps 20 unbalanced 1e-3 1e-3 most_relaxation_steps 200000
+fix             cell all cell/load inertial_number 1.2e-2 damping 0.24 least_steps 20 unbalanced 1e-3 1e-3 most_relaxation_steps 200000
 variable        loading equal f_cell
 variable        done equal f_cell[10]
 variable        lack equal (f_cell[1]+f_cell[2])/2+{pressure:.10g}
