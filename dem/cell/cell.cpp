@@ -9,6 +9,7 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
+#include "dem/cell/condensed_tangent.hpp"
 #include "dem/cell/driver.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/tangents.hpp"
@@ -47,12 +48,13 @@ class Cell final : public CellService {
   /// Stress of the recorded contacts, in the laboratory frame.
   [[nodiscard]] Response respond() const;
   /// Tangent of the recorded contacts, in the laboratory frame.
-  [[nodiscard]] Matrix7 tangent() const;
+  [[nodiscard]] Matrix7 tangent();
 
   CellControl control_;
   double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this
   double damping_rate_ = 0.0;   // 1/s
   Driver driver_;
+  CondensedTangent condensed_tangent_;
   CellReply initial_;
 };
 
@@ -236,15 +238,15 @@ Response Cell::respond() const {
   return response;
 }
 
-Matrix7 Cell::tangent() const {
+Matrix7 Cell::tangent() {
   if (control_.tangent == CellTangent::none) return Matrix7::Zero();
   const std::span<const Contact> contacts = driver_.contacts();
   const Eigen::Matrix2d frame = driver_.strain().box().frame();
   const double volume = driver_.volume();
   if (control_.tangent == CellTangent::condensed) {
-    const auto condensed =
-        controlled() ? condensed_cosserat_tangent(contacts, driver_.strain().weights(), frame, volume, kHold)
-                     : condensed_tangent(contacts, driver_.grains(), frame, volume, kHold);
+    const ContactNetwork network{contacts, driver_.grains(), frame, volume, kHold};
+    const auto condensed = controlled() ? condensed_tangent_.cosserat(network, driver_.strain().weights())
+                                        : condensed_tangent_.classical(network);
     if (condensed) return *condensed;
   }
   return controlled() ? voigt_cosserat_tangent(contacts, frame, volume)
