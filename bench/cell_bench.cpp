@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a cell costs, in processor time: accuracy over cost on the isochoric path of tests/data/paths400.csv,
-// a particle and DEM step with and without control of the rotations, the tangent of 400 and 1600 grains.
+// a particle and DEM step with and without control of the rotations. The tangent: tangent_bench.
 //
 //   build/release/bench/cell_bench        from the root of the project; about two minutes
 #include <fmt/format.h>
@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "dem/cell/cell_service.hpp"
-#include "dem/cell/tangents.hpp"
 #include "tests/support/cell_fixture.hpp"
 
 namespace polargrain {
@@ -98,59 +97,13 @@ std::string modes() {
   return table;
 }
 
-/// `times` x `times` copies of a packing side by side.
-Packing tiled(const Packing& one, int times) {
-  Packing many = one;
-  many.grains.clear();
-  many.box = times * one.box;
-  for (int i = 0; i < times; ++i)
-    for (int j = 0; j < times; ++j)
-      for (Grain grain : one.grains) {
-        grain.position += one.box * Eigen::Vector2d(i, j);
-        grain.id = static_cast<std::int64_t>(many.grains.size());
-        many.grains.push_back(grain);
-      }
-  return many;
-}
-
-std::string tangents() {
-  std::string table = fmt::format("{:>8} {:>10} {:>12} {:>12} {:>12}\n", "grains", "contacts", "voigt ms",
-                                  "classical ms", "Cosserat ms");
-  for (const int times : {1, 2}) {
-    CellDefinition definition = test::rolling_cell(1.0, 0.4);
-    definition.packing = tiled(definition.packing, times);
-    definition.control = control(2e-4, 5e-3);
-    const auto cell = dem::make_cell_service(definition);
-    CellRequest request;
-    request.increment.displacement_gradient << 1e-3, 0.0, 0.0, -1e-3;
-    cell->evaluate(request);
-    const std::vector<dem::Contact> contacts = dem::contact_recorder().contacts;
-    const auto grains = static_cast<int>(definition.packing.grains.size());
-    const std::vector<double> weights(definition.packing.grains.size(), 1.0 / grains);
-    const Eigen::Matrix2d frame = Eigen::Matrix2d::Identity();
-    const double volume = definition.packing.volume();
-    const auto milliseconds = [](auto work) {
-      constexpr int kTimes = 10;
-      const double start = processor_seconds();
-      for (int k = 0; k < kTimes; ++k) work();
-      return 1e3 * (processor_seconds() - start) / kTimes;
-    };
-    table += fmt::format(
-        "{:>8} {:>10} {:>12.2f} {:>12.1f} {:>12.1f}\n", grains, contacts.size(),
-        milliseconds([&] { dem::voigt_tangent(contacts, frame, volume); }),
-        milliseconds([&] { dem::condensed_tangent(contacts, grains, frame, volume, 1e-4); }),
-        milliseconds([&] { dem::condensed_cosserat_tangent(contacts, weights, frame, volume, 1e-4); }));
-  }
-  return table;
-}
-
 }  // namespace
 }  // namespace polargrain
 
 int main() {
   using namespace polargrain;
   dem::start_engine_process();
-  const std::string tables = sweep() + "\n" + modes() + "\n" + tangents();
+  const std::string tables = sweep() + "\n" + modes();
   // The engine talks on standard output; the tables go where they can be told apart.
   std::fputs(tables.c_str(), stderr);
 }

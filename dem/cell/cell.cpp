@@ -9,6 +9,7 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
+#include "dem/cell/condensed_tangent.hpp"
 #include "dem/cell/driver.hpp"
 #include "dem/cell/engine_box.hpp"
 #include "dem/cell/quasi_static.hpp"
@@ -53,7 +54,7 @@ class Cell final : public CellService {
   /// Stress of the recorded contacts, in the laboratory frame.
   [[nodiscard]] Response respond() const;
   /// Tangent of the recorded contacts, in the laboratory frame.
-  [[nodiscard]] Matrix7 tangent() const;
+  [[nodiscard]] Matrix7 tangent();
 
   CellControl control_;
   double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this
@@ -62,6 +63,7 @@ class Cell final : public CellService {
   double thickness_ = 0.0;      // m
   Driver driver_;
   std::unique_ptr<GrainBox> grains_;
+  CondensedTangent condensed_tangent_;
   CellReply initial_;
 };
 
@@ -263,15 +265,15 @@ Response Cell::respond() const {
   return response;
 }
 
-Matrix7 Cell::tangent() const {
+Matrix7 Cell::tangent() {
   if (control_.tangent == CellTangent::none) return Matrix7::Zero();
   const std::span<const Contact> contacts = grains_->contacts();
   const Eigen::Matrix2d frame = grains_->box().frame();
   const double v = volume();
   if (control_.tangent == CellTangent::condensed) {
-    const auto condensed =
-        controlled() ? condensed_cosserat_tangent(contacts, grains_->weights(), frame, v, kHold)
-                     : condensed_tangent(contacts, driver_.grains(), frame, v, kHold);
+    const ContactNetwork network{contacts, driver_.grains(), frame, v, kHold};
+    const auto condensed = controlled() ? condensed_tangent_.cosserat(network, grains_->weights())
+                                        : condensed_tangent_.classical(network);
     if (condensed) return *condensed;
   }
   return controlled() ? voigt_cosserat_tangent(contacts, frame, v)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+namespace polargrain::dem {
+
+// Dense kernels of the network solver. Each is compiled for several instruction sets; the one that this
+// processor knows is taken at run time. All give the same bits: an element is always c - l_0 u_0 - l_1 u_1 -
+// ... in this order, each product and each difference rounded on its own, and instruction sets differ only in
+// how many elements they treat at a time. Hence no fused multiply-add may be used here (CMakeLists.txt
+// forbids the compiler to make any).
+
+enum class InstructionSet { baseline, avx2, avx512 };
+
+/// Whether this processor can run kernels of that instruction set.
+bool is_supported(InstructionSet set);
+
+/// The best one supported.
+InstructionSet best_instruction_set();
+
+/// Doubles that must follow the last column of each row of a matrix given to the kernels; they come out
+/// unchanged if they are zero.
+inline constexpr int kRowSlack = 8;
+
+/// Square system of equations of a front with its right-hand sides, row by row: unknowns are the first `rows`
+/// columns, right-hand sides the others.
+struct FrontMatrix {
+  double* values;  ///< row i starts at values + i * stride
+  int rows;        ///< equations
+  int columns;     ///< unknowns and right-hand sides
+  int stride;      ///< of rows, at least columns + kRowSlack
+  int pivots;      ///< the first of the unknowns, complete: no other front adds to them
+};
+
+/// Eliminates the pivots: the first `pivots` rows become those of U (and of the right-hand sides), the other
+/// rows what is left to eliminate, the Schur complement; the factor L stands below the diagonal. Among the
+/// rows of pivots the largest is taken when the one in place is less than a tenth of it.
+/// @returns false when a pivot is zero or not finite; the front is spoilt then
+bool eliminate(const FrontMatrix& front, InstructionSet set);
+
+/// Solves the rows of a front that eliminate() has treated for its pivots, given the other unknowns.
+/// @param factors the first rows of the front, those of the pivots; the right-hand sides in them are replaced
+/// by the solution
+/// @param known values of the unknowns that are not pivots, one row each, as many columns as right-hand sides
+/// @param known_stride of rows, at least the right-hand sides, rounded up to a multiple of kRowSlack
+void substitute_back(const FrontMatrix& factors, const double* known, int known_stride, InstructionSet set);
+
+}  // namespace polargrain::dem
