@@ -9,8 +9,8 @@
 #include <vector>
 
 // One version of a loop for every width of registers; the loader takes the widest that the processor has. They
-
-// fem/CMakeLists.txt forbids fused multiply-add in this file). Sanitizers and resolvers do not go together.
+// differ in nothing but the number of results computed at a time: no sum is spread over a register, and fused
+// multiply-add is forbidden in this file (cmake/umfpack.cmake). Sanitizers and resolvers do not go together.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define POLARGRAIN_ANY_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -50,35 +50,44 @@ void pack(const Columns& matrix, int start, int rows, int first_column, int colu
   }
 }
 
-/// sums = (tile of A) (tile of B)^T, each number of it summed up from the first product to the last.
-POLARGRAIN_ANY_REGISTERS
-void multiply_tiles(int row_tiles, int depth, const double* a, const double* b, double* sums) {
-  for (int tile = 0; tile < row_tiles; ++tile, sums += kTileRows * kTileColumns) {
-    Lanes sum[kTileColumns][2] = {};
-    const double* factors = b;
-    for (int p = 0; p < depth; ++p, a += kTileRows, factors += kTileColumns) {
-      Lanes upper, lower;
-      std::memcpy(&upper, a, sizeof upper);
-      std::memcpy(&lower, a + kTileRows / 2, sizeof lower);
-      for (int j = 0; j < kTileColumns; ++j) {
-        sum[j][0] += upper * factors[j];
-        sum[j][1] += lower * factors[j];
-      }
-    }
-    std::memcpy(sums, sum, sizeof sum);
-  }
+/// Part of a tile, at the edge of C.
+void subtract_corner(const double (*sums)[kTileRows], int rows, int columns, double* c, int ld_c) {
+  for (int k = 0; k < columns; ++k)
+    for (int i = 0; i < rows; ++i) c[i + static_cast<std::ptrdiff_t>(k) * ld_c] -= sums[k][i];
 }
 
-/// C -= sums for one column of tiles; what hangs over the edge of C is left out.
-void subtract_tiles(const double* sums, int rows, int columns, double* c, int ld_c) {
-  for (int tile = 0; tile < rows; tile += kTileRows, sums += kTileRows * kTileColumns) {
-    const int height = std::min(kTileRows, rows - tile);
-    for (int j = 0; j < columns; ++j) {
-      double* column = c + tile + static_cast<std::ptrdiff_t>(j) * ld_c;
-      if (height == kTileRows) {
-        for (int i = 0; i < kTileRows; ++i) column[i] -= sums[j * kTileRows + i];
+/// C -= A B^T for packed blocks; each product of a row and a column is summed up from its first term to its last,
+/// and what hangs over the edge of C is left out.
+POLARGRAIN_ANY_REGISTERS
+void subtract_packed(int rows, int columns, int depth, const double* a, const double* b, double* c, int ld_c) {
+  for (int j = 0; j < columns; j += kTileColumns, b += depth * kTileColumns) {
+    const double* left = a;
+    for (int i = 0; i < rows; i += kTileRows) {
+      Lanes sum[2 * kTileColumns];
+      for (Lanes& lanes : sum) lanes = Lanes{};
+      const double* right = b;
+      for (int p = 0; p < depth; ++p, left += kTileRows, right += kTileColumns) {
+        Lanes upper, lower;
+        std::memcpy(&upper, left, sizeof upper);
+        std::memcpy(&lower, left + kTileRows / 2, sizeof lower);
+        for (int k = 0; k < kTileColumns; ++k) {
+          sum[2 * k] += upper * right[k];
+          sum[2 * k + 1] += lower * right[k];
+        }
+      }
+      double* corner = c + i + static_cast<std::ptrdiff_t>(j) * ld_c;
+      if (rows - i >= kTileRows && columns - j >= kTileColumns) {
+        for (int k = 0; k < 2 * kTileColumns; ++k) {
+          double* place = corner + (k / 2) * static_cast<std::ptrdiff_t>(ld_c) + (k % 2) * kTileRows / 2;
+          Lanes lanes;
+          std::memcpy(&lanes, place, sizeof lanes);
+          lanes -= sum[k];
+          std::memcpy(place, &lanes, sizeof lanes);
+        }
       } else {
-        for (int i = 0; i < height; ++i) column[i] -= sums[j * kTileRows + i];
+        double sums[kTileColumns][kTileRows];
+        std::memcpy(sums, sum, sizeof sums);
+        subtract_corner(sums, std::min(kTileRows, rows - i), std::min(kTileColumns, columns - j), corner, ld_c);
       }
     }
   }
@@ -119,8 +128,7 @@ void polargrain_dgemm(const char* side_a, const char* side_b, const int* rows, c
                       const int* depth, const double* alpha, const double* a, const int* ld_a,
                       const double* b, const int* ld_b, const double* beta, double* c, const int* ld_c) {
   expect(*side_a == 'N' && *side_b == 'T' && *alpha == -1.0 && *beta == 1.0, "dgemm");
-  static thread_local std::vector<double> packed_a(kBlockRows * kBlockDepth), sums(kBlockRows * kTileColumns),
-      packed_b;
+  static thread_local std::vector<double> packed_a(kBlockRows * kBlockDepth), packed_b;
   packed_b.resize(static_cast<std::size_t>(tiled(*columns, kTileColumns)) * kBlockDepth);
   for (int p = 0; p < *depth; p += kBlockDepth) {
     const int deep = std::min(kBlockDepth, *depth - p);
@@ -128,12 +136,7 @@ void polargrain_dgemm(const char* side_a, const char* side_b, const int* rows, c
     for (int i = 0; i < *rows; i += kBlockRows) {
       const int high = std::min(kBlockRows, *rows - i);
       pack({a, *ld_a}, i, high, p, deep, kTileRows, packed_a.data());
-      for (int j = 0; j < *columns; j += kTileColumns) {
-        multiply_tiles((high + kTileRows - 1) / kTileRows, deep, packed_a.data(),
-                       packed_b.data() + static_cast<std::ptrdiff_t>(j) * deep, sums.data());
-        subtract_tiles(sums.data(), high, std::min(kTileColumns, *columns - j),
-                       c + i + static_cast<std::ptrdiff_t>(j) * *ld_c, *ld_c);
-      }
+      subtract_packed(high, *columns, deep, packed_a.data(), packed_b.data(), c + i, *ld_c);
     }
   }
 }
