@@ -11,6 +11,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "common/elementary_functions.hpp"
+
 namespace polargrain::band {
 namespace {
 
@@ -36,10 +38,10 @@ struct Profile {
 };
 
 Eigen::Vector2d along(double inclination) {
-  return {std::cos(inclination), std::sin(inclination)};
+  return {cosine(inclination), sine(inclination)};
 }
 Eigen::Vector2d across(double inclination) {
-  return {-std::sin(inclination), std::cos(inclination)};
+  return {-sine(inclination), cosine(inclination)};
 }
 
 /// Sizes that the search goes by.
@@ -91,7 +93,7 @@ Profile profile_of(const Samples& samples, const Scales& scales, double inclinat
     for (std::size_t i = begin; i < end; ++i) {
       const double z = (static_cast<double>(i) - place) * profile.step / scales.kernel;
       const double weight =
-          samples[k].area * std::exp(-0.5 * z * z) / (scales.kernel * std::sqrt(2.0 * std::numbers::pi));
+          samples[k].area * exponential(-0.5 * z * z) / (scales.kernel * std::sqrt(2.0 * std::numbers::pi));
       sums[i] += weight * samples[k].shear;
       profile.chords[i] += weight;
     }
@@ -195,7 +197,7 @@ std::optional<double> inclination_by_least_squares(const Samples& samples, const
     for (const Sample& sample : samples) {
       const Eigen::Vector2d apart = (sample.position - start.centre) / length;
       const double s = normal.dot(apart) - u(1);
-      const double bell = std::exp(-0.5 * s * s / (u(2) * u(2)));
+      const double bell = exponential(-0.5 * s * s / (u(2) * u(2)));
       const double difference = u(3) * bell + u(4) - sample.shear;
       const double weight = sample.area / area;
       sum += weight * difference * difference;

@@ -4,6 +4,9 @@
 add_library(polargrain_options INTERFACE)
 target_compile_options(polargrain_options INTERFACE -Wall -Wextra -Werror)
 target_include_directories(polargrain_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Eigen divides products of matrices into blocks by the caches that it finds in the processor, which may change the
+# order of sums: with its fixed sizes results have the same bits everywhere.
+target_compile_definitions(polargrain_options INTERFACE EIGEN_NO_CPUID)
 if(POLARGRAIN_SANITIZE)
   target_compile_options(polargrain_options INTERFACE -fsanitize=${POLARGRAIN_SANITIZE} -fno-sanitize-recover=all
                                                      -fno-omit-frame-pointer)

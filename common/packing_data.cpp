@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/elementary_functions.hpp"
+
 namespace polargrain {
 
 namespace {
@@ -26,9 +28,9 @@ std::string packing_data(const Packing& packing) {
   const double length_y = packing.box.determinant() / length_x;
   double tilt = first.dot(packing.box.col(1)) / length_x;
   tilt -= length_x * std::round(tilt / length_x);  // the same lattice with the tilt that the engine takes
-  const double angle = std::atan2(first.y(), first.x());
+  const auto [sine, cosine] = sine_and_cosine(arc_tangent(first.y(), first.x()));
   Eigen::Matrix2d to_box_frame;
-  to_box_frame << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+  to_box_frame << cosine, sine, -sine, cosine;
 
   const bool space = packing.dimension == 3;
   std::string text = fmt::format("packing of polargrain: grains of one type, density is mass over {}\n\n",

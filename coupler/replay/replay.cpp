@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "common/elementary_functions.hpp"
 #include "common/error.hpp"
 #include "common/packing_data.hpp"
 
@@ -96,7 +97,7 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
       mean_grain(definition.packing));
   const Eigen::Vector2d first = definition.packing.box.col(0);
   if (first.y() != 0.0)
-    text += fmt::format(" &\n                turned {:.17g}", std::atan2(first.y(), first.x()));
+    text += fmt::format(" &\n                turned {:.17g}", arc_tangent(first.y(), first.x()));
   if (definition.packing.state) text += fmt::format(" &\n                packing_state {}", kPackingState);
   text +=
       "\nthermo_style    custom step f_cell[1] f_cell[2] f_cell[4] f_cell[5] f_cell[8] f_cell[9]\n"

@@ -5,14 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/elementary_functions.hpp"
 #include "common/error.hpp"
 
 namespace polargrain::dem {
 
 namespace {
 Eigen::Matrix2d turn(double angle) {
+  const auto [sine, cosine] = sine_and_cosine(angle);
   Eigen::Matrix2d matrix;
-  matrix << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  matrix << cosine, -sine, sine, cosine;
   return matrix;
 }
 }  // namespace
@@ -23,7 +25,7 @@ Box Box::from_base_vectors(const Eigen::Matrix2d& base_vectors) {
   box.length_x = first.norm();
   box.tilt = first.dot(base_vectors.col(1)) / box.length_x;
   box.length_y = base_vectors.determinant() / box.length_x;
-  box.rotation = std::atan2(first.y(), first.x());
+  box.rotation = arc_tangent(first.y(), first.x());
   return box;
 }
 
@@ -47,7 +49,7 @@ BoxPath::BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient,
     : start_(start), steps_(steps) {
   const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() + displacement_gradient;
   // In the plane R has the direction of the part of I + h that is a rotation times a number.
-  rotation_ = std::atan2(whole(1, 0) - whole(0, 1), whole.trace());
+  rotation_ = arc_tangent(whole(1, 0) - whole(0, 1), whole.trace());
   stretch_ = turn(-rotation_) * whole - Eigen::Matrix2d::Identity();
   // The determinant is a parabola in the fraction; a fold shows at the end or on the way.
   for (int part = 1; part <= 16; ++part) {
@@ -61,7 +63,7 @@ double BoxPath::fraction(int step) const {
   if (step <= 0) return 0.0;
   if (step >= steps_) return 1.0;
   const double time = static_cast<double>(step) / steps_;
-  return time - std::sin(2.0 * std::numbers::pi * time) / (2.0 * std::numbers::pi);
+  return time - sine(2.0 * std::numbers::pi * time) / (2.0 * std::numbers::pi);
 }
 
 double BoxPath::share(int step) const {

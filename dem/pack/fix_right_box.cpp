@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/elementary_functions.hpp"
+
 namespace polargrain::dem {
 
 namespace FixConst = LAMMPS_NS::FixConst;
@@ -44,7 +46,7 @@ void FixRightBox::begin(const Eigen::Vector3d& strain, int steps, double damping
 
 Eigen::Vector3d FixRightBox::lengths_at(int step) const {
   const double time = std::min(1.0, static_cast<double>(step) / steps_);
-  const double fraction = time - std::sin(2.0 * std::numbers::pi * time) / (2.0 * std::numbers::pi);
+  const double fraction = time - sine(2.0 * std::numbers::pi * time) / (2.0 * std::numbers::pi);
   return start_.array() * (1.0 + fraction * strain_.array());
 }
 

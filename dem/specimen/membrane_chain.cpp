@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "common/elementary_functions.hpp"
+
 namespace polargrain::dem {
 namespace {
 
@@ -95,7 +97,7 @@ class Roller {
   }
 
   void set_angle(std::size_t grain, const Eigen::Vector2d& probe) {
-    angle_ = std::atan2(probe.y() - discs_[grain].centre.y(), probe.x() - discs_[grain].centre.x());
+    angle_ = arc_tangent(probe.y() - discs_[grain].centre.y(), probe.x() - discs_[grain].centre.x());
   }
 
   /// How far the probe rolls clockwise around a grain from its present angle to another.
@@ -113,7 +115,7 @@ class Roller {
     Next next;
     const double rise = (top_ - probe_ - here.centre.y()) / reach;
     if (rise <= -1.0) return next;  // the probe is held between the platen and grains below its face
-    if (rise < 1.0) least = roll_to(std::numbers::pi - std::asin(rise));
+    if (rise < 1.0) least = roll_to(std::numbers::pi - arc_sine(rise));
     neighbours_.visit(here.centre, [&](std::size_t k) {
       if (k == grain) return;
       const Eigen::Vector2d apart = discs_[k].centre - here.centre;
@@ -123,8 +125,8 @@ class Roller {
       // On its way round, clockwise, the probe meets k at the greater of the two angles where it touches
       // both.
       const double half =
-          std::acos((distance * distance + reach * reach - other * other) / (2.0 * distance * reach));
-      const double roll = roll_to(std::atan2(apart.y(), apart.x()) + half);
+          arc_cosine((distance * distance + reach * reach - other * other) / (2.0 * distance * reach));
+      const double roll = roll_to(arc_tangent(apart.y(), apart.x()) + half);
       if (roll >= least) return;
       least = roll;
       next = {true, k};
@@ -133,7 +135,7 @@ class Roller {
       throw std::runtime_error("a grain on the membrane has no neighbour: the specimen fell apart");
     if (next) {
       const double angle = angle_ - least;
-      const Eigen::Vector2d probe = here.centre + reach * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const Eigen::Vector2d probe = here.centre + reach * Eigen::Vector2d(cosine(angle), sine(angle));
       set_angle(*next, probe);
     }
     return next;

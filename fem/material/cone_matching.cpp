@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/elementary_functions.hpp"
 #include "common/error.hpp"
 
 namespace polargrain::fem {
@@ -40,9 +41,9 @@ void check(const MohrCoulomb& strength) {
 /// M = 6 sin / (3 - side sin) with side = +1 in compression and -1 in extension.
 FrozenCone triaxial_cone(const MohrCoulomb& strength, double side) {
   check(strength);
-  const double sin_phi = std::sin(strength.friction_angle * kDegree);
-  const double cos_phi = std::cos(strength.friction_angle * kDegree);
-  const double sin_psi = std::sin(strength.dilatancy_angle * kDegree);
+  const double sin_phi = sine(strength.friction_angle * kDegree);
+  const double cos_phi = cosine(strength.friction_angle * kDegree);
+  const double sin_psi = sine(strength.dilatancy_angle * kDegree);
   return {6.0 * sin_phi / (3.0 - side * sin_phi), 6.0 * sin_psi / (3.0 - side * sin_psi),
           6.0 * strength.cohesion * cos_phi / (3.0 - side * sin_phi)};
 }
@@ -56,9 +57,9 @@ double plane_strain_denominator(double sin_phi, double dilatancy) {
 
 FrozenCone cone_from_plane_strain(const MohrCoulomb& strength) {
   check(strength);
-  const double sin_phi = std::sin(strength.friction_angle * kDegree);
-  const double cos_phi = std::cos(strength.friction_angle * kDegree);
-  const double sin_psi = std::sin(strength.dilatancy_angle * kDegree);
+  const double sin_phi = sine(strength.friction_angle * kDegree);
+  const double cos_phi = cosine(strength.friction_angle * kDegree);
+  const double sin_psi = sine(strength.dilatancy_angle * kDegree);
   const double dilatancy = kRoot3 * sin_psi / std::sqrt(1.0 + sin_psi * sin_psi / 3.0);
   const double denominator = plane_strain_denominator(sin_phi, dilatancy);
   return {kRoot3 * sin_phi / denominator, dilatancy, kRoot3 * strength.cohesion * cos_phi / denominator};
@@ -75,10 +76,10 @@ std::optional<MohrCoulomb> plane_strain_from_cone(const FrozenCone& cone) {
   if (!(sin_phi < 1.0) || !(std::abs(sin_psi) < 1.0)) {
     return std::nullopt;
   }
-  const double friction_angle = std::asin(sin_phi);
+  const double friction_angle = arc_sine(sin_phi);
   const double cohesion =
-      cone.cohesion * plane_strain_denominator(sin_phi, cone.dilatancy) / (kRoot3 * std::cos(friction_angle));
-  return MohrCoulomb{friction_angle / kDegree, std::asin(sin_psi) / kDegree, cohesion};
+      cone.cohesion * plane_strain_denominator(sin_phi, cone.dilatancy) / (kRoot3 * cosine(friction_angle));
+  return MohrCoulomb{friction_angle / kDegree, arc_sine(sin_psi) / kDegree, cohesion};
 }
 
 FrozenCone cone_from_triaxial_compression(const MohrCoulomb& strength) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/elementary_functions.hpp"
 #include "fem/material/cone_matching.hpp"
 
 namespace polargrain::fem {
@@ -75,7 +76,7 @@ std::optional<Mobilised> mobilised_in_plane(const ScaledVector<double>& stress,
   constexpr double kSteepest = 0.99;  // sines of one or more are noise; the limits flag them
   const double bounded = std::clamp(sin_dilatancy, -kSteepest, kSteepest);
   const FrozenCone cone =
-      cone_from_plane_strain({std::asin(sin_friction) * kRadian, std::asin(bounded) * kRadian, 0.0});
+      cone_from_plane_strain({arc_sine(sin_friction) * kRadian, arc_sine(bounded) * kRadian, 0.0});
   const Mobilised read = within(cone.friction, cone.dilatancy, limits);
   return Mobilised{read.friction, read.dilatancy, read.clipped || bounded != sin_dilatancy};
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/material/rotation.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "common/elementary_functions.hpp"
 
 namespace polargrain::fem {
 
 double rotation_angle(const Increment& increment) {
   const Eigen::Matrix2d& h = increment.displacement_gradient;
-  return 2.0 * std::atan(0.25 * (h(1, 0) - h(0, 1)));
+  return 2.0 * arc_tangent(0.25 * (h(1, 0) - h(0, 1)));
 }
 
 Increment about_start(const Increment& about_middle) {
@@ -23,8 +24,9 @@ Increment about_start(const Increment& about_middle) {
 }
 
 Vector7 rotated(const Vector7& stress, double angle) {
-  const Eigen::Matrix2d r = Eigen::Rotation2Dd(angle).toRotationMatrix();
-  Eigen::Matrix2d s;
+  const auto [sine, cosine] = sine_and_cosine(angle);
+  Eigen::Matrix2d r, s;
+  r << cosine, -sine, sine, cosine;
   s << stress(k11), stress(k12), stress(k21), stress(k22);
   s = r * s * r.transpose();
   Vector7 turned;
