@@ -9,6 +9,14 @@ namespace polargrain::dem {
 
 namespace {
 
+/// A disc as its bin holds it, folded back into the box.
+struct Member {
+  double x = 0.0;
+  double y = 0.0;
+  double radius = 0.0;
+  std::int32_t disc = 0;
+};
+
 /// Where a disc lies: which bin, and which copy of the box its centre has wandered into.
 struct Place {
   int column = 0;
@@ -44,8 +52,12 @@ class Bins {
     for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
     members_.resize(discs.size());
     std::vector<std::int32_t> next(starts_.begin(), starts_.end() - 1);
-    for (std::size_t k = 0; k < discs.size(); ++k)
-      members_[next[bin(places[k])]++] = static_cast<std::int32_t>(k);
+    for (std::size_t k = 0; k < discs.size(); ++k) {
+      const LatticeVector& copy = places[k].copy;
+      members_[next[bin(places[k])]++] = {discs[k].x - (base(0, 0) * copy.p + base(0, 1) * copy.q),
+                                          discs[k].y - (base(1, 0) * copy.p + base(1, 1) * copy.q),
+                                          discs[k].radius, static_cast<std::int32_t>(k)};
+    }
   }
 
   /// Calls `visit(members, copy)` for the bins around a place; `copy`: which copy of the box they are seen in.
@@ -77,7 +89,7 @@ class Bins {
   int columns_ = 1;
   int rows_ = 1;
   std::vector<std::int32_t> starts_;
-  std::vector<std::int32_t> members_;
+  std::vector<Member> members_;
 };
 
 std::uint16_t image_number(std::vector<LatticeVector>& images, const LatticeVector& wanted) {
@@ -106,16 +118,21 @@ void CandidateList::find(std::span<const Disc> discs, std::span<const int> types
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const Disc& first = discs[i];
     const LatticeVector& home = bins.places[i].copy;
-    bins.around(bins.places[i], [&](std::span<const std::int32_t> members, const LatticeVector& copy) {
-      for (const std::int32_t j : members) {
-        const Disc& second = discs[j];
+    const double x = first.x - (base(0, 0) * home.p + base(0, 1) * home.q);
+    const double y = first.y - (base(1, 0) * home.p + base(1, 1) * home.q);
+    bins.around(bins.places[i], [&](std::span<const Member> members, const LatticeVector& copy) {
+      const double shift_x = base(0, 0) * copy.p + base(0, 1) * copy.q;
+      const double shift_y = base(1, 0) * copy.p + base(1, 1) * copy.q;
+      for (const Member& second : members) {
+        if (second.disc < static_cast<std::int32_t>(i)) continue;
+        const double dx = x - second.x - shift_x;
+        const double dy = y - second.y - shift_y;
+        const double sum = first.radius + second.radius;
+        if (!(dx * dx + dy * dy < (sum + skin) * (sum + skin))) continue;
+        const std::int32_t j = second.disc;
         const LatticeVector& away = bins.places[j].copy;
         const LatticeVector image{copy.p + home.p - away.p, copy.q + home.q - away.q};
         if (!counts(static_cast<std::int32_t>(i), j, image)) continue;
-        const double dx = first.x - second.x - (base(0, 0) * image.p + base(0, 1) * image.q);
-        const double dy = first.y - second.y - (base(1, 0) * image.p + base(1, 1) * image.q);
-        const double sum = first.radius + second.radius;
-        if (!(dx * dx + dy * dy < (sum + skin) * (sum + skin))) continue;
         pairs.push_back({j, image_number(images, image),
                          static_cast<std::uint16_t>(types[i] * kinds + types[j]),
                          first.radius * second.radius / sum});
