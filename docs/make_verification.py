@@ -43,6 +43,7 @@ SECTIONS = [
     ("Cell: tangent (C.7)", "dem_tangent_test", "Against differences of the cell, before and after yield."),
     ("Cell: independent code", "dem_paths_test", "Two strain paths computed with YADE."),
     ("Cell: as a value", "dem_cell_test", "Same request, same bits; rigid rotation; large shear."),
+    ("The same bits on every processor", "processors_test", "Runs as on Haswell, Zen, Nehalem, and without fused multiply-add."),
     ("Prescribed boundary (C.5)", "dem_boundary_test", "Why cells do not prescribe one: moduli that follow the size."),
 ]
 
