@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the coordinator costs when there are many cells and many workers: simulated workers answer at once with a
-// state of the size asked for, so that everything measured is messages, states and bookkeeping. A step is as
-// Newton's method makes it: every cell is evaluated some times, then the last states are collected.
+// What the coordinator costs when there are many cells and many workers: simulated workers answer with a state of
+// the size asked for after they have slept for a while, so that everything measured is messages, states and
+// bookkeeping. A step is as Newton's method makes it: every cell is evaluated some times, then the last states
+// are collected.
 //
-//   coupler_scale [CELLS [STATE_BYTES [WORKERS ...]]]          as coordinator: starts itself as its workers
+//   coupler_scale [CELLS [STATE_BYTES [MILLISECONDS [WORKERS ...]]]]  as coordinator: starts itself as its workers
+//
+// 200 workers that sleep for 30 ms ask a tenth of what so many engines at 3 ms do, and one machine can be all of
+// them.
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "coupler/pool/pool.hpp"
@@ -23,14 +30,21 @@ using namespace polargrain::coupler;
 
 constexpr double kEngineSeconds = 0.0029;  // an evaluation of a fast cell
 constexpr int kIterations = 4;             // evaluations of each cell a step
-constexpr int kSteps = 3;                  // the first, from one common state, is not measured
+constexpr int kFirstSteps = 2;             // not measured: from one common state, and until memory is there
+constexpr int kSteps = 3;
 
-/// Answers at once: a state of the size asked for in the script, different from every other.
+/// Sleeps and answers: a state of the size asked for in the script, different from every other.
 class SimulatedEngine : public CellService {
  public:
-  explicit SimulatedEngine(std::size_t bytes) : bytes_(bytes) {}
+  /// @param script bytes of a state and milliseconds an evaluation
+  explicit SimulatedEngine(const std::string& script) {
+    std::istringstream(script) >> bytes_ >> milliseconds_;
+  }
   CellReply initial() override { return reply(1.0); }
   CellReply evaluate(const CellRequest& request) override {
+    if (milliseconds_ > 0.0) {
+      std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds_));
+    }
     return reply(request.increment.displacement_gradient(0, 0));
   }
 
@@ -44,7 +58,8 @@ class SimulatedEngine : public CellService {
     reply.state = std::make_shared<const State>(std::move(state));
     return reply;
   }
-  std::size_t bytes_;
+  std::size_t bytes_ = 0;
+  double milliseconds_ = 0.0;
 };
 
 double seconds_of(int who) {
@@ -71,8 +86,8 @@ PoolOptions options_for(int workers) {
   return options;
 }
 
-CellDefinition definition_with(std::size_t state_bytes) {
-  CellDefinition definition{"sand", "none", std::to_string(state_bytes), {}, {}};
+CellDefinition definition_with(const std::string& script) {
+  CellDefinition definition{"sand", "none", script, {}, {}};
   definition.packing.box.setIdentity();
   definition.packing.thickness = 1.0;
   definition.packing.grains = {{1, {0.5, 0.5}, 0.4, 1.0, 0.08}};
@@ -110,16 +125,16 @@ class Cells {
   double mark_ = 1.0;
 };
 
-void measure(int workers, std::size_t count, std::size_t bytes) {
+void measure(int workers, std::size_t count, const std::string& script) {
   Pool pool(options_for(workers));
-  const std::uint32_t sand = pool.define(definition_with(bytes));
+  const std::uint32_t sand = pool.define(definition_with(script));
   const double resident_before = resident_megabytes();
   Cells cells(pool, count, sand);
-  cells.step();
+  for (int step = 0; step < kFirstSteps; ++step) cells.step();
   const PoolCounts before = pool.counts();
   const double own_before = seconds_of(RUSAGE_SELF);
-  for (int step = 1; step < kSteps; ++step) cells.step();
-  const double evaluations = static_cast<double>((kSteps - 1) * kIterations) * static_cast<double>(count);
+  for (int step = 0; step < kSteps; ++step) cells.step();
+  const double evaluations = static_cast<double>(kSteps * kIterations) * static_cast<double>(count);
   const double own = (seconds_of(RUSAGE_SELF) - own_before) / evaluations;
   const PoolCounts& after = pool.counts();
   const auto each = [&](auto member) { return static_cast<double>(after.*member - before.*member) / evaluations; };
@@ -138,18 +153,19 @@ void measure(int workers, std::size_t count, std::size_t bytes) {
 int main(int count, char** arguments) {
   if (count == 4 && std::string(arguments[1]) == "worker") {
     serve(arguments[3], [](const CellDefinition& definition) -> std::unique_ptr<CellService> {
-      return std::make_unique<SimulatedEngine>(std::stoul(definition.script));
+      return std::make_unique<SimulatedEngine>(definition.script);
     });
     return 0;
   }
   const std::size_t cells = count > 1 ? std::stoul(arguments[1]) : 10000;
-  const std::size_t bytes = count > 2 ? std::stoul(arguments[2]) : 55000;
+  const std::string bytes = count > 2 ? arguments[2] : "55000";
+  const std::string milliseconds = count > 3 ? arguments[3] : "0";
   std::vector<int> workers;
-  for (int k = 3; k < count; ++k) workers.push_back(std::stoi(arguments[k]));
+  for (int k = 4; k < count; ++k) workers.push_back(std::stoi(arguments[k]));
   if (workers.empty()) workers = {2, 8, 32, 200};
-  std::printf("%zu cells, states of %zu bytes, %d evaluations a step; an engine is taken to need %.4f s\n", cells,
-              bytes, kIterations, kEngineSeconds);
+  std::printf("%zu cells, states of %s bytes, %d evaluations a step of %s ms; saturation for engines of %.4f s\n",
+              cells, bytes.c_str(), kIterations, milliseconds.c_str(), kEngineSeconds);
   std::printf("%8s %9s %9s %12s %12s %12s %11s %12s\n", "workers", "us, own", "us, wall", "kB an eval.",
               "states sent", "fetched", "kB a cell", "saturates at");
-  for (const int w : workers) measure(w, cells, bytes);
+  for (const int w : workers) measure(w, cells, bytes + " " + milliseconds);
 }

@@ -46,7 +46,7 @@ struct Member {
   std::string name;  ///< "worker 3", "worker 12 on node7"
   Address address;
   std::uint64_t number = 0;              ///< never given twice
-  StateCache known;                      ///< names of the states it should still have
+  StateCache known;                      ///< names of the states it was sent and should still have
   std::set<std::uint32_t> defined = {};  ///< definitions it was sent
   std::deque<Job> jobs = {};             ///< the first is being worked on, the others lie ready with it
   bool has_answered = false;

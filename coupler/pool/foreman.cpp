@@ -29,7 +29,7 @@ constexpr std::size_t kJobsAtHand = 2;
 
 /// A message brings work for about so long: enough that it costs next to nothing, not so much that others wait
 /// for the last one.
-constexpr double kSecondsInRequest = 0.025;
+constexpr double kSecondsInRequest = 0.05;
 constexpr std::size_t kMostCells = 16;
 static_assert(kMostCells <= kMostInRequest);
 
@@ -176,8 +176,8 @@ void Foreman::enqueue(std::size_t number) {
     if (present_.contains(keeper)) return queue_.add_for(keeper, number);
     next.kind = Task::Kind::again;
   }
-  const std::uint64_t home = next.cell.state ? book_.home(next.cell.state->name()) : 0;
-  present_.contains(home) ? queue_.add_for(home, number) : queue_.add(number);
+  next.home = next.cell.state ? book_.home(next.cell.state->name()) : 0;
+  present_.contains(next.home) ? queue_.add_for(next.home, number) : queue_.add(number);
 }
 
 void Foreman::give_all() {
@@ -239,14 +239,13 @@ EvaluateRequest Foreman::request_for(Member& member, const Job& job) {
   message.settled = member.jobs.front().request - 1;
   message.bring = first.kind == Task::Kind::again;
   message.released = book_.take_released(member.number);
-  for (const ContentName& name : message.released) member.known.forget(name);
   for (const std::size_t number : job.tasks) {
     const CellRequest& request = task(number).cell;
     CellToEvaluate& cell =
         message.cells.emplace_back(CellToEvaluate{!request.state, {}, nullptr, request.increment});
     if (!request.state) continue;
     cell.base = request.state->name();
-    if (member.known.use(cell.base)) continue;
+    if (task(number).home == member.number || member.known.use(cell.base)) continue;
     cell.state = request.state;
     member.known.note(cell.base, request.state->size());
     book_.move_home(cell.base, member.number);
@@ -293,7 +292,6 @@ void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
   }
   done.reply = reply;
   if (reply.state) {
-    member.known.note(reply.state->name(), reply.state->size());
     done.reply.state = done.kind == Task::Kind::again
                            ? book_.arrived(reply.state, member.number)
                            : book_.enter(reply.state, member.number, {done.definition, done.cell});
@@ -360,6 +358,7 @@ void Foreman::supply(Member& member, const Missing& missing) {
   if (missing.definition) member.defined.erase(first_of(*job).definition);
   for (const std::size_t number : job->tasks) {
     if (const StatePointer& state = task(number).cell.state) member.known.forget(state->name());
+    task(number).home = 0;
   }
   send(member, *job);
 }

@@ -2,8 +2,10 @@
 #include "coupler/pool/pool.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 #include "common/error.hpp"
@@ -15,6 +17,14 @@ namespace {
 
 /// States collected at a time: on their way they take memory beside their final place.
 constexpr std::size_t kMostBytesOnTheWay = std::size_t{16} << 20;
+
+/// The states of a step come while those of the step before are still there, and take the place of the ones
+/// before these. Given back to the system in between, that memory would have to be taken, and cleared by the
+/// system, once more in every step, which costs more than all the rest that is done with a state.
+void keep_freed_memory() {
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_MMAP_THRESHOLD, 1 << 25);
+}
 
 using StatesByName = std::unordered_map<ContentName, StatePointer, ContentNameHash>;
 
@@ -45,7 +55,7 @@ std::vector<Task> tasks_to_bring(std::span<const StatePointer> states, const Sta
 
 class Pool::Implementation {
  public:
-  explicit Implementation(PoolOptions options) : foreman(std::move(options)) {}
+  explicit Implementation(PoolOptions options) : foreman(std::move(options)) { keep_freed_memory(); }
 
   std::vector<CellReply> evaluate(std::span<const PoolRequest> requests) {
     std::vector<StatePointer> starts;
@@ -69,7 +79,10 @@ class Pool::Implementation {
     note_failure(tasks);
     std::vector<CellReply> replies;
     replies.reserve(requests.size());
-    for (const std::size_t task : task_of) replies.push_back(tasks[task].reply);
+    for (std::size_t r = 0; r < requests.size(); ++r) {
+      CellReply& reply = tasks[task_of[r]].reply;
+      tasks.size() == requests.size() ? replies.push_back(std::move(reply)) : replies.push_back(reply);
+    }
     return replies;
   }
 

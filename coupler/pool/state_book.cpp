@@ -11,7 +11,11 @@ void StateBook::Pages::remove(const ContentName& name, const State* place) {
   // What the entry holds may be the last pointer to another state, whose entry then goes too: that must not
   // happen while the table is at work on this one.
   const auto removed = entries.extract(found);
-  released[removed.mapped().home].push_back(name);
+  release(name, removed.mapped().home);
+}
+
+void StateBook::Pages::release(const ContentName& name, std::uint64_t worker) {
+  if (worker != 0) released[worker].push_back(name);
 }
 
 StatePointer StateBook::watched(const StatePointer& state) const {
@@ -27,10 +31,10 @@ StatePointer StateBook::enter(const StatePointer& state, std::uint64_t worker, c
     if (state->is_here()) return known->is_here() ? known : arrived(state, worker);
     // Made twice: one who keeps it is enough, none when it is here.
     if (known->is_here()) {
-      pages_->released[worker].push_back(state->name());
+      pages_->release(state->name(), worker);
+      if (entry.home == worker) entry.home = 0;
     } else if (entry.home != worker) {
-      pages_->released[entry.home].push_back(state->name());
-      entry.home = worker;
+      pages_->release(state->name(), std::exchange(entry.home, worker));
     }
     return known;
   }
@@ -47,8 +51,7 @@ StatePointer StateBook::arrived(const StatePointer& state, std::uint64_t worker)
   Entry& entry = pages_->entries[state->name()];
   entry.state = pointer;
   entry.place = pointer.get();
-  if (entry.home != worker) pages_->released[entry.home].push_back(state->name());
-  entry.home = worker;
+  if (entry.home != worker) pages_->release(state->name(), std::exchange(entry.home, worker));
   const std::optional<Origin> done = std::exchange(entry.origin, {});  // ends behind the last use of the entry
   return pointer;
 }

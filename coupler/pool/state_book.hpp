@@ -54,6 +54,7 @@ class StateBook {
     std::unordered_map<ContentName, Entry, ContentNameHash> entries;
     std::unordered_map<std::uint64_t, std::vector<ContentName>> released;
     void remove(const ContentName& name, const State* place);
+    void release(const ContentName& name, std::uint64_t worker);
   };
   /// Points to `state`; the last copy to go removes the entry.
   [[nodiscard]] StatePointer watched(const StatePointer& state) const;

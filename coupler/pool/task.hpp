@@ -21,6 +21,8 @@ struct Task {
   std::optional<std::size_t> point = {};
   StatePointer wanted = {};  ///< fetch, again: the state on trial
 
+  std::uint64_t home = 0;  ///< the worker that should have what the cell starts from; 0: nobody is known to
+
   CellReply reply = {};
   bool alone = false;  ///< was at a worker that was lost, with others: goes in a message of its own
   int ends_by_work = 0;

@@ -104,7 +104,7 @@ class Desk {
 
   /// Drops what nobody is going to ask for.
   void settle(const EvaluateRequest& request) {
-    for (const ContentName& name : request.released) cache_.let_go(name);
+    for (const ContentName& name : request.released) cache_.forget(name);
     settled_ = std::max(settled_, request.settled);
     answers_.erase(answers_.begin(), answers_.upper_bound(settled_));
   }

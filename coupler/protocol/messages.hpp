@@ -69,7 +69,7 @@ struct EvaluateRequest {
   std::uint32_t definition = 0;
   std::uint64_t settled = 0;  ///< answers to requests up to this number have come and need not be kept
   bool bring = false;         ///< the bytes of the new states are wanted with the reply
-  std::vector<ContentName> released;  ///< states on trial that nobody is going to ask for
+  std::vector<ContentName> released;  ///< states that nobody is going to name again
   std::vector<CellToEvaluate> cells;
 };
 
