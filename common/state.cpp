@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <utility>
+
+#include "common/error.hpp"
+
 namespace polargrain {
 
 std::string ContentName::text() const {
@@ -13,6 +17,14 @@ std::string ContentName::text() const {
 ContentName name_of(std::span<const std::byte> bytes) {
   const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
   return {hash.high64, hash.low64};
+}
+
+State::State(std::vector<std::byte> bytes)
+    : bytes_(std::move(bytes)), size_(bytes_.size()), name_(name_of(bytes_)) {}
+
+std::span<const std::byte> State::bytes() const {
+  if (!is_here_) throw RunError("the bytes of a state are asked for before they were collected");
+  return bytes_;
 }
 
 }  // namespace polargrain

@@ -12,7 +12,16 @@ CellCalls calls_of(Pool& pool, std::uint32_t definition) {
             for (std::size_t k = 0; k < cells.size(); ++k)
               requests.push_back({definition, cells[k], points[k]});
             return pool.evaluate(requests);
-          }};
+          },
+          [&pool](std::span<const StatePointer> states) { return pool.collect(states); }};
+}
+
+void collect(const CellCalls& calls, std::span<StatePointer* const> states) {
+  if (!calls.collect) return;
+  std::vector<StatePointer> wanted;
+  for (const StatePointer* const state : states) wanted.push_back(*state);
+  const std::vector<StatePointer> here = calls.collect(wanted);
+  for (std::size_t s = 0; s < states.size(); ++s) *states[s] = here[s];
 }
 
 }  // namespace polargrain::coupler

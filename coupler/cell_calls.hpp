@@ -15,11 +15,17 @@ struct CellCalls {
   std::function<CellReply()> initial;
   std::function<std::vector<CellReply>(std::span<const CellRequest>, std::span<const std::size_t> points)>
       evaluate;
+  /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for what is
+  /// committed. Empty: they all do.
+  std::function<std::vector<StatePointer>(std::span<const StatePointer>)> collect = {};
 };
 
 class Pool;
 
 /// The cells of a definition as the workers of a pool answer for them. @param pool must outlive the calls
 CellCalls calls_of(Pool& pool, std::uint32_t definition);
+
+/// Sees to it that the bytes of all these states are here; null pointers stay.
+void collect(const CellCalls& calls, std::span<StatePointer* const> states);
 
 }  // namespace polargrain::coupler

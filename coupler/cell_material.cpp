@@ -24,11 +24,11 @@ bool is_zero(const Increment& increment) {
 
 CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
                            const std::optional<CosseratParameters>& cosserat)
-    : pool_(pool), definition_(definition), cosserat_(cosserat) {}
+    : calls_(calls_of(pool, definition)), cosserat_(cosserat) {}
 
 void CellMaterial::allocate(std::size_t points) {
   PointState start;
-  start.cell = pool_.initial(definition_);
+  start.cell = calls_.initial();
   if (start.cell.response.quality == Quality::failed) {
     throw RunError(
         fmt::format("the packing of a cell cannot be brought to rest: {}", start.cell.response.message));
@@ -38,19 +38,17 @@ void CellMaterial::allocate(std::size_t points) {
 }
 
 void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
-  std::vector<PoolRequest> requests;
+  std::vector<CellRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (is_zero(increments[point])) continue;
     const Increment& increment = increments[point];
     requests.push_back(
-        {definition_,
-         {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment},
-         point});
+        {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment});
     points.push_back(point);
   }
-  std::vector<CellReply> replies = pool_.evaluate(requests);
+  std::vector<CellReply> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     PointState& point = trial_[points[r]];
     point.cell = std::move(replies[r]);
@@ -62,6 +60,13 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
         cosserat_ ? state.cosserat.joined_to(state.cell.response, *cosserat_) : state.cell.response;
     responses[point].noise = noise_of(trial_[point].cell);
   }
+}
+
+void CellMaterial::commit() {
+  std::vector<StatePointer*> states;
+  for (PointState& point : trial_) states.push_back(&point.cell.state);
+  collect(calls_, states);
+  committed_ = trial_;
 }
 
 void CellMaterial::save(ArchiveWriter& archive) const {

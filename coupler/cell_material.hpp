@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "coupler/cell_calls.hpp"
 #include "coupler/cosserat_part.hpp"
 #include "coupler/pool/pool.hpp"
 #include "fem/material/material.hpp"
@@ -27,7 +28,8 @@ class CellMaterial : public fem::Material {
   /// Sends the increments of all points to the pool at once. A point whose increment is zero keeps its
   /// committed answer: nothing has happened to its grains.
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
-  void commit() override { committed_ = trial_; }
+  /// Collects the states of the cells.
+  void commit() override;
   void revert() override { trial_ = committed_; }
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
@@ -42,8 +44,7 @@ class CellMaterial : public fem::Material {
     CosseratPart cosserat;
   };
 
-  Pool& pool_;
-  std::uint32_t definition_;
+  CellCalls calls_;
   std::optional<CosseratParameters> cosserat_;
   bool about_middle_ = false;
   std::vector<PointState> committed_;

@@ -235,6 +235,9 @@ void InformedMaterial::commit() {
     }
     follow(points);
   }
+  std::vector<StatePointer*> states;
+  for (PointState& point : trial_) states.push_back(&point.cell.state);
+  collect(calls_, states);
   committed_ = trial_;
 }
 

@@ -85,6 +85,9 @@ void AdaptiveMaterial::audit_histories() {
     history_errors_.add(in_plane_norm(replies[k].response.stress - given) / confining_);
     going_on.push_back({followed_[k].point, replies[k].state});
   }
+  std::vector<StatePointer*> states;
+  for (Followed& followed : going_on) states.push_back(&followed.state);
+  collect(calls_, states);
   followed_ = std::move(going_on);
 }
 

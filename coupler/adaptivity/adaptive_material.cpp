@@ -251,6 +251,9 @@ void AdaptiveMaterial::commit() {
     point.cosserat.add(increments_[p], cosserat_);
     point.cell = cell_of_branch[b];
   }
+  std::vector<StatePointer*> states;
+  for (Cell& cell : kept) states.push_back(&cell.answer.state);
+  collect(calls_, states);
   cells_ = std::move(kept);
   ++step_;
   audit();

@@ -39,8 +39,9 @@ Costs& operator+=(Costs& sum, const Costs& more) {
 namespace {
 
 /// The members of the counts, so that nothing done with all of them forgets one.
-constexpr std::array kWhole{&PoolCounts::evaluations, &PoolCounts::dem_steps,      &PoolCounts::states_sent,
-                            &PoolCounts::bytes_sent,  &PoolCounts::bytes_received, &PoolCounts::workers_lost};
+constexpr std::array kWhole{
+    &PoolCounts::evaluations,    &PoolCounts::dem_steps,    &PoolCounts::states_sent,    &PoolCounts::bytes_sent,
+    &PoolCounts::bytes_received, &PoolCounts::workers_lost, &PoolCounts::states_fetched, &PoolCounts::evaluations_again};
 constexpr std::array kSeconds{&PoolCounts::engine_seconds, &PoolCounts::busy_seconds,
                               &PoolCounts::wall_seconds, &PoolCounts::member_seconds};
 constexpr std::array kCosts{&Costs::total,   &Costs::grains,          &Costs::messages,
@@ -75,10 +76,11 @@ void save(ArchiveWriter& archive, const Costs& costs, const PoolCounts& counts) 
 void restore(ArchiveReader& archive, Costs& costs, PoolCounts& counts) {
   const std::vector<double> seconds = read_lists(archive, "seconds", 1, kCosts.size() + kSeconds.size());
   const std::vector<std::int64_t> whole = archive.integers("counts");
-  if (whole.size() != kWhole.size()) throw RunError("'counts' does not hold what a run has cost");
+  // Those that were written before the last ones were counted have less.
+  if (whole.size() > kWhole.size()) throw RunError("'counts' does not hold what a run has cost");
   for (std::size_t i = 0; i < kCosts.size(); ++i) costs.*kCosts[i] = seconds[i];
   for (std::size_t i = 0; i < kSeconds.size(); ++i) counts.*kSeconds[i] = seconds[kCosts.size() + i];
-  for (std::size_t i = 0; i < kWhole.size(); ++i) counts.*kWhole[i] = whole[i];
+  for (std::size_t i = 0; i < whole.size(); ++i) counts.*kWhole[i] = whole[i];
 }
 
 }  // namespace polargrain::coupler

@@ -86,6 +86,8 @@ std::string cell_figures(const PoolCounts& pool) {
       .whole("dem_steps", pool.dem_steps)
       .real("engine_seconds", pool.engine_seconds)
       .whole("states_sent", pool.states_sent)
+      .whole("states_fetched", pool.states_fetched)
+      .whole("evaluations_again", pool.evaluations_again)
       .whole("bytes_sent", pool.bytes_sent)
       .whole("bytes_received", pool.bytes_received)
       .finish("  ");

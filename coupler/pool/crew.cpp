@@ -26,6 +26,9 @@ constexpr int kMostUnreadable = 3;
 
 constexpr std::chrono::seconds kPingPeriod{1};
 
+/// Messages read before the ends of workers and the clocks are looked at again.
+constexpr int kMostAtOnce = 1000;
+
 std::uint64_t new_session() {
   std::random_device device;
   const std::uint64_t high = device();
@@ -78,22 +81,19 @@ void Crew::fill(Seat& seat) {
   seat.started = Clock::now();
   seat.address = {};
   seat.process.emplace(command, seat.log);
+  switchboard_.watch(seat.process->end_descriptor());
 }
 
 void Crew::listen(std::chrono::milliseconds timeout) {
-  watch_seats();
+  if (!seats_are_quiet_) watch_seats();
   ping_guests();
-  std::vector<int> descriptors;
-  std::vector<Seat*> seats;
-  for (Seat& seat : seats_) {
-    if (!seat.process) continue;
-    descriptors.push_back(seat.process->end_descriptor());
-    seats.push_back(&seat);
-  }
-  const std::vector<std::size_t> ended = switchboard_.wait(descriptors, timeout);
+  const bool some_ended = switchboard_.wait(timeout);
   // Messages first: the last words of a worker count.
   receive_all();
-  for (const std::size_t e : ended) handle_end(*seats[e]);
+  for (Seat& seat : seats_) {
+    if (!some_ended) break;
+    if (seat.process && seat.process->end()) handle_end(seat);
+  }
   while (!unreachable_.empty()) {
     const Address address = *unreachable_.begin();
     unreachable_.erase(unreachable_.begin());
@@ -105,10 +105,13 @@ void Crew::listen(std::chrono::milliseconds timeout) {
 void Crew::watch_seats() {
   const Clock::time_point now = Clock::now();
   bool any = options_.listening.has_value();
+  seats_are_quiet_ = true;
   for (Seat& seat : seats_) {
     if (!seat.process && seat.fruitless < kMostFruitless && now >= seat.due) fill(seat);
     any = any || seat.process || seat.fruitless < kMostFruitless;
-    if (!seat.process || !seat.address.id.empty()) continue;
+    if (seat.process && !seat.address.id.empty()) continue;
+    seats_are_quiet_ = false;
+    if (!seat.process) continue;
     const double waited = std::chrono::duration<double>(now - seat.started).count();
     if (waited < options_.startup_seconds) continue;
     last_end_ = fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
@@ -121,7 +124,6 @@ void Crew::watch_seats() {
 }
 
 void Crew::handle_end(Seat& seat) {
-  if (!seat.process || !seat.process->end()) return;  // given up in the meantime
   const std::string end = seat.process->end().value_or("unknown end");
   const bool outside = killed_from_outside(seat.process->end_signal());
   const Loss loss{
@@ -130,9 +132,11 @@ void Crew::handle_end(Seat& seat) {
       outside};
   const Address address = seat.address;
   Member* member = address.id.empty() ? nullptr : member_at(address);
-  const bool idle = member == nullptr || !member->job;
+  const bool idle = member == nullptr || member->jobs.empty();
+  if (member != nullptr && member->has_answered) seat.fruitless = 0;
   seat.process.reset();
   seat.address = {};
+  seats_are_quiet_ = false;
   seat.fruitless = idle ? seat.fruitless + (outside ? 1 : kFruitlessEnd) : 0;
   seat.due =
       Clock::now() + std::chrono::milliseconds(seat.fruitless > kFruitlessEnd ? 10 * seat.fruitless : 0);
@@ -146,12 +150,12 @@ void Crew::handle_end(Seat& seat) {
 }
 
 void Crew::remove(const Address& address, const Loss& loss) {
-  const auto place =
-      std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.address == address; });
-  if (place == members_.end()) return;
-  last_end_ = fmt::format("{} {}: {}{}", place->name, loss.how, loss.cause, loss.details);
+  const auto place = places_.find(address);
+  if (place == places_.end()) return;
   std::list<Member> gone;
-  gone.splice(gone.begin(), members_, place);  // nobody gives it work any more
+  gone.splice(gone.begin(), members_, place->second);  // nobody gives it work any more
+  places_.erase(place);
+  last_end_ = fmt::format("{} {}: {}{}", gone.front().name, loss.how, loss.cause, loss.details);
   events_.lost(gone.front(), loss);
 }
 
@@ -168,15 +172,10 @@ void Crew::give_up(Member& member, const std::string& cause) {
     seat.process.reset();
     seat.address = {};
     seat.due = Clock::now();
+    seats_are_quiet_ = false;
     break;
   }
   remove(address, {"was given up", cause, details, from_outside});
-}
-
-void Crew::praise(const Member& member) {
-  for (Seat& seat : seats_) {
-    if (seat.address == member.address) seat.fruitless = 0;
-  }
 }
 
 void Crew::send(Member& member, const Message& message) {
@@ -196,7 +195,8 @@ void Crew::ping_guests() {
 
 void Crew::receive_all() {
   Address from;
-  for (zmq::message_t bytes; switchboard_.receive(from, bytes);) {
+  zmq::message_t bytes;
+  for (int count = 0; count < kMostAtOnce && switchboard_.receive(from, bytes); ++count) {
     bytes_received_ += static_cast<std::int64_t>(bytes.size());
     receive(from, {static_cast<const std::byte*>(bytes.data()), bytes.size()});
   }
@@ -250,7 +250,9 @@ void Crew::greet(const Address& from, const Hello& hello) {
     seat->address = from;
     name = fmt::format("worker {}", seat->number);
   }
-  Member& member = members_.emplace_back(Member{name, from, StateCache(options_.cache_bytes)});
+  Member& member =
+      members_.emplace_back(Member{name, from, ++last_member_, StateCache(options_.cache_bytes)});
+  places_[from] = std::prev(members_.end());
   send(member, Welcome{options_.heartbeat_seconds});
   events_.joined(member);
 }
@@ -260,9 +262,8 @@ void Crew::say(const std::string& text) const {
 }
 
 Member* Crew::member_at(const Address& address) {
-  const auto place =
-      std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.address == address; });
-  return place == members_.end() ? nullptr : &*place;
+  const auto place = places_.find(address);
+  return place == places_.end() ? nullptr : &*place->second;
 }
 
 }  // namespace polargrain::coupler

@@ -2,9 +2,11 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <list>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -29,11 +31,11 @@ struct CrewOptions {
   std::function<void(const std::string&)> tell;
 };
 
-/// What a worker is doing.
+/// What a worker was asked for with one message.
 struct Job {
-  std::size_t task = 0;
+  std::vector<std::size_t> tasks;
   std::uint64_t request = 0;  ///< number on the wire, never used twice
-  std::chrono::steady_clock::time_point sent;
+  std::chrono::steady_clock::time_point sent;    ///< or when the job before it was answered
   std::chrono::steady_clock::time_point heard;   ///< last sign of life, or `sent`
   std::chrono::steady_clock::time_point resent;  ///< last time it was sent, or sent again
   bool begun = false;                            ///< it has said Working
@@ -43,9 +45,11 @@ struct Job {
 struct Member {
   std::string name;  ///< "worker 3", "worker 12 on node7"
   Address address;
-  StateCache known;                      ///< names of the states it should still have
+  std::uint64_t number = 0;              ///< never given twice
+  StateCache known;                      ///< names of the states it was sent and should still have
   std::set<std::uint32_t> defined = {};  ///< definitions it was sent
-  std::optional<Job> job = {};
+  std::deque<Job> jobs = {};             ///< the first is being worked on, the others lie ready with it
+  bool has_answered = false;
   int unreadable = 0;  ///< messages in a row that made no sense
 };
 
@@ -89,8 +93,8 @@ class Crew {
   void send(Member& member, const Message& message);
   /// Does without a member: kills it if it is ours (another is started), forgets it otherwise.
   void give_up(Member& member, const std::string& cause);
-  /// Local workers that answer get their number of restarts back.
-  void praise(const Member& member);
+  /// Local workers that have answered get their number of restarts back.
+  static void praise(Member& member) { member.has_answered = true; }
 
   [[nodiscard]] std::list<Member>& members() { return members_; }
   [[nodiscard]] const Switchboard& switchboard() const { return switchboard_; }
@@ -129,11 +133,14 @@ class Crew {
   PrivateDirectory sockets_;
   Switchboard switchboard_;
   std::list<Seat> seats_;
+  bool seats_are_quiet_ = false;  ///< all are filled and have reported: only an end changes that
   std::list<Member> members_;
+  std::map<Address, std::list<Member>::iterator> places_;  ///< of the members
   std::set<Address> unreachable_;
   std::string last_end_;  ///< how the last process ended, for the message when none is left
   bool starting_ = true;
   int guests_ = 0;
+  std::uint64_t last_member_ = 0;
   Clock::time_point pinged_ = Clock::now();
   std::int64_t bytes_sent_ = 0;
   std::int64_t bytes_received_ = 0;

@@ -53,13 +53,15 @@ struct CellFailure {
 struct PoolCounts {
   std::int64_t evaluations = 0;
   std::int64_t dem_steps = 0;
-  std::int64_t states_sent = 0;  ///< states whose bytes had to travel to a worker
+  std::int64_t states_sent = 0;        ///< states whose bytes had to travel to a worker
+  std::int64_t states_fetched = 0;     ///< states on trial whose bytes were fetched from the worker that made them
+  std::int64_t evaluations_again = 0;  ///< for states on trial that were lost with their worker
   std::int64_t bytes_sent = 0;
   std::int64_t bytes_received = 0;
   std::int64_t workers_lost = 0;
   double engine_seconds = 0.0;  ///< inside the engines, summed over workers
   double busy_seconds = 0.0;    ///< from sending a request to its reply, summed over workers
-  double wall_seconds = 0.0;    ///< spent by the coordinator in evaluate and initial
+  double wall_seconds = 0.0;    ///< spent by the coordinator in evaluate, initial and collect
   double member_seconds = 0.0;  ///< the same, times the workers there were
 };
 
@@ -71,11 +73,17 @@ struct PoolCounts {
 /// two workers (engine error, crash, hanging, refusal), or ten were killed at it from outside, the cell is at
 /// fault: the reply is Quality::failed, with the last cause as its message and half the increment proposed.
 ///
-/// Order of calls: construct (starts the workers), define each material's cell, then any number of initial
-/// and evaluate. After an exception the pool can only be destroyed. One thread.
+/// A new state stays with the worker that made it: the replies of evaluate name it and say its size. Most are
+/// never needed again; collect brings the bytes of those that are, at the latest when a step is committed.
+/// What was lost with its worker is made again from where it came from, to the same bits. A worker is given
+/// first what starts from a state that it has.
+///
+/// Order of calls: construct (starts the workers), define each material's cell, then any number of initial,
+/// evaluate and collect. After an exception the pool can only be destroyed. One thread.
 ///
 /// @throws RunError when a program cannot be started as a worker, when a definition ends every worker that
-/// takes it (with the engine's own words and the name of the log), when no worker is left.
+/// takes it (with the engine's own words and the name of the log), when no worker is left, when a state that was
+/// lost cannot be made again.
 class Pool {
  public:
   explicit Pool(PoolOptions options);
@@ -86,10 +94,14 @@ class Pool {
   /// Makes a cell known. @returns the number that requests name it by.
   std::uint32_t define(CellDefinition definition);
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
-  /// The packing of a definition at rest.
+  /// The packing of a definition at rest, with its state.
   CellReply initial(std::uint32_t definition);
-  /// Evaluates all requests; equal ones once. @returns the replies in the order of the requests.
+  /// Evaluates all requests; equal ones once. Collects first what they start from.
+  /// @returns the replies in the order of the requests. A state in them may be elsewhere
   std::vector<CellReply> evaluate(std::span<const PoolRequest> requests);
+  /// The same states with their bytes; those that are here already, and null, as they are. To be used in the
+  /// place of the pointers given, which nobody can collect again once these are gone.
+  std::vector<StatePointer> collect(std::span<const StatePointer> states);
   /// The first request of the last evaluate whose reply is Quality::failed.
   [[nodiscard]] const std::optional<CellFailure>& last_failure() const;
 

@@ -3,13 +3,21 @@
 
 #include <array>
 #include <bit>
-#include <map>
+#include <unordered_map>
 
 namespace polargrain::coupler {
 namespace {
 
-/// All that an answer depends on, in an order that maps can use.
+/// All that an answer depends on.
 using Key = std::array<std::uint64_t, 11>;
+
+struct KeyHash {
+  std::size_t operator()(const Key& key) const {
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : key) hash = (hash ^ (hash >> 32) ^ word) * 0x9e3779b97f4a7c15u;
+    return hash ^ (hash >> 32);
+  }
+};
 
 Key key_of(const PoolRequest& request) {
   const ContentName name = request.cell.state ? request.cell.state->name() : ContentName{};
@@ -28,7 +36,8 @@ Key key_of(const PoolRequest& request) {
 }  // namespace
 
 std::vector<std::size_t> first_alike(std::span<const PoolRequest> requests) {
-  std::map<Key, std::size_t> seen;
+  std::unordered_map<Key, std::size_t, KeyHash> seen;
+  seen.reserve(requests.size());
   std::vector<std::size_t> first;
   first.reserve(requests.size());
   for (std::size_t r = 0; r < requests.size(); ++r)

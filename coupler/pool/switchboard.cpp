@@ -2,7 +2,9 @@
 #include "coupler/pool/switchboard.hpp"
 
 #include <fmt/format.h>
+#include <sys/epoll.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -41,13 +43,19 @@ std::string next_part(zmq::socket_t& socket, bool& more) {
 
 Switchboard::Switchboard(const std::filesystem::path& directory, const std::optional<Listening>& listening,
                          std::function<void(const std::string&)> tell)
-    : tell_(std::move(tell)), local_url_("ipc://" + (directory / "coordinator").string()) {
+    : tell_(std::move(tell)),
+      watched_(epoll_create1(EPOLL_CLOEXEC)),
+      local_url_("ipc://" + (directory / "coordinator").string()) {
   if (listening) allow_many_descriptors();
   local_.set(zmq::sockopt::linger, 0);
   local_.set(zmq::sockopt::router_mandatory, true);
   local_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
   local_.bind(local_url_);
   if (listening) serve_others(*listening);
+}
+
+Switchboard::~Switchboard() {
+  close(watched_);
 }
 
 void Switchboard::serve_others(const Listening& listening) try {
@@ -96,10 +104,16 @@ bool Switchboard::send(const Address& to, const std::string& bytes) try {
   throw RunError(fmt::format("a message to a worker cannot be sent: {}", error.what()));
 }
 
-std::vector<std::size_t> Switchboard::wait(std::span<const int> descriptors,
-                                           std::chrono::milliseconds timeout) {
-  std::vector<zmq::pollitem_t> items{{local_.handle(), 0, ZMQ_POLLIN, 0}};
-  for (const int descriptor : descriptors) items.push_back({nullptr, descriptor, ZMQ_POLLIN, 0});
+void Switchboard::watch(int descriptor) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  if (epoll_ctl(watched_, EPOLL_CTL_ADD, descriptor, &event) != 0) {
+    throw RunError(fmt::format("cannot watch a worker (epoll_ctl): {}", std::strerror(errno)));
+  }
+}
+
+bool Switchboard::wait(std::chrono::milliseconds timeout) {
+  std::vector<zmq::pollitem_t> items{{nullptr, watched_, ZMQ_POLLIN, 0}, {local_.handle(), 0, ZMQ_POLLIN, 0}};
   if (remote_) {
     for (zmq::socket_t* socket : {&*remote_, &*gate_, &*monitor_}) {
       items.push_back({socket->handle(), 0, ZMQ_POLLIN, 0});
@@ -109,17 +123,13 @@ std::vector<std::size_t> Switchboard::wait(std::span<const int> descriptors,
     zmq::poll(items, timeout);
   } catch (const zmq::error_t& error) {
     if (error.num() != EINTR) throw RunError(fmt::format("waiting for the workers failed: {}", error.what()));
-    return {};
+    return false;
   }
   if (remote_) {
     judge_keys();
     note_failed_handshakes();
   }
-  std::vector<std::size_t> readable;
-  for (std::size_t d = 0; d < descriptors.size(); ++d) {
-    if (items[d + 1].revents != 0) readable.push_back(d);
-  }
-  return readable;
+  return items[0].revents != 0;
 }
 
 bool Switchboard::receive(Address& from, zmq::message_t& bytes) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 #include <zmq.hpp>
@@ -36,6 +35,9 @@ class Switchboard {
   /// @throws RunError when a socket cannot be opened, in particular when another program holds the port
   Switchboard(const std::filesystem::path& directory, const std::optional<Listening>& listening,
               std::function<void(const std::string&)> tell);
+  ~Switchboard();
+  Switchboard(const Switchboard&) = delete;
+  Switchboard& operator=(const Switchboard&) = delete;
 
   [[nodiscard]] const std::string& local_url() const { return local_url_; }
   /// Where others may come to, with the port chosen when the URL left it open (tcp://...:*); empty when not
@@ -43,9 +45,11 @@ class Switchboard {
   [[nodiscard]] std::string remote_url() const;
   /// @returns false when nobody is (any more) at that address
   bool send(const Address& to, const std::string& bytes);
-  /// Waits until a message is there, one of the descriptors becomes readable, or the time is over.
-  /// @returns the places of the readable descriptors
-  std::vector<std::size_t> wait(std::span<const int> descriptors, std::chrono::milliseconds timeout);
+  /// Waits for this descriptor too from now on, until it is closed.
+  void watch(int descriptor);
+  /// Waits until a message is there, a watched descriptor becomes readable, or the time is over.
+  /// @returns whether a watched descriptor is readable
+  bool wait(std::chrono::milliseconds timeout);
   /// The next message, if there is one. Does not wait.
   bool receive(Address& from, zmq::message_t& bytes);
   [[nodiscard]] std::size_t refused() const { return refused_; }
@@ -58,6 +62,8 @@ class Switchboard {
   static bool receive_from(zmq::socket_t& socket, std::string& id, zmq::message_t& bytes);
 
   std::function<void(const std::string&)> tell_;
+  /// The watched descriptors behind a single one, so that waiting costs the same however many there are.
+  int watched_ = -1;
   zmq::context_t context_;
   zmq::socket_t local_{context_, zmq::socket_type::router};
   std::optional<zmq::socket_t> gate_;     ///< asked by ZeroMQ whether a key may enter

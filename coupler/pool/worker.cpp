@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
@@ -40,50 +41,91 @@ class Desk {
       return {};
     }
     if (const auto* initial = std::get_if<InitialRequest>(&message)) {
-      return served(*initial, session,
-                    [](CellService& service) -> Message { return service_reply(service.initial()); });
+      return served(*initial, session, [&] { return at_rest(*initial); });
     }
     if (const auto* evaluate = std::get_if<EvaluateRequest>(&message)) {
-      return served(*evaluate, session,
-                    [&](CellService& service) -> Message { return evaluated(*evaluate, service); });
+      settle(*evaluate);
+      return served(*evaluate, session, [&] { return evaluated(*evaluate); });
     }
+    if (const auto* fetch = std::get_if<FetchRequest>(&message)) return encode(fetched(*fetch), session);
     throw ProtocolError("a message that only workers send");
   }
 
  private:
-  static Message service_reply(CellReply reply) { return Reply{0, std::move(reply)}; }
-
-  Message evaluated(const EvaluateRequest& request, CellService& service) {
-    CellRequest cell{nullptr, request.increment};
-    if (!request.from_packing) {
-      if (request.state) cache_.keep(request.state);
-      cell.state = request.state ? request.state : cache_.find(request.base);
-      if (!cell.state) return Missing{request.request, false};
-    }
-    return service_reply(service.evaluate(cell));
+  Message at_rest(const InitialRequest& request) {
+    CellReply reply = service(request.definition).initial();
+    if (reply.state) cache_.keep(reply.state);
+    return Reply{request.request, {std::move(reply)}};
   }
 
+  Message evaluated(const EvaluateRequest& request) {
+    const std::vector<StatePointer> starts = starts_of(request);
+    Missing missing{request.request, false, {}};
+    for (std::size_t c = 0; c < starts.size(); ++c) {
+      if (!starts[c] && !request.cells[c].from_packing) missing.bases.push_back(request.cells[c].base);
+    }
+    if (!missing.bases.empty()) return missing;
+    CellService& engine = service(request.definition);
+    Reply reply{request.request, {}};
+    for (std::size_t c = 0; c < starts.size(); ++c) {
+      try {
+        reply.cells.push_back(engine.evaluate({starts[c], request.cells[c].increment}));
+      } catch (const std::exception& error) {
+        return Refusal{request.request, static_cast<std::uint32_t>(c), error.what()};
+      }
+      StatePointer& state = reply.cells.back().state;
+      if (state && !request.bring && cache_.hold(state)) {
+        state = std::make_shared<const State>(state->name(), state->size());
+      } else if (state) {
+        cache_.keep(state);  // no room to be its only keeper, or not asked to be
+      }
+    }
+    return reply;
+  }
+
+  /// The states that the cells start from; null from the packing, and where the bytes are not here.
+  std::vector<StatePointer> starts_of(const EvaluateRequest& request) {
+    std::vector<StatePointer> starts;
+    for (const CellToEvaluate& cell : request.cells) {
+      if (cell.state) cache_.keep(cell.state);
+      starts.push_back(cell.from_packing ? nullptr : cell.state ? cell.state : cache_.find(cell.base));
+    }
+    return starts;
+  }
+
+  Message fetched(const FetchRequest& request) {
+    States found{request.request, {}};
+    for (const ContentName& name : request.names) {
+      found.states.push_back(cache_.find(name));
+      cache_.let_go(name);
+    }
+    return found;
+  }
+
+  /// Drops what nobody is going to ask for.
+  void settle(const EvaluateRequest& request) {
+    for (const ContentName& name : request.released) cache_.forget(name);
+    settled_ = std::max(settled_, request.settled);
+    answers_.erase(answers_.begin(), answers_.upper_bound(settled_));
+  }
+
+  /// A request that comes again is answered again, not served again; one that is settled is a straggler.
   template <class Request, class Call>
   std::optional<std::string> served(const Request& request, std::uint64_t session, const Call& call) {
-    // Requests are numbered upwards: one that comes again is answered again, an older one is a straggler.
-    if (request.request == last_served_) return last_answer_;
-    if (request.request < last_served_) return {};
-    if (!definitions_.contains(request.definition)) return encode(Missing{request.request, true}, session);
-    Message answer = Missing{request.request, false};
+    if (const auto kept = answers_.find(request.request); kept != answers_.end()) return kept->second;
+    if (request.request <= settled_) return {};
+    if (!definitions_.contains(request.definition)) {
+      return encode(Missing{request.request, true, {}}, session);
+    }
+    Message answer = Refusal{};
     try {
       at_work_ = request.request;
-      answer = call(service(request.definition));
+      answer = call();
     } catch (const std::exception& error) {
-      answer = Refusal{request.request, error.what()};
+      answer = Refusal{request.request, 0, error.what()};
     }
     if (std::holds_alternative<Missing>(answer)) return encode(answer, session);
-    if (auto* reply = std::get_if<Reply>(&answer)) {
-      reply->request = request.request;
-      if (reply->cell.state) cache_.keep(reply->cell.state);
-    }
-    last_served_ = request.request;
-    last_answer_ = encode(answer, session);
-    return last_answer_;
+    return answers_[request.request] = encode(answer, session);
   }
 
   CellService& service(std::uint32_t definition) {
@@ -101,8 +143,8 @@ class Desk {
   std::map<std::uint32_t, CellDefinition> definitions_;
   std::map<std::uint32_t, std::unique_ptr<CellService>> services_;
   std::uint64_t at_work_ = 0;
-  std::uint64_t last_served_ = 0;
-  std::string last_answer_;
+  std::uint64_t settled_ = 0;
+  std::map<std::uint64_t, std::string> answers_;  ///< to requests that are not settled, by their numbers
 };
 
 std::string host_name() {

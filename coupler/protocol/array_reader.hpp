@@ -2,7 +2,9 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <msgpack.hpp>
 #include <span>
 #include <string>
@@ -54,23 +56,45 @@ class ArrayReader {
     if (member.type != msgpack::type::BIN) wrong("a block of bytes");
     return std::as_bytes(std::span(member.via.bin.ptr, member.via.bin.size));
   }
-  std::vector<double> numbers(std::size_t count) {
+  template <std::size_t count>
+  std::array<double, count> numbers() {
+    std::array<double, count> values;
     const std::span<const std::byte> bytes = block();
-    if (bytes.size() != count * sizeof(double)) wrong(fmt::format("{} doubles", count));
-    return numbers_of(bytes);
+    if (bytes.size() != sizeof values) wrong(fmt::format("{} doubles", count));
+    std::memcpy(values.data(), bytes.data(), sizeof values);
+    return values;
   }
-  std::vector<double> finite_numbers(std::size_t count) {
-    std::vector<double> values = numbers(count);
+  template <std::size_t count>
+  std::array<double, count> finite_numbers() {
+    const std::array<double, count> values = numbers<count>();
     require_finite(values, what_);
     return values;
   }
+  std::vector<double> finite_numbers(std::size_t count) {
+    const std::span<const std::byte> bytes = block();
+    if (bytes.size() != count * sizeof(double)) wrong(fmt::format("{} doubles", count));
+    std::vector<double> values = numbers_of(bytes);
+    require_finite(values, what_);
+    return values;
+  }
+  /// A state with its bytes, or none.
   StatePointer state() {
-    if (at_ < members_.size() && members_[at_].type == msgpack::type::NIL) {
+    if (is_next(msgpack::type::NIL)) {
       ++at_;
       return nullptr;
     }
     const std::span<const std::byte> bytes = block();
     return std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
+  }
+  /// A state with its bytes or by its name alone, or none.
+  StatePointer state_or_name() {
+    if (!is_next(msgpack::type::ARRAY)) return state();
+    ArrayReader reader(next(), "a state");
+    const ContentName name = reader.name();
+    const std::uint64_t size = reader.whole();
+    reader.end();
+    if (size > kLongestMessage) throw ProtocolError("a state is larger than any message");
+    return std::make_shared<const State>(name, static_cast<std::size_t>(size));
   }
   ContentName name() {
     ContentName value;
@@ -78,7 +102,15 @@ class ArrayReader {
     value.low = whole();
     return value;
   }
+  std::vector<ContentName> names() {
+    const std::span<const std::byte> bytes = block();
+    if (bytes.size() % sizeof(ContentName) != 0) wrong("a list of names");
+    std::vector<ContentName> values(bytes.size() / sizeof(ContentName));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
   const msgpack::object& part() { return next(); }
+  [[nodiscard]] bool at_end() const { return at_ == members_.size(); }
   void end() const {
     if (at_ != members_.size()) {
       throw ProtocolError(fmt::format("{} has {} members, {} expected", what_, members_.size(), at_));
@@ -86,6 +118,9 @@ class ArrayReader {
   }
 
  private:
+  [[nodiscard]] bool is_next(msgpack::type::object_type type) const {
+    return at_ < members_.size() && members_[at_].type == type;
+  }
   const msgpack::object& next() {
     if (at_ == members_.size()) throw ProtocolError(fmt::format("{} ends after {} members", what_, at_));
     return members_[at_++];

@@ -9,9 +9,16 @@
 
 namespace polargrain::coupler {
 
-/// Collects members and finishes them as one msgpack array.
+/// Appends one msgpack array to a text of bytes, member by member; how many there are is written into its head
+/// as they come. Parts are written into the same bytes, so that nothing is copied twice.
 class ArrayWriter {
  public:
+  explicit ArrayWriter(std::string& bytes) : out_{bytes}, head_(bytes.size()) {
+    bytes.append({kArray16, '\0', '\0'});
+  }
+  ArrayWriter(const ArrayWriter&) = delete;
+  ArrayWriter& operator=(const ArrayWriter&) = delete;
+
   ArrayWriter& whole(std::uint64_t value) {
     member().pack_uint64(value);
     return *this;
@@ -35,36 +42,45 @@ class ArrayWriter {
     return *this;
   }
   ArrayWriter& numbers(std::span<const double> values) { return block(std::as_bytes(values)); }
+  /// Nil, its bytes, or its name and size when they are elsewhere.
   ArrayWriter& state(const StatePointer& value) {
-    if (value) return block(value->bytes());
-    member().pack_nil();
+    if (!value) {
+      member().pack_nil();
+    } else if (value->is_here()) {
+      block(value->bytes());
+    } else {
+      part().name(value->name()).whole(value->size());
+    }
     return *this;
   }
   ArrayWriter& name(const ContentName& value) { return whole(value.high).whole(value.low); }
-  ArrayWriter& part(const ArrayWriter& other) {
-    ++members_;
-    buffer_.bytes += other.finish();
-    return *this;
-  }
-
-  [[nodiscard]] std::string finish() const {
-    Buffer array;
-    msgpack::packer<Buffer>(array).pack_array(members_);
-    return array.bytes + buffer_.bytes;
+  ArrayWriter& names(std::span<const ContentName> values) { return block(std::as_bytes(values)); }
+  /// An array as the next member. To be finished before this one goes on.
+  ArrayWriter part() {
+    count();
+    return ArrayWriter(out_.bytes);
   }
 
  private:
+  static constexpr char kArray16 = '\xdc';  ///< followed by the number of members in two bytes
+
   struct Buffer {
-    std::string bytes;
+    std::string& bytes;
     void write(const char* data, std::size_t size) { bytes.append(data, size); }
   };
 
-  msgpack::packer<Buffer> member() {
+  void count() {
     ++members_;
-    return msgpack::packer<Buffer>(buffer_);
+    out_.bytes[head_ + 1] = static_cast<char>(members_ >> 8);
+    out_.bytes[head_ + 2] = static_cast<char>(members_ & 0xff);
+  }
+  msgpack::packer<Buffer> member() {
+    count();
+    return msgpack::packer<Buffer>(out_);
   }
 
-  Buffer buffer_;
+  Buffer out_;
+  std::size_t head_;  ///< where the array begins
   std::uint32_t members_ = 0;
 };
 

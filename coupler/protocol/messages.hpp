@@ -5,13 +5,17 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/cell.hpp"
 
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 4;
+inline constexpr std::uint32_t kProtocolVersion = 5;
+
+/// A request asks for no more cells or states.
+inline constexpr std::size_t kMostInRequest = 64;
 
 /// No message is longer; longer ones are refused before they are read.
 inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
@@ -51,26 +55,49 @@ struct InitialRequest {
   std::uint32_t definition = 0;
 };
 
-/// Coordinator to worker: CellService::evaluate.
-struct EvaluateRequest {
-  std::uint64_t request = 0;
-  std::uint32_t definition = 0;
+/// One of the cells of an EvaluateRequest.
+struct CellToEvaluate {
   bool from_packing = false;  ///< start from the packing; `base` and `state` are then unused
   ContentName base;           ///< name of the state to start from
   StatePointer state;         ///< that state when its bytes travel along, else null
   Increment increment;
 };
 
-/// Worker to coordinator: the answer to an InitialRequest or EvaluateRequest.
+/// Coordinator to worker: CellService::evaluate, for some cells one after the other.
+struct EvaluateRequest {
+  std::uint64_t request = 0;
+  std::uint32_t definition = 0;
+  std::uint64_t settled = 0;  ///< answers to requests up to this number have come and need not be kept
+  bool bring = false;         ///< the bytes of the new states are wanted with the reply
+  std::vector<ContentName> released;  ///< states that nobody is going to name again
+  std::vector<CellToEvaluate> cells;
+};
+
+/// Worker to coordinator: the answer to an InitialRequest or EvaluateRequest, an answer for each cell. Unless
+/// its bytes were wanted, or the worker has no room for it, a new state is given by its name alone: the worker
+/// keeps it until it is fetched or released.
 struct Reply {
   std::uint64_t request = 0;
-  CellReply cell;
+  std::vector<CellReply> cells;
+};
+
+/// Coordinator to worker: the bytes of states on trial, which have become the start of the next step.
+struct FetchRequest {
+  std::uint64_t request = 0;
+  std::vector<ContentName> names;
+};
+
+/// Worker to coordinator: the answer to a FetchRequest, in its order; null for a state the worker does not have.
+struct States {
+  std::uint64_t request = 0;
+  std::vector<StatePointer> states;
 };
 
 /// Worker to coordinator: a request cannot be served before what it names is sent (again).
 struct Missing {
   std::uint64_t request = 0;
-  bool definition = false;  ///< its Define is missing; else the bytes of the state it starts from
+  bool definition = false;         ///< its Define is missing; else
+  std::vector<ContentName> bases;  ///< the bytes of these states that its cells start from
 };
 
 /// Worker to coordinator, from inside the engine: the request is being worked on.
@@ -78,16 +105,18 @@ struct Working {
   std::uint64_t request = 0;
 };
 
-/// Worker to coordinator: the request cannot be served, and why.
+/// Worker to coordinator: one of the cells of a request cannot be served, and why; the others were not tried or
+/// their answers are dropped.
 struct Refusal {
   std::uint64_t request = 0;
+  std::uint32_t place = 0;  ///< of that cell in the request
   std::string message;
 };
 
 /// Hello and Stop keep their places and their first members for ever: they are what versions say to each
 /// other.
 using Message = std::variant<Hello, Stop, Welcome, Define, InitialRequest, EvaluateRequest, Reply, Missing,
-                             Working, Refusal>;
+                             Working, Refusal, FetchRequest, States>;
 
 /// A message and the session it belongs to: a number that each coordinator draws for itself, so that nothing
 /// meant for another run, or recorded from one, is taken for an answer. 0 in a Hello, which comes before any

@@ -44,7 +44,13 @@ std::vector<CellReply> chain(Pool& pool, std::size_t cells) {
   std::vector<CellReply> replies;
   for (int batch = 0; batch < 10; ++batch) {
     replies = pool.evaluate(random_requests(cells, replies));
-    for (const CellReply& reply : replies) EXPECT_EQ(reply.response.quality, Quality::good);
+    std::vector<StatePointer> states;
+    for (const CellReply& reply : replies) {
+      EXPECT_EQ(reply.response.quality, Quality::good);
+      states.push_back(reply.state);
+    }
+    states = pool.collect(states);
+    for (std::size_t r = 0; r < cells; ++r) replies[r].state = states[r];
   }
   return replies;
 }
@@ -86,6 +92,32 @@ TEST_F(MessageFaultsTest, AWorkerThatSendsGarbageIsGivenUp) {
                 "what cannot be used"),
             std::string::npos)
       << replies[0].response.message;
+}
+
+/// Evaluates some cells and collects their states.
+void expect_states_of_strange_worker(Pool& pool) {
+  pool.define(testing::fake_definition(""));
+  std::vector<StatePointer> states;
+  for (const CellReply& reply : pool.evaluate(random_requests(8))) states.push_back(reply.state);
+  const std::vector<StatePointer> here = pool.collect(states);
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    ASSERT_TRUE(here[s]->is_here());
+    EXPECT_EQ(name_of(here[s]->bytes()), states[s]->name());
+  }
+  EXPECT_EQ(pool.counts().evaluations_again, 8);
+}
+
+TEST_F(MessageFaultsTest, StatesThatAWorkerHasDroppedAreMadeAgain) {
+  Pool pool(options(1, {STRANGE_WORKER, "forgets"}));
+  expect_states_of_strange_worker(pool);
+  EXPECT_EQ(pool.counts().workers_lost, 0);
+}
+
+TEST_F(MessageFaultsTest, AWorkerThatSendsOtherStatesIsGivenUp) {
+  Pool pool(options(1, {STRANGE_WORKER, "lies"}));
+  expect_states_of_strange_worker(pool);
+  EXPECT_EQ(pool.counts().workers_lost, 1);
+  EXPECT_NE(told_.find("the bytes of a state do not have its name"), std::string::npos) << told_;
 }
 
 TEST_F(MessageFaultsTest, AWorkerThatNeverAnswersIsGivenUp) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "common/memory_archive.hpp"
 #include "coupler/cell_material.hpp"
 #include "tests/integration/command.hpp"
 #include "tests/integration/fake_engine.hpp"
@@ -109,6 +110,18 @@ TEST_F(CellMaterialTest, IncrementsAddUpOverCommits) {
   sand.fields(0, fields);
   // The fake counts its evaluations in the coordination number, from 4.
   EXPECT_EQ(fields[1], 7.0);
+}
+
+TEST_F(CellMaterialTest, ACommitBringsTheStates) {
+  CellMaterial sand = material("", 1);
+  evaluate(sand, some_increment());
+  evaluate(sand, some_increment());
+  EXPECT_EQ(pool_.counts().states_fetched, 0);
+  sand.commit();
+  EXPECT_EQ(pool_.counts().states_fetched, 1);
+  MemoryArchive archive;
+  sand.save(archive);
+  EXPECT_TRUE(archive.states("cells/states").at(0)->is_here());
 }
 
 TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {

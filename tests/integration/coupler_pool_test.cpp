@@ -53,6 +53,15 @@ bool same_bits(const CellReply& a, const CellReply& b) {
          a.state->name() == b.state->name();
 }
 
+/// The replies with the bytes of their states, as a material has them after a commit.
+std::vector<CellReply> collected(Pool& pool, std::vector<CellReply> replies) {
+  std::vector<StatePointer> states;
+  for (const CellReply& reply : replies) states.push_back(reply.state);
+  states = pool.collect(states);
+  for (std::size_t r = 0; r < replies.size(); ++r) replies[r].state = states[r];
+  return replies;
+}
+
 std::string message_of(const std::function<void()>& call) {
   try {
     call();
@@ -127,7 +136,7 @@ TEST_F(PoolTest, AWorkerThatLostAStateIsSentItAgain) {
   // The worker keeps two states of 48 bytes, the coordinator takes it to keep all.
   Pool pool(options(1, {"--cache", "100"}));
   pool.define(testing::fake_definition(""));
-  const std::vector<CellReply> first = pool.evaluate(random_requests(20));
+  const std::vector<CellReply> first = collected(pool, pool.evaluate(random_requests(20)));
   const std::vector<CellReply> second = pool.evaluate(random_requests(20, first));
   std::cout << "[figure] states sent again: " << pool.counts().states_sent << " of 20\n";
   EXPECT_GE(pool.counts().states_sent, 18);
@@ -136,6 +145,101 @@ TEST_F(PoolTest, AWorkerThatLostAStateIsSentItAgain) {
   other.evaluate(random_requests(1));
   const std::vector<CellReply> expected = other.evaluate(random_requests(20, first));
   for (std::size_t r = 0; r < 20; ++r) EXPECT_TRUE(same_bits(second[r], expected[r])) << r;
+}
+
+TEST_F(PoolTest, ANewStateStaysWithItsWorkerUntilItIsCollected) {
+  Pool pool(options(2));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> replies = pool.evaluate(random_requests(20));
+  for (const CellReply& reply : replies) EXPECT_FALSE(reply.state->is_here());
+  EXPECT_THROW(static_cast<void>(replies[0].state->bytes()), RunError);
+  const std::vector<CellReply> here = collected(pool, replies);
+  for (std::size_t r = 0; r < 20; ++r) {
+    ASSERT_TRUE(here[r].state->is_here());
+    EXPECT_EQ(name_of(here[r].state->bytes()), replies[r].state->name());
+  }
+  EXPECT_EQ(pool.counts().states_fetched, 20);
+  EXPECT_EQ(pool.counts().evaluations_again, 0);
+  collected(pool, replies);  // they are here
+  EXPECT_EQ(pool.counts().states_fetched, 20);
+}
+
+TEST_F(PoolTest, StatesLostWithTheirWorkerAreMadeAgain) {
+  Pool pool(options(1));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> first = collected(pool, pool.evaluate(random_requests(20)));
+  const std::vector<CellReply> second = pool.evaluate(random_requests(20, first));
+  ASSERT_EQ(kill(testing::children_of(getpid()).at(0), SIGKILL), 0);
+  const std::vector<CellReply> here = collected(pool, second);
+  for (std::size_t r = 0; r < 20; ++r) {
+    ASSERT_TRUE(here[r].state->is_here());
+    EXPECT_EQ(name_of(here[r].state->bytes()), second[r].state->name()) << r;
+  }
+  EXPECT_EQ(pool.counts().evaluations_again, 20);
+}
+
+TEST_F(PoolTest, AStateOnTrialMayStartARequest) {
+  // As in a material that follows a step in parts: nothing is committed in between.
+  Pool pool(options(2));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> first = pool.evaluate(random_requests(10));
+  for (const pid_t worker : testing::children_of(getpid())) kill(worker, SIGKILL);
+  const std::vector<CellReply> second = pool.evaluate(random_requests(10, first));
+  Pool other(options(1));
+  other.define(testing::fake_definition(""));
+  const std::vector<CellReply> expected =
+      other.evaluate(random_requests(10, collected(other, other.evaluate(random_requests(10)))));
+  for (std::size_t r = 0; r < 10; ++r) EXPECT_TRUE(same_bits(second[r], expected[r])) << r;
+}
+
+TEST_F(PoolTest, AStateThatNobodyHasAnyMoreIsAnError) {
+  std::vector<CellReply> replies;
+  {
+    Pool pool(options(1));
+    pool.define(testing::fake_definition(""));
+    replies = pool.evaluate(random_requests(1));
+  }
+  Pool pool(options(1));
+  pool.define(testing::fake_definition(""));
+  EXPECT_EQ(message_of([&] { collected(pool, replies); }), "the bytes of a state are with nobody any more");
+}
+
+/// Bytes an evaluation over steps of four evaluations of each cell and a commit, with states of 50 kB.
+double bytes_an_evaluation(Pool& pool, const std::string& script) {
+  constexpr std::size_t kCells = 48;
+  pool.define(testing::fake_definition("state_bytes 50000\n" + script));
+  std::vector<CellReply> committed = collected(pool, pool.evaluate(random_requests(kCells)));
+  const PoolCounts before = pool.counts();
+  for (int step = 0; step < 3; ++step) {
+    std::vector<CellReply> trial;
+    for (int iteration = 1; iteration <= 4; ++iteration) {
+      std::vector<PoolRequest> requests = random_requests(kCells, committed);
+      for (PoolRequest& request : requests) request.cell.increment.displacement_gradient *= iteration;
+      trial = pool.evaluate(requests);
+    }
+    committed = collected(pool, trial);
+  }
+  const PoolCounts& after = pool.counts();
+  EXPECT_EQ(after.evaluations - before.evaluations, 3 * 4 * 48);
+  return static_cast<double>(after.bytes_sent + after.bytes_received - before.bytes_sent - before.bytes_received) /
+         (3.0 * 4.0 * kCells);
+}
+
+TEST_F(PoolTest, OneStateAStepTravels) {
+  Pool pool(options(1));
+  const double bytes = bytes_an_evaluation(pool, "");
+  std::cout << "[figure] bytes an evaluation, one worker: " << bytes << '\n';
+  // A quarter of a state, and what is said beside it.
+  EXPECT_LT(bytes, 50000.0 / 4.0 + 1000.0);
+  EXPECT_EQ(pool.counts().states_sent, 0);
+}
+
+TEST_F(PoolTest, CellsStayWithTheirWorkers) {
+  Pool pool(options(3));
+  const double bytes = bytes_an_evaluation(pool, "sleep_milliseconds 2");
+  std::cout << "[figure] bytes an evaluation, three workers: " << bytes << ", states sent "
+            << pool.counts().states_sent << '\n';
+  EXPECT_LT(bytes, 25000.0);
 }
 
 TEST_F(PoolTest, AFailedCellIsAnAnswer) {

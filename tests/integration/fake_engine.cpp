@@ -45,7 +45,7 @@ class FakeEngine : public CellService {
     while (script >> command) {
       if (command != "young" && command != "softening" && command != "fail_beyond" &&
           command != "die_beyond" && command != "refuse_beyond" && command != "hang_beyond" &&
-          command != "sleep_milliseconds" && command != "young_of_mass") {
+          command != "sleep_milliseconds" && command != "young_of_mass" && command != "state_bytes") {
         die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
       }
       script >> settings_[command];
@@ -69,7 +69,7 @@ class FakeEngine : public CellService {
     if (beyond("refuse_beyond", largest)) throw RunError("the increment is not to my liking");
     std::array<double, 6> start{kConfining, kConfining, kConfining, 0.0, 0.0, 0.0};
     if (request.state) {
-      if (request.state->bytes().size() != sizeof start) throw RunError("a state of something else");
+      if (request.state->bytes().size() != state_bytes()) throw RunError("a state of something else");
       std::memcpy(start.data(), request.state->bytes().data(), sizeof start);
     }
     if (beyond("fail_beyond", largest)) {
@@ -103,6 +103,11 @@ class FakeEngine : public CellService {
     }
   }
 
+  [[nodiscard]] std::size_t state_bytes() const {
+    const auto bytes = settings_.find("state_bytes");
+    return bytes == settings_.end() ? 6 * sizeof(double) : static_cast<std::size_t>(bytes->second);
+  }
+
   [[nodiscard]] bool beyond(const std::string& setting, double value) const {
     const auto limit = settings_.find(setting);
     return limit != settings_.end() && value > limit->second;
@@ -127,7 +132,9 @@ class FakeEngine : public CellService {
     reply.diagnostics.dem_steps = 10;
     reply.diagnostics.engine_seconds = 1e-6;
     const auto bytes = std::as_bytes(std::span(values));
-    reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
+    std::vector<std::byte> content(bytes.begin(), bytes.end());
+    content.resize(state_bytes());
+    reply.state = std::make_shared<const State>(std::move(content));
     return reply;
   }
 

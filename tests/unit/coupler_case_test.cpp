@@ -8,7 +8,9 @@
 #include "coupler/case/expression.hpp"
 #include "coupler/case/quantity.hpp"
 #include "coupler/case/section.hpp"
+#include "coupler/pool/state_book.hpp"
 #include "coupler/pool/state_cache.hpp"
+#include "coupler/pool/task_queue.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -87,6 +89,118 @@ TEST(StateCache, ForgetsWhatWasUsedLongestAgo) {
   cache.forget(a->name());
   EXPECT_FALSE(cache.use(a->name()));
   EXPECT_EQ(cache.bytes(), 200u);
+}
+
+TEST(StateCache, HoldsUpToHalfOfItsBytes) {
+  StateCache cache(400);
+  const StatePointer a = state_of(100, 1);
+  const StatePointer b = state_of(100, 2);
+  EXPECT_TRUE(cache.hold(a));
+  EXPECT_TRUE(cache.hold(b));
+  EXPECT_TRUE(cache.hold(b));
+  EXPECT_FALSE(cache.hold(state_of(1, 3)));
+  for (int fill = 4; fill < 10; ++fill) cache.keep(state_of(100, fill));
+  EXPECT_EQ(cache.bytes(), 400u);
+  EXPECT_EQ(cache.find(a->name()), a);
+  cache.let_go(a->name());
+  EXPECT_EQ(cache.find(a->name()), a);
+  for (int fill = 4; fill < 10; ++fill) cache.keep(state_of(100, fill));
+  EXPECT_EQ(cache.find(a->name()), nullptr);
+  EXPECT_EQ(cache.find(b->name()), b);
+  cache.forget(b->name());
+  EXPECT_TRUE(cache.hold(state_of(200, 3)));
+}
+
+StatePointer elsewhere(const StatePointer& state) {
+  return std::make_shared<const State>(state->name(), state->size());
+}
+
+TEST(StateBook, TellsAWorkerWhatNobodyPointsToAnyMore) {
+  StateBook book;
+  const StatePointer start = state_of(10, 1);
+  StatePointer trial = book.enter(elsewhere(state_of(10, 2)), 7, {0, {start, {}}});
+  EXPECT_EQ(book.home(trial->name()), 7u);
+  ASSERT_NE(book.origin(trial->name()), nullptr);
+  EXPECT_EQ(book.origin(trial->name())->request.state, start);
+  const ContentName name = trial->name();
+  EXPECT_TRUE(book.take_released(7).empty());
+  trial = nullptr;
+  EXPECT_EQ(book.take_released(7), std::vector{name});
+  EXPECT_TRUE(book.take_released(7).empty());
+  EXPECT_EQ(book.origin(name), nullptr);
+  EXPECT_EQ(book.home(name), 0u);
+}
+
+TEST(StateBook, WhatHasArrivedNeedsNoOrigin) {
+  StateBook book;
+  const StatePointer full = state_of(10, 2);
+  StatePointer start = book.enter(state_of(10, 1), 7, {});
+  const ContentName start_name = start->name();
+  StatePointer trial = book.enter(elsewhere(full), 7, {0, {start, {}}});
+  start = nullptr;
+  EXPECT_NE(book.find_here(start_name), nullptr);  // the trial could not be made again without it
+  EXPECT_EQ(book.find_here(full->name()), nullptr);
+  const StatePointer here = book.arrived(full, 7);
+  EXPECT_EQ(book.find_here(full->name()), here);
+  EXPECT_EQ(book.origin(full->name()), nullptr);
+  EXPECT_EQ(book.find_here(start_name), nullptr);
+  trial = nullptr;  // the pointer of old does not take the entry with it
+  EXPECT_EQ(book.find_here(full->name()), here);
+  EXPECT_EQ(book.take_released(7), std::vector{start_name});
+}
+
+TEST(StateBook, OneKeeperIsEnough) {
+  StateBook book;
+  const StatePointer full = state_of(10, 2);
+  const StatePointer first = book.enter(elsewhere(full), 7, {});
+  EXPECT_EQ(book.enter(elsewhere(full), 8, {}), first);
+  EXPECT_EQ(book.take_released(7), std::vector{full->name()});
+  EXPECT_EQ(book.home(full->name()), 8u);
+  const StatePointer here = book.arrived(full, 9);
+  EXPECT_EQ(book.take_released(8), std::vector{full->name()});
+  EXPECT_EQ(book.enter(elsewhere(full), 7, {}), here);
+  EXPECT_EQ(book.take_released(7), std::vector{full->name()});
+}
+
+using Numbers = std::vector<std::size_t>;
+
+TEST(TaskQueue, AWorkerTakesItsOwnFirstAndNeverNothing) {
+  std::vector<Task> tasks(8);
+  TaskQueue queue;
+  queue.begin(tasks);
+  for (const std::size_t task : {0, 1, 2}) queue.add_for(7, task);
+  for (const std::size_t task : {3, 4}) queue.add_for(8, task);
+  queue.add(5);
+  const auto two = [](const Task&) { return std::size_t{2}; };
+  EXPECT_EQ(queue.take(8, two), (Numbers{3, 4}));
+  EXPECT_EQ(queue.take(8, two), Numbers{5});
+  EXPECT_EQ(queue.take(8, two), (Numbers{2, 1}));  // what its owner would come to last
+  EXPECT_EQ(queue.take(7, two), Numbers{0});
+  EXPECT_EQ(queue.take(7, two), Numbers{});
+  EXPECT_EQ(queue.size(), 0u);
+}
+
+TEST(TaskQueue, OnlyTheKeeperOfAStateIsAskedForIt) {
+  std::vector<Task> tasks(2);
+  for (Task& task : tasks) task.kind = Task::Kind::fetch;
+  TaskQueue queue;
+  queue.begin(tasks);
+  for (const std::size_t task : {0, 1}) queue.add_for(7, task);
+  const auto ten = [](const Task&) { return std::size_t{10}; };
+  EXPECT_EQ(queue.take(8, ten), Numbers{});
+  EXPECT_EQ(queue.take_all_of(7), (Numbers{0, 1}));
+  EXPECT_EQ(queue.size(), 0u);
+}
+
+TEST(TaskQueue, WhatDoesNotGoTogetherGoesApart) {
+  std::vector<Task> tasks(4);
+  tasks[1].definition = tasks[2].definition = 1;
+  tasks[2].alone = true;
+  TaskQueue queue;
+  queue.begin(tasks);
+  for (std::size_t task = 0; task < tasks.size(); ++task) queue.add(task);
+  const auto ten = [](const Task&) { return std::size_t{10}; };
+  for (std::size_t task = 0; task < tasks.size(); ++task) EXPECT_EQ(queue.take(7, ten), Numbers{task});
 }
 
 }  // namespace

@@ -47,61 +47,95 @@ CellDefinition some_definition() {
   return cell;
 }
 
+EvaluateRequest request_with(const ContentName& base, const StatePointer& state) {
+  return {1, 0, 0, false, {}, {{false, base, state, {}}}};
+}
+
+std::string error_of(const std::string& bytes);
+
 Reply some_reply() {
-  Reply reply{12, {}};
-  reply.cell.response.stress.setConstant(-1e5);
-  reply.cell.response.tangent.setIdentity();
-  reply.cell.state = some_state(100);
-  return reply;
+  CellReply cell;
+  cell.response.stress.setConstant(-1e5);
+  cell.response.tangent.setIdentity();
+  cell.state = some_state(100);
+  return {12, {cell, cell}};
 }
 
 TEST(Messages, DoublesKeepTheirBits) {
   std::mt19937_64 generator(1);
   for (int repeat = 0; repeat < 2000; ++repeat) {
     Reply reply = some_reply();
-    for (double& value : reply.cell.response.stress) value = any_finite(generator);
-    for (double& value : reply.cell.response.tangent.reshaped()) value = any_finite(generator);
-    reply.cell.response.stress[0] = -0.0;
-    reply.cell.response.stress[1] = std::numeric_limits<double>::denorm_min();
-    reply.cell.response.stress[2] = -3.0;
+    for (double& value : reply.cells[1].response.stress) value = any_finite(generator);
+    for (double& value : reply.cells[1].response.tangent.reshaped()) value = any_finite(generator);
+    reply.cells[1].response.stress[0] = -0.0;
+    reply.cells[1].response.stress[1] = std::numeric_limits<double>::denorm_min();
+    reply.cells[1].response.stress[2] = -3.0;
     const Reply back = round_trip(reply);
     ASSERT_EQ(
-        std::memcmp(back.cell.response.stress.data(), reply.cell.response.stress.data(), sizeof(Vector7)), 0);
+        std::memcmp(back.cells[1].response.stress.data(), reply.cells[1].response.stress.data(), sizeof(Vector7)), 0);
     ASSERT_EQ(
-        std::memcmp(back.cell.response.tangent.data(), reply.cell.response.tangent.data(), sizeof(Matrix7)),
+        std::memcmp(back.cells[1].response.tangent.data(), reply.cells[1].response.tangent.data(), sizeof(Matrix7)),
         0);
   }
 }
 
 TEST(Messages, DiagnosticsKeepTheirPlaces) {
   Reply reply = some_reply();
-  CellDiagnostics& d = reply.cell.diagnostics;
+  CellDiagnostics& d = reply.cells[1].diagnostics;
   d = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7, 8, 9.0, 10.0, 11.0, 12.0, 13.0, {14.0, 15.0, 16.0}};
-  const CellDiagnostics back = round_trip(reply).cell.diagnostics;
+  const CellDiagnostics back = round_trip(reply).cells.at(1).diagnostics;
   EXPECT_EQ(std::memcmp(&back, &d, sizeof d), 0);
 }
 
 TEST(Messages, AnIncrementKeepsItsComponents) {
-  EvaluateRequest request{7, 3, false, some_state(10)->name(), nullptr, {}};
-  request.increment.displacement_gradient << 1.0, 2.0, 3.0, 4.0;
-  request.increment.micro_rotation = 5.0;
-  request.increment.curvature << 6.0, 7.0;
+  EvaluateRequest request{7, 3, 6, true, {some_state(11)->name(), some_state(12)->name()}, {}};
+  request.cells = {{true, {}, nullptr, {}}, {false, some_state(10)->name(), nullptr, {}}};
+  Increment& increment = request.cells[1].increment;
+  increment.displacement_gradient << 1.0, 2.0, 3.0, 4.0;
+  increment.micro_rotation = 5.0;
+  increment.curvature << 6.0, 7.0;
   const EvaluateRequest back = round_trip(request);
-  EXPECT_EQ(back.increment.displacement_gradient, request.increment.displacement_gradient);
-  EXPECT_EQ(back.increment.micro_rotation, 5.0);
-  EXPECT_EQ(back.increment.curvature, request.increment.curvature);
+  ASSERT_EQ(back.cells.size(), 2u);
+  EXPECT_EQ(back.cells[1].increment.displacement_gradient, increment.displacement_gradient);
+  EXPECT_EQ(back.cells[1].increment.micro_rotation, 5.0);
+  EXPECT_EQ(back.cells[1].increment.curvature, increment.curvature);
   EXPECT_EQ(back.request, 7u);
   EXPECT_EQ(back.definition, 3u);
-  EXPECT_EQ(back.base, request.base);
-  EXPECT_EQ(back.state, nullptr);
+  EXPECT_EQ(back.settled, 6u);
+  EXPECT_TRUE(back.bring);
+  EXPECT_EQ(back.released, request.released);
+  EXPECT_TRUE(back.cells[0].from_packing);
+  EXPECT_EQ(back.cells[1].base, request.cells[1].base);
+  EXPECT_EQ(back.cells[1].state, nullptr);
 }
 
 TEST(Messages, AStateTravelsWhole) {
   const StatePointer state = some_state(160000);
-  const EvaluateRequest back = round_trip(EvaluateRequest{1, 0, false, state->name(), state, {}});
-  ASSERT_NE(back.state, nullptr);
-  EXPECT_EQ(back.state->name(), state->name());
-  EXPECT_EQ(back.state->bytes().size(), 160000u);
+  const EvaluateRequest back = round_trip(request_with(state->name(), state));
+  ASSERT_NE(back.cells[0].state, nullptr);
+  EXPECT_EQ(back.cells[0].state->name(), state->name());
+  EXPECT_EQ(back.cells[0].state->bytes().size(), 160000u);
+  const States states = round_trip(States{3, {nullptr, state}});
+  ASSERT_EQ(states.states.size(), 2u);
+  EXPECT_EQ(states.states[0], nullptr);
+  EXPECT_EQ(states.states[1]->name(), state->name());
+}
+
+TEST(Messages, AReplyMayNameItsState) {
+  const StatePointer state = some_state(160000);
+  Reply reply = some_reply();
+  reply.cells[1].state = std::make_shared<const State>(state->name(), state->size());
+  EXPECT_LT(encode(reply).size(), 1700u);
+  const StatePointer back = round_trip(reply).cells[1].state;
+  EXPECT_FALSE(back->is_here());
+  EXPECT_EQ(back->name(), state->name());
+  EXPECT_EQ(back->size(), 160000u);
+  reply.cells[1].state = std::make_shared<const State>(state->name(), kLongestMessage + 1);
+  EXPECT_EQ(error_of(encode(reply)), "a state is larger than any message");
+  // Only a reply may: what is fetched or sent to start from is there.
+  EXPECT_EQ(error_of(encode(States{3, {back}})), "member 1 of a list of states is not a block of bytes");
+  EXPECT_EQ(error_of(encode(request_with(state->name(), back))),
+            "member 4 of a cell to evaluate is not a block of bytes");
 }
 
 TEST(Messages, ADefinitionTravelsWhole) {
@@ -125,12 +159,13 @@ TEST(Messages, ADefinitionTravelsWhole) {
 TEST(Messages, TheSmallOnesTravelToo) {
   EXPECT_EQ(round_trip(Hello{kProtocolVersion, 4711}).process, 4711);
   EXPECT_EQ(round_trip(InitialRequest{9, 2}).definition, 2u);
-  EXPECT_EQ(round_trip(Missing{9, true}).definition, true);
-  EXPECT_EQ(round_trip(Refusal{9, "no"}).message, "no");
+  EXPECT_EQ(round_trip(Missing{9, true, {}}).definition, true);
+  EXPECT_EQ(round_trip(Missing{9, false, {some_state(3)->name()}}).bases.at(0), some_state(3)->name());
+  EXPECT_EQ(round_trip(Refusal{9, 4, "no"}).message, "no");
+  EXPECT_EQ(round_trip(Refusal{9, 4, "no"}).place, 4u);
+  EXPECT_EQ(round_trip(FetchRequest{9, {some_state(3)->name()}}).names.at(0), some_state(3)->name());
   round_trip(Stop{});
 }
-
-std::string error_of(const std::string& bytes);
 
 TEST(Messages, TheSessionTravels) {
   EXPECT_EQ(decode(view(encode(Working{3}, 77))).session, 77u);
@@ -154,19 +189,19 @@ std::string error_of(const std::string& bytes) {
 }
 
 TEST(Messages, RefusesWhatIsNotFinite) {
-  EvaluateRequest request;
-  request.increment.micro_rotation = std::numeric_limits<double>::quiet_NaN();
+  EvaluateRequest request = request_with({}, nullptr);
+  request.cells[0].increment.micro_rotation = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error_of(encode(request)), "an increment holds a number that is not finite");
   Reply reply = some_reply();
-  reply.cell.response.stress[3] = std::numeric_limits<double>::infinity();
+  reply.cells[1].response.stress[3] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(error_of(encode(reply)), "a stress holds a number that is not finite");
-  reply.cell.response.quality = Quality::failed;
+  reply.cells[1].response.quality = Quality::failed;
   EXPECT_EQ(error_of(encode(reply)), "accepted");
 }
 
 TEST(Messages, RefusesAStateThatIsNotWhatItsNameSays) {
-  EvaluateRequest request{1, 0, false, some_state(9)->name(), some_state(10), {}};
-  EXPECT_EQ(error_of(encode(request)), "the bytes of a state do not have its name");
+  EXPECT_EQ(error_of(encode(request_with(some_state(9)->name(), some_state(10)))),
+            "the bytes of a state do not have its name");
 }
 
 TEST(Messages, RefusesABrokenPacking) {
@@ -189,6 +224,8 @@ TEST(Messages, RefusesWrongShapes) {
   EXPECT_EQ(error_of(encode(Stop{}) + "x"), "bytes follow the end of a message");
   EXPECT_EQ(error_of(std::string("\x94\x08\x01\x00\x00", 5)), "a message has 4 members, 3 expected");
   EXPECT_EQ(error_of(std::string("\x92\x08\x01", 3)), "a message ends after 2 members");
+  std::vector<CellToEvaluate> many(kMostInRequest + 1);
+  EXPECT_NE(error_of(encode(EvaluateRequest{1, 0, 0, false, {}, many})).find("not a message"), std::string::npos);
   // An array that claims 2^32-1 members: refused for its claim, without reserving memory.
   EXPECT_NE(error_of("\xdd\xff\xff\xff\xff").find("not a message"), std::string::npos);
 }
@@ -197,7 +234,8 @@ TEST(Messages, SurvivesEveryCutAndManyFlippedBits) {
   Reply reply = some_reply();
   const std::vector<std::string> originals{
       encode(reply), encode(Define{1, some_definition()}),
-      encode(EvaluateRequest{1, 0, false, some_state(10)->name(), some_state(10), {}})};
+      encode(request_with(some_state(10)->name(), some_state(10))),
+      encode(States{2, {some_state(20), nullptr}}), encode(FetchRequest{2, {some_state(20)->name()}})};
   std::mt19937_64 generator(2);
   int refused = 0;
   for (const std::string& original : originals) {
@@ -210,7 +248,7 @@ TEST(Messages, SurvivesEveryCutAndManyFlippedBits) {
       refused += error_of(broken) != "accepted";
     }
   }
-  std::cout << "[figure] messages with one flipped bit refused: " << refused << " of 60000\n";
+  std::cout << "[figure] messages with one flipped bit refused: " << refused << " of 100000\n";
   EXPECT_GT(refused, 0);
 }
 

@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/pool/foreman.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/error.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Workers that a cell may end before it is taken to be the cell's fault: by an end of the engine's own
+/// making, and by one that came from outside, which the memory a cell takes may also bring about.
+constexpr int kMostEndsByWork = 2;
+constexpr int kMostEndsFromOutside = 10;
+
+/// How often the clocks of the workers are looked at, at least.
+constexpr std::chrono::milliseconds kLongestTick{500};
+constexpr double kTicksInSilence = 20.0;
+
+/// A request without a sign of life is sent again so many times before its worker is given up for silent.
+constexpr double kResends = 10.0;
+constexpr double kHeartbeatsInSilence = 30.0;
+
+/// A worker has one job at work and one more at hand, so that it never waits for the coordinator.
+constexpr std::size_t kJobsAtHand = 2;
+
+/// A message brings work for about so long: enough that it costs next to nothing, not so much that others wait
+/// for the last one.
+constexpr double kSecondsInRequest = 0.05;
+constexpr std::size_t kMostCells = 16;
+static_assert(kMostCells <= kMostInRequest);
+
+/// States fetched with one message.
+constexpr std::size_t kMostStates = 16;
+constexpr std::size_t kMostStateBytes = std::size_t{1} << 20;
+
+double seconds_of(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::string own_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").string();
+}
+
+CrewOptions crew_options(const PoolOptions& options) {
+  if (options.workers < 1 && !options.listening) throw RunError("a pool needs at least one worker");
+  CrewOptions crew;
+  crew.workers = options.workers;
+  crew.directory = options.directory;
+  crew.worker_command = options.worker_command;
+  if (crew.worker_command.empty()) crew.worker_command = {own_program(), "worker"};
+  crew.startup_seconds = options.startup_seconds;
+  crew.cache_bytes = options.cache_bytes;
+  crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;
+  crew.listening = options.listening;
+  crew.tell = options.tell;
+  return crew;
+}
+
+/// The job of a request, if the worker has it: other answers are late or doubled, and of no use.
+std::deque<Job>::iterator find_job(Member& member, std::uint64_t request) {
+  return std::find_if(member.jobs.begin(), member.jobs.end(),
+                      [&](const Job& job) { return job.request == request; });
+}
+
+}  // namespace
+
+Foreman::Foreman(PoolOptions options)
+    : options_(std::move(options)),
+      tick_(std::clamp<std::int64_t>(
+          static_cast<std::int64_t>(1e3 * options_.patience.silence_seconds / kTicksInSilence), 1,
+          kLongestTick.count())),
+      crew_(crew_options(options_), *this) {
+  crew_.start();
+}
+
+std::uint32_t Foreman::define(CellDefinition definition) {
+  definitions_.push_back({std::move(definition)});
+  return static_cast<std::uint32_t>(definitions_.size() - 1);
+}
+
+const CellDefinition& Foreman::definition(std::uint32_t number) const {
+  if (number >= definitions_.size()) throw RunError(fmt::format("no cell is defined as {}", number));
+  return definitions_[number].cell;
+}
+
+void Foreman::work(std::vector<Task>& tasks) {
+  const Clock::time_point start = Clock::now();
+  tasks_ = &tasks;
+  done_ = 0;
+  queue_.begin(tasks);
+  for (std::size_t number = 0; number < tasks.size(); ++number) enqueue(number);
+  give_all();
+  checked_ = start;
+  Clock::time_point last = start;
+  while (done_ < tasks.size()) {
+    crew_.listen(tick_);
+    const Clock::time_point now = Clock::now();
+    counts.member_seconds += static_cast<double>(crew_.members().size()) * seconds_of(now - last);
+    forgive(now - last - tick_);
+    last = now;
+    if (now - checked_ >= tick_ / 2) check_clocks();
+    if (progress && tasks.front().kind == Task::Kind::evaluate) progress(done_, tasks.size());
+  }
+  tasks_ = nullptr;
+  counts.bytes_sent = crew_.bytes_sent();
+  counts.bytes_received = crew_.bytes_received();
+  counts.wall_seconds += seconds_of(Clock::now() - start);
+}
+
+// ---- what the crew tells
+
+void Foreman::joined(Member& member) {
+  present_.insert(member.number);
+  if (tasks_ != nullptr) give_next(member, kJobsAtHand);
+}
+
+void Foreman::said(Member& member, const Message& message) {
+  // Whoever says anything lives, whichever of its jobs it is about.
+  if (!member.jobs.empty()) member.jobs.front().heard = Clock::now();
+  if (const auto* reply = std::get_if<Reply>(&message)) {
+    take_replies(member, *reply);
+  } else if (const auto* states = std::get_if<States>(&message)) {
+    take_states(member, *states);
+  } else if (const auto* working = std::get_if<Working>(&message)) {
+    const auto job = find_job(member, working->request);
+    if (job != member.jobs.end()) job->begun = true;
+  } else if (const auto* missing = std::get_if<Missing>(&message)) {
+    supply(member, *missing);
+  } else if (const auto* refusal = std::get_if<Refusal>(&message)) {
+    take_refusal(member, *refusal);
+  } else {
+    throw ProtocolError("a message that is no answer");
+  }
+}
+
+void Foreman::lost(Member& member, const Loss& loss) {
+  ++counts.workers_lost;
+  present_.erase(member.number);
+  book_.forget_worker(member.number);
+  for (const std::size_t number : queue_.take_all_of(member.number)) enqueue(number);
+  std::string text = member.name + ' ' + loss.how;
+  if (!member.jobs.empty()) text += " at work on " + place_of(member.jobs.front());
+  text += ": " + loss.cause + loss.details;
+  if (member.jobs.empty()) {
+    tell(text);
+    return;
+  }
+  std::deque<Job> jobs = std::exchange(member.jobs, {});
+  const Job current = std::move(jobs.front());
+  jobs.pop_front();
+  for (const Job& job : jobs) put_back(job);
+  Task& first = first_of(current);
+  // A connection that closes before the work began says nothing about the cell.
+  const bool counts_for_cell = !loss.from_outside || !member.address.remote || current.begun;
+  if (current.tasks.size() == 1 && first.kind != Task::Kind::fetch && counts_for_cell) {
+    end_attempt(first, text, loss.from_outside);
+  } else {
+    // Which of several cells it was shows when each goes alone.
+    for (const std::size_t number : current.tasks) task(number).alone = current.tasks.size() > 1;
+    put_back(current);
+    say_again(text, current.tasks.size());
+  }
+  give_all();
+}
+
+// ---- giving tasks to workers
+
+void Foreman::enqueue(std::size_t number) {
+  Task& next = task(number);
+  if (next.kind == Task::Kind::fetch) {
+    const std::uint64_t keeper = book_.home(next.wanted->name());
+    if (present_.contains(keeper)) return queue_.add_for(keeper, number);
+    next.kind = Task::Kind::again;
+  }
+  next.home = next.cell.state ? book_.home(next.cell.state->name()) : 0;
+  present_.contains(next.home) ? queue_.add_for(next.home, number) : queue_.add(number);
+}
+
+void Foreman::give_all() {
+  // Everybody gets something to do before anybody gets something to have at hand.
+  for (std::size_t jobs = 1; jobs <= kJobsAtHand; ++jobs) {
+    for (Member& member : crew_.members()) give_next(member, jobs);
+  }
+}
+
+void Foreman::give_next(Member& member, std::size_t jobs) {
+  while (member.jobs.size() < jobs) {
+    // The last ones go to whoever is free first.
+    if (!member.jobs.empty() && queue_.size() <= crew_.members().size()) return;
+    std::vector<std::size_t> tasks =
+        queue_.take(member.number, [this](const Task& first) { return most_at_once(first); });
+    if (tasks.empty()) return;
+    const Clock::time_point now = Clock::now();
+    member.jobs.push_back({std::move(tasks), ++last_request_, now, now, now});
+    send(member, member.jobs.back());
+  }
+}
+
+std::size_t Foreman::most_at_once(const Task& first) {
+  if (first.kind == Task::Kind::fetch) {
+    return std::clamp<std::size_t>(kMostStateBytes / (first.wanted->size() + 1), 1, kMostStates);
+  }
+  const Definition& definition = definitions_[first.definition];
+  if (first.alone || definition.answers == 0) return 1;
+  const double mean = definition.seconds / static_cast<double>(definition.answers);
+  const double in_time = std::min(kSecondsInRequest / mean, static_cast<double>(kMostCells));
+  const std::size_t share = queue_.size() / (2 * crew_.members().size());
+  return std::max<std::size_t>(std::min(static_cast<std::size_t>(in_time), share), 1);
+}
+
+void Foreman::send(Member& member, const Job& job) {
+  const Task& first = first_of(job);
+  if (first.kind == Task::Kind::fetch) {
+    FetchRequest message{job.request, {}};
+    for (const std::size_t number : job.tasks) message.names.push_back(task(number).wanted->name());
+    crew_.send(member, std::move(message));
+    return;
+  }
+  if (member.defined.insert(first.definition).second) {
+    crew_.send(member, Define{first.definition, definitions_[first.definition].cell});
+  }
+  if (first.kind == Task::Kind::rest) {
+    crew_.send(member, InitialRequest{job.request, first.definition});
+  } else {
+    crew_.send(member, request_for(member, job));
+  }
+}
+
+/// With the bytes of the states that the worker is not known to have.
+EvaluateRequest Foreman::request_for(Member& member, const Job& job) {
+  const Task& first = first_of(job);
+  EvaluateRequest message;
+  message.request = job.request;
+  message.definition = first.definition;
+  message.settled = member.jobs.front().request - 1;
+  message.bring = first.kind == Task::Kind::again;
+  message.released = book_.take_released(member.number);
+  for (const std::size_t number : job.tasks) {
+    const CellRequest& request = task(number).cell;
+    CellToEvaluate& cell =
+        message.cells.emplace_back(CellToEvaluate{!request.state, {}, nullptr, request.increment});
+    if (!request.state) continue;
+    cell.base = request.state->name();
+    if (task(number).home == member.number || member.known.use(cell.base)) continue;
+    cell.state = request.state;
+    member.known.note(cell.base, request.state->size());
+    book_.move_home(cell.base, member.number);
+    ++counts.states_sent;
+  }
+  return message;
+}
+
+// ---- their answers
+
+void Foreman::take_replies(Member& member, const Reply& reply) {
+  const auto found = find_job(member, reply.request);
+  if (found == member.jobs.end()) return;
+  const Task& first = first_of(*found);
+  if (first.kind == Task::Kind::fetch || reply.cells.size() != found->tasks.size()) {
+    throw ProtocolError("a reply that does not fit its request");
+  }
+  for (const CellReply& cell : reply.cells) {
+    if (first.kind != Task::Kind::evaluate && cell.state && !cell.state->is_here()) {
+      throw ProtocolError("a reply without the bytes that were asked for");
+    }
+  }
+  const Job job = finished(member, reply.request);
+  for (std::size_t c = 0; c < job.tasks.size(); ++c) {
+    take_reply(member, task(job.tasks[c]), reply.cells[c]);
+  }
+  give_next(member, kJobsAtHand);
+}
+
+void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
+  ++counts.evaluations;
+  counts.dem_steps += reply.diagnostics.dem_steps;
+  counts.engine_seconds += reply.diagnostics.engine_seconds;
+  if (done.kind == Task::Kind::again) {
+    ++counts.evaluations_again;
+    if (!reply.state || reply.state->name() != done.wanted->name()) {
+      end_attempt(done,
+                  fmt::format("{} evaluates {} again, whose worker is lost, and comes to another state: the "
+                              "machines of the workers do not compute alike",
+                              member.name, place_of(done)),
+                  false);
+      return;
+    }
+  }
+  done.reply = reply;
+  if (reply.state) {
+    done.reply.state = done.kind == Task::Kind::again
+                           ? book_.arrived(reply.state, member.number)
+                           : book_.enter(reply.state, member.number, {done.definition, done.cell});
+  }
+  ++done_;
+}
+
+void Foreman::take_states(Member& member, const States& answer) {
+  const auto found = find_job(member, answer.request);
+  if (found == member.jobs.end()) return;
+  if (first_of(*found).kind != Task::Kind::fetch || answer.states.size() != found->tasks.size()) {
+    throw ProtocolError("states that do not fit their request");
+  }
+  for (std::size_t s = 0; s < answer.states.size(); ++s) {
+    const StatePointer& state = answer.states[s];
+    if (state && state->name() != task(found->tasks[s]).wanted->name()) {
+      throw ProtocolError("the bytes of a state do not have its name");
+    }
+  }
+  const Job job = finished(member, answer.request);
+  for (std::size_t s = 0; s < job.tasks.size(); ++s) {
+    Task& done = task(job.tasks[s]);
+    if (!answer.states[s]) {  // dropped: somebody makes it again
+      done.kind = Task::Kind::again;
+      enqueue(job.tasks[s]);
+      give_all();
+      continue;
+    }
+    ++counts.states_fetched;
+    done.reply.state = book_.arrived(answer.states[s], member.number);
+    ++done_;
+  }
+  give_next(member, kJobsAtHand);
+}
+
+Job Foreman::finished(Member& member, std::uint64_t request) {
+  const auto found = find_job(member, request);
+  Job job = std::move(*found);
+  const bool was_current = found == member.jobs.begin();
+  member.jobs.erase(found);
+  const Clock::time_point now = Clock::now();
+  if (was_current && !member.jobs.empty()) {
+    Job& next = member.jobs.front();
+    next.sent = next.heard = next.resent = now;
+  }
+  Crew::praise(member);
+  const double busy = was_current ? seconds_of(now - job.sent) : 0.0;
+  counts.busy_seconds += busy;
+  if (first_of(job).kind == Task::Kind::evaluate) {
+    Definition& definition = definitions_[first_of(job).definition];
+    definition.longest = std::max(definition.longest, busy);
+    definition.seconds += busy;
+    definition.answers += static_cast<std::int64_t>(job.tasks.size());
+  }
+  return job;
+}
+
+/// The worker lacks what it was thought to have: all is sent again, lest what comes drives out what is there.
+void Foreman::supply(Member& member, const Missing& missing) {
+  const auto job = find_job(member, missing.request);
+  if (job == member.jobs.end()) return;
+  if (first_of(*job).kind == Task::Kind::fetch) throw ProtocolError("it misses something for no reason");
+  job->resent = Clock::now();
+  if (missing.definition) member.defined.erase(first_of(*job).definition);
+  for (const std::size_t number : job->tasks) {
+    if (const StatePointer& state = task(number).cell.state) member.known.forget(state->name());
+    task(number).home = 0;
+  }
+  send(member, *job);
+}
+
+void Foreman::take_refusal(Member& member, const Refusal& refusal) {
+  const auto found = find_job(member, refusal.request);
+  if (found == member.jobs.end()) return;
+  if (refusal.place >= found->tasks.size() || first_of(*found).kind == Task::Kind::fetch) {
+    throw ProtocolError("a refusal that does not fit its request");
+  }
+  Job job = finished(member, refusal.request);
+  Task& refused = task(job.tasks[refusal.place]);
+  job.tasks.erase(job.tasks.begin() + refusal.place);
+  put_back(job);
+  end_attempt(refused, fmt::format("{} refuses {}: {}", member.name, place_of(refused), refusal.message),
+              false);
+  give_all();
+}
+
+// ---- what cannot be carried to its end
+
+void Foreman::put_back(const Job& job) {
+  for (auto number = job.tasks.rbegin(); number != job.tasks.rend(); ++number) {
+    if (task(*number).kind == Task::Kind::fetch) task(*number).kind = Task::Kind::again;
+    queue_.add_first(*number);
+  }
+}
+
+/// Somebody could not carry a task to its end.
+void Foreman::end_attempt(Task& ended, const std::string& text, bool from_outside) {
+  ++(from_outside ? ended.ends_from_outside : ended.ends_by_work);
+  if (ended.ends_by_work < kMostEndsByWork && ended.ends_from_outside < kMostEndsFromOutside) {
+    say_again(text, 1);
+    queue_.add_first(static_cast<std::size_t>(&ended - tasks_->data()));
+    return;
+  }
+  if (ended.kind != Task::Kind::evaluate) throw RunError(text);
+  tell(text + "\nno worker can answer it: the cell counts as failed");
+  ended.reply.response.quality = Quality::failed;
+  ended.reply.response.step_factor = 0.5;
+  ended.reply.response.message = text;
+  ++done_;
+}
+
+void Foreman::say_again(const std::string& text, std::size_t cells) const {
+  tell(text + (text.ends_with('\n') ? "" : "; ") +
+       (cells == 1 ? "its cell goes to another worker" : "its cells go to other workers"));
+}
+
+std::string Foreman::place_of(const Task& at) const {
+  const CellDefinition& cell = definitions_[at.definition].cell;
+  const std::string what = at.point ? fmt::format("point {}", *at.point) : "a cell";
+  return fmt::format("{} of material '{}' ({})", what, cell.name, cell.script_file);
+}
+
+std::string Foreman::place_of(const Job& job) const {
+  const std::string first = place_of(task(job.tasks.front()));
+  return job.tasks.size() == 1 ? first : fmt::format("{} cells from {} on", job.tasks.size(), first);
+}
+
+// ---- clocks
+
+/// Time in which this process itself did not run (stopped, the machine asleep or overloaded) is nobody's
+/// silence.
+void Foreman::forgive(Clock::duration excess) {
+  if (excess < std::chrono::seconds(1)) return;
+  for (Member& member : crew_.members()) {
+    for (Job& job : member.jobs) {
+      job.sent += excess;
+      job.heard += excess;
+      job.resent += excess;
+    }
+  }
+}
+
+void Foreman::check_clocks() {
+  const PatienceLimits& patience = options_.patience;
+  const Clock::time_point now = Clock::now();
+  checked_ = now;
+  std::vector<std::pair<Member*, std::string>> hung;
+  for (Member& member : crew_.members()) {
+    if (member.jobs.empty()) continue;
+    Job& job = member.jobs.front();
+    const double silence = seconds_of(now - job.heard);
+    const double longest = definitions_[first_of(job).definition].longest;
+    const double limit = static_cast<double>(job.tasks.size()) *
+                         std::max(patience.cell_seconds, patience.times_longest * longest);
+    if (silence > patience.silence_seconds) {
+      hung.emplace_back(&member,
+                        fmt::format("it hangs: no sign of life for {:.3g} s", patience.silence_seconds));
+    } else if (seconds_of(now - job.sent) > limit) {
+      hung.emplace_back(&member,
+                        fmt::format("the cell takes longer than {:.3g} s; the longest before took {:.3g} s",
+                                    limit, longest));
+    } else if (silence > patience.silence_seconds / kResends &&
+               seconds_of(now - job.resent) > patience.silence_seconds / kResends) {
+      // Lost on its way, perhaps. A worker that has it already, or has answered it, knows the number.
+      job.resent = now;
+      send(member, job);
+    }
+  }
+  for (const auto& [member, cause] : hung) crew_.give_up(*member, cause);
+}
+
+void Foreman::tell(const std::string& text) const {
+  if (options_.tell) options_.tell(text);
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "coupler/pool/crew.hpp"
+#include "coupler/pool/pool.hpp"
+#include "coupler/pool/state_book.hpp"
+#include "coupler/pool/task.hpp"
+#include "coupler/pool/task_queue.hpp"
+
+namespace polargrain::coupler {
+
+/// Has tasks done by a crew: gives every worker the next ones before it has finished with those at hand, sends
+/// again what was lost on its way, notices who hangs, and gives the tasks of the lost to others.
+class Foreman final : private CrewEvents {
+ public:
+  explicit Foreman(PoolOptions options);
+
+  std::uint32_t define(CellDefinition definition);
+  [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
+
+  /// Returns when every task is done, with its reply; those of `fetch` and `again` have a state and no more.
+  /// @throws RunError when no worker is left, or one that is no evaluation cannot be done by anybody
+  void work(std::vector<Task>& tasks);
+
+  StateBook& book() { return book_; }
+  [[nodiscard]] const Switchboard& switchboard() const { return crew_.switchboard(); }
+  [[nodiscard]] int workers() const { return options_.workers; }
+
+  std::function<void(std::size_t, std::size_t)> progress;  ///< see Pool::on_progress
+  PoolCounts counts;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Definition {
+    CellDefinition cell;
+    double longest = 0.0;  ///< s, of the requests answered so far
+    double seconds = 0.0;  ///< of all of them
+    std::int64_t answers = 0;
+  };
+
+  // What the crew tells.
+  void joined(Member& member) override;
+  void said(Member& member, const Message& message) override;
+  void lost(Member& member, const Loss& loss) override;
+
+  // Giving tasks to workers.
+  void enqueue(std::size_t number);
+  void give_all();
+  void give_next(Member& member, std::size_t jobs);
+  [[nodiscard]] std::size_t most_at_once(const Task& first);
+  void send(Member& member, const Job& job);
+  [[nodiscard]] EvaluateRequest request_for(Member& member, const Job& job);
+
+  // Their answers.
+  void take_replies(Member& member, const Reply& reply);
+  void take_states(Member& member, const States& answer);
+  void take_reply(Member& member, Task& task, const CellReply& reply);
+  void take_refusal(Member& member, const Refusal& refusal);
+  void supply(Member& member, const Missing& missing);
+  /// Takes a job off its worker, with the time it took.
+  Job finished(Member& member, std::uint64_t request);
+  void complete(Task& task);
+
+  // What cannot be carried to its end.
+  void put_back(const Job& job);
+  void end_attempt(Task& task, const std::string& text, bool from_outside);
+  void say_again(const std::string& text, std::size_t cells) const;
+  [[nodiscard]] std::string place_of(const Task& task) const;
+  [[nodiscard]] std::string place_of(const Job& job) const;
+
+  // Clocks.
+  void forgive(Clock::duration excess);
+  void check_clocks();
+  void tell(const std::string& text) const;
+
+  [[nodiscard]] Task& task(std::size_t number) { return (*tasks_)[number]; }
+  [[nodiscard]] const Task& task(std::size_t number) const { return (*tasks_)[number]; }
+  [[nodiscard]] Task& first_of(const Job& job) { return task(job.tasks.front()); }
+
+  PoolOptions options_;
+  std::chrono::milliseconds tick_;
+  std::vector<Definition> definitions_;
+  StateBook book_;
+  std::unordered_set<std::uint64_t> present_;  ///< numbers of the workers there are
+  Crew crew_;
+
+  // The tasks at work. Request numbers run on, so that no late answer fits a new request.
+  std::vector<Task>* tasks_ = nullptr;
+  TaskQueue queue_;
+  std::uint64_t last_request_ = 0;
+  std::size_t done_ = 0;
+  Clock::time_point checked_;
+};
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "common/cell.hpp"
+
+namespace polargrain::coupler {
+
+/// Something that one worker is to do.
+struct Task {
+  enum class Kind {
+    rest,      ///< the packing at rest
+    evaluate,  ///< a cell
+    fetch,     ///< the bytes of a state on trial, from the worker that keeps it
+    again      ///< those bytes from anybody: the cell is evaluated again from where it was
+  };
+  Kind kind = Kind::evaluate;
+  std::uint32_t definition = 0;
+  CellRequest cell = {};  ///< its state is here, or null
+  std::optional<std::size_t> point = {};
+  StatePointer wanted = {};  ///< fetch, again: the state on trial
+
+  std::uint64_t home = 0;  ///< the worker that should have what the cell starts from; 0: nobody is known to
+
+  CellReply reply = {};
+  bool alone = false;  ///< was at a worker that was lost, with others: goes in a message of its own
+  int ends_by_work = 0;
+  int ends_from_outside = 0;
+};
+
+/// Whether two tasks may go in one message.
+inline bool go_together(const Task& a, const Task& b) {
+  return a.kind != Task::Kind::rest && a.kind == b.kind && a.definition == b.definition && !a.alone && !b.alone;
+}
+
+}  // namespace polargrain::coupler
