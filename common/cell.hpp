@@ -30,14 +30,14 @@ enum class CellLoop { automatic, engine, plain };
 /// How a cell is loaded and when its answer counts as quasi-static (mechanics G.3).
 struct CellControl {
   /// Mean loading rate as an inertial number I = rate * mean diameter * sqrt(grain density / pressure).
-  double inertial_number = 2.4e-3;
+  double inertial_number = 6e-4;
   /// Read out when the mean unbalanced force over the mean contact force has fallen below this.
   double unbalanced_force_ratio = 5e-3;
   /// The same for moments: mean unbalanced moment over mean contact force times mean radius.
   double unbalanced_moment_ratio = 5e-3;
   /// Viscous damping against the affine flow, as a fraction of the critical damping of a mean grain on one
   /// mean contact: the rate is 2 damping sqrt(mean normal stiffness / mean mass).
-  double damping = 0.24;
+  double damping = 0.12;
   /// Fewest DEM steps of a loading ramp; keeps small increments free of waves.
   int least_steps = 20;
   /// Relaxation ends unreliable after this many DEM steps.

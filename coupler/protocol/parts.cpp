@@ -79,7 +79,8 @@ void write(ArrayWriter&& writer, const CellControl& control) {
       .whole_signed(control.least_steps)
       .whole_signed(control.most_relaxation_steps)
       .whole(static_cast<std::uint64_t>(control.tangent))
-      .whole(static_cast<std::uint64_t>(control.rotations));
+      .whole(static_cast<std::uint64_t>(control.rotations))
+      .whole(static_cast<std::uint64_t>(control.loop));
 }
 
 static int read_count(ArrayReader& reader) {
@@ -91,7 +92,8 @@ static int read_count(ArrayReader& reader) {
 CellControl read_control(const msgpack::object& object) {
   ArrayReader reader(object, "a cell's control");
   const std::array<double, 4> v = reader.finite_numbers<4>();
-  CellControl control{v[0], v[1], v[2], v[3], 0, 0, CellTangent::none, CellRotations::free};
+  CellControl control{v[0], v[1], v[2], v[3], 0, 0, CellTangent::none, CellRotations::free,
+                      CellLoop::automatic};
   control.least_steps = read_count(reader);
   control.most_relaxation_steps = read_count(reader);
   const std::uint32_t tangent = reader.whole32();
@@ -102,6 +104,9 @@ CellControl read_control(const msgpack::object& object) {
   if (rotations > static_cast<std::uint32_t>(CellRotations::controlled))
     throw ProtocolError("no such control of rotations");
   control.rotations = static_cast<CellRotations>(rotations);
+  const std::uint32_t loop = reader.whole32();
+  if (loop > static_cast<std::uint32_t>(CellLoop::plain)) throw ProtocolError("no such loop over grains");
+  control.loop = static_cast<CellLoop>(loop);
   reader.end();
   return control;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "dem/discs/disc_box.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -77,7 +78,21 @@ StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<con
   return std::make_shared<const State>(std::move(bytes));
 }
 
+namespace {
+/// A state of the loop over discs, taken up by the engine's own.
+RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+  const DiscSelection models = disc_models(lammps);
+  if (!models.combination) throw RunError("this state belongs to a cell of another input script");
+  const DiscSnapshot snapshot = decode_discs(state);
+  put_discs(lammps, *models.combination, snapshot);
+  RestoredState restored{snapshot.box, {}};
+  for (const DiscSnapshot::Motion& disc : snapshot.discs) restored.rotations.push_back(disc.turned);
+  return restored;
+}
+}  // namespace
+
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+  if (is_disc_state(state)) return restore_discs(lammps, state);
   Header header;
   const auto bytes = state.bytes();
   if (bytes.size() < sizeof(Header)) throw RunError("this is not the state of a cell: it is too short");

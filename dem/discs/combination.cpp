@@ -182,6 +182,10 @@ std::string DiscCombination::name() const {
 
 DiscSelection disc_combination(LAMMPS& lammps) {
   if (std::string why = foreign_scene(lammps); !why.empty()) return {std::nullopt, std::move(why)};
+  return disc_models(lammps);
+}
+
+DiscSelection disc_models(LAMMPS& lammps) {
   auto* const source = dynamic_cast<SettingsSource*>(pair_implementation(lammps.force->pair));
   if (source == nullptr) return {std::nullopt, "a pair style of its own"};
   const auto hash = static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair)->hashcode();

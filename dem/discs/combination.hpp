@@ -65,6 +65,9 @@ struct DiscSelection {
   std::string reason;  ///< why the general loop has to run, when there is no combination
 };
 
+/// The contact models of an initialised engine, where the loop over discs knows them.
+DiscSelection disc_models(LAMMPS_NS::LAMMPS& lammps);
+
 /// Whether the scene of an initialised engine can be stepped by the loop over discs: a plane scene of one of
 /// the combinations above that does nothing but integrate its grains.
 DiscSelection disc_combination(LAMMPS_NS::LAMMPS& lammps);

@@ -94,4 +94,9 @@ DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombina
 DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box& box,
                            std::span<const double> rotations);
 
+/// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who go
+/// on in the engine's own loop. The box is the caller's business; lists are not set up.
+/// @throws RunError when the snapshot is none of these grains and models
+void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const DiscSnapshot& snapshot);
+
 }  // namespace polargrain::dem

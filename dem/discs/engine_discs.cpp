@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an engine that has read a script and a packing to a box of discs.
 #include <cmath>
+#include <tuple>
 
 #include "common/error.hpp"
 #include "dem/discs/disc_box.hpp"
@@ -38,6 +39,42 @@ void read_springs(const double* history, const DiscCombination& combination, con
                      : 0.0;
   }
   if (combination.rolling != RollingLaw::off) springs[kRollingSpring] = history[places.rolling + 2];
+}
+
+/// The opposite of read_springs.
+void write_springs(const double* springs, const DiscCombination& combination, const Eigen::Vector2d& normal,
+                   double* history) {
+  const HistoryPlaces places(combination);
+  const Eigen::Vector2d along(-normal.y(), normal.x());
+  const auto put = [&](int place, const Eigen::Vector2d& vector) {
+    history[place] = vector.x();
+    history[place + 1] = vector.y();
+  };
+  if (combination.tangential == TangentialLaw::history) {
+    put(places.tangential, {springs[0], springs[1]});
+  } else {
+    put(places.tangential, springs[0] * along);
+    if (combination.settings.rolling_force && !combination.settings.symmetric)
+      put(places.rolling_force, springs[1] * along);
+  }
+  if (combination.rolling != RollingLaw::off) history[places.rolling + 2] = springs[kRollingSpring];
+}
+
+/// What the engine keeps of one grain's contacts: partners and, for each, the values of its history.
+struct GrainHistories {
+  std::vector<int> partners;
+  std::vector<double> values;
+};
+
+/// In the form in which the engine passes them from process to process.
+std::vector<double> packed(const GrainHistories& grain, std::size_t values) {
+  std::vector<double> buffer{LAMMPS_NS::ubuf(static_cast<int>(grain.partners.size())).d};
+  for (std::size_t n = 0; n < grain.partners.size(); ++n) {
+    buffer.push_back(LAMMPS_NS::ubuf(grain.partners[n]).d);
+    buffer.insert(buffer.end(), grain.values.begin() + static_cast<std::ptrdiff_t>(n * values),
+                  grain.values.begin() + static_cast<std::ptrdiff_t>((n + 1) * values));
+  }
+  return buffer;
 }
 
 /// The image of the second disc that is nearest to the first.
@@ -101,6 +138,47 @@ DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& com
       snapshot.values.insert(snapshot.values.end(), springs.begin(), springs.end());
     }
   return snapshot;
+}
+
+void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const DiscSnapshot& snapshot) {
+  LAMMPS_NS::Atom& atom = *lammps.atom;
+  auto* const history = static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair)->get_fix_history();
+  if (snapshot.discs.size() != static_cast<std::size_t>(atom.nlocal) || snapshot.code != combination.code() ||
+      snapshot.springs != spring_count(combination.rolling) || history == nullptr)
+    throw RunError("this state belongs to a cell of another packing or another input script");
+  history->pre_exchange();
+  for (int k = 0; k < atom.nlocal; ++k) {
+    const DiscSnapshot::Motion& disc = snapshot.discs[static_cast<std::size_t>(k)];
+    atom.x[k][0] = disc.x;
+    atom.x[k][1] = disc.y;
+    atom.v[k][0] = disc.vx;
+    atom.v[k][1] = disc.vy;
+    atom.omega[k][2] = disc.spin;
+  }
+  const Eigen::Matrix2d base = snapshot.box.base_vectors();
+  const auto values = static_cast<std::size_t>(history->get_dnum());
+  std::vector<GrainHistories> grains(snapshot.discs.size());
+  for (std::size_t c = 0; c < snapshot.contacts.size(); ++c) {
+    const DiscSnapshot::Springs& contact = snapshot.contacts[c];
+    const Eigen::Vector2d branch(
+        atom.x[contact.first][0] - atom.x[contact.second][0] - base(0, 0) * contact.image.p -
+            base(0, 1) * contact.image.q,
+        atom.x[contact.first][1] - atom.x[contact.second][1] - base(1, 1) * contact.image.q);
+    std::vector<double> seen(values, 0.0);
+    write_springs(&snapshot.values[c * static_cast<std::size_t>(snapshot.springs)], combination,
+                  branch.normalized(), seen.data());
+    for (const auto& [me, other, sign] :
+         {std::tuple(contact.first, contact.second, 1.0), std::tuple(contact.second, contact.first, -1.0)}) {
+      GrainHistories& grain = grains[static_cast<std::size_t>(me)];
+      grain.partners.push_back(atom.tag[other]);
+      for (const double value : seen) grain.values.push_back(sign * value);
+    }
+  }
+  for (int k = 0; k < atom.nlocal; ++k) {
+    std::vector<double> buffer = packed(grains[static_cast<std::size_t>(k)], values);
+    history->unpack_exchange(k, buffer.data());
+  }
+  atom.nghost = 0;
 }
 
 }  // namespace polargrain::dem

@@ -36,6 +36,8 @@ CellControl read_control(Section& section) {
   control.most_relaxation_steps = section.whole_or("most_relaxation_steps", 1, control.most_relaxation_steps);
   const std::string tangent = section.choice_or("tangent", {"condensed", "voigt"}, "condensed");
   control.tangent = tangent == "voigt" ? CellTangent::voigt : CellTangent::condensed;
+  const std::string loop = section.choice_or("loop", {"automatic", "engine"}, "automatic");
+  control.loop = loop == "engine" ? CellLoop::engine : CellLoop::automatic;
   return control;
 }
 
