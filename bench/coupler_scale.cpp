@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the coordinator costs when there are many cells and many workers: simulated workers answer with a state of
-// the size asked for after they have slept for a while, so that everything measured is messages, states and
-// bookkeeping. A step is as Newton's method makes it: every cell is evaluated some times, then the last states
-// are collected.
+// What the coordinator costs when there are many cells and many workers: simulated workers answer with a
+// state of the size asked for after they have slept for a while, so that everything measured is messages,
+// states and bookkeeping. A step is as Newton's method makes it: every cell is evaluated some times, then the
+// last states are collected.
 //
-//   coupler_scale [CELLS [STATE_BYTES [MILLISECONDS [WORKERS ...]]]]  as coordinator: starts itself as its workers
+//   coupler_scale [CELLS [STATE_BYTES [MILLISECONDS [WORKERS ...]]]]  as coordinator: starts itself as its
+//   workers
 //
-// 200 workers that sleep for 30 ms ask a tenth of what so many engines at 3 ms do, and one machine can be all of
-// them.
+// 200 workers that sleep for 30 ms ask a tenth of what so many engines at 3 ms do, and one machine can be all
+// of them.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -137,13 +138,16 @@ void measure(int workers, std::size_t count, const std::string& script) {
   const double evaluations = static_cast<double>(kSteps * kIterations) * static_cast<double>(count);
   const double own = (seconds_of(RUSAGE_SELF) - own_before) / evaluations;
   const PoolCounts& after = pool.counts();
-  const auto each = [&](auto member) { return static_cast<double>(after.*member - before.*member) / evaluations; };
+  const auto each = [&](auto member) {
+    return static_cast<double>(after.*member - before.*member) / evaluations;
+  };
   // Later pools reuse the memory of the first: only there it says what a cell takes.
   static const double per_cell = 1e3 * (resident_megabytes() - resident_before) / static_cast<double>(count);
   std::printf("%8d %9.1f %9.1f %12.1f %12.3f %12.3f %11.1f %12.0f\n", workers, 1e6 * own,
               1e6 * each(&PoolCounts::wall_seconds),
               1e-3 * (each(&PoolCounts::bytes_sent) + each(&PoolCounts::bytes_received)),
-              each(&PoolCounts::states_sent), each(&PoolCounts::states_fetched), per_cell, kEngineSeconds / own);
+              each(&PoolCounts::states_sent), each(&PoolCounts::states_fetched), per_cell,
+              kEngineSeconds / own);
   std::fflush(stdout);
   std::filesystem::remove_all(options_for(workers).directory);
 }
@@ -163,8 +167,9 @@ int main(int count, char** arguments) {
   std::vector<int> workers;
   for (int k = 4; k < count; ++k) workers.push_back(std::stoi(arguments[k]));
   if (workers.empty()) workers = {2, 8, 32, 200};
-  std::printf("%zu cells, states of %s bytes, %d evaluations a step of %s ms; saturation for engines of %.4f s\n",
-              cells, bytes.c_str(), kIterations, milliseconds.c_str(), kEngineSeconds);
+  std::printf(
+      "%zu cells, states of %s bytes, %d evaluations a step of %s ms; saturation for engines of %.4f s\n",
+      cells, bytes.c_str(), kIterations, milliseconds.c_str(), kEngineSeconds);
   std::printf("%8s %9s %9s %12s %12s %12s %11s %12s\n", "workers", "us, own", "us, wall", "kB an eval.",
               "states sent", "fetched", "kB a cell", "saturates at");
   for (const int w : workers) measure(w, cells, bytes + " " + milliseconds);

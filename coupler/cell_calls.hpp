@@ -15,8 +15,8 @@ struct CellCalls {
   std::function<CellReply()> initial;
   std::function<std::vector<CellReply>(std::span<const CellRequest>, std::span<const std::size_t> points)>
       evaluate;
-  /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for what is
-  /// committed. Empty: they all do.
+  /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for what
+  /// is committed. Empty: they all do.
   std::function<std::vector<StatePointer>(std::span<const StatePointer>)> collect = {};
 };
 

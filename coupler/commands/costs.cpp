@@ -39,9 +39,10 @@ Costs& operator+=(Costs& sum, const Costs& more) {
 namespace {
 
 /// The members of the counts, so that nothing done with all of them forgets one.
-constexpr std::array kWhole{
-    &PoolCounts::evaluations,    &PoolCounts::dem_steps,    &PoolCounts::states_sent,    &PoolCounts::bytes_sent,
-    &PoolCounts::bytes_received, &PoolCounts::workers_lost, &PoolCounts::states_fetched, &PoolCounts::evaluations_again};
+constexpr std::array kWhole{&PoolCounts::evaluations,    &PoolCounts::dem_steps,
+                            &PoolCounts::states_sent,    &PoolCounts::bytes_sent,
+                            &PoolCounts::bytes_received, &PoolCounts::workers_lost,
+                            &PoolCounts::states_fetched, &PoolCounts::evaluations_again};
 constexpr std::array kSeconds{&PoolCounts::engine_seconds, &PoolCounts::busy_seconds,
                               &PoolCounts::wall_seconds, &PoolCounts::member_seconds};
 constexpr std::array kCosts{&Costs::total,   &Costs::grains,          &Costs::messages,

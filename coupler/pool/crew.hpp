@@ -34,7 +34,7 @@ struct CrewOptions {
 /// What a worker was asked for with one message.
 struct Job {
   std::vector<std::size_t> tasks;
-  std::uint64_t request = 0;  ///< number on the wire, never used twice
+  std::uint64_t request = 0;                     ///< number on the wire, never used twice
   std::chrono::steady_clock::time_point sent;    ///< or when the job before it was answered
   std::chrono::steady_clock::time_point heard;   ///< last sign of life, or `sent`
   std::chrono::steady_clock::time_point resent;  ///< last time it was sent, or sent again

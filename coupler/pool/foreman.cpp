@@ -27,8 +27,8 @@ constexpr double kHeartbeatsInSilence = 30.0;
 /// A worker has one job at work and one more at hand, so that it never waits for the coordinator.
 constexpr std::size_t kJobsAtHand = 2;
 
-/// A message brings work for about so long: enough that it costs next to nothing, not so much that others wait
-/// for the last one.
+/// A message brings work for about so long: enough that it costs next to nothing, not so much that others
+/// wait for the last one.
 constexpr double kSecondsInRequest = 0.05;
 constexpr std::size_t kMostCells = 16;
 static_assert(kMostCells <= kMostInRequest);
@@ -450,9 +450,9 @@ void Foreman::check_clocks() {
       hung.emplace_back(&member,
                         fmt::format("it hangs: no sign of life for {:.3g} s", patience.silence_seconds));
     } else if (seconds_of(now - job.sent) > limit) {
-      hung.emplace_back(&member,
-                        fmt::format("the cell takes longer than {:.3g} s; the longest before took {:.3g} s",
-                                    limit, longest));
+      hung.emplace_back(
+          &member, fmt::format("the cell takes longer than {:.3g} s; the longest before took {:.3g} s", limit,
+                               longest));
     } else if (silence > patience.silence_seconds / kResends &&
                seconds_of(now - job.resent) > patience.silence_seconds / kResends) {
       // Lost on its way, perhaps. A worker that has it already, or has answered it, knows the number.

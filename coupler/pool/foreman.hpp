@@ -16,8 +16,8 @@
 
 namespace polargrain::coupler {
 
-/// Has tasks done by a crew: gives every worker the next ones before it has finished with those at hand, sends
-/// again what was lost on its way, notices who hangs, and gives the tasks of the lost to others.
+/// Has tasks done by a crew: gives every worker the next ones before it has finished with those at hand,
+/// sends again what was lost on its way, notices who hangs, and gives the tasks of the lost to others.
 class Foreman final : private CrewEvents {
  public:
   explicit Foreman(PoolOptions options);

@@ -45,7 +45,8 @@ std::vector<Task> tasks_to_bring(std::span<const StatePointer> states, const Sta
     tasks.emplace_back(book.home(state->name()),
                        Task{Task::Kind::fetch, origin->definition, origin->request, {}, state});
   }
-  std::stable_sort(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(tasks.begin(), tasks.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Task> sorted;
   for (auto& [home, task] : tasks) sorted.push_back(std::move(task));
   return sorted;
@@ -100,7 +101,8 @@ class Pool::Implementation {
     }
     std::vector<StatePointer> here;
     here.reserve(states.size());
-    for (const StatePointer& state : states) here.push_back(is_elsewhere(state) ? found[state->name()] : state);
+    for (const StatePointer& state : states)
+      here.push_back(is_elsewhere(state) ? found[state->name()] : state);
     return here;
   }
 

@@ -53,8 +53,9 @@ struct CellFailure {
 struct PoolCounts {
   std::int64_t evaluations = 0;
   std::int64_t dem_steps = 0;
-  std::int64_t states_sent = 0;        ///< states whose bytes had to travel to a worker
-  std::int64_t states_fetched = 0;     ///< states on trial whose bytes were fetched from the worker that made them
+  std::int64_t states_sent = 0;  ///< states whose bytes had to travel to a worker
+  std::int64_t states_fetched =
+      0;  ///< states on trial whose bytes were fetched from the worker that made them
   std::int64_t evaluations_again = 0;  ///< for states on trial that were lost with their worker
   std::int64_t bytes_sent = 0;
   std::int64_t bytes_received = 0;
@@ -82,8 +83,8 @@ struct PoolCounts {
 /// evaluate and collect. After an exception the pool can only be destroyed. One thread.
 ///
 /// @throws RunError when a program cannot be started as a worker, when a definition ends every worker that
-/// takes it (with the engine's own words and the name of the log), when no worker is left, when a state that was
-/// lost cannot be made again.
+/// takes it (with the engine's own words and the name of the log), when no worker is left, when a state that
+/// was lost cannot be made again.
 class Pool {
  public:
   explicit Pool(PoolOptions options);

@@ -31,7 +31,8 @@ struct Task {
 
 /// Whether two tasks may go in one message.
 inline bool go_together(const Task& a, const Task& b) {
-  return a.kind != Task::Kind::rest && a.kind == b.kind && a.definition == b.definition && !a.alone && !b.alone;
+  return a.kind != Task::Kind::rest && a.kind == b.kind && a.definition == b.definition && !a.alone &&
+         !b.alone;
 }
 
 }  // namespace polargrain::coupler

@@ -9,8 +9,8 @@
 
 namespace polargrain::coupler {
 
-/// Appends one msgpack array to a text of bytes, member by member; how many there are is written into its head
-/// as they come. Parts are written into the same bytes, so that nothing is copied twice.
+/// Appends one msgpack array to a text of bytes, member by member; how many there are is written into its
+/// head as they come. Parts are written into the same bytes, so that nothing is copied twice.
 class ArrayWriter {
  public:
   explicit ArrayWriter(std::string& bytes) : out_{bytes}, head_(bytes.size()) {

@@ -74,8 +74,8 @@ struct EvaluateRequest {
 };
 
 /// Worker to coordinator: the answer to an InitialRequest or EvaluateRequest, an answer for each cell. Unless
-/// its bytes were wanted, or the worker has no room for it, a new state is given by its name alone: the worker
-/// keeps it until it is fetched or released.
+/// its bytes were wanted, or the worker has no room for it, a new state is given by its name alone: the
+/// worker keeps it until it is fetched or released.
 struct Reply {
   std::uint64_t request = 0;
   std::vector<CellReply> cells;
@@ -87,7 +87,8 @@ struct FetchRequest {
   std::vector<ContentName> names;
 };
 
-/// Worker to coordinator: the answer to a FetchRequest, in its order; null for a state the worker does not have.
+/// Worker to coordinator: the answer to a FetchRequest, in its order; null for a state the worker does not
+/// have.
 struct States {
   std::uint64_t request = 0;
   std::vector<StatePointer> states;
@@ -105,8 +106,8 @@ struct Working {
   std::uint64_t request = 0;
 };
 
-/// Worker to coordinator: one of the cells of a request cannot be served, and why; the others were not tried or
-/// their answers are dropped.
+/// Worker to coordinator: one of the cells of a request cannot be served, and why; the others were not tried
+/// or their answers are dropped.
 struct Refusal {
   std::uint64_t request = 0;
   std::uint32_t place = 0;  ///< of that cell in the request

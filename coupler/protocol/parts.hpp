@@ -6,7 +6,8 @@
 
 namespace polargrain::coupler {
 
-/// The parts of messages, each a pair of write and read. @throws ProtocolError (all reads) saying what is wrong
+/// The parts of messages, each a pair of write and read. @throws ProtocolError (all reads) saying what is
+/// wrong
 void write(ArrayWriter&& writer, const Increment& increment);
 void write(ArrayWriter&& writer, const CellDefinition& cell);
 void write(ArrayWriter&& writer, const Response& response);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A worker that misbehaves:   strange_worker version|garbage|nothing|forgets|lies --connect URL
 //
-// The last two evaluate cells, whose states are their first entry of the increment, but when these are fetched they
-// have none, or send others.
+// The last two evaluate cells, whose states are their first entry of the increment, but when these are
+// fetched they have none, or send others.
 #include <unistd.h>
 
 #include <cstdio>
@@ -51,7 +51,9 @@ int main(int count, char** arguments) {
       std::printf("%s\n", stop->reason.c_str());
       return 0;
     }
-    const auto say = [&](const Message& answer) { socket.send(zmq::buffer(encode(answer, envelope.session))); };
+    const auto say = [&](const Message& answer) {
+      socket.send(zmq::buffer(encode(answer, envelope.session)));
+    };
     const auto* request = std::get_if<EvaluateRequest>(&envelope.message);
     if (way == "garbage" && request != nullptr) socket.send(zmq::str_buffer("\x93garbage"));
     if (way != "forgets" && way != "lies") continue;

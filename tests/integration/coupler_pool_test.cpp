@@ -221,7 +221,8 @@ double bytes_an_evaluation(Pool& pool, const std::string& script) {
   }
   const PoolCounts& after = pool.counts();
   EXPECT_EQ(after.evaluations - before.evaluations, 3 * 4 * 48);
-  return static_cast<double>(after.bytes_sent + after.bytes_received - before.bytes_sent - before.bytes_received) /
+  return static_cast<double>(after.bytes_sent + after.bytes_received - before.bytes_sent -
+                             before.bytes_received) /
          (3.0 * 4.0 * kCells);
 }
 

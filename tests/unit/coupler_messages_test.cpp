@@ -71,11 +71,12 @@ TEST(Messages, DoublesKeepTheirBits) {
     reply.cells[1].response.stress[1] = std::numeric_limits<double>::denorm_min();
     reply.cells[1].response.stress[2] = -3.0;
     const Reply back = round_trip(reply);
-    ASSERT_EQ(
-        std::memcmp(back.cells[1].response.stress.data(), reply.cells[1].response.stress.data(), sizeof(Vector7)), 0);
-    ASSERT_EQ(
-        std::memcmp(back.cells[1].response.tangent.data(), reply.cells[1].response.tangent.data(), sizeof(Matrix7)),
-        0);
+    ASSERT_EQ(std::memcmp(back.cells[1].response.stress.data(), reply.cells[1].response.stress.data(),
+                          sizeof(Vector7)),
+              0);
+    ASSERT_EQ(std::memcmp(back.cells[1].response.tangent.data(), reply.cells[1].response.tangent.data(),
+                          sizeof(Matrix7)),
+              0);
   }
 }
 
@@ -225,17 +226,18 @@ TEST(Messages, RefusesWrongShapes) {
   EXPECT_EQ(error_of(std::string("\x94\x08\x01\x00\x00", 5)), "a message has 4 members, 3 expected");
   EXPECT_EQ(error_of(std::string("\x92\x08\x01", 3)), "a message ends after 2 members");
   std::vector<CellToEvaluate> many(kMostInRequest + 1);
-  EXPECT_NE(error_of(encode(EvaluateRequest{1, 0, 0, false, {}, many})).find("not a message"), std::string::npos);
+  EXPECT_NE(error_of(encode(EvaluateRequest{1, 0, 0, false, {}, many})).find("not a message"),
+            std::string::npos);
   // An array that claims 2^32-1 members: refused for its claim, without reserving memory.
   EXPECT_NE(error_of("\xdd\xff\xff\xff\xff").find("not a message"), std::string::npos);
 }
 
 TEST(Messages, SurvivesEveryCutAndManyFlippedBits) {
   Reply reply = some_reply();
-  const std::vector<std::string> originals{
-      encode(reply), encode(Define{1, some_definition()}),
-      encode(request_with(some_state(10)->name(), some_state(10))),
-      encode(States{2, {some_state(20), nullptr}}), encode(FetchRequest{2, {some_state(20)->name()}})};
+  const std::vector<std::string> originals{encode(reply), encode(Define{1, some_definition()}),
+                                           encode(request_with(some_state(10)->name(), some_state(10))),
+                                           encode(States{2, {some_state(20), nullptr}}),
+                                           encode(FetchRequest{2, {some_state(20)->name()}})};
   std::mt19937_64 generator(2);
   int refused = 0;
   for (const std::string& original : originals) {
