@@ -62,6 +62,7 @@ BoundaryCell::BoundaryCell(const CellDefinition& definition)
   find_boundary();
   driver_.strain().hold(held_);
   driver_.set_up();
+  driver_.settle_time_step(control_.damping);
   damping_rate_ = driver_.damping_rate(control_.damping);
   initial_.response = respond();
   const double pressure = -0.5 * (initial_.response.stress(k11) + initial_.response.stress(k22));

@@ -62,6 +62,8 @@ class Cell final : public CellService {
   double least_force_ = 0.0;    // N, see kLeastForce
   double thickness_ = 0.0;      // m
   Driver driver_;
+  Inertia inertia_;            // of the grains, as contacts count them
+  double viscous_time_ = 0.0;  // longest of the contacts at the start, s
   std::unique_ptr<GrainBox> grains_;
   CondensedTangent condensed_tangent_;
   CellReply initial_;
@@ -76,6 +78,9 @@ Cell::Cell(const CellDefinition& definition)
   const Packing& packing = definition.packing;
   if (packing.state) restore_state(lammps, *packing.state);
   driver_.set_up();
+  const std::string remark = driver_.settle_time_step(control_.damping);
+  inertia_ = inertia_of(lammps);
+  viscous_time_ = longest_viscous_time(driver_.contacts());
   grains_ = choose_box(packing);
   grains_->progress = [this] {
     if (progress) progress();
@@ -84,6 +89,7 @@ Cell::Cell(const CellDefinition& definition)
   set_up();
 
   initial_.response = respond();
+  initial_.response.message = remark;
   initial_.response.tangent = tangent();
   initial_.diagnostics = measure();
   const double pressure = -0.5 * (initial_.response.stress(k11) + initial_.response.stress(k22));
@@ -94,8 +100,8 @@ Cell::Cell(const CellDefinition& definition)
         "script is not the one the packing was made with");
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
   time_of_grain_ = 2.0 * driver_.mean_radius() * std::sqrt(density / pressure);
-  damping_rate_ = 2.0 * control_.damping *
-                  std::sqrt(mean_normal_stiffness(grains_->contacts()) / driver_.mean_mass());
+  damping_rate_ =
+      2.0 * control_.damping * std::sqrt(mean_normal_stiffness(grains_->contacts()) / driver_.mean_mass());
   least_force_ = kLeastForce * mean_contact_force(grains_->contacts());
   initial_.state = grains_->save();
 }
@@ -171,8 +177,15 @@ CellReply Cell::evaluate(const CellRequest& request) {
     reply.response.message = fmt::format(
         "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
         "moment ratio {:.2e} (asked {:.2e})",
-        relaxed, rest.unbalanced_force_ratio, control_.unbalanced_force_ratio,
-        rest.unbalanced_moment_ratio, control_.unbalanced_moment_ratio);
+        relaxed, rest.unbalanced_force_ratio, control_.unbalanced_force_ratio, rest.unbalanced_moment_ratio,
+        control_.unbalanced_moment_ratio);
+  }
+  if (const std::string fault = step_fault(grains_->contacts(), inertia_, viscous_time_, damping_rate_,
+                                           driver_.strain().time_step());
+      !fault.empty()) {
+    reply.response.quality = Quality::unreliable;
+    reply.response.step_factor = 0.5;
+    reply.response.message = fault;
   }
   reply.diagnostics.dem_steps = loading + relaxed;
   reply.state = grains_->save();
@@ -276,8 +289,7 @@ Matrix7 Cell::tangent() {
                                         : condensed_tangent_.classical(network);
     if (condensed) return *condensed;
   }
-  return controlled() ? voigt_cosserat_tangent(contacts, frame, v)
-                      : voigt_tangent(contacts, frame, v);
+  return controlled() ? voigt_cosserat_tangent(contacts, frame, v) : voigt_tangent(contacts, frame, v);
 }
 
 }  // namespace

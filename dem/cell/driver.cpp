@@ -22,7 +22,10 @@ constexpr int kProgressChunk = 100;
 
 Driver::Driver(const Packing& packing, const std::string& script, const std::string& script_file,
                const std::function<void(Engine&)>& after_script)
-    : grains_(static_cast<int>(packing.grains.size())), thickness_(packing.thickness), engine_(true) {
+    : grains_(static_cast<int>(packing.grains.size())),
+      thickness_(packing.thickness),
+      script_file_(script_file),
+      engine_(true) {
   for (const Grain& grain : packing.grains) {
     mean_radius_ += grain.radius / grains_;
     mean_mass_ += grain.mass / grains_;
@@ -32,6 +35,7 @@ Driver::Driver(const Packing& packing, const std::string& script, const std::str
   engine_.command(fmt::format("variable packing index {}", data.path()));
   engine_.script(script, script_file);
   if (after_script) after_script(engine_);
+  time_step_.emplace(engine_.lammps());
   engine_.command("fix polargrain_box all cell/strain");
 
   LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
@@ -103,6 +107,10 @@ void Driver::check_grains() {
       "grains were pressed into each other",
       grains_, finite ? atom.nlocal : 0);
   lammps().error->all(FLERR, message.c_str());
+}
+
+std::string Driver::settle_time_step(double damping) {
+  return time_step_->settle(lammps(), contacts(), damping_rate(damping), script_file_);
 }
 
 double Driver::volume() const {

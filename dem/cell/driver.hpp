@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "common/packing.hpp"
 #include "dem/cell/fix_cell_strain.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/cell/script_time_step.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
 
@@ -42,6 +44,15 @@ class Driver {
   /// Of the recorded contacts and the last force pass.
   [[nodiscard]] Equilibrium equilibrium() const;
 
+  /// The time step from the recorded contacts, or the script's checked against them (ScriptTimeStep::settle).
+  /// @param damping as CellControl::damping @returns a remark for the user, or nothing
+  std::string settle_time_step(double damping);
+  /// The time step of a packing in the making (ScriptTimeStep::renew).
+  void renew_time_step(const StiffestContact& stiffest, double damping_rate) {
+    time_step_->renew(lammps(), contacts(), stiffest, damping_rate, script_file_);
+  }
+  [[nodiscard]] bool script_sets_time_step() const { return time_step_->given(); }
+
   [[nodiscard]] int grains() const { return grains_; }
   [[nodiscard]] double mean_radius() const { return mean_radius_; }  ///< m
   [[nodiscard]] double mean_mass() const { return mean_mass_; }      ///< kg
@@ -62,7 +73,9 @@ class Driver {
   double grain_area_ = 0.0;
   double thickness_ = 0.0;
   double least_force_ = 0.0;
+  std::string script_file_;
   Engine engine_;
+  std::optional<ScriptTimeStep> time_step_;
   FixCellStrain* strain_ = nullptr;
   LAMMPS_NS::Fix* rolling_friction_ =
       nullptr;  ///< coefficientRollingFriction; null unless the model is epsd2

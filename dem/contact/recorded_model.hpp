@@ -49,7 +49,7 @@ class RecordedModel : public Model {
     if (contact_recorder().on)
       record(data.i, data.j, {data.delta[0], data.delta[1], data.delta[2]},
              {force_i.delta_F[0], force_i.delta_F[1], force_i.delta_F[2]}, data.kn, data.kt, data.cri,
-             data.crj, force_i.delta_torque[2]);
+             data.crj, force_i.delta_torque[2], data.gamman, data.gammat);
   }
 
  private:
@@ -57,7 +57,8 @@ class RecordedModel : public Model {
   __attribute__((noinline)) void record(int i, int j, std::array<double, 3> delta,
                                         std::array<double, 3> force, double normal_stiffness,
                                         double tangential_stiffness, double arm_i, double arm_j,
-                                        double torque) {
+                                        double torque, double normal_viscosity,
+                                        double tangential_viscosity) {
     const ContactRecorder::Rolling rolling = std::exchange(contact_recorder().rolling, {});
     LAMMPS_NS::Atom& atom = *lammps_.atom;
     if (j >= atom.nlocal && !lammps_.force->newton_pair) {
@@ -77,6 +78,8 @@ class RecordedModel : public Model {
     contact.force_3 = force[2];
     contact.normal_stiffness = normal_stiffness;
     contact.tangential_stiffness = tangential_stiffness;
+    contact.normal_viscosity = normal_viscosity;
+    contact.tangential_viscosity = tangential_viscosity;
     contact.arm_first = arm_i;
     contact.arm_second = arm_j;
     contact.friction = friction_ ? friction_->compute_array(atom.type[i] - 1, atom.type[j] - 1) : 0.0;

@@ -22,6 +22,18 @@ bool set_property(Engine& engine, const char* name, double value) {
 
 }  // namespace
 
+Packing pressed_together(Packing packing) {
+  constexpr double kShrunk = 0.85;
+  packing.box *= kShrunk;
+  if (packing.dimension == 3) packing.thickness *= kShrunk;
+  for (Grain& grain : packing.grains) {
+    grain.position *= kShrunk;
+    grain.height *= kShrunk;
+  }
+  packing.state = nullptr;
+  return packing;
+}
+
 void set_friction(Engine& engine, double friction) {
   if (!set_property(engine, "coefficientFriction", friction) && friction > 0.0)
     engine.lammps().error->all(

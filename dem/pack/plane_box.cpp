@@ -20,6 +20,13 @@ class PlaneBox final : public PressedBox {
                 [friction](Engine& engine) { set_friction(engine, friction); }) {
     if (packing.state) restore_state(driver_.lammps(), *packing.state);
     driver_.set_up();
+    stiffest_.see(driver_.contacts());
+    if (driver_.contacts().empty() && !driver_.script_sets_time_step()) {
+      Driver probe(pressed_together(packing), specification.script, specification.script_file);
+      probe.set_up();
+      stiffest_.see(probe.contacts());
+      driver_.set_up();  // the recorder is one for all
+    }
   }
 
   void move(const Eigen::Vector3d& strain, double shear, int steps, double damping_rate) override {
@@ -79,10 +86,15 @@ class PlaneBox final : public PressedBox {
   [[nodiscard]] double mean_mass() const override { return driver_.mean_mass(); }
   [[nodiscard]] double mean_radius() const override { return driver_.mean_radius(); }
   [[nodiscard]] double time_step() const override { return driver_.strain().time_step(); }
+  void renew_time_step(double damping_rate) override {
+    stiffest_.see(driver_.contacts());
+    driver_.renew_time_step(stiffest_, damping_rate);
+  }
 
  private:
   Packing packing_;
   Driver driver_;
+  StiffestContact stiffest_;
 };
 
 }  // namespace

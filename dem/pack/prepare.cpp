@@ -30,6 +30,7 @@ class Compression {
         box_(specification.dimension == 3 ? make_space_box(specification, start, friction)
                                           : make_plane_box(specification, start, friction)) {
     reached_.friction = friction;
+    box_->renew_time_step(0.0);
   }
 
   /// @throws RunError after too many steps
@@ -65,6 +66,7 @@ class Compression {
     now_ = box_->look();
     damping_rate_ = std::max(
         damping_rate_, 2.0 * specification_.damping * std::sqrt(now_.normal_stiffness / box_->mean_mass()));
+    box_->renew_time_step(damping_rate_);
     const Eigen::VectorXd stress = now_.stress.head(axes_);
     const double mean = stress.mean();
     reached_.void_ratio = now_.void_ratio;

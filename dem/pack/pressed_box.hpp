@@ -39,6 +39,9 @@ class PressedBox {
   [[nodiscard]] virtual double mean_mass() const = 0;    ///< kg
   [[nodiscard]] virtual double mean_radius() const = 0;  ///< m
   [[nodiscard]] virtual double time_step() const = 0;    ///< s
+  /// Where the script leaves the time step to this program: takes the one that suits the contacts as they are
+  /// and those that may come (StiffestContact). Else checks the script's. @param damping_rate viscous, 1/s
+  virtual void renew_time_step(double damping_rate) = 0;
 };
 
 /// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's
@@ -47,6 +50,10 @@ std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specifica
 /// Spheres in space.
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
                                            double friction);
+
+/// The same grains in a box so much smaller that those of a loose packing overlap: the contacts that the
+/// first forces find there tell how stiff contacts are before there are any. Not for steps.
+Packing pressed_together(Packing packing);
 
 class Engine;
 /// Puts the friction that a packing is made with in place of the script's; without friction there is no

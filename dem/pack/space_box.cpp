@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/error.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/packing_data.hpp"
+#include "dem/cell/script_time_step.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/private_access.hpp"
@@ -29,8 +32,9 @@ Eigen::Vector3d force_of(const Contact& contact) {
 
 class SpaceBox final : public PressedBox {
  public:
-  SpaceBox(const PackingSpecification& specification, const Packing& packing, double friction)
-      : packing_(packing), engine_(true) {
+  SpaceBox(const PackingSpecification& specification, const Packing& packing, double friction,
+           bool probe = false)
+      : packing_(packing), script_file_(specification.script_file), engine_(true) {
     const auto count = static_cast<double>(packing.grains.size());
     for (const Grain& grain : packing.grains) {
       mean_mass_ += grain.mass / count;
@@ -45,6 +49,7 @@ class SpaceBox final : public PressedBox {
     engine_.command(fmt::format("variable packing index {}", data.path()));
     engine_.script(specification.script, specification.script_file);
     set_friction(engine_, friction);
+    script_time_step_.emplace(lammps);
     engine_.command("fix polargrain_box all pack/right_box");
     strain_ = dynamic_cast<FixRightBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
     lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
@@ -53,7 +58,18 @@ class SpaceBox final : public PressedBox {
     lammps.update->whichflag = 1;  // dynamics
     lammps.init();
     if (packing.state) restore_state(lammps, *packing.state);
-    record([&lammps] { lammps.update->integrate->setup_minimal(1); });
+    set_up();
+    stiffest_.see(contact_recorder().contacts);
+    if (!contact_recorder().contacts.empty() || script_time_step_->given() || probe) return;
+    const SpaceBox pressed(specification, pressed_together(packing), friction, true);
+    stiffest_ = pressed.stiffest_;
+    set_up();  // the recorder is one for all
+  }
+
+  void renew_time_step(double damping_rate) override {
+    stiffest_.see(contact_recorder().contacts);
+    script_time_step_->renew(engine_.lammps(), contact_recorder().contacts, stiffest_, damping_rate,
+                             script_file_);
   }
 
   void move(const Eigen::Vector3d& strain, double, int steps, double damping_rate) override {
@@ -119,16 +135,19 @@ class SpaceBox final : public PressedBox {
 
   [[nodiscard]] double mean_mass() const override { return mean_mass_; }
   [[nodiscard]] double mean_radius() const override { return mean_radius_; }
-  [[nodiscard]] double time_step() const override { return time_step_; }
+  [[nodiscard]] double time_step() const override { return lammps_->update->dt; }
 
  private:
+  void set_up() {
+    record([this] { engine_.lammps().update->integrate->setup_minimal(1); });
+  }
+
   template <typename Steps>
   void record(const Steps& steps) {
     contact_recorder().contacts.clear();
     contact_recorder().on = true;
     steps();
     contact_recorder().on = false;
-    time_step_ = engine_.lammps().update->dt;
   }
 
   void check_grains() {
@@ -142,12 +161,15 @@ class SpaceBox final : public PressedBox {
   }
 
   Packing packing_;
+  std::string script_file_;
   Engine engine_;
+  LAMMPS_NS::LAMMPS* lammps_ = &engine_.lammps();
+  std::optional<ScriptTimeStep> script_time_step_;
+  StiffestContact stiffest_;
   FixRightBox* strain_ = nullptr;
   double mean_mass_ = 0.0;
   double mean_radius_ = 0.0;
   double solid_ = 0.0;  // volume of the grains, m^3
-  double time_step_ = 0.0;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "dem/cell/averages.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/cell/script_time_step.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/private_access.hpp"
 
@@ -114,6 +115,7 @@ void FixCellLoad::post_create() {
   update->nsteps = 0;
   update->firststep = update->laststep = update->ntimestep;
   update->whichflag = 1;  // dynamics
+  const ScriptTimeStep time_step(*lmp);
   lmp->init();
   if (!packing_state_.empty()) go_on_from(read_state(packing_state_, *error));
   update->integrate->setup_minimal(1);
@@ -126,6 +128,9 @@ void FixCellLoad::post_create() {
                "stiffness in the script is not the one the packing was made with");
   time_of_grain_ = 2.0 * mean_radius_ * std::sqrt(density_ / pressure);
   rate_ = 2.0 * control_.damping * std::sqrt(mean_normal_stiffness(contact_recorder().contacts) / mean_mass_);
+  if (const std::string remark = time_step.settle(*lmp, contact_recorder().contacts, rate_, "this script");
+      !remark.empty() && screen != nullptr)
+    fmt::print(screen, "polargrain: {}\n", remark);
   least_force_ = kLeastForce * mean_contact_force(contact_recorder().contacts);
 }
 

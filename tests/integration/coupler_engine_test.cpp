@@ -91,15 +91,15 @@ TEST_F(EngineTest, ABrokenScriptEndsTheRunInLiggghtsWords) {
   EXPECT_EQ(outcome.out, "");
 }
 
-TEST_F(EngineTest, GrainsThrownOutOfTheBoxEndTheRun) {
-  std::string script = script_;
-  const std::size_t timestep = script.find("timestep ");
-  ASSERT_NE(timestep, std::string::npos);
-  // A thousand times too long.
-  script.replace(timestep, script.find('\n', timestep) - timestep, "timestep 3e-2");
-  const Outcome outcome = run_with_script(script, "-o out -w 2 --quiet --set steps.cut=1");
+TEST_F(EngineTest, AnUnstableTimeStepIsRefusedWithAStableOne) {
+  const Outcome outcome =
+      run_with_script(script_ + "\ntimestep 5e-5\n", "-o out -w 2 --quiet --set steps.cut=1");
   std::cout << "[figure] the message: " << outcome.errors;
-  EXPECT_NE(outcome.errors.find("ERROR: Lost atoms: original 400"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(
+                "ERROR: The time step of cell.in, 5e-05 s, is unstable for these grains and contacts: the "
+                "largest stable one is 3.69e-05 s. Leave the line 'timestep' out, and 2.95e-05 s is taken"),
+            std::string::npos)
+      << outcome.errors;
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.errors.find("out/logs/worker-"), std::string::npos) << outcome.errors;
   EXPECT_NE(content(scratch_.path() / "out/summary.json").find("\"status\": \"failed\""), std::string::npos);

@@ -112,7 +112,7 @@ TEST_F(HardCells, LoosePackingLosesItsStressAtConstantVolumeAndHolds) {
                           (scratch_.path() / "loose.h5").string() + " --set grains=100 --set friction=0.5");
   ASSERT_EQ(packed.status, 0) << packed.errors;
   std::string grains = kLowStress;
-  grains.replace(grains.find("5000"), 4, "2000");
+  grains.replace(grains.find("950"), 3, "400");
   write_case(grains, "count: 30, tolerance: 1e-3",
              kSmooth +
                  "  - {on: top, move: {u2: -3 mm}}\n  - {on: right, move: {u1: 3 mm}}\n"

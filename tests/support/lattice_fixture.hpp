@@ -33,7 +33,7 @@ inline CellDefinition lattice(int columns, int rows, CellRotations rotations) {
       "fix kr all property/global rollingStiffnessRatio peratomtypepair 1 0.8\n"
       "pair_style gran model hooke/stiffness tangential history rolling_friction li_chu absolute_damping on\n"
       "pair_coeff * *\n"
-      "timestep 2e-5\nfix integrate all nve/sphere\nfix plane all enforce2d\n";
+      "fix integrate all nve/sphere\nfix plane all enforce2d\n";
   const double spacing = kDiameter * (1.0 - kOverlap);
   const double row_height = spacing * std::sqrt(3.0) / 2.0;
   definition.packing.box << columns * spacing, 0.0, 0.0, rows * row_height;

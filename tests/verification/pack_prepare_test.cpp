@@ -135,9 +135,6 @@ TEST(PackPrepare, APackingIsACellUnderItsPressure) {
 TEST(PackPrepare, SpheresInASingleLayerHaveTheMassOfSpheres) {
   PackingSpecification asked = specification(60, 0.0);
   asked.spheres = true;
-  // Spheres of these radii weigh down to a twenty-fifth of discs 0.1 m thick.
-  const std::string time_step = "timestep        2e-5";
-  asked.script.replace(asked.script.find(time_step), time_step.size(), "timestep 4e-6");
   asked.unbalanced_force_ratio = 5e-3;
   const PreparedPacking made = prepare_packing(asked, {});
   expect_at_rest(asked, made.reached);

@@ -45,12 +45,11 @@ def run(command, folder):
 
 
 def write_script(path, parameters):
-    """cells/hooke_rolling.in with these parameters and the time step that goes with the stiffness."""
+    """cells/hooke_rolling.in with these parameters."""
     script = (ROOT / "liggghts_inputs/cells/hooke_rolling.in").read_text()
     for pattern, value in (("contactModulus peratomtypepair 1 ", parameters["modulus"]),
                            ("coefficientFriction peratomtypepair 1 ", parameters["friction"]),
-                           ("coefficientRollingFriction peratomtypepair 1 ", parameters["rolling"]),
-                           ("\ntimestep +", 2e-5 * math.sqrt(6e8 / parameters["modulus"]))):
+                           ("coefficientRollingFriction peratomtypepair 1 ", parameters["rolling"])):
         script, count = re.subn(f"({pattern})[-0-9.e]+", lambda found: found.group(1) + f"{value:.8g}", script)
         assert count == 1, pattern
     path.write_text(script)
