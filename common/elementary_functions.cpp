@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Every function reduces its argument to a small one, exactly or nearly so, and sums up the Taylor series there, from
-// the small terms to the large ones. Series rather than minimax polynomials: with the few terms more come coefficients
-// that anybody can check.
+// Every function reduces its argument to a small one, exactly or nearly so, and sums up the Taylor series
+// there, from the small terms to the large ones. Series rather than minimax polynomials: with the few terms
+// more come coefficients that anybody can check.
 #include "common/elementary_functions.hpp"
 
 #include <algorithm>
@@ -71,11 +71,11 @@ Extended series(const std::array<Extended, terms>& coefficients, Extended x) {
 }
 
 // The number of terms leaves out what is below 2^-66 of the result.
-constexpr auto kSine = inverse_factorials<11>(1, 2, -1);         // |x| <= pi / 4
-constexpr auto kCosine = inverse_factorials<12>(0, 2, -1);       // |x| <= pi / 4
-constexpr auto kExponential = inverse_factorials<18>(0, 1, 1);   // |x| <= log(2) / 2
-constexpr auto kArcTangent = inverse_odd_numbers<9>(-1);         // |x| <= 1 / 16
-constexpr auto kAreaTangent = inverse_odd_numbers<14>(1);        // |x| <= (sqrt(2) - 1) / (sqrt(2) + 1)
+constexpr auto kSine = inverse_factorials<11>(1, 2, -1);        // |x| <= pi / 4
+constexpr auto kCosine = inverse_factorials<12>(0, 2, -1);      // |x| <= pi / 4
+constexpr auto kExponential = inverse_factorials<18>(0, 1, 1);  // |x| <= log(2) / 2
+constexpr auto kArcTangent = inverse_odd_numbers<9>(-1);        // |x| <= 1 / 16
+constexpr auto kAreaTangent = inverse_odd_numbers<14>(1);       // |x| <= (sqrt(2) - 1) / (sqrt(2) + 1)
 
 Extended nearest(Extended x) {
   return __builtin_rintl(x);
@@ -117,8 +117,7 @@ Extended logarithm_of(double x) {
     --twos;
   }
   const Extended s = (mantissa - 1.0L) / (mantissa + 1.0L);
-  return twos * kLogarithmOfTwo[0] +
-         (2.0L * s * series(kAreaTangent, s * s) + twos * kLogarithmOfTwo[1]);
+  return twos * kLogarithmOfTwo[0] + (2.0L * s * series(kAreaTangent, s * s) + twos * kLogarithmOfTwo[1]);
 }
 
 /// e^x beyond what a double holds is infinite or zero; the bounds keep the powers of two whole numbers.

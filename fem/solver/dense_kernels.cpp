@@ -8,9 +8,10 @@
 #include <cstring>
 #include <vector>
 
-// One version of a loop for every width of registers; the loader takes the widest that the processor has. They
-// differ in nothing but the number of results computed at a time: no sum is spread over a register, and fused
-// multiply-add is forbidden in this file (cmake/umfpack.cmake). Sanitizers and resolvers do not go together.
+// One version of a loop for every width of registers; the loader takes the widest that the processor has.
+// They differ in nothing but the number of results computed at a time: no sum is spread over a register, and
+// fused multiply-add is forbidden in this file (cmake/umfpack.cmake). Sanitizers and resolvers do not go
+// together.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define POLARGRAIN_ANY_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -56,10 +57,11 @@ void subtract_corner(const double (*sums)[kTileRows], int rows, int columns, dou
     for (int i = 0; i < rows; ++i) c[i + static_cast<std::ptrdiff_t>(k) * ld_c] -= sums[k][i];
 }
 
-/// C -= A B^T for packed blocks; each product of a row and a column is summed up from its first term to its last,
-/// and what hangs over the edge of C is left out.
+/// C -= A B^T for packed blocks; each product of a row and a column is summed up from its first term to its
+/// last, and what hangs over the edge of C is left out.
 POLARGRAIN_ANY_REGISTERS
-void subtract_packed(int rows, int columns, int depth, const double* a, const double* b, double* c, int ld_c) {
+void subtract_packed(int rows, int columns, int depth, const double* a, const double* b, double* c,
+                     int ld_c) {
   for (int j = 0; j < columns; j += kTileColumns, b += depth * kTileColumns) {
     const double* left = a;
     for (int i = 0; i < rows; i += kTileRows) {
@@ -87,7 +89,8 @@ void subtract_packed(int rows, int columns, int depth, const double* a, const do
       } else {
         double sums[kTileColumns][kTileRows];
         std::memcpy(sums, sum, sizeof sums);
-        subtract_corner(sums, std::min(kTileRows, rows - i), std::min(kTileColumns, columns - j), corner, ld_c);
+        subtract_corner(sums, std::min(kTileRows, rows - i), std::min(kTileColumns, columns - j), corner,
+                        ld_c);
       }
     }
   }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The dense matrix work inside UMFPACK, by five routines of ours in place of the system's BLAS, whose sums have
-/// another order, and other last bits, on every type of processor. Here every number of a result is made by the
-/// same operations in the same order whatever the processor: wider registers compute more numbers at a time,
-/// never one number in another way, and nothing is fused.
+/// The dense matrix work inside UMFPACK, by five routines of ours in place of the system's BLAS, whose sums
+/// have another order, and other last bits, on every type of processor. Here every number of a result is made
+/// by the same operations in the same order whatever the processor: wider registers compute more numbers at a
+/// time, never one number in another way, and nothing is fused.
 ///
-/// Names, arguments and meaning are those of the BLAS (columns one after the other, `ld` numbers from a column
-/// to the next), but only for the kinds of call that UMFPACK makes (its blas3_update and local_search); any other
-/// ends the program. The build renames UMFPACK's calls, so that no other library of the process is touched.
+/// Names, arguments and meaning are those of the BLAS (columns one after the other, `ld` numbers from a
+/// column to the next), but only for the kinds of call that UMFPACK makes (its blas3_update and
+/// local_search); any other ends the program. The build renames UMFPACK's calls, so that no other library of
+/// the process is touched.
 extern "C" {
 
 /// C -= A B^T with C rows x columns, A rows x depth, B columns x depth (sides N and T, alpha -1, beta 1).

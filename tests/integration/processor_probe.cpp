@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Prints the bits of some of the system's elementary functions, folded into one number: another number shows that
-// the environment made the system take another version of them, as on another type of processor.
+// Prints the bits of some of the system's elementary functions, folded into one number: another number shows
+// that the environment made the system take another version of them, as on another type of processor.
 #include <bit>
 #include <cmath>
 #include <cstdint>

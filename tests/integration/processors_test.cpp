@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Results have the same bits on every x86-64 processor, with any number of workers. Other processors are played by
-// the switches of the system's libraries: OpenBLAS takes the kernels of a named core, the C library leaves its versions
-// of the elementary functions with fused multiply-add aside.
+// Results have the same bits on every x86-64 processor, with any number of workers. Other processors are
+// played by the switches of the system's libraries: OpenBLAS takes the kernels of a named core, the C library
+// leaves its versions of the elementary functions with fused multiply-add aside.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -27,7 +27,8 @@ std::string plastic_case() {
          "deformation: large\n"
          "mesh: {rectangle: {size: [0.04 m, 0.08 m], elements: [12, 24]}}\n"
          "materials:\n"
-         "  sand: {model: elastoplastic, E: 40 MPa, nu: 0.3, Gc: 10 MPa, lc: 1 mm, friction_angle: [30 deg, 38 deg],\n"
+         "  sand: {model: elastoplastic, E: 40 MPa, nu: 0.3, Gc: 10 MPa, lc: 1 mm, friction_angle: [30 deg, "
+         "38 deg],\n"
          "         dilatancy_angle: 5 deg, cohesion: 1 kPa, confining: 100 kPa}\n"
          "regions: {all: sand}\n"
          "boundary:\n"
@@ -43,7 +44,8 @@ std::string cell_case() {
   return "title: Two elements of grains\n"
          "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}}\n"
          "materials:\n"
-         "  sand: {model: cell, script: cells/hooke_rolling.in, packing: packing400.csv, G: 37 MPa, Gc: 33 MPa, "
+         "  sand: {model: cell, script: cells/hooke_rolling.in, packing: packing400.csv, G: 37 MPa, Gc: 33 "
+         "MPa, "
          "lc: 20 mm}\n"
          "regions: {all: sand}\n"
          "boundary:\n"
@@ -62,8 +64,11 @@ class ProcessorsTest : public ::testing::Test {
 
   /// history.csv of the case on a processor.
   [[nodiscard]] std::string history(const std::string& environment, int workers) const {
-    const Outcome outcome = run_in(scratch_.path(), "env " + environment + " " POLARGRAIN " run case.yaml --quiet -o result "
-                                                    "-w " + std::to_string(workers));
+    const Outcome outcome = run_in(scratch_.path(), "env " + environment +
+                                                        " " POLARGRAIN
+                                                        " run case.yaml --quiet -o result "
+                                                        "-w " +
+                                                        std::to_string(workers));
     EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.errors;
     const std::string text = content(scratch_.path() / "result/history.csv");
     std::filesystem::remove_all(scratch_.path() / "result");
@@ -85,7 +90,8 @@ TEST_F(ProcessorsTest, other_versions_of_the_elementary_functions_have_other_bit
   const std::string here = run_in(scratch_.path(), PROCESSOR_PROBE).out;
   const std::string other = run_in(scratch_.path(), "env " + kWithoutFusing + " " PROCESSOR_PROBE).out;
   ASSERT_FALSE(here.empty());
-  if (here == other) GTEST_SKIP() << "this processor or C library has one version only: the tests show less here";
+  if (here == other)
+    GTEST_SKIP() << "this processor or C library has one version only: the tests show less here";
 }
 
 TEST_F(ProcessorsTest, finite_elements_have_the_same_bits) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The dense matrix work inside UMFPACK against plain loops that make the same operations in the same order: the same
-// bits, whatever the registers of the processor that the test runs on.
+// The dense matrix work inside UMFPACK against plain loops that make the same operations in the same order:
+// the same bits, whatever the registers of the processor that the test runs on.
 #include "fem/solver/dense_kernels.hpp"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,8 @@ void check_vector_products(int rows, int columns, int) {
   std::vector<double> expected = y;
   for (int j = 0; j < columns; ++j)
     for (int i = 0; i < rows; ++i) expected[i] -= a[i + j * ld] * x[j];
-  polargrain_dgemv("N", &rows, &columns, &kMinusOne, a.data(), &ld, x.data(), &kOne, &kUnity, y.data(), &kOne);
+  polargrain_dgemv("N", &rows, &columns, &kMinusOne, a.data(), &ld, x.data(), &kOne, &kUnity, y.data(),
+                   &kOne);
   EXPECT_TRUE(same_bits(y, expected));
 
   expected = a;
