@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an engine that has read a script and a packing to a box of discs.
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -66,11 +67,16 @@ struct GrainHistories {
   std::vector<double> values;
 };
 
+/// A whole number as the engine hides it among doubles.
+double bits_of(std::int64_t number) {
+  return std::bit_cast<double>(number);
+}
+
 /// In the form in which the engine passes them from process to process.
 std::vector<double> packed(const GrainHistories& grain, std::size_t values) {
-  std::vector<double> buffer{LAMMPS_NS::ubuf(static_cast<int>(grain.partners.size())).d};
+  std::vector<double> buffer{bits_of(static_cast<std::int64_t>(grain.partners.size()))};
   for (std::size_t n = 0; n < grain.partners.size(); ++n) {
-    buffer.push_back(LAMMPS_NS::ubuf(grain.partners[n]).d);
+    buffer.push_back(bits_of(grain.partners[n]));
     buffer.insert(buffer.end(), grain.values.begin() + static_cast<std::ptrdiff_t>(n * values),
                   grain.values.begin() + static_cast<std::ptrdiff_t>((n + 1) * values));
   }
