@@ -141,6 +141,18 @@ std::vector<Response> answers_of(Pool& pool, const CellDefinition& definition,
   return answers;
 }
 
+/// The case; with a replay the engine's own loop steps the grains, as the replay does, so that both print the same
+/// digits.
+Case case_for(const PointOptions& options) {
+  Case plain = read_case(options.case_file, options.settings);
+  const auto recipe = plain.materials.find(options.material);
+  if (options.replay.empty() || recipe == plain.materials.end() || recipe->second->cell() == nullptr)
+    return plain;
+  std::vector<std::string> settings = options.settings;
+  settings.push_back(fmt::format("materials.{}.loop=engine", options.material));
+  return read_case(options.case_file, settings);
+}
+
 }  // namespace
 
 std::vector<Increment> read_path(const std::filesystem::path& file) {
@@ -185,7 +197,7 @@ std::vector<Increment> read_path(const std::filesystem::path& file) {
 }
 
 int point(const PointOptions& options) {
-  const Case the_case = read_case(options.case_file, options.settings);
+  const Case the_case = case_for(options);
   const std::vector<Increment> path = read_path(options.path_file);
   const auto recipe = the_case.materials.find(options.material);
   if (recipe == the_case.materials.end()) {
