@@ -7,5 +7,5 @@
 int main(int count, char** arguments) {
   using namespace polargrain;
   return coupler::command_line(count, arguments, {dem::start_engine_process, dem::make_cell_service},
-                               {dem::start_engine_process, dem::prepare_packing});
+                               {dem::start_engine_process, dem::prepare_packing, dem::settle_packing});
 }

@@ -87,6 +87,10 @@ class Reader {
                     keys[k]));
       values[k] = *value;
     }
+    if (const std::optional<double> pressure = header_value(line_, "p")) {
+      if (!(*pressure > 0.0)) fail(1, "the pressure p must be positive, or left out");
+      packing_.pressure = *pressure;
+    }
     packing_.box << values[0], values[1], values[2], values[3];
     packing_.thickness = values[4];
     if (!(packing_.box.determinant() > 0.0)) fail(1, "the base vectors span no area (or are left-handed)");

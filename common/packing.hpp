@@ -30,6 +30,8 @@ struct Packing {
   /// Out-of-plane thickness, m; stresses are per this true thickness.
   double thickness = 0.0;
   std::vector<Grain> grains;
+  /// Mean normal stress at rest when it was made, compression positive, Pa; 0: not recorded.
+  double pressure = 0.0;
   /// Velocities and contact histories of a packing made with friction, as dem/ keeps them: what lies ready in
   /// its tangential springs belongs to its equilibrium. Null: grains at rest, no tangential forces.
   StatePointer state;
@@ -38,8 +40,8 @@ struct Packing {
 };
 
 /// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first
-/// line `# cell ... xx=... xy=... yx=... yy=... z=...` with the base vectors as columns (xy: x component of
-/// the second vector), a line of column names `id,x,y,r,mass,Izz`, then one grain a line.
+/// line `# cell ... xx=... xy=... yx=... yy=... z=... p=...` with the base vectors as columns (xy: x component of
+/// the second vector) and the pressure (may be left out), a line of column names `id,x,y,r,mass,Izz`, then one grain a line.
 /// @throws InputError naming file and line when the file is missing, a number does not parse, a radius or
 /// mass is not positive, the box has no area, or two grains share an id.
 Packing read_packing(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -125,6 +126,7 @@ PreparedPacking packing_of(const Content& content) {
     packing.grains.push_back(grain);
   }
   const std::vector<double>& r = content.reached;
+  packing.pressure = std::max(0.0, r[3]);
   prepared.reached = {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9]};
   if (!content.state.empty()) {
     std::vector<std::byte> bytes(content.state.size());

@@ -33,6 +33,8 @@ void CellMaterial::allocate(std::size_t points) {
     throw RunError(
         fmt::format("the packing of a cell cannot be brought to rest: {}", start.cell.response.message));
   }
+  if (!start.cell.response.message.empty())
+    notes_.push_back(std::exchange(start.cell.response.message, {}));
   committed_.assign(points, start);
   trial_ = committed_;
 }

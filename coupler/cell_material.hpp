@@ -2,6 +2,9 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 #include <vector>
 
 #include "coupler/cell_calls.hpp"
@@ -36,6 +39,8 @@ class CellMaterial : public fem::Material {
 
   /// The diagnostics of the cell (docs/user_guide.md).
   [[nodiscard]] std::vector<std::string> field_names() const override;
+  /// What the engine remarked on the packing and its script, once.
+  [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   void fields(std::size_t point, std::span<double> values) const override;
 
  private:
@@ -47,6 +52,7 @@ class CellMaterial : public fem::Material {
   CellCalls calls_;
   std::optional<CosseratParameters> cosserat_;
   bool about_middle_ = false;
+  std::vector<std::string> notes_;
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;
 };

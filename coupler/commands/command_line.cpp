@@ -37,6 +37,7 @@ Try:
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
+  polargrain pack --settle dense400.h5 soft.in -o soft400.h5    bring one to rest under another script
   polargrain bench --quick                          speed against error of the demo, ten minutes
 
 A run writes history.csv (a row a step), fields.pvd (open it in ParaView), costs.csv, summary.json and run.log.
@@ -201,9 +202,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
 
   PackOptions pack_options;
   CLI::App* pack_command = app.add_subcommand("pack", "Make a packing of grains, or export one");
-  pack_command
-      ->add_option("SPEC", pack_options.specification_file, "What to make (YAML), or a packing to export")
-      ->required();
+  CLI::Option* pack_specification = pack_command->add_option(
+      "SPEC", pack_options.specification_file, "What to make (YAML), or a packing to export");
   CLI::Option* pack_output =
       pack_command->add_option("-o,--output", pack_options.output, "Packing to write (HDF5)")
           ->type_name("FILE.h5");
@@ -211,6 +211,13 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
                                  ->add_option("--export", pack_options.export_file,
                                               "Write the packing SPEC as a LIGGGHTS data file instead")
                                  ->type_name("FILE.data");
+  pack_command
+      ->add_option("--settle", pack_options.settle,
+                   "Bring a packing to rest under an input script, under its own pressure or --set pressure=...")
+      ->type_name("PACKING SCRIPT")
+      ->expected(2)
+      ->excludes(pack_specification)
+      ->excludes(pack_export);
   pack_output->excludes(pack_export);
   pack_command->add_flag("--quiet", pack_options.quiet, "Print nothing but errors");
   add_settings(*pack_command, pack_options.settings);

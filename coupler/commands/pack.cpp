@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 
 #include "common/error.hpp"
 #include "common/packing_data.hpp"
@@ -31,10 +32,12 @@ void check_output(const std::filesystem::path& output) {
         {"", 0, fmt::format("-o {}: there is no folder {}", output.string(), directory.string())});
 }
 
+/// Makes a packing, telling how far it is.
+using Work = std::function<PreparedPacking(const std::function<void(const PackingReached&)>&)>;
+
 /// What the child does; never returns. @param terminal where progress is shown, negative for nowhere
-[[noreturn]] void make_and_exit(const PackingSpecification& specification,
-                                const std::filesystem::path& output, const PackingTools& tools,
-                                int terminal) {
+[[noreturn]] void make_and_exit(const Work& make, const std::filesystem::path& output,
+                                const PackingTools& tools, int terminal) {
   int status = 1;
   try {
     tools.start_process();
@@ -45,7 +48,7 @@ void check_output(const std::filesystem::path& output) {
       if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0)
         return;  // nobody looks: nothing lost
     };
-    write_packing_file(output, tools.make(specification, progress));
+    write_packing_file(output, make(progress));
     status = 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "ERROR: {}\n", error.what());
@@ -54,8 +57,8 @@ void check_output(const std::filesystem::path& output) {
 }
 
 /// Runs the child. @returns whether it ended well
-bool make_in_child(const PackingSpecification& specification, const PackOptions& options,
-                   const PackingTools& tools, const std::filesystem::path& log) {
+bool make_in_child(const Work& make, const PackOptions& options, const PackingTools& tools,
+                   const std::filesystem::path& log) {
   const int log_descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (log_descriptor < 0) throw RunError(fmt::format("the log {} cannot be written", log.string()));
   std::fflush(nullptr);
@@ -67,7 +70,7 @@ bool make_in_child(const PackingSpecification& specification, const PackOptions&
     const int terminal = !options.quiet && isatty(STDERR_FILENO) ? dup(STDERR_FILENO) : -1;
     dup2(log_descriptor, STDOUT_FILENO);
     dup2(log_descriptor, STDERR_FILENO);
-    make_and_exit(specification, options.output, tools, terminal);
+    make_and_exit(make, options.output, tools, terminal);
   }
   close(log_descriptor);
   if (child < 0) throw RunError("no process can be started for the engine");
@@ -97,6 +100,23 @@ void report(const PreparedPacking& packing, double seconds, const std::filesyste
       seconds);
 }
 
+/// A packing with what its file records; of a CSV file that is the pressure at most.
+PreparedPacking packing_to_settle(const std::filesystem::path& file) {
+  if (file.extension() == ".h5") return read_packing_file(file);
+  PreparedPacking prepared;
+  prepared.packing = read_packing(file);
+  prepared.reached.pressure = prepared.packing.pressure;
+  return prepared;
+}
+
+/// What --settle asks for: the script and the pressure of the packing, or the one set.
+PackingSpecification settling(const PackOptions& options) {
+  const PreparedPacking packing = packing_to_settle(options.settle.front());
+  const double pressure = packing.reached.pressure;
+  return read_settling(options.settle.front(), options.settle.back(), pressure, packing.specification,
+                       options.settings);
+}
+
 }  // namespace
 
 int pack(const PackOptions& options, const PackingTools& tools) {
@@ -104,13 +124,20 @@ int pack(const PackOptions& options, const PackingTools& tools) {
     fem::write_file(options.export_file, packing_data(read_packing(options.specification_file)));
     return 0;
   }
+  if (options.specification_file.empty() && options.settle.empty())
+    throw InputError({"", 0, "pack: name a specification (YAML), or --settle PACKING SCRIPT"});
+  const bool settles = options.settle.size() == 2;
   const PackingSpecification specification =
-      read_packing_specification(options.specification_file, options.settings);
+      settles ? settling(options) : read_packing_specification(options.specification_file, options.settings);
   check_output(options.output);
+  const Work make = [&](const std::function<void(const PackingReached&)>& progress) {
+    if (!settles) return tools.make(specification, progress);
+    return tools.settle(specification, packing_to_settle(options.settle.front()), progress);
+  };
   std::filesystem::path log = options.output;
   log += ".log";
   const auto start = std::chrono::steady_clock::now();
-  if (!make_in_child(specification, options, tools, log))
+  if (!make_in_child(make, options, tools, log))
     throw RunError(fmt::format("the packing could not be made (the engine's output is in {}):\n{}",
                                log.string(), log_excerpt(log)));
   std::filesystem::remove(log);

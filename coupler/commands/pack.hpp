@@ -14,6 +14,7 @@ struct PackingTools {
   /// Called once in the process that makes the packing.
   std::function<void()> start_process;
   PackingMaker make;
+  PackingSettler settle = {};  ///< empty where no packing is ever settled
 };
 
 struct PackOptions {
@@ -23,6 +24,8 @@ struct PackOptions {
       export_file;  ///< when given, `specification_file` is a packing that is written there as text
   std::vector<std::string> settings;
   bool quiet = false;
+  /// A packing and the script that it is brought to rest under, as it is; or nothing.
+  std::vector<std::filesystem::path> settle = {};
 };
 
 /// Makes a packing after a specification, in a process of its own (an engine error ends its process), whose

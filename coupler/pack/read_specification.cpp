@@ -93,6 +93,19 @@ void read_script(Section& top, const std::filesystem::path& directory, PackingSp
   if (specification.script.empty()) top.fault("script", "script: the file is empty or cannot be read");
 }
 
+/// How it is compressed and when it counts as at rest.
+void read_control(Section& top, PackingSpecification& specification) {
+  const auto positive = [&top](const char* key, double& value) {
+    value = top.quantity_or(key, Dimension::number, Limit::positive, value);
+  };
+  positive("pressure_tolerance", specification.pressure_tolerance);
+  positive("unbalanced_force_ratio", specification.unbalanced_force_ratio);
+  positive("inertial_number", specification.inertial_number);
+  positive("damping", specification.damping);
+  if (specification.damping >= 1.0) top.fault("damping", "damping: must be less than 1");
+  specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
+}
+
 }  // namespace
 
 PackingSpecification read_packing_specification(const std::filesystem::path& file,
@@ -116,19 +129,40 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   if (top.find("void_ratio") != nullptr)
     specification.void_ratio = top.quantity("void_ratio", Dimension::number, Limit::positive);
   specification.seed = static_cast<std::uint64_t>(top.whole("seed", 0));
-  const auto positive = [&top](const char* key, double& value) {
-    value = top.quantity_or(key, Dimension::number, Limit::positive, value);
-  };
-  positive("void_ratio_tolerance", specification.void_ratio_tolerance);
-  positive("pressure_tolerance", specification.pressure_tolerance);
-  positive("unbalanced_force_ratio", specification.unbalanced_force_ratio);
-  positive("inertial_number", specification.inertial_number);
-  positive("damping", specification.damping);
-  if (specification.damping >= 1.0) top.fault("damping", "damping: must be less than 1");
-  specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
+  specification.void_ratio_tolerance = top.quantity_or("void_ratio_tolerance", Dimension::number,
+                                                       Limit::positive, specification.void_ratio_tolerance);
+  read_control(top, specification);
   read_script(top, file.parent_path(), specification);
   top.finish();
   if (!faults.empty()) throw InputError(faults);
+  return specification;
+}
+
+PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
+                                   double pressure, const std::string& text,
+                                   const std::vector<std::string>& settings) {
+  Entry document;
+  document.kind = Entry::Kind::map;
+  document.file = packing.string();
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  Faults faults;
+  PackingSpecification specification;
+  Section top(document, "settling", faults);
+  if (pressure > 0.0 && top.find("pressure") == nullptr)
+    specification.pressure = pressure;
+  else
+    specification.pressure = top.quantity("pressure", Dimension::pressure, Limit::positive);
+  read_control(top, specification);
+  top.finish();
+  const auto file = find_data_file(script.string(), std::filesystem::current_path());
+  if (!file)
+    faults.push_back(
+        {packing.string(), 0, fmt::format("there is no script '{}' to settle it under", script.string())});
+  if (!faults.empty()) throw InputError(faults);
+  specification.script_file = file->lexically_normal().string();
+  specification.script = content_of(*file);
+  specification.text =
+      text + fmt::format("# settled under {} at {:.6g} Pa\n", script.string(), specification.pressure);
   return specification;
 }
 

@@ -38,8 +38,8 @@ void write(ArrayWriter&& writer, const Packing& packing) {
     values.insert(values.end(),
                   {grain.position(0), grain.position(1), grain.radius, grain.mass, grain.moment_of_inertia});
   }
-  const std::array<double, 5> box{packing.box(0, 0), packing.box(1, 0), packing.box(0, 1), packing.box(1, 1),
-                                  packing.thickness};
+  const std::array<double, 6> box{packing.box(0, 0), packing.box(1, 0), packing.box(0, 1), packing.box(1, 1),
+                                  packing.thickness, packing.pressure};
   writer.numbers(box).block(std::as_bytes(std::span(ids))).numbers(values).state(packing.state);
 }
 
@@ -61,6 +61,7 @@ Packing read_packing(const msgpack::object& object) {
   Packing packing;
   packing.box << box[0], box[2], box[1], box[3];
   packing.thickness = box[4];
+  packing.pressure = box[5];
   packing.state = std::move(state);
   if (!(packing.volume() > 0.0) || !(packing.thickness > 0.0)) throw ProtocolError("a packing has no volume");
   packing.grains.resize(ids.size());

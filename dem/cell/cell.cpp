@@ -12,6 +12,7 @@
 #include "dem/cell/condensed_tangent.hpp"
 #include "dem/cell/driver.hpp"
 #include "dem/cell/engine_box.hpp"
+#include "dem/cell/packing_check.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/tangents.hpp"
 #include "dem/discs/disc_box.hpp"
@@ -38,6 +39,8 @@ class Cell final : public CellService {
  private:
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
   void check_rolling_model();
+  /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
+  void check(const Packing& packing, double pressure, const std::string& script_file);
   /// The loop over discs where it knows the scene, else the engine's own.
   std::unique_ptr<GrainBox> choose_box(const Packing& packing);
   /// Neighbours and forces at the positions as they are; no step.
@@ -93,11 +96,7 @@ Cell::Cell(const CellDefinition& definition)
   initial_.response.tangent = tangent();
   initial_.diagnostics = measure();
   const double pressure = -0.5 * (initial_.response.stress(k11) + initial_.response.stress(k22));
-  if (!(pressure > 0.0))
-    lammps.error->all(
-        FLERR,
-        "The packing carries no pressure at rest: its grains do not touch, or the stiffness in the "
-        "script is not the one the packing was made with");
+  check(packing, pressure, definition.script_file);
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
   time_of_grain_ = 2.0 * driver_.mean_radius() * std::sqrt(density / pressure);
   damping_rate_ =
@@ -116,6 +115,16 @@ std::unique_ptr<GrainBox> Cell::choose_box(const Packing& packing) {
   auto box = std::make_unique<DiscBox>(std::move(discs));
   box->restore(disc_snapshot(lammps, *selection.combination, driver_.strain().box(), {}));
   return box;
+}
+
+void Cell::check(const Packing& packing, double pressure, const std::string& script_file) {
+  PackingAtRest found{pressure, packing.pressure, 0.0, equilibrium(),
+                      overlaps_of(grains_->contacts(), inertia_.radii)};
+  if (pressure > 0.0)
+    found.stiffness_level = mean_normal_stiffness(grains_->contacts()) / (pressure * packing.thickness);
+  const double unrest = std::max(control_.unbalanced_force_ratio, control_.unbalanced_moment_ratio);
+  if (const std::string fault = packing_fault(found, unrest, script_file); !fault.empty())
+    driver_.lammps().error->all(FLERR, fault.c_str());
 }
 
 void Cell::check_rolling_model() {
@@ -180,9 +189,11 @@ CellReply Cell::evaluate(const CellRequest& request) {
         relaxed, rest.unbalanced_force_ratio, control_.unbalanced_force_ratio, rest.unbalanced_moment_ratio,
         control_.unbalanced_moment_ratio);
   }
-  if (const std::string fault = step_fault(grains_->contacts(), inertia_, viscous_time_, damping_rate_,
-                                           driver_.strain().time_step());
-      !fault.empty()) {
+  std::string fault = answer_fault(overlaps_of(grains_->contacts(), inertia_.radii), rest.void_ratio);
+  if (fault.empty())
+    fault =
+        step_fault(grains_->contacts(), inertia_, viscous_time_, damping_rate_, driver_.strain().time_step());
+  if (!fault.empty()) {
     reply.response.quality = Quality::unreliable;
     reply.response.step_factor = 0.5;
     reply.response.message = fault;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_state.hpp"
@@ -14,12 +15,14 @@ namespace {
 
 class PlaneBox final : public PressedBox {
  public:
-  PlaneBox(const PackingSpecification& specification, const Packing& packing, double friction)
+  PlaneBox(const PackingSpecification& specification, const Packing& packing, std::optional<double> friction)
       : packing_(packing),
-        driver_(packing, specification.script, specification.script_file,
-                [friction](Engine& engine) { set_friction(engine, friction); }) {
+        driver_(packing, specification.script, specification.script_file, [friction](Engine& engine) {
+          if (friction) set_friction(engine, *friction);
+        }) {
     if (packing.state) restore_state(driver_.lammps(), *packing.state);
     driver_.set_up();
+    radii_ = inertia_of(driver_.lammps()).radii;
     stiffest_.see(driver_.contacts());
     if (driver_.contacts().empty() && !driver_.script_sets_time_step()) {
       Driver probe(pressed_together(packing), specification.script, specification.script_file);
@@ -48,6 +51,7 @@ class PlaneBox final : public PressedBox {
     seen.coordination_number = equilibrium.coordination_number;
     seen.rattlers = equilibrium.rattlers;
     seen.void_ratio = equilibrium.void_ratio;
+    seen.overlaps = overlaps_of(contacts, radii_);
     seen.normal_stiffness = mean_normal_stiffness(contacts);
     const Eigen::Matrix2d stress = average_stress(contacts, volume);
     seen.stress << stress(0, 0), stress(1, 1), 0.0;
@@ -94,13 +98,14 @@ class PlaneBox final : public PressedBox {
  private:
   Packing packing_;
   Driver driver_;
+  std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
 };
 
 }  // namespace
 
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
-                                           double friction) {
+                                           std::optional<double> friction) {
   return std::make_unique<PlaneBox>(specification, packing, friction);
 }
 

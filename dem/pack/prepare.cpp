@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "common/error.hpp"
+#include "dem/cell/packing_check.hpp"
 #include "dem/pack/placement.hpp"
 #include "dem/pack/pressed_box.hpp"
 
@@ -21,15 +23,16 @@ constexpr int kChunksOfProgress = 100;
 
 using Progress = std::function<void(const PackingReached&)>;
 
-/// One packing brought to rest under its pressure with one friction.
+/// One packing brought to rest under its pressure with one friction, or with the script's own.
 class Compression {
  public:
-  Compression(const PackingSpecification& specification, const Packing& start, double friction)
+  Compression(const PackingSpecification& specification, const Packing& start, std::optional<double> friction)
       : specification_(specification),
         axes_(specification.dimension),
+        keep_contacts_(!friction || *friction > 0.0),
         box_(specification.dimension == 3 ? make_space_box(specification, start, friction)
                                           : make_plane_box(specification, start, friction)) {
-    reached_.friction = friction;
+    reached_.friction = friction.value_or(0.0);
     box_->renew_time_step(0.0);
   }
 
@@ -49,7 +52,14 @@ class Compression {
       if (axes_ == 2) shear = step_towards(-now_.shear, now_.shear_stiffness, 0.0);
       if (progress && ++chunk % kChunksOfProgress == 0) progress(reached_);
     } while (!done());
-    return {box_->packing(reached_.friction > 0.0), reached_, specification_.text};
+    if (too_large(now_.overlaps))
+      throw RunError(
+          fmt::format("at rest under {:.5g} kPa {}: the contacts are too soft for the pressure; take a "
+                      "stiffer script, or a lower pressure",
+                      1e-3 * reached_.pressure, description(now_.overlaps)));
+    PreparedPacking prepared{box_->packing(keep_contacts_), reached_, specification_.text};
+    prepared.packing.pressure = reached_.pressure;
+    return prepared;
   }
 
  private:
@@ -101,6 +111,7 @@ class Compression {
 
   const PackingSpecification& specification_;
   int axes_;
+  bool keep_contacts_;  // with friction, what lies ready in tangential springs belongs to the packing
   std::unique_ptr<PressedBox> box_;
   double damping_rate_ = 0.0;
   PressedBox::Look now_;
@@ -189,6 +200,25 @@ PreparedPacking prepare_packing(const PackingSpecification& specification,
   const Packing loose = place_grains(specification);
   if (specification.void_ratio) return Search(specification, loose, progress).find();
   return Compression(specification, loose, specification.friction).compress(progress);
+}
+
+PreparedPacking settle_packing(const PackingSpecification& specification, const PreparedPacking& packing,
+                               const std::function<void(const PackingReached&)>& progress) {
+  Packing start = packing.packing;
+  start.state = nullptr;
+  PackingSpecification asked = specification;
+  asked.dimension = start.dimension;
+  double mass = 0.0;
+  double volume = 0.0;
+  for (const Grain& grain : start.grains) {
+    mass += grain.mass;
+    const double area = std::numbers::pi * grain.radius * grain.radius;
+    volume += area * (start.dimension == 3 ? 4.0 / 3.0 * grain.radius : start.thickness);
+  }
+  asked.density = mass / volume;
+  PreparedPacking settled = Compression(asked, start, std::nullopt).compress(progress);
+  settled.reached.friction = packing.reached.friction;
+  return settled;
 }
 
 }  // namespace polargrain::dem

@@ -23,4 +23,10 @@ namespace polargrain::dem {
 PreparedPacking prepare_packing(const PackingSpecification& specification,
                                 const std::function<void(const PackingReached&)>& progress);
 
+/// Brings a packing as it is, grains and box, to rest under the script and the pressure of the specification,
+/// with the script's own friction. Tangential springs start anew: those of another script mean nothing. A
+/// packing in space keeps its right box. @throws RunError as prepare_packing
+PreparedPacking settle_packing(const PackingSpecification& specification, const PreparedPacking& packing,
+                               const std::function<void(const PackingReached&)>& progress);
+
 }  // namespace polargrain::dem

@@ -2,9 +2,11 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "common/packing.hpp"
 #include "common/packing_specification.hpp"
+#include "dem/cell/packing_check.hpp"
 
 namespace polargrain::dem {
 
@@ -26,6 +28,7 @@ class PressedBox {
     double coordination_number = 0.0;
     double rattlers = 0.0;
     double void_ratio = 0.0;
+    Overlaps overlaps;
   };
 
   virtual ~PressedBox() = default;
@@ -44,12 +47,13 @@ class PressedBox {
   virtual void renew_time_step(double damping_rate) = 0;
 };
 
-/// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's
+/// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's; none: the
+/// script's own
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
-                                           double friction);
+                                           std::optional<double> friction);
 /// Spheres in space.
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
-                                           double friction);
+                                           std::optional<double> friction);
 
 /// The same grains in a box so much smaller that those of a loose packing overlap: the contacts that the
 /// first forces find there tell how stiff contacts are before there are any. Not for steps.

@@ -32,7 +32,7 @@ Eigen::Vector3d force_of(const Contact& contact) {
 
 class SpaceBox final : public PressedBox {
  public:
-  SpaceBox(const PackingSpecification& specification, const Packing& packing, double friction,
+  SpaceBox(const PackingSpecification& specification, const Packing& packing, std::optional<double> friction,
            bool probe = false)
       : packing_(packing), script_file_(specification.script_file), engine_(true) {
     const auto count = static_cast<double>(packing.grains.size());
@@ -48,7 +48,7 @@ class SpaceBox final : public PressedBox {
     const PackingDataFile data(packing);
     engine_.command(fmt::format("variable packing index {}", data.path()));
     engine_.script(specification.script, specification.script_file);
-    set_friction(engine_, friction);
+    if (friction) set_friction(engine_, *friction);
     script_time_step_.emplace(lammps);
     engine_.command("fix polargrain_box all pack/right_box");
     strain_ = dynamic_cast<FixRightBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
@@ -59,6 +59,7 @@ class SpaceBox final : public PressedBox {
     lammps.init();
     if (packing.state) restore_state(lammps, *packing.state);
     set_up();
+    radii_ = inertia_of(lammps).radii;
     stiffest_.see(contact_recorder().contacts);
     if (!contact_recorder().contacts.empty() || script_time_step_->given() || probe) return;
     const SpaceBox pressed(specification, pressed_together(packing), friction, true);
@@ -106,6 +107,7 @@ class SpaceBox final : public PressedBox {
     seen.rattlers = 1.0 - carrying / grains;
     seen.coordination_number = 2.0 * seen.contacts / grains;
     seen.void_ratio = volume / solid_ - 1.0;
+    seen.overlaps = overlaps_of(contacts, radii_);
     if (!(force > 0.0)) return seen;
     seen.unbalanced_force_ratio = strain_->sum_of_unbalanced_force() / carrying / force;
     seen.unbalanced_moment_ratio = strain_->sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
@@ -165,6 +167,7 @@ class SpaceBox final : public PressedBox {
   Engine engine_;
   LAMMPS_NS::LAMMPS* lammps_ = &engine_.lammps();
   std::optional<ScriptTimeStep> script_time_step_;
+  std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
   FixRightBox* strain_ = nullptr;
   double mean_mass_ = 0.0;
@@ -175,7 +178,7 @@ class SpaceBox final : public PressedBox {
 }  // namespace
 
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
-                                           double friction) {
+                                           std::optional<double> friction) {
   return std::make_unique<SpaceBox>(specification, packing, friction);
 }
 

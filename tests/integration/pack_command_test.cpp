@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include "tests/integration/command.hpp"
@@ -64,6 +65,129 @@ TEST(PackCommand, ACellRefusesSpheresInSpace) {
   EXPECT_EQ(checked.status, 2);
   EXPECT_NE(checked.errors.find("holds spheres in space; cells are plane"), std::string::npos)
       << checked.errors;
+}
+
+/// A case of one material with that script and packing, for `polargrain point`.
+void write_material(const Scratch& scratch, const std::string& script, const std::string& packing) {
+  write(scratch.path() / "case.yaml",
+        "title: one cell\nmesh:\n  rectangle: {size: [1, 1], elements: [1, 1]}\nmaterials:\n  sand: {model: "
+        "cell, script: " +
+            script + ", packing: " + packing +
+            ", G: 16 MPa, Gc: 14 MPa, lc: 20 mm}\nregions: {all: sand}\nboundary:\n"
+            "  - {on: bottom, fix: [u1, u2]}\nsteps: {count: 1}\n");
+  write(scratch.path() / "path.csv", "h22\n-1e-5\n");
+}
+
+/// The small dense packing of these tests, made with cells/hooke_radii.in under 100 kPa.
+void make_discs(const Scratch& scratch) {
+  write(scratch.path() / "discs.yaml",
+        "grains: 60\nsizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\nthickness: 100 mm\n"
+        "script: cells/hooke_radii.in\npressure: 100 kPa\nfriction: 0\nseed: 5\n");
+  const Outcome made = run_in(scratch.path(), kProgram + " pack discs.yaml -o discs.h5 --quiet");
+  ASSERT_EQ(made.status, 0) << made.errors;
+}
+
+std::string hooke() {
+  return content("liggghts_inputs/cells/hooke_radii.in");
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& other) {
+  const std::size_t place = text.find(part);
+  EXPECT_NE(place, std::string::npos) << part;
+  return text.replace(place, part.size(), other);
+}
+
+TEST(PackCommand, AScriptAFifthAsStiffIsRefusedAndSettlingRepairs) {
+  const Scratch scratch("pack_soft");
+  make_discs(scratch);
+  write(scratch.path() / "soft.in", replaced(hooke(), "peratomtypepair 1 6e8", "peratomtypepair 1 1.2e8"));
+  write_material(scratch, "soft.in", "discs.h5");
+  const std::string point = kProgram + " point case.yaml sand path.csv -o out.csv";
+  const Outcome refused = run_in(scratch.path(), point);
+  std::cout << "[figure] the message: " << refused.errors;
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("soft.in: the packing was recorded under 10"), std::string::npos)
+      << refused.errors;
+  EXPECT_NE(refused.errors.find("polargrain pack --settle PACKING SCRIPT"), std::string::npos)
+      << refused.errors;
+  const Outcome settled = run_in(scratch.path(), kProgram + " pack --settle discs.h5 soft.in -o settled.h5");
+  ASSERT_EQ(settled.status, 0) << settled.errors;
+  EXPECT_NE(settled.out.find("pressure               100.0"), std::string::npos) << settled.out;
+  write_material(scratch, "soft.in", "settled.h5");
+  const Outcome good = run_in(scratch.path(), point);
+  EXPECT_EQ(good.status, 0) << good.errors;
+  EXPECT_NE(content(scratch.path() / "out.csv").find("good"), std::string::npos);
+}
+
+TEST(PackCommand, AScriptAHundredthAsStiffCannotBeSettledIntoACell) {
+  const Scratch scratch("pack_softest");
+  make_discs(scratch);
+  write(scratch.path() / "soft.in", replaced(hooke(), "peratomtypepair 1 6e8", "peratomtypepair 1 6e6"));
+  const Outcome settled = run_in(scratch.path(), kProgram + " pack --settle discs.h5 soft.in -o settled.h5");
+  EXPECT_EQ(settled.status, 1);
+  EXPECT_NE(settled.errors.find("the contacts are too soft for the pressure"), std::string::npos)
+      << settled.errors;
+}
+
+TEST(PackCommand, HertzOnAHookePackingIsRefusedAndSettlingRepairs) {
+  const Scratch scratch("pack_hertz");
+  make_discs(scratch);
+  const std::string law = hooke();
+  const std::size_t begin = law.find("fix             contact_modulus");
+  const std::size_t end = law.find("# tan(0.5 rad)");
+  write(scratch.path() / "hertz.in",
+        replaced(law.substr(0, begin) +
+                     "hard_particles yes\n"
+                     "fix modulus all property/global youngsModulus peratomtype 5e9\n"
+                     "fix poisson all property/global poissonsRatio peratomtype 0.2\n"
+                     "fix restitution all property/global coefficientRestitution peratomtypepair 1 0.5\n" +
+                     law.substr(end),
+                 "hooke/radii", "hertz"));
+  write_material(scratch, "hertz.in", "discs.h5");
+  const std::string point = kProgram + " point case.yaml sand path.csv -o out.csv";
+  const Outcome refused = run_in(scratch.path(), point);
+  std::cout << "[figure] the message: " << refused.errors;
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("hertz.in: the packing was recorded under"), std::string::npos)
+      << refused.errors;
+  const Outcome settled = run_in(scratch.path(), kProgram + " pack --settle discs.h5 hertz.in -o settled.h5");
+  ASSERT_EQ(settled.status, 0) << settled.errors;
+  write_material(scratch, "hertz.in", "settled.h5");
+  const Outcome good = run_in(scratch.path(), point);
+  EXPECT_EQ(good.status, 0) << good.errors;
+}
+
+TEST(PackCommand, ShakenGrainsAreRefused) {
+  const Scratch scratch("pack_shaken");
+  std::istringstream grains(content("cases/biaxial/packing400.csv"));
+  std::ostringstream shaken;
+  shaken.precision(12);
+  std::string line;
+  for (int number = 0; std::getline(grains, line); ++number) {
+    if (number == 0) line = replaced(line, " p=1e5", "");  // nothing recorded: they must give themselves away
+    std::istringstream words(line);
+    std::string id;
+    double x = 0.0;
+    if (number > 1 && std::getline(words, id, ',') && words >> x) {
+      std::string rest;
+      std::getline(words, rest);
+      shaken << id << "," << x + 2e-4 * std::sin(1.0 + 1.7 * number * number) << rest << "\n";
+    } else {
+      shaken << line << "\n";
+    }
+  }
+  write(scratch.path() / "shaken.csv", shaken.str());
+  write_material(scratch, "cells/hooke_radii.in", "shaken.csv");
+  const Outcome refused = run_in(scratch.path(), kProgram + " point case.yaml sand path.csv -o out.csv");
+  std::cout << "[figure] the message: " << refused.errors;
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("the packing is not at rest: unbalanced force ratio"), std::string::npos)
+      << refused.errors;
+  const Outcome settled =
+      run_in(scratch.path(), kProgram +
+                                 " pack --settle shaken.csv cells/hooke_radii.in -o settled.h5 "
+                                 "--set pressure=100e3");
+  ASSERT_EQ(settled.status, 0) << settled.errors;
 }
 
 }  // namespace

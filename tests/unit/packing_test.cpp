@@ -66,5 +66,13 @@ TEST(Packing, MissingFileIsAFault) {
   EXPECT_THROW(read_packing("no/such/packing.csv"), InputError);
 }
 
+TEST_F(PackingFile, MayRecordItsPressure) {
+  const std::string grain = "\nid,x,y,r,mass,Izz\n0,0.01,0.02,0.005,0.02,2.5e-7\n";
+  EXPECT_EQ(read("# cell xx=0.2 xy=0 yx=0 yy=0.1 z=0.1 p=1e5" + grain).pressure, 1e5);
+  EXPECT_EQ(read("# cell xx=0.2 xy=0 yx=0 yy=0.1 z=0.1" + grain).pressure, 0.0);
+  EXPECT_EQ(fault("# cell xx=0.2 xy=0 yx=0 yy=0.1 z=0.1 p=-1" + grain),
+            ":1: the pressure p must be positive, or left out");
+}
+
 }  // namespace
 }  // namespace polargrain

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dem/cell/quasi_static.hpp"
+#include "dem/contact/contact_recorder.hpp"
+
+namespace polargrain::dem {
+
+// Grains are rigid but for their contacts: laws of contacts mean something while overlaps are small against
+// the grains. What lies beyond is no answer about grains any more, however well it is balanced.
+
+/// Mean overlap over the smaller radius beyond which a scene is refused and an answer is unreliable.
+/// packing400 has 0.006 at 100 kPa; 0.05 is about eight times that pressure.
+inline constexpr double kMostMeanOverlap = 0.05;
+/// The same for the largest overlap: forces of contacts reach some five times their mean.
+inline constexpr double kMostOverlap = 0.25;
+/// Void ratio beyond which discs are no packing: loose ones with friction have 0.3.
+inline constexpr double kMostVoidRatio = 1.0;
+/// Relative difference between the pressure that a packing was recorded with and the one it has under its
+/// script.
+inline constexpr double kPressureTolerance = 0.01;
+/// Unbalanced ratio, forces or moments, beyond which a packing is not at rest: ten times the usual one of
+/// cells.
+inline constexpr double kMostUnrest = 0.05;
+
+/// Overlaps of the contacts over the smaller of their two radii.
+struct Overlaps {
+  double mean = 0.0;
+  double largest = 0.0;
+};
+/// @param radii of the grains, m
+Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> radii);
+
+/// Beyond kMostMeanOverlap or kMostOverlap.
+bool too_large(const Overlaps& overlaps);
+/// Both with their limits, for messages.
+std::string description(const Overlaps& overlaps);
+
+/// What a packing is under a script before the first step.
+struct PackingAtRest {
+  double pressure = 0.0;         ///< mean normal stress, compression positive, Pa
+  double recorded = 0.0;         ///< the packing file's, Pa; 0 when it has none
+  double stiffness_level = 0.0;  ///< mean k_n / (pressure * thickness)
+  Equilibrium equilibrium;
+  Overlaps overlaps;
+};
+
+/// Why a packing does not fit its script, with the numbers and what to do; nothing when it does.
+/// @param unrest the ratio that the user asks of cells; ten times that is allowed of the packing when it is
+/// more than kMostUnrest @param script the user's file
+std::string packing_fault(const PackingAtRest& packing, double unrest, const std::string& script);
+
+/// Why the answer of a cell means nothing although it is at rest; nothing when it does.
+std::string answer_fault(const Overlaps& overlaps, double void_ratio);
+
+}  // namespace polargrain::dem
