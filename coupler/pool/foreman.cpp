@@ -142,27 +142,30 @@ void Foreman::lost(Member& member, const Loss& loss) {
   present_.erase(member.number);
   book_.forget_worker(member.number);
   for (const std::size_t number : queue_.take_all_of(member.number)) enqueue(number);
+  // What it has answered last may be lost with it, so any of what it had may have been at work.
+  Job had;
+  for (const Job& job : member.jobs) {
+    had.tasks.insert(had.tasks.end(), job.tasks.begin(), job.tasks.end());
+    had.begun = had.begun || job.begun;
+  }
+  member.jobs.clear();
   std::string text = member.name + ' ' + loss.how;
-  if (!member.jobs.empty()) text += " at work on " + place_of(member.jobs.front());
+  if (!had.tasks.empty()) text += " at work on " + place_of(had);
   text += ": " + loss.cause + loss.details;
-  if (member.jobs.empty()) {
+  if (had.tasks.empty()) {
     tell(text);
     return;
   }
-  std::deque<Job> jobs = std::exchange(member.jobs, {});
-  const Job current = std::move(jobs.front());
-  jobs.pop_front();
-  for (const Job& job : jobs) put_back(job);
-  Task& first = first_of(current);
+  Task& first = first_of(had);
   // A connection that closes before the work began says nothing about the cell.
-  const bool counts_for_cell = !loss.from_outside || !member.address.remote || current.begun;
-  if (current.tasks.size() == 1 && first.kind != Task::Kind::fetch && counts_for_cell) {
+  const bool counts_for_cell = !loss.from_outside || !member.address.remote || had.begun;
+  if (had.tasks.size() == 1 && first.kind != Task::Kind::fetch && counts_for_cell) {
     end_attempt(first, text, loss.from_outside);
   } else {
-    // Which of several cells it was shows when each goes alone.
-    for (const std::size_t number : current.tasks) task(number).alone = current.tasks.size() > 1;
-    put_back(current);
-    say_again(text, current.tasks.size());
+    // Which of several cells it was shows when each is alone with a worker.
+    for (const std::size_t number : had.tasks) task(number).alone = had.tasks.size() > 1;
+    put_back(had);
+    say_again(text, had.tasks.size());
   }
   give_all();
 }
@@ -189,10 +192,11 @@ void Foreman::give_all() {
 
 void Foreman::give_next(Member& member, std::size_t jobs) {
   while (member.jobs.size() < jobs) {
+    const bool is_free = member.jobs.empty();
     // The last ones go to whoever is free first.
-    if (!member.jobs.empty() && queue_.size() <= crew_.members().size()) return;
-    std::vector<std::size_t> tasks =
-        queue_.take(member.number, [this](const Task& first) { return most_at_once(first); });
+    if (!is_free && (queue_.size() <= crew_.members().size() || first_of(member.jobs.front()).alone)) return;
+    std::vector<std::size_t> tasks = queue_.take(
+        member.number, [&](const Task& first) { return first.alone && !is_free ? 0 : most_at_once(first); });
     if (tasks.empty()) return;
     const Clock::time_point now = Clock::now();
     member.jobs.push_back({std::move(tasks), ++last_request_, now, now, now});

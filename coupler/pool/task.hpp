@@ -24,7 +24,7 @@ struct Task {
   std::uint64_t home = 0;  ///< the worker that should have what the cell starts from; 0: nobody is known to
 
   CellReply reply = {};
-  bool alone = false;  ///< was at a worker that was lost, with others: goes in a message of its own
+  bool alone = false;  ///< was with a worker that was lost, beside others: the next worker has nothing else
   int ends_by_work = 0;
   int ends_from_outside = 0;
 };

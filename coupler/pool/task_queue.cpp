@@ -28,6 +28,7 @@ std::vector<std::size_t> TaskQueue::take(std::uint64_t worker,
   const auto next = [&] { return from_back ? queue->back() : queue->front(); };
   const Task& first = (*tasks_)[next()];
   const std::size_t limit = most(first);
+  if (limit == 0) return {};
   std::vector<std::size_t> taken;
   do {
     taken.push_back(next());
