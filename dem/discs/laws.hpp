@@ -65,7 +65,8 @@ template <NormalLaw Law>
       answer.tangential_dashpot = p.tangential_damping * factor;
     }
   }
-  answer.force = answer.kn * touch.overlap - dashpot * touch.opening_rate;
+  answer.force = answer.kn * touch.overlap;
+  if (settings.damped) answer.force -= dashpot * touch.opening_rate;
   if (settings.limit_force && answer.force < 0.0) answer.force = 0.0;
   return answer;
 }
@@ -94,7 +95,7 @@ template <TangentialLaw Law>
     double force = -kt * spring;
     if (cut(force, p.friction * std::abs(normal.force)))
       spring = -force / kt;
-    else
+    else if (settings.damped)
       force -= normal.tangential_dashpot * touch.slip_rate;
     if (advance) {
       springs[0] = -spring * touch.ny;
@@ -129,9 +130,12 @@ template <TangentialLaw Law>
       slides = cut(elastic, cap) || slides;
     }
     if (advance) springs[0] = slides && kt > 0.0 ? (elastic - rolling) / kt : spring;
-    double force = slides ? -elastic : -elastic - viscous - normal.tangential_dashpot * touch.slip_rate;
+    double force = -elastic;
+    if (slides) return force;
+    if (settings.rolling_force_damped) force -= viscous;
+    if (settings.damped) force -= normal.tangential_dashpot * touch.slip_rate;
     // A dashpot cannot push past the friction of the surfaces either.
-    cut(force, cap);
+    if (settings.rolling_force_damped || settings.damped) cut(force, cap);
     return force;
   }
 }
