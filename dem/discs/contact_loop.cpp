@@ -115,7 +115,8 @@ class Loop final : public ContactLoop {
         const NormalAnswer normal = normal_law<Normal>(p, settings, touch);
         const double tangential =
             tangential_law<Tangential>(p, settings, touch, normal, step, Advance, springs);
-        const RollingAnswer rolling = rolling_law<Rolling>(p, settings, touch, normal, step, Advance, springs);
+        const RollingAnswer rolling =
+            rolling_law<Rolling>(p, settings, touch, normal, step, Advance, springs);
 
         const double push_x = normal.force * touch.nx - tangential * touch.ny;
         const double push_y = normal.force * touch.ny + tangential * touch.nx;
@@ -133,8 +134,7 @@ class Loop final : public ContactLoop {
         other.y -= push_y;
         other.torque -= turn_second;
         if constexpr (Record)
-          contacts->push_back(
-              take_down(i, pair.second, dx, dy, touch, p, normal, push_x, push_y, rolling));
+          contacts->push_back(take_down(i, pair.second, dx, dy, touch, p, normal, push_x, push_y, rolling));
       }
       forces[i].x += fx;
       forces[i].y += fy;
@@ -156,9 +156,12 @@ std::unique_ptr<ContactLoop> with_settings(const DiscCombination& combination) {
 template <NormalLaw Normal, TangentialLaw Tangential>
 std::unique_ptr<ContactLoop> with_rolling(const DiscCombination& combination) {
   switch (combination.rolling) {
-    case RollingLaw::off: return with_settings<Normal, Tangential, RollingLaw::off>(combination);
-    case RollingLaw::epsd2: return with_settings<Normal, Tangential, RollingLaw::epsd2>(combination);
-    case RollingLaw::li_chu: return with_settings<Normal, Tangential, RollingLaw::li_chu>(combination);
+    case RollingLaw::off:
+      return with_settings<Normal, Tangential, RollingLaw::off>(combination);
+    case RollingLaw::epsd2:
+      return with_settings<Normal, Tangential, RollingLaw::epsd2>(combination);
+    case RollingLaw::li_chu:
+      return with_settings<Normal, Tangential, RollingLaw::li_chu>(combination);
   }
   return nullptr;
 }
@@ -174,9 +177,12 @@ std::unique_ptr<ContactLoop> with_tangential(const DiscCombination& combination)
 
 std::unique_ptr<ContactLoop> make_contact_loop(const DiscCombination& combination) {
   switch (combination.normal) {
-    case NormalLaw::hooke_radii: return with_tangential<NormalLaw::hooke_radii>(combination);
-    case NormalLaw::hooke_stiffness: return with_tangential<NormalLaw::hooke_stiffness>(combination);
-    case NormalLaw::hertz: return with_tangential<NormalLaw::hertz>(combination);
+    case NormalLaw::hooke_radii:
+      return with_tangential<NormalLaw::hooke_radii>(combination);
+    case NormalLaw::hooke_stiffness:
+      return with_tangential<NormalLaw::hooke_stiffness>(combination);
+    case NormalLaw::hertz:
+      return with_tangential<NormalLaw::hertz>(combination);
   }
   return nullptr;
 }
