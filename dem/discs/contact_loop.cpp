@@ -28,7 +28,8 @@ Contact take_down(int first, int second, double dx, double dy, const Touch& touc
   return contact;
 }
 
-template <NormalLaw Normal, TangentialLaw Tangential, RollingLaw Rolling>
+/// @tparam Bare without dashpots and without a limit of normal forces, which then need not be asked for
+template <NormalLaw Normal, TangentialLaw Tangential, RollingLaw Rolling, bool Bare>
 class Loop final : public ContactLoop {
   static constexpr int kSprings = spring_count(Rolling);
 
@@ -60,7 +61,8 @@ class Loop final : public ContactLoop {
     const Candidate* const pairs = list.pairs.data();
     double* const values = list.values.data();
     const PairParameters* const parameters = parameters_.data();
-    const LawSettings settings = settings_;
+    LawSettings settings = settings_;
+    if constexpr (Bare) settings.damped = settings.limit_force = false;
     const double step = scene.step;
     const double bend_x = scene.curvature_rate.x();
     const double bend_y = scene.curvature_rate.y();
@@ -113,20 +115,26 @@ class Loop final : public ContactLoop {
         const NormalAnswer normal = normal_law<Normal>(p, settings, touch);
         const double tangential =
             tangential_law<Tangential>(p, settings, touch, normal, step, Advance, springs);
-        const RollingAnswer rolling = rolling_law<Rolling>(p, settings, touch, normal, step, Advance, springs);
+        const RollingAnswer rolling =
+            rolling_law<Rolling>(p, settings, touch, normal, step, Advance, springs);
 
         const double push_x = normal.force * touch.nx - tangential * touch.ny;
         const double push_y = normal.force * touch.ny + tangential * touch.nx;
         fx += push_x;
         fy += push_y;
-        torque -= touch.arm_first * tangential + rolling.moment;
+        double turn_first = touch.arm_first * tangential;
+        double turn_second = touch.arm_second * tangential;
+        if constexpr (Rolling != RollingLaw::off) {
+          turn_first += rolling.moment;
+          turn_second -= rolling.moment;
+        }
+        torque -= turn_first;
         DiscForce& other = forces[pair.second];
         other.x -= push_x;
         other.y -= push_y;
-        other.torque -= touch.arm_second * tangential - rolling.moment;
+        other.torque -= turn_second;
         if constexpr (Record)
-          contacts->push_back(
-              take_down(i, pair.second, dx, dy, touch, p, normal, push_x, push_y, rolling));
+          contacts->push_back(take_down(i, pair.second, dx, dy, touch, p, normal, push_x, push_y, rolling));
       }
       forces[i].x += fx;
       forces[i].y += fy;
@@ -138,13 +146,22 @@ class Loop final : public ContactLoop {
   std::vector<PairParameters> parameters_;
 };
 
+template <NormalLaw Normal, TangentialLaw Tangential, RollingLaw Rolling>
+std::unique_ptr<ContactLoop> with_settings(const DiscCombination& combination) {
+  if (combination.settings.damped || combination.settings.limit_force)
+    return std::make_unique<Loop<Normal, Tangential, Rolling, false>>(combination);
+  return std::make_unique<Loop<Normal, Tangential, Rolling, true>>(combination);
+}
+
 template <NormalLaw Normal, TangentialLaw Tangential>
 std::unique_ptr<ContactLoop> with_rolling(const DiscCombination& combination) {
   switch (combination.rolling) {
-    case RollingLaw::off: return std::make_unique<Loop<Normal, Tangential, RollingLaw::off>>(combination);
-    case RollingLaw::epsd2: return std::make_unique<Loop<Normal, Tangential, RollingLaw::epsd2>>(combination);
+    case RollingLaw::off:
+      return with_settings<Normal, Tangential, RollingLaw::off>(combination);
+    case RollingLaw::epsd2:
+      return with_settings<Normal, Tangential, RollingLaw::epsd2>(combination);
     case RollingLaw::li_chu:
-      return std::make_unique<Loop<Normal, Tangential, RollingLaw::li_chu>>(combination);
+      return with_settings<Normal, Tangential, RollingLaw::li_chu>(combination);
   }
   return nullptr;
 }
@@ -160,9 +177,12 @@ std::unique_ptr<ContactLoop> with_tangential(const DiscCombination& combination)
 
 std::unique_ptr<ContactLoop> make_contact_loop(const DiscCombination& combination) {
   switch (combination.normal) {
-    case NormalLaw::hooke_radii: return with_tangential<NormalLaw::hooke_radii>(combination);
-    case NormalLaw::hooke_stiffness: return with_tangential<NormalLaw::hooke_stiffness>(combination);
-    case NormalLaw::hertz: return with_tangential<NormalLaw::hertz>(combination);
+    case NormalLaw::hooke_radii:
+      return with_tangential<NormalLaw::hooke_radii>(combination);
+    case NormalLaw::hooke_stiffness:
+      return with_tangential<NormalLaw::hooke_stiffness>(combination);
+    case NormalLaw::hertz:
+      return with_tangential<NormalLaw::hertz>(combination);
   }
   return nullptr;
 }

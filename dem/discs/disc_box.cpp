@@ -17,7 +17,8 @@ namespace {
 /// increment and holds few pairs that do not touch.
 constexpr double kSkin = 0.05;
 
-/// Bounds of what a state may say: area of the box over that of the discs, sides over each other, rotations, rad.
+/// Bounds of what a state may say: area of the box over that of the discs, sides over each other, rotations,
+/// rad.
 constexpr double kLeastArea = 0.3;
 constexpr double kMostArea = 1e3;
 constexpr double kMostTurns = 1e6;
@@ -180,7 +181,8 @@ bool DiscBox::outgrown() {
   const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_base_.inverse();
   double longest = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k)
-    longest = std::max(longest, (Eigen::Vector2d(discs_[k].x, discs_[k].y) - f * listed_places_[k]).squaredNorm());
+    longest =
+        std::max(longest, (Eigen::Vector2d(discs_[k].x, discs_[k].y) - f * listed_places_[k]).squaredNorm());
   wandered_ = std::sqrt(longest);
   return !(wandered_ < 0.8 * left);
 }
@@ -259,57 +261,94 @@ void DiscBox::control_rotation(bool damped) {
   for (std::size_t k = 0; k < discs_.size(); ++k) forces_[k].torque += torque * weights_[k];
 }
 
-void DiscBox::begin_step() {
-  const double step = definition_.time_step;
-  const double half = 0.5 * step;
-  const Eigen::Matrix2d change = motion_.change_of_gradient();
-  const Eigen::Matrix2d flow = motion_.gradient_before();
-  const double change_of_spin = motion_.change_of_spin();
-  double fastest = 0.0;
-  for (std::size_t k = 0; k < discs_.size(); ++k) {
-    Disc& disc = discs_[k];
-    DiscMotion& motion = motions_[k];
-    disc.vx += change(0, 0) * disc.x + change(0, 1) * disc.y;
-    disc.vy += change(1, 0) * disc.x + change(1, 1) * disc.y;
-    disc.spin += change_of_spin;
-    disc.vx += half * motion.ax;
-    disc.vy += half * motion.ay;
-    disc.spin += half * motion.angular;
-    const double ux = disc.vx - (flow(0, 0) * disc.x + flow(0, 1) * disc.y);
-    const double uy = disc.vy - (flow(1, 0) * disc.x + flow(1, 1) * disc.y);
-    fastest = std::max(fastest, ux * ux + uy * uy);
-    disc.x += step * disc.vx;
-    disc.y += step * disc.vy;
-    motion.turned += step * disc.spin + motion_.turn();
-    forces_[k] = DiscForce{};
-  }
-  wandered_ += step * std::sqrt(fastest);
-}
+namespace {
 
-void DiscBox::end_step() {
-  const double half = 0.5 * definition_.time_step;
-  const double rate = damping_rate_;
-  const Eigen::Matrix2d flow = motion_.gradient();
-  const double spin = motion_.spin();
-  for (std::size_t k = 0; k < discs_.size(); ++k) {
-    Disc& disc = discs_[k];
-    const DiscForce& force = forces_[k];
-    DiscMotion& motion = motions_[k];
-    motion.ax =
-        force.x * disc.inverse_mass - rate * (disc.vx - (flow(0, 0) * disc.x + flow(0, 1) * disc.y));
-    motion.ay =
-        force.y * disc.inverse_mass - rate * (disc.vy - (flow(1, 0) * disc.x + flow(1, 1) * disc.y));
+/// Second half of a step of one disc: damping against the affine flow, half a kick.
+struct Ending {
+  double half, rate;                                ///< half a time step, s; damping rate, 1/s
+  double flow_xx, flow_xy, flow_yx, flow_yy, spin;  ///< affine, 1/s
+
+  Ending(const BoxMotion& box, double step, double damping_rate)
+      : half(0.5 * step),
+        rate(damping_rate),
+        flow_xx(box.gradient()(0, 0)),
+        flow_xy(box.gradient()(0, 1)),
+        flow_yx(box.gradient()(1, 0)),
+        flow_yy(box.gradient()(1, 1)),
+        spin(box.spin()) {}
+
+  void apply(Disc& disc, const DiscForce& force, DiscMotion& motion) const {
+    motion.ax = force.x * disc.inverse_mass - rate * (disc.vx - (flow_xx * disc.x + flow_xy * disc.y));
+    motion.ay = force.y * disc.inverse_mass - rate * (disc.vy - (flow_yx * disc.x + flow_yy * disc.y));
     motion.angular = force.torque * disc.inverse_inertia - rate * (disc.spin - spin);
     disc.vx += half * motion.ax;
     disc.vy += half * motion.ay;
     disc.spin += half * motion.angular;
   }
+};
+
+/// First half of a step of one disc: what the box adds to the velocities, half a kick, drift.
+struct Beginning {
+  double step, half;                                  ///< s
+  double change_xx, change_xy, change_yx, change_yy;  ///< of the affine velocity gradient, 1/s
+  double flow_xx, flow_xy, flow_yx, flow_yy;          ///< affine, 1/s
+  double change_of_spin, turn;                        ///< rad/s, rad
+
+  Beginning(const BoxMotion& box, double time_step) : step(time_step), half(0.5 * time_step) {
+    const Eigen::Matrix2d change = box.change_of_gradient();
+    const Eigen::Matrix2d flow = box.gradient_before();
+    change_xx = change(0, 0);
+    change_xy = change(0, 1);
+    change_yx = change(1, 0);
+    change_yy = change(1, 1);
+    flow_xx = flow(0, 0);
+    flow_xy = flow(0, 1);
+    flow_yx = flow(1, 0);
+    flow_yy = flow(1, 1);
+    change_of_spin = box.change_of_spin();
+    turn = box.turn();
+  }
+
+  /// @returns square of the speed against the affine flow
+  double apply(Disc& disc, DiscMotion& motion) const {
+    disc.vx += change_xx * disc.x + change_xy * disc.y;
+    disc.vy += change_yx * disc.x + change_yy * disc.y;
+    disc.spin += change_of_spin;
+    disc.vx += half * motion.ax;
+    disc.vy += half * motion.ay;
+    disc.spin += half * motion.angular;
+    const double ux = disc.vx - (flow_xx * disc.x + flow_xy * disc.y);
+    const double uy = disc.vy - (flow_yx * disc.x + flow_yy * disc.y);
+    disc.x += step * disc.vx;
+    disc.y += step * disc.vy;
+    motion.turned += step * disc.spin + turn;
+    return ux * ux + uy * uy;
+  }
+};
+
+}  // namespace
+
+void DiscBox::begin_step(bool end_the_last) {
+  const Ending ending(motion_, definition_.time_step, damping_rate_);
+  motion_.advance();
+  const Beginning beginning(motion_, definition_.time_step);
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    if (end_the_last) ending.apply(discs_[k], forces_[k], motions_[k]);
+    fastest = std::max(fastest, beginning.apply(discs_[k], motions_[k]));
+    forces_[k] = DiscForce{};
+  }
+  wandered_ += definition_.time_step * std::sqrt(fastest);
+}
+
+void DiscBox::end_step() {
+  const Ending ending(motion_, definition_.time_step, damping_rate_);
+  for (std::size_t k = 0; k < discs_.size(); ++k) ending.apply(discs_[k], forces_[k], motions_[k]);
 }
 
 void DiscBox::run(int steps) {
   for (int done = 1; done <= steps; ++done) {
-    motion_.advance();
-    begin_step();
+    begin_step(done > 1);
     if (outgrown()) {
       std::swap(list_, former_);
       list_.find(discs_, definition_.types, definition_.combination.types, motion_.box().base_vectors(),
@@ -321,9 +360,9 @@ void DiscBox::run(int steps) {
     }
     compute_forces(true, done == steps);
     if (controlled()) control_rotation(damping_rate_ > 0.0);
-    end_step();
     if (progress && done % kProgressChunk == 0) progress();
   }
+  if (steps > 0) end_step();
 }
 
 Imbalance DiscBox::imbalance() const {

@@ -13,9 +13,9 @@ class LAMMPS;
 
 namespace polargrain::dem {
 
-/// A box of discs that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet, the
-/// same box motion, damping and control of rotations as `fix cell/strain` with `fix nve/sphere`, in three passes
-/// a step: one over the contacts and two over the discs. Tests hold it to the engine's own loop.
+/// A box of discs that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet,
+/// the same box motion, damping and control of rotations as `fix cell/strain` with `fix nve/sphere`, in two
+/// passes a step: one over the contacts and one over the discs. Tests hold it to the engine's own loop.
 class DiscBox final : public GrainBox {
  public:
   /// What of the discs never changes.
@@ -60,9 +60,10 @@ class DiscBox final : public GrainBox {
   void compute_forces(bool advance, bool record);
   /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
   void control_rotation(bool damped);
-  /// First half of a step: what the box adds to the velocities, half a kick, drift.
-  void begin_step();
-  /// Second half: damping, half a kick.
+  /// The box goes on by a step, and the discs do its first half: what the box adds to the velocities, half a
+  /// kick, drift. One pass over the discs does that and the second half of the step before.
+  void begin_step(bool end_the_last);
+  /// Second half of a step: damping, half a kick.
   void end_step();
   [[nodiscard]] bool controlled() const { return motion_.rotation() && !weights_.empty(); }
 
@@ -94,8 +95,8 @@ DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombina
 DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box& box,
                            std::span<const double> rotations);
 
-/// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who go
-/// on in the engine's own loop. The box is the caller's business; lists are not set up.
+/// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who
+/// go on in the engine's own loop. The box is the caller's business; lists are not set up.
 /// @throws RunError when the snapshot is none of these grains and models
 void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const DiscSnapshot& snapshot);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// The contact laws of docs/theory/grains.md, D.2 between discs, as numbers along the normal n (from the second
-// disc to the first, as in the engine) and the tangent t = e_3 x n. In the plane a spring of a contact has one
-// component. The engine's headers hold the same laws in space; tests hold both side by side.
+// The contact laws of docs/theory/grains.md, D.2 between discs, as numbers along the normal n (from the
+// second disc to the first, as in the engine) and the tangent t = e_3 x n. In the plane a spring of a contact
+// has one component. The engine's headers hold the same laws in space; tests hold both side by side.
 #include <cmath>
 
 #include "dem/discs/combination.hpp"
@@ -11,15 +11,15 @@ namespace polargrain::dem {
 
 /// How two discs touch and move against each other.
 struct Touch {
-  double nx = 0.0, ny = 0.0;    ///< unit normal
-  double overlap = 0.0;         ///< m
-  double opening_rate = 0.0;    ///< v_n of the first against the second along n, m/s
-  double slip_rate = 0.0;       ///< of the first surface against the second along t, m/s
-  double relative_spin = 0.0;   ///< of the first against the second, eigen-rotation included, rad/s
-  double spin_difference = 0.0; ///< without it
-  double radius_first = 0.0, radius_second = 0.0;    ///< m
-  double arm_first = 0.0, arm_second = 0.0;          ///< centre to contact point, m
-  double harmonic = 0.0;        ///< r_1 r_2 / (r_1 + r_2), m
+  double nx = 0.0, ny = 0.0;     ///< unit normal
+  double overlap = 0.0;          ///< m
+  double opening_rate = 0.0;     ///< v_n of the first against the second along n, m/s
+  double slip_rate = 0.0;        ///< of the first surface against the second along t, m/s
+  double relative_spin = 0.0;    ///< of the first against the second, eigen-rotation included, rad/s
+  double spin_difference = 0.0;  ///< without it
+  double radius_first = 0.0, radius_second = 0.0;                    ///< m
+  double arm_first = 0.0, arm_second = 0.0;                          ///< centre to contact point, m
+  double harmonic = 0.0;                                             ///< r_1 r_2 / (r_1 + r_2), m
   double inverse_mass_first = 0.0, inverse_mass_second = 0.0;        ///< 1/kg
   double inverse_inertia_first = 0.0, inverse_inertia_second = 0.0;  ///< 1/(kg m^2)
 
@@ -30,13 +30,14 @@ struct Touch {
 };
 
 struct NormalAnswer {
-  double force = 0.0;                ///< on the first along n, positive when they push, N
-  double kn = 0.0, kt = 0.0;         ///< N/m
-  double tangential_dashpot = 0.0;   ///< N s/m
+  double force = 0.0;               ///< on the first along n, positive when they push, N
+  double kn = 0.0, kt = 0.0;        ///< N/m
+  double tangential_dashpot = 0.0;  ///< N s/m
 };
 
 template <NormalLaw Law>
-[[gnu::always_inline]] inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& settings, const Touch& touch) {
+[[gnu::always_inline]] inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& settings,
+                                                      const Touch& touch) {
   NormalAnswer answer;
   double dashpot = 0.0;
   if constexpr (Law == NormalLaw::hooke_radii) {
@@ -65,7 +66,8 @@ template <NormalLaw Law>
       answer.tangential_dashpot = p.tangential_damping * factor;
     }
   }
-  answer.force = answer.kn * touch.overlap - dashpot * touch.opening_rate;
+  answer.force = answer.kn * touch.overlap;
+  if (settings.damped) answer.force -= dashpot * touch.opening_rate;
   if (settings.limit_force && answer.force < 0.0) answer.force = 0.0;
   return answer;
 }
@@ -77,16 +79,19 @@ template <NormalLaw Law>
   return true;
 }
 
-/// Places of the springs of a contact. `history` keeps its spring as a vector (the two components), `li_chu` as
-/// its length along t, with the rolling displacement beside it; the rolling law has one value behind them:
+/// Places of the springs of a contact. `history` keeps its spring as a vector (the two components), `li_chu`
+/// as its length along t, with the rolling displacement beside it; the rolling law has one value behind them:
 /// epsd2 its moment, N m, li_chu its angle, rad.
 inline constexpr int kRollingSpring = 2;
-constexpr int spring_count(RollingLaw rolling) { return rolling == RollingLaw::off ? 2 : 3; }
+constexpr int spring_count(RollingLaw rolling) {
+  return rolling == RollingLaw::off ? 2 : 3;
+}
 
 /// Tangential force on the first disc along t, N; moves the springs by a step when `advance`.
 template <TangentialLaw Law>
-[[gnu::always_inline]] inline double tangential_law(const PairParameters& p, const LawSettings& settings, const Touch& touch,
-                             const NormalAnswer& normal, double step, bool advance, double* springs) {
+[[gnu::always_inline]] inline double tangential_law(const PairParameters& p, const LawSettings& settings,
+                                                    const Touch& touch, const NormalAnswer& normal,
+                                                    double step, bool advance, double* springs) {
   const double kt = normal.kt;
   if constexpr (Law == TangentialLaw::history) {
     double spring = springs[1] * touch.nx - springs[0] * touch.ny;
@@ -94,7 +99,7 @@ template <TangentialLaw Law>
     double force = -kt * spring;
     if (cut(force, p.friction * std::abs(normal.force)))
       spring = -force / kt;
-    else
+    else if (settings.damped)
       force -= normal.tangential_dashpot * touch.slip_rate;
     if (advance) {
       springs[0] = -spring * touch.ny;
@@ -129,9 +134,12 @@ template <TangentialLaw Law>
       slides = cut(elastic, cap) || slides;
     }
     if (advance) springs[0] = slides && kt > 0.0 ? (elastic - rolling) / kt : spring;
-    double force = slides ? -elastic : -elastic - viscous - normal.tangential_dashpot * touch.slip_rate;
+    double force = -elastic;
+    if (slides) return force;
+    if (settings.rolling_force_damped) force -= viscous;
+    if (settings.damped) force -= normal.tangential_dashpot * touch.slip_rate;
     // A dashpot cannot push past the friction of the surfaces either.
-    cut(force, cap);
+    if (settings.rolling_force_damped || settings.damped) cut(force, cap);
     return force;
   }
 }
@@ -144,8 +152,9 @@ struct RollingAnswer {
 
 /// Rolling resistance; comes after the tangential law of the same contact.
 template <RollingLaw Law>
-[[gnu::always_inline]] inline RollingAnswer rolling_law(const PairParameters& p, const LawSettings& settings, const Touch& touch,
-                                 const NormalAnswer& normal, double step, bool advance, double* springs) {
+[[gnu::always_inline]] inline RollingAnswer rolling_law(const PairParameters& p, const LawSettings& settings,
+                                                        const Touch& touch, const NormalAnswer& normal,
+                                                        double step, bool advance, double* springs) {
   RollingAnswer answer;
   if constexpr (Law == RollingLaw::epsd2) {
     const double radius = touch.harmonic;
@@ -167,8 +176,8 @@ template <RollingLaw Law>
     if (advance)
       springs[kRollingSpring] = answer.at_limit ? (answer.moment + coupling) / answer.stiffness : angle;
     if (settings.rolling_damped && !answer.at_limit)
-      answer.moment += 2.0 * p.rolling_damping *
-                       std::sqrt(answer.stiffness * touch.effective_inertia()) * touch.relative_spin;
+      answer.moment += 2.0 * p.rolling_damping * std::sqrt(answer.stiffness * touch.effective_inertia()) *
+                       touch.relative_spin;
   }
   return answer;
 }
