@@ -45,7 +45,7 @@ void write(ArrayWriter&& writer, const Packing& packing) {
 
 Packing read_packing(const msgpack::object& object) {
   ArrayReader reader(object, "a packing");
-  const std::array<double, 5> box = reader.finite_numbers<5>();
+  const std::array<double, 6> box = reader.finite_numbers<6>();
   const std::span<const std::byte> id_bytes = reader.block();
   if (id_bytes.size() % sizeof(std::int64_t) != 0)
     throw ProtocolError("the grain ids of a packing are cut short");
