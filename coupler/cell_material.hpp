@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-#include <vector>
 
 #include "coupler/cell_calls.hpp"
 #include "coupler/cosserat_part.hpp"
