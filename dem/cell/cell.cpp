@@ -88,8 +88,8 @@ Cell::Cell(const CellDefinition& definition)
   grains_->progress = [this] {
     if (progress) progress();
   };
-  grains_->begin(BoxPath(grains_->box(), Eigen::Matrix2d::Zero(), 0), 0.0, std::nullopt);
-  set_up();
+  // The forces of the start are there; setting them up twice would fold the grains back twice, to other last bits.
+  if (controlled()) renew_weights();
 
   initial_.response = respond();
   initial_.response.message = remark;
@@ -114,6 +114,7 @@ std::unique_ptr<GrainBox> Cell::choose_box(const Packing& packing) {
   discs.plain = control_.loop == CellLoop::plain;
   auto box = std::make_unique<DiscBox>(std::move(discs));
   box->restore(disc_snapshot(lammps, *selection.combination, driver_.strain().box(), {}));
+  box->set_up();
   return box;
 }
 

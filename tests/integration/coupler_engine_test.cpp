@@ -97,7 +97,7 @@ TEST_F(EngineTest, AnUnstableTimeStepIsRefusedWithAStableOne) {
   std::cout << "[figure] the message: " << outcome.errors;
   EXPECT_NE(outcome.errors.find(
                 "ERROR: The time step of cell.in, 5e-05 s, is unstable for these grains and contacts: the "
-                "largest stable one is 3.69e-05 s. Leave the line 'timestep' out, and 2.95e-05 s is taken"),
+                "largest stable one is 3.79e-05 s. Leave the line 'timestep' out, and 3.03e-05 s is taken"),
             std::string::npos)
       << outcome.errors;
   EXPECT_EQ(outcome.status, 1);
