@@ -61,6 +61,7 @@ CellDefinition cell_of(const std::string& style) {
   models += "fix poissonsRatio all property/global poissonsRatio peratomtype 0.2\n";
   models += "pair_style gran model " + style + "\npair_coeff * *\ntimestep 2e-5\n";
   script.replace(start, rest - start, models);
+  definition.packing.pressure = 0.0;  // made under another law: the stress at rest is another too
   definition.control.tangent = CellTangent::none;
   return definition;
 }
