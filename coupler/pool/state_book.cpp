@@ -52,8 +52,8 @@ StatePointer StateBook::arrived(const StatePointer& state, std::uint64_t worker)
   entry.state = pointer;
   entry.place = pointer.get();
   if (entry.home != worker) pages_->release(state->name(), std::exchange(entry.home, worker));
-  const std::optional<Origin> done =
-      std::exchange(entry.origin, {});  // ends behind the last use of the entry
+  const std::optional<Origin> done = std::move(entry.origin);  // ends behind the last use of the entry
+  entry.origin.reset();
   return pointer;
 }
 
