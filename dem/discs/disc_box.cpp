@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/discs/disc_box.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -104,19 +106,27 @@ void DiscBox::check(const DiscSnapshot& snapshot) const {
   double area = 0.0;
   for (const double radius : definition_.radii) area += std::numbers::pi * radius * radius;
   const Box& box = snapshot.box;
-  bool sound = box.area() > kLeastArea * area && box.area() < kMostArea * area &&
-               std::abs(box.tilt) <= 0.6 * box.length_x && box.length_x < kMostArea * box.length_y &&
-               box.length_y < kMostArea * box.length_x && std::abs(box.rotation) < kMostTurns;
+  const bool box_is_sound = box.area() > kLeastArea * area && box.area() < kMostArea * area &&
+                            std::abs(box.tilt) <= 0.6 * box.length_x &&
+                            box.length_x < kMostArea * box.length_y &&
+                            box.length_y < kMostArea * box.length_x && std::abs(box.rotation) < kMostTurns;
+  if (!box_is_sound)
+    throw RunError(fmt::format("this state of a cell is damaged: its box has sides of {:.3g} and {:.3g} m, a tilt of "
+                               "{:.3g} m and is turned by {:.3g} rad",
+                               box.length_x, box.length_y, box.tilt, box.rotation));
   const double step = definition_.time_step;
   for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
     const DiscSnapshot::Motion& disc = snapshot.discs[k];
     const double radius = definition_.radii[k];
-    sound = sound && disc.y >= -radius && disc.y <= box.length_y + radius &&
-            std::abs(disc.x) <= 2.0 * box.length_x + radius && std::abs(disc.vx) * step < radius &&
-            std::abs(disc.vy) * step < radius && std::abs(disc.spin) * step < 1.0 &&
-            std::abs(disc.turned) < kMostTurns;
+    const bool sound = disc.y >= -radius && disc.y <= box.length_y + radius &&
+                       std::abs(disc.x) <= 2.0 * box.length_x + radius && std::abs(disc.vx) * step < radius &&
+                       std::abs(disc.vy) * step < radius && std::abs(disc.spin) * step < 1.0 &&
+                       std::abs(disc.turned) < kMostTurns;
+    if (!sound)
+      throw RunError(fmt::format("this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}) m and moves at "
+                                 "({:.3g}, {:.3g}) m/s and {:.3g} rad/s, turned by {:.3g} rad",
+                                 k, disc.x, disc.y, disc.vx, disc.vy, disc.spin, disc.turned));
   }
-  if (!sound) throw RunError("this state of a cell is damaged");
 }
 
 StatePointer DiscBox::save() {
