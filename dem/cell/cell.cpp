@@ -66,7 +66,6 @@ class Cell final : public CellService {
   double thickness_ = 0.0;      // m
   Driver driver_;
   Inertia inertia_;            // of the grains, as contacts count them
-  double viscous_time_ = 0.0;  // longest of the contacts at the start, s
   std::unique_ptr<GrainBox> grains_;
   CondensedTangent condensed_tangent_;
   CellReply initial_;
@@ -83,7 +82,6 @@ Cell::Cell(const CellDefinition& definition)
   driver_.set_up();
   const std::string remark = driver_.settle_time_step(control_.damping);
   inertia_ = inertia_of(lammps);
-  viscous_time_ = longest_viscous_time(driver_.contacts());
   grains_ = choose_box(packing);
   grains_->progress = [this] {
     if (progress) progress();
@@ -193,7 +191,7 @@ CellReply Cell::evaluate(const CellRequest& request) {
   std::string fault = answer_fault(overlaps_of(grains_->contacts(), inertia_.radii), rest.void_ratio);
   if (fault.empty())
     fault =
-        step_fault(grains_->contacts(), inertia_, viscous_time_, damping_rate_, driver_.strain().time_step());
+        step_fault(grains_->contacts(), inertia_, damping_rate_, driver_.strain().time_step());
   if (!fault.empty()) {
     reply.response.quality = Quality::unreliable;
     reply.response.step_factor = 0.5;
@@ -216,8 +214,8 @@ void Cell::set_up() {
 }
 
 void Cell::renew_weights() {
-  const std::vector<double> capacities = torque_capacities(grains_->contacts(), driver_.grains());
-  if (!capacities.empty()) grains_->set_torque_capacities(capacities);
+  const std::vector<double> weights = rotation_weights(grains_->contacts(), driver_.grains());
+  if (!weights.empty()) grains_->set_rotation_weights(weights);
 }
 
 void Cell::run(int steps) {

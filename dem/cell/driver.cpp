@@ -122,7 +122,7 @@ double Driver::damping_rate(double fraction) const {
 }
 
 Equilibrium Driver::equilibrium() const {
-  return equilibrium_of(contacts(), strain_->imbalance(), mean_radius_, least_force_, strain_->box().area(),
+  return equilibrium_of(contacts(), strain_->imbalance(), mean_radius_, 0.0, strain_->box().area(),
                         grain_area_);
 }
 

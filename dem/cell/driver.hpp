@@ -38,9 +38,6 @@ class Driver {
   /// engine's words when a grain was lost.
   void run(int steps);
   [[nodiscard]] std::span<const Contact> contacts() const { return contact_recorder().contacts; }
-  /// Mean contact force below which unbalanced forces are compared with this one instead, N (kLeastForce); 0
-  /// until it is set.
-  void set_least_force(double force) { least_force_ = force; }
   /// Of the recorded contacts and the last force pass.
   [[nodiscard]] Equilibrium equilibrium() const;
 
@@ -72,7 +69,6 @@ class Driver {
   double mean_mass_ = 0.0;
   double grain_area_ = 0.0;
   double thickness_ = 0.0;
-  double least_force_ = 0.0;
   std::string script_file_;
   Engine engine_;
   std::optional<ScriptTimeStep> time_step_;

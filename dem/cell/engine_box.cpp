@@ -28,8 +28,8 @@ void EngineBox::begin(const BoxPath& path, double damping_rate, std::optional<Ro
   driver_.strain().begin(path, damping_rate, std::move(rotation));
 }
 
-void EngineBox::set_torque_capacities(std::span<const double> capacities) {
-  driver_.strain().set_torque_capacities(capacities);
+void EngineBox::set_rotation_weights(std::span<const double> weights) {
+  driver_.strain().set_rotation_weights(weights);
 }
 
 }  // namespace polargrain::dem

@@ -17,7 +17,7 @@ class EngineBox final : public GrainBox {
   void set_up() override { driver_.set_up(); }
   void run(int steps) override { driver_.run(steps); }
 
-  void set_torque_capacities(std::span<const double> capacities) override;
+  void set_rotation_weights(std::span<const double> weights) override;
   void hold_rotation() override { driver_.strain().setup(0); }
   [[nodiscard]] std::span<const double> weights() const override { return driver_.strain().weights(); }
   [[nodiscard]] double multiplier() const override { return driver_.strain().multiplier(); }

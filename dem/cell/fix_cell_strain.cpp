@@ -144,11 +144,8 @@ void FixCellStrain::balance(bool damped) {
   sum_unbalanced_moments();
 }
 
-void FixCellStrain::set_torque_capacities(std::span<const double> capacities) {
-  double sum = 0.0;
-  for (const double capacity : capacities) sum += capacity;
-  weights_.assign(capacities.begin(), capacities.end());
-  for (double& weight : weights_) weight /= sum;
+void FixCellStrain::set_rotation_weights(std::span<const double> weights) {
+  weights_.assign(weights.begin(), weights.end());
 }
 
 void FixCellStrain::control_mean_rotation() {

@@ -58,9 +58,9 @@ class FixCellStrain : public LAMMPS_NS::Fix {
     rotations_.assign(rotations.begin(), rotations.end());
   }
   [[nodiscard]] std::span<const double> rotations() const { return rotations_; }
-  /// Weights of the grains in the mean rotation, by local index, m N; not all zero. To be set before the
+  /// Weights of the grains in the mean rotation, by local index, adding up to 1 (rotation_weights). To be set before the
   /// first force pass of a path with a RotationLoading, and as often as the forces have changed.
-  void set_torque_capacities(std::span<const double> capacities);
+  void set_rotation_weights(std::span<const double> weights);
   [[nodiscard]] const Box& box() const { return motion_.box(); }
   [[nodiscard]] int grains() const { return atom->nlocal; }
   [[nodiscard]] double time_step() const { return update->dt; }

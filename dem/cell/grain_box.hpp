@@ -32,9 +32,9 @@ class GrainBox {
   /// Called now and then while it runs; may be empty.
   std::function<void()> progress;
 
-  /// Weights of the grains in the mean rotation, m N, not all zero (mode 2). Before the first step
+  /// Weights of the grains in the mean rotation, adding up to 1 (mode 2; rotation_weights). Before the first step
   /// `hold_rotation` puts the torques that hold the mean to the forces of set_up.
-  virtual void set_torque_capacities(std::span<const double> capacities) = 0;
+  virtual void set_rotation_weights(std::span<const double> weights) = 0;
   virtual void hold_rotation() = 0;
   /// W_p over the volume: they add up to 1; empty while there are none.
   [[nodiscard]] virtual std::span<const double> weights() const = 0;

@@ -38,21 +38,22 @@ int loading_steps(const CellControl& control, const Increment& increment, double
   return std::max(control.least_steps, static_cast<int>(steps));
 }
 
-std::vector<double> torque_capacities(std::span<const Contact> contacts, int grains) {
-  std::vector<double> capacities(static_cast<std::size_t>(grains), 0.0);
-  std::vector<int> count(capacities.size(), 0);
+std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains) {
+  std::vector<double> weights(static_cast<std::size_t>(grains), 0.0);
+  std::vector<int> count(weights.size(), 0);
   for (const Contact& contact : contacts) {
     const double force = std::max(0.0, contact.normal_force());
-    capacities[contact.first] += contact.arm_first * force;
-    capacities[contact.second] += contact.arm_second * force;
+    weights[contact.first] += contact.arm_first * force;
+    weights[contact.second] += contact.arm_second * force;
     ++count[contact.first];
     ++count[contact.second];
   }
   double sum = 0.0;
-  for (std::size_t k = 0; k < capacities.size(); ++k)
-    sum += capacities[k] = count[k] < 2 ? 0.0 : capacities[k];
-  if (!(sum > 0.0)) capacities.clear();
-  return capacities;
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    sum += weights[k] = count[k] < 2 ? 0.0 : weights[k];
+  if (!(sum > 0.0)) weights.clear();
+  for (double& weight : weights) weight /= sum;
+  return weights;
 }
 
 Unbalanced unbalanced(const Imbalance& imbalance, std::span<const Contact> contacts, double mean_radius,

@@ -20,10 +20,10 @@ inline constexpr int kRelaxationChunk = 20;
 int loading_steps(const CellControl& control, const Increment& increment, double time_of_grain,
                   double mean_radius, double time_step);
 
-/// Torque that the contacts of each grain can carry, N m, up to the coefficient of friction: the weights of
-/// the grains in the mean rotation (mode 2). Zero with fewer than two contacts, or the multiplier would spin
-/// up the grains that nothing holds. Empty when nothing carries any.
-std::vector<double> torque_capacities(std::span<const Contact> contacts, int grains);
+/// Weights of the grains in the mean rotation (mode 2), W_p over the volume: the torque that the contacts of each
+/// can carry, up to the coefficient of friction, over the sum of all. Zero with fewer than two contacts, or the
+/// multiplier would spin up the grains that nothing holds. Empty when nothing carries any.
+std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains);
 
 /// Resultants of the contacts of the grains, and of what holds their mean rotation, before damping.
 struct Imbalance {

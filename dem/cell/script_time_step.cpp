@@ -100,8 +100,9 @@ void ScriptTimeStep::refuse(LAMMPS_NS::LAMMPS& lammps, double stable, const std:
   std::abort();  // not reached: an engine error ends the process
 }
 
-std::string step_fault(std::span<const Contact> contacts, const Inertia& inertia, double viscous_time,
-                       double damping_rate, double time_step) {
+std::string step_fault(std::span<const Contact> contacts, const Inertia& inertia, double damping_rate,
+                       double time_step) {
+  const double viscous_time = longest_viscous_time(contacts);
   if (time_step <= stable_time_step(frequency_bound(contacts, inertia), viscous_time, damping_rate))
     return {};
   const double stable = stable_time_step(largest_frequency(contacts, inertia), viscous_time, damping_rate);

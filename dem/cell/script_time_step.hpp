@@ -48,9 +48,7 @@ class ScriptTimeStep {
 
 /// Whether a step that was stable still is; costs little while there is room. @returns what is wrong, else
 /// nothing
-/// @param viscous_time longest of the contacts of the script, s (contacts of the loop over discs do not tell
-/// theirs)
-std::string step_fault(std::span<const Contact> contacts, const Inertia& inertia, double viscous_time,
-                       double damping_rate, double time_step);
+std::string step_fault(std::span<const Contact> contacts, const Inertia& inertia, double damping_rate,
+                       double time_step);
 
 }  // namespace polargrain::dem

@@ -15,8 +15,8 @@ struct Contact {
   Eigen::Vector2d force;              ///< on first, by second, N
   double normal_stiffness = 0.0;      ///< N/m
   double tangential_stiffness = 0.0;  ///< N/m
-  double normal_viscosity = 0.0;      ///< of the dashpot, N s/m; recorded by the engine's loop only
-  double tangential_viscosity = 0.0;  ///< N s/m; recorded by the engine's loop only
+  double normal_viscosity = 0.0;      ///< of the dashpot, N s/m
+  double tangential_viscosity = 0.0;  ///< N s/m
   double arm_first = 0.0;             ///< centre of first to the contact point, m
   double arm_second = 0.0;
   double friction = 0.0;  ///< sliding friction coefficient of the pair; 0 when the script has none

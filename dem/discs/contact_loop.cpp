@@ -4,29 +4,11 @@
 #include <cmath>
 
 #include "dem/discs/laws.hpp"
+#include "dem/discs/take_down.hpp"
 
 namespace polargrain::dem {
 
 namespace {
-
-/// What is taken down of a contact once its laws have spoken.
-Contact take_down(int first, int second, double dx, double dy, const Touch& touch, const PairParameters& p,
-                  const NormalAnswer& normal, double fx, double fy, const RollingAnswer& rolling) {
-  Contact contact;
-  contact.first = first;
-  contact.second = second;
-  contact.branch = {-dx, -dy};
-  contact.force = {fx, fy};
-  contact.normal_stiffness = normal.kn;
-  contact.tangential_stiffness = normal.kt;
-  contact.arm_first = touch.arm_first;
-  contact.arm_second = touch.arm_second;
-  contact.friction = p.friction;
-  contact.moment = -rolling.moment;
-  contact.rolling_stiffness = rolling.stiffness;
-  contact.rolling_at_limit = rolling.at_limit;
-  return contact;
-}
 
 /// @tparam Bare without dashpots and without a limit of normal forces, which then need not be asked for
 template <NormalLaw Normal, TangentialLaw Tangential, RollingLaw Rolling, bool Bare>

@@ -96,8 +96,6 @@ void DiscBox::restore(const DiscSnapshot& snapshot) {
   }
   former_.rows.resize(discs_.size() + 1, static_cast<std::int32_t>(former_.pairs.size()));
   former_.values = snapshot.values;
-  list_.find(discs_, definition_.types, definition_.combination.types, snapshot.box.base_vectors(), skin_);
-  list_.take_springs(former_);
   find_candidates();
 }
 
@@ -171,30 +169,29 @@ StatePointer DiscBox::save() {
 }
 
 void DiscBox::find_candidates() {
-  listed_base_ = motion_.box().base_vectors();
+  const Eigen::Matrix2d base = motion_.box().base_vectors();
+  list_.find(discs_, definition_.types, definition_.combination.types, base, skin_);
+  list_.take_springs(former_);
+  listed_inverse_ = base.inverse();
   wandered_ = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k) listed_places_[k] = {discs_[k].x, discs_[k].y};
   images_.resize(list_.images.size());
   place_images();
 }
 
-double DiscBox::room() const {
-  const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_base_.inverse();
-  const double stretch = least_stretch(f);
-  return 0.5 * (stretch * skin_ - (1.0 - stretch) * 2.0 * largest_radius_);
-}
-
 bool DiscBox::outgrown() {
-  const double left = room();
-  if (wandered_ < left) return false;
+  const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_inverse_;
+  // How far discs may move against the affine flow before two that are no candidates may touch.
+  const double stretch = least_stretch(f);
+  const double room = 0.5 * (stretch * skin_ - (1.0 - stretch) * 2.0 * largest_radius_);
+  if (wandered_ < room) return false;
   // The bound adds up speeds; the way itself is shorter.
-  const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_base_.inverse();
   double longest = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k)
     longest =
         std::max(longest, (Eigen::Vector2d(discs_[k].x, discs_[k].y) - f * listed_places_[k]).squaredNorm());
   wandered_ = std::sqrt(longest);
-  return !(wandered_ < 0.8 * left);
+  return !(wandered_ < 0.8 * room);
 }
 
 void DiscBox::place_images() {
@@ -214,10 +211,6 @@ void DiscBox::begin(const BoxPath& path, double damping_rate, std::optional<Rota
   weights_.clear();  // those of another path say nothing of this one
 }
 
-void DiscBox::clear_forces() {
-  std::fill(forces_.begin(), forces_.end(), DiscForce{});
-}
-
 void DiscBox::compute_forces(bool advance, bool record) {
   const ContactLoop::Scene scene{discs_, images_, motion_.curvature_rate(), definition_.time_step, advance};
   if (!record) {
@@ -229,7 +222,7 @@ void DiscBox::compute_forces(bool advance, bool record) {
 }
 
 void DiscBox::set_up() {
-  clear_forces();
+  std::fill(forces_.begin(), forces_.end(), DiscForce{});
   compute_forces(false, true);
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     motions_[k].ax = forces_[k].x * discs_[k].inverse_mass;
@@ -238,11 +231,8 @@ void DiscBox::set_up() {
   }
 }
 
-void DiscBox::set_torque_capacities(std::span<const double> capacities) {
-  double sum = 0.0;
-  for (const double capacity : capacities) sum += capacity;
-  weights_.assign(capacities.begin(), capacities.end());
-  for (double& weight : weights_) weight /= sum;
+void DiscBox::set_rotation_weights(std::span<const double> weights) {
+  weights_.assign(weights.begin(), weights.end());
 }
 
 void DiscBox::hold_rotation() {
@@ -361,9 +351,6 @@ void DiscBox::run(int steps) {
     begin_step(done > 1);
     if (outgrown()) {
       std::swap(list_, former_);
-      list_.find(discs_, definition_.types, definition_.combination.types, motion_.box().base_vectors(),
-                 skin_);
-      list_.take_springs(former_);
       find_candidates();
     } else if (motion_.moving()) {
       place_images();

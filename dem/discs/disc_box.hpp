@@ -38,7 +38,7 @@ class DiscBox final : public GrainBox {
   void set_up() override;
   void run(int steps) override;
 
-  void set_torque_capacities(std::span<const double> capacities) override;
+  void set_rotation_weights(std::span<const double> weights) override;
   void hold_rotation() override;
   [[nodiscard]] std::span<const double> weights() const override { return weights_; }
   [[nodiscard]] double multiplier() const override { return multiplier_; }
@@ -50,13 +50,11 @@ class DiscBox final : public GrainBox {
  private:
   /// @throws RunError when the numbers are none that an evaluation leaves behind
   void check(const DiscSnapshot& snapshot) const;
+  /// Makes the list anew; springs come from the former one.
   void find_candidates();
   /// Whether two discs that are no candidates may have come to touch.
   [[nodiscard]] bool outgrown();
-  /// How far the discs may move against the affine flow before that, m; less than 0 when it is too late.
-  [[nodiscard]] double room() const;
   void place_images();
-  void clear_forces();
   void compute_forces(bool advance, bool record);
   /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
   void control_rotation(bool damped);
@@ -76,7 +74,7 @@ class DiscBox final : public GrainBox {
   CandidateList list_;
   CandidateList former_;
   std::vector<MovingImage> images_;
-  Eigen::Matrix2d listed_base_ = Eigen::Matrix2d::Identity();  ///< box when the list was made
+  Eigen::Matrix2d listed_inverse_ = Eigen::Matrix2d::Identity();  ///< H^-1 when the list was made, 1/m
   std::vector<Eigen::Vector2d> listed_places_;
   /// Bound of how far a disc has moved against the affine flow since the list was made, m.
   double wandered_ = 0.0;

@@ -32,6 +32,7 @@ struct Touch {
 struct NormalAnswer {
   double force = 0.0;               ///< on the first along n, positive when they push, N
   double kn = 0.0, kt = 0.0;        ///< N/m
+  double normal_dashpot = 0.0;      ///< N s/m
   double tangential_dashpot = 0.0;  ///< N s/m
 };
 
@@ -39,13 +40,12 @@ template <NormalLaw Law>
 [[gnu::always_inline]] inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& settings,
                                                       const Touch& touch) {
   NormalAnswer answer;
-  double dashpot = 0.0;
   if constexpr (Law == NormalLaw::hooke_radii) {
     answer.kn = p.normal * touch.harmonic;
     answer.kt = p.tangential * answer.kn;
     if (settings.damped) {
       const double mass = touch.effective_mass();
-      dashpot = 2.0 * p.normal_damping * std::sqrt(answer.kn * mass);
+      answer.normal_dashpot = 2.0 * p.normal_damping * std::sqrt(answer.kn * mass);
       answer.tangential_dashpot = 2.0 * p.tangential_damping * std::sqrt(answer.kt * mass);
     }
   } else if constexpr (Law == NormalLaw::hooke_stiffness) {
@@ -53,7 +53,7 @@ template <NormalLaw Law>
     answer.kt = p.tangential;
     if (settings.damped) {
       const double mass = settings.absolute_damping ? 1.0 : touch.effective_mass();
-      dashpot = mass * p.normal_damping;
+      answer.normal_dashpot = mass * p.normal_damping;
       answer.tangential_dashpot = mass * p.tangential_damping;
     }
   } else {
@@ -62,12 +62,12 @@ template <NormalLaw Law>
     answer.kt = p.tangential * root;
     if (settings.damped) {
       const double factor = std::sqrt(root * touch.effective_mass());
-      dashpot = p.normal_damping * factor;
+      answer.normal_dashpot = p.normal_damping * factor;
       answer.tangential_dashpot = p.tangential_damping * factor;
     }
   }
   answer.force = answer.kn * touch.overlap;
-  if (settings.damped) answer.force -= dashpot * touch.opening_rate;
+  if (settings.damped) answer.force -= answer.normal_dashpot * touch.opening_rate;
   if (settings.limit_force && answer.force < 0.0) answer.force = 0.0;
   return answer;
 }

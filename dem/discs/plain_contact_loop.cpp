@@ -5,6 +5,7 @@
 
 #include "dem/discs/contact_loop.hpp"
 #include "dem/discs/laws.hpp"
+#include "dem/discs/take_down.hpp"
 
 namespace polargrain::dem {
 
@@ -89,20 +90,8 @@ class PlainLoop final : public ContactLoop {
     other.y -= force.y();
     other.torque -= touch.arm_second * tangential - rolling.moment;
 
-    Contact contact;
-    contact.first = i;
-    contact.second = pair.second;
-    contact.branch = -delta;
-    contact.force = force;
-    contact.normal_stiffness = normal.kn;
-    contact.tangential_stiffness = normal.kt;
-    contact.arm_first = touch.arm_first;
-    contact.arm_second = touch.arm_second;
-    contact.friction = p.friction;
-    contact.moment = -rolling.moment;
-    contact.rolling_stiffness = rolling.stiffness;
-    contact.rolling_at_limit = rolling.at_limit;
-    contacts.push_back(contact);
+    contacts.push_back(take_down(i, pair.second, delta.x(), delta.y(), touch, p, normal, force.x(), force.y(),
+                                 rolling));
   }
 
   /// Kinematics of a contact (D.1).

@@ -236,8 +236,8 @@ void FixCellLoad::post_force(int vflag) {
 }
 
 void FixCellLoad::renew_weights() {
-  const std::vector<double> capacities = torque_capacities(contact_recorder().contacts, grains());
-  if (!capacities.empty()) set_torque_capacities(capacities);
+  const std::vector<double> weights = rotation_weights(contact_recorder().contacts, grains());
+  if (!weights.empty()) set_rotation_weights(weights);
 }
 
 void FixCellLoad::look() {
