@@ -7,8 +7,8 @@
 #include "common/cell.hpp"
 #include "coupler/adaptivity/audits.hpp"
 #include "coupler/adaptivity/error_estimate.hpp"
-#include "coupler/cell_calls.hpp"
-#include "coupler/cosserat_part.hpp"
+#include "coupler/cells/cell_calls.hpp"
+#include "coupler/cells/cosserat_part.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {

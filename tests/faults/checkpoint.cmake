@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 foreach(topic kill stop disk)
-  polargrain_test(checkpoint_${topic}_test faults faults/checkpoint_${topic}_test.cpp LIBS polargrain_coupler)
+  polargrain_test(checkpoint_${topic}_test faults faults/checkpoint_${topic}_test.cpp LIBS polargrain_app)
   target_compile_definitions(checkpoint_${topic}_test PRIVATE POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
   add_dependencies(checkpoint_${topic}_test fake_polargrain)
 endforeach()
 if(TARGET polargrain)
   # The same kills with real grains: some minutes.
-  polargrain_test(checkpoint_grains_test long faults/checkpoint_grains_test.cpp LIBS polargrain_coupler)
+  polargrain_test(checkpoint_grains_test long faults/checkpoint_grains_test.cpp LIBS polargrain_app)
   target_compile_definitions(checkpoint_grains_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                              POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(checkpoint_grains_test polargrain)

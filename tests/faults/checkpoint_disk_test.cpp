@@ -9,7 +9,7 @@
 
 #include "common/error.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
-#include "coupler/commands/csv_file.hpp"
+#include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
 #include "tests/integration/command.hpp"
 
@@ -153,7 +153,7 @@ TEST_F(Disk, ThatMayOnlyBeReadIsRefusedBeforeAnythingRuns) {
 TEST_F(Disk, AFileThatCannotBeWrittenIsNamed) {
   // A directory in the place of the file: not even root can write it.
   std::filesystem::create_directories(scratch_.path() / "taken");
-  EXPECT_THROW(coupler::CsvFile(scratch_.path() / "taken", std::vector<std::string>{"a"}), RunError);
+  EXPECT_THROW(app::CsvFile(scratch_.path() / "taken", std::vector<std::string>{"a"}), RunError);
   try {
     fem::write_file(scratch_.path() / "taken" / "none" / "file", "text");
     FAIL();
@@ -173,7 +173,7 @@ TEST_F(Disk, AFileThatCannotBeWrittenIsNamed) {
 TEST_F(Disk, FullForARowLeavesWholeRows) {
   const SmallDisk disk(scratch_.path() / "small", "16k");
   MOUNT_OR_SKIP(disk);
-  coupler::CsvFile file(scratch_.path() / "small/rows.csv", std::vector<std::string>{"name", "value"});
+  app::CsvFile file(scratch_.path() / "small/rows.csv", std::vector<std::string>{"name", "value"});
   disk.fill_up_to(0);
   const std::string wide(1000, '7');
   long good = 0;

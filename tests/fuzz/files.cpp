@@ -11,8 +11,8 @@
 #include "common/packing_file.hpp"
 #include "coupler/case/case.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
-#include "coupler/commands/point.hpp"
-#include "coupler/pack/read_specification.hpp"
+#include "app/commands/point.hpp"
+#include "app/pack/read_specification.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -58,10 +58,10 @@ bool read_as(FileKind kind, std::string_view bytes) {
         (void)read_packing(place.write("packing.h5", bytes));
         break;
       case FileKind::path:
-        (void)coupler::read_path(place.write("path.csv", bytes));
+        (void)app::read_path(place.write("path.csv", bytes));
         break;
       case FileKind::specification:
-        (void)coupler::read_packing_specification(place.write("specification.yaml", bytes), {});
+        (void)app::read_packing_specification(place.write("specification.yaml", bytes), {});
         break;
       case FileKind::checkpoint:
         (void)coupler::read_checkpoint(place.write("checkpoint.h5", bytes));

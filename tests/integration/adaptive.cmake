@@ -3,7 +3,7 @@ polargrain_test(adaptive_run_test integration integration/adaptive_run_test.cpp 
 target_compile_definitions(adaptive_run_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
 add_dependencies(adaptive_run_test fake_polargrain)
 
-polargrain_test(bench_command_test integration integration/bench_command_test.cpp LIBS polargrain_coupler)
+polargrain_test(bench_command_test integration integration/bench_command_test.cpp LIBS polargrain_app)
 target_compile_definitions(bench_command_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"
                                                       CASES="${PROJECT_SOURCE_DIR}/cases")
 add_dependencies(bench_command_test fake_polargrain)

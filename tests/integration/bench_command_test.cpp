@@ -7,12 +7,12 @@
 #include <map>
 #include <sstream>
 
-#include "coupler/commands/bench_page.hpp"
-#include "coupler/commands/bench_plot.hpp"
+#include "app/bench/bench_page.hpp"
+#include "app/bench/bench_plot.hpp"
 #include "tests/integration/command.hpp"
 #include "tests/integration/csv.hpp"
 
-namespace polargrain::coupler {
+namespace polargrain::app {
 namespace {
 
 using testing::content;
@@ -344,4 +344,4 @@ TEST_F(BenchCommandTest, NothingRunsWhenACaseIsWrong) {
 }
 
 }  // namespace
-}  // namespace polargrain::coupler
+}  // namespace polargrain::app

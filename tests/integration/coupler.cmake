@@ -11,7 +11,7 @@ target_compile_definitions(coupler_pool_test PRIVATE FAKE_WORKER="$<TARGET_FILE:
 add_dependencies(coupler_pool_test fake_worker)
 
 add_executable(fake_polargrain integration/fake_polargrain.cpp)
-target_link_libraries(fake_polargrain PRIVATE polargrain_coupler polargrain_fake_engine)
+target_link_libraries(fake_polargrain PRIVATE polargrain_app polargrain_fake_engine)
 
 polargrain_test(coupler_bad_input_test integration integration/coupler_bad_input_test.cpp LIBS polargrain_options)
 target_compile_definitions(coupler_bad_input_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")

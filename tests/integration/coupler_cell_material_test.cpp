@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "common/memory_archive.hpp"
-#include "coupler/cell_material.hpp"
+#include "coupler/cells/cell_material.hpp"
 #include "tests/integration/command.hpp"
 #include "tests/integration/fake_engine.hpp"
 

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "common/packing.hpp"
-#include "coupler/cell_material.hpp"
+#include "coupler/cells/cell_material.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/solver.hpp"
 #include "tests/integration/command.hpp"

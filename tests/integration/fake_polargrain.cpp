@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The program with the fake engine in the place of LIGGGHTS.
-#include "coupler/commands/command_line.hpp"
+#include "app/commands/command_line.hpp"
 #include "tests/integration/fake_engine.hpp"
 
 int main(int count, char** arguments) {
-  return polargrain::coupler::command_line(
+  return polargrain::app::command_line(
       count, arguments, {[] {}, polargrain::testing::make_fake_engine},
       {[] {}, [](const auto& specification,
                  const auto&) { return polargrain::testing::make_fake_packing(specification); }});

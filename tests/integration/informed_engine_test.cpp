@@ -4,8 +4,8 @@
 
 #include <iostream>
 
-#include "coupler/cell_material.hpp"
-#include "coupler/informed_material.hpp"
+#include "coupler/cells/cell_material.hpp"
+#include "coupler/cells/informed_material.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/solver.hpp"
 #include "tests/integration/command.hpp"

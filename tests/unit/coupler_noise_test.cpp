@@ -2,7 +2,7 @@
 // The noise that a cell's stress is given.
 #include <gtest/gtest.h>
 
-#include "coupler/cell_noise.hpp"
+#include "coupler/cells/cell_noise.hpp"
 
 namespace polargrain::coupler {
 namespace {

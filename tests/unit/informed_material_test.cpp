@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The informed material over cells whose law is known (docs/theory/plasticity.md, B.9).
-#include "coupler/informed_material.hpp"
+#include "coupler/cells/informed_material.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Not under sanitizers: HDF5 itself leaks, and asks for absurd sizes, when it refuses a damaged file.
 polargrain_test(pack_file_test integration unit/pack_file_test.cpp LIBS polargrain_common)
-polargrain_test(pack_specification_test unit unit/pack_specification_test.cpp LIBS polargrain_coupler)
+polargrain_test(pack_specification_test unit unit/pack_specification_test.cpp LIBS polargrain_app)
 if(TARGET polargrain_dem)
   polargrain_test(pack_sizes_test unit unit/pack_sizes_test.cpp LIBS polargrain_dem)
 endif()

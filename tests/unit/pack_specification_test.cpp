@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "common/error.hpp"
-#include "coupler/pack/read_specification.hpp"
+#include "app/pack/read_specification.hpp"
 
-namespace polargrain::coupler {
+namespace polargrain::app {
 namespace {
 
 const std::string kGood =
@@ -82,4 +82,4 @@ TEST_F(Specification, FaultsNameTheLine) {
 }
 
 }  // namespace
-}  // namespace polargrain::coupler
+}  // namespace polargrain::app

@@ -7,7 +7,7 @@
 #include "coupler/case/material_model.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
-#include "coupler/cell_material.hpp"
+#include "coupler/cells/cell_material.hpp"
 
 namespace polargrain::coupler {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/cell.hpp"
 #include "coupler/case/section.hpp"
-#include "coupler/cosserat_part.hpp"
+#include "coupler/cells/cosserat_part.hpp"
 
 namespace polargrain::coupler {
 

@@ -4,7 +4,7 @@
 #include "coupler/case/material_model.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
-#include "coupler/informed_material.hpp"
+#include "coupler/cells/informed_material.hpp"
 
 namespace polargrain::coupler {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include "coupler/case/section.hpp"
-#include "coupler/cosserat_part.hpp"
-#include "coupler/informed_material.hpp"
+#include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/informed_material.hpp"
 
 namespace polargrain::coupler {
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/bench/bench_table.hpp"
+
+namespace polargrain::app {
+
+/// The results as one HTML page without any other file: a plot of error against seconds for each y, and the
+/// table.
+std::string bench_page(const std::string& title, const BenchAxes& axes,
+                       const std::vector<BenchResult>& results, const std::vector<SizeScatter>& sizes,
+                       const BenchTable& table);
+
+}  // namespace polargrain::app

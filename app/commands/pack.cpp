@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/commands/pack.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+#include "common/error.hpp"
+#include "common/packing_data.hpp"
+#include "common/packing_file.hpp"
+#include "app/pack/read_specification.hpp"
+#include "coupler/pool/log_excerpt.hpp"
+#include "fem/output/write_file.hpp"
+
+namespace polargrain::app {
+namespace {
+
+void check_output(const std::filesystem::path& output) {
+  if (output.extension() != ".h5")
+    throw InputError({"", 0, fmt::format("-o {}: the name of a packing must end in .h5", output.string())});
+  std::error_code error;
+  const std::filesystem::path directory = output.has_parent_path() ? output.parent_path() : ".";
+  if (!std::filesystem::is_directory(directory, error))
+    throw InputError(
+        {"", 0, fmt::format("-o {}: there is no folder {}", output.string(), directory.string())});
+}
+
+/// Makes a packing, telling how far it is.
+using Work = std::function<PreparedPacking(const std::function<void(const PackingReached&)>&)>;
+
+/// What the child does; never returns. @param terminal where progress is shown, negative for nowhere
+[[noreturn]] void make_and_exit(const Work& make, const std::filesystem::path& output,
+                                const PackingTools& tools, int terminal) {
+  int status = 1;
+  try {
+    tools.start_process();
+    const auto progress = [terminal](const PackingReached& reached) {
+      const std::string line = fmt::format(
+          "\rstep {:.0f}: void ratio {:.4f}, pressure {:.4g} kPa, unbalanced {:.1e}   ", reached.dem_steps,
+          reached.void_ratio, 1e-3 * reached.pressure, reached.unbalanced_force_ratio);
+      if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0)
+        return;  // nobody looks: nothing lost
+    };
+    write_packing_file(output, make(progress));
+    status = 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ERROR: {}\n", error.what());
+  }
+  std::exit(status);
+}
+
+/// Runs the child. @returns whether it ended well
+bool make_in_child(const Work& make, const PackOptions& options, const PackingTools& tools,
+                   const std::filesystem::path& log) {
+  const int log_descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (log_descriptor < 0) throw RunError(fmt::format("the log {} cannot be written", log.string()));
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    const int terminal = !options.quiet && isatty(STDERR_FILENO) ? dup(STDERR_FILENO) : -1;
+    dup2(log_descriptor, STDOUT_FILENO);
+    dup2(log_descriptor, STDERR_FILENO);
+    make_and_exit(make, options.output, tools, terminal);
+  }
+  close(log_descriptor);
+  if (child < 0) throw RunError("no process can be started for the engine");
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!options.quiet && isatty(STDERR_FILENO)) fmt::print(stderr, "\n");
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
+  const PackingReached& reached = packing.reached;
+  fmt::print(
+      "{}: {} grains in {:.6g} m x {:.6g} m{}\n"
+      "  void ratio             {:.4f}\n"
+      "  coordination number    {:.3f}   (without a contact: {:.1f} % of the grains)\n"
+      "  pressure               {:.6g} kPa, anisotropy {:.1e}, shear {:.1e} of it\n"
+      "  unbalanced ratio       {:.1e} (forces), {:.1e} (moments)\n"
+      "  friction while made    {:.4g}{}\n"
+      "  DEM steps              {:.0f}\n"
+      "  seconds                {:.2f}\n",
+      file.string(), packing.packing.grains.size(), packing.packing.box(0, 0), packing.packing.box(1, 1),
+      packing.packing.dimension == 3 ? fmt::format(" x {:.6g} m", packing.packing.thickness) : "",
+      reached.void_ratio, reached.coordination_number, 100.0 * reached.rattlers, 1e-3 * reached.pressure,
+      reached.anisotropy, reached.shear, reached.unbalanced_force_ratio, reached.unbalanced_moment_ratio,
+      reached.friction, packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps,
+      seconds);
+}
+
+/// A packing with what its file records; of a CSV file that is the pressure at most.
+PreparedPacking packing_to_settle(const std::filesystem::path& file) {
+  if (file.extension() == ".h5") return read_packing_file(file);
+  PreparedPacking prepared;
+  prepared.packing = read_packing(file);
+  prepared.reached.pressure = prepared.packing.pressure;
+  return prepared;
+}
+
+/// What --settle asks for: the script and the pressure of the packing, or the one set.
+PackingSpecification settling(const PackOptions& options) {
+  const PreparedPacking packing = packing_to_settle(options.settle.front());
+  const double pressure = packing.reached.pressure;
+  return read_settling(options.settle.front(), options.settle.back(), pressure, packing.specification,
+                       options.settings);
+}
+
+}  // namespace
+
+int pack(const PackOptions& options, const PackingTools& tools) {
+  if (!options.export_file.empty()) {
+    fem::write_file(options.export_file, packing_data(read_packing(options.specification_file)));
+    return 0;
+  }
+  if (options.specification_file.empty() && options.settle.empty())
+    throw InputError({"", 0, "pack: name a specification (YAML), or --settle PACKING SCRIPT"});
+  const bool settles = options.settle.size() == 2;
+  const PackingSpecification specification =
+      settles ? settling(options) : read_packing_specification(options.specification_file, options.settings);
+  check_output(options.output);
+  const Work make = [&](const std::function<void(const PackingReached&)>& progress) {
+    if (!settles) return tools.make(specification, progress);
+    return tools.settle(specification, packing_to_settle(options.settle.front()), progress);
+  };
+  std::filesystem::path log = options.output;
+  log += ".log";
+  const auto start = std::chrono::steady_clock::now();
+  if (!make_in_child(make, options, tools, log))
+    throw RunError(fmt::format("the packing could not be made (the engine's output is in {}):\n{}",
+                               log.string(), coupler::log_excerpt(log)));
+  std::filesystem::remove(log);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!options.quiet) report(read_packing_file(options.output), seconds, options.output);
+  return 0;
+}
+
+}  // namespace polargrain::app

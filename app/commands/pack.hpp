@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/packing_specification.hpp"
+
+namespace polargrain::app {
+
+/// What packings need of the grains' side; given by the program, so that the coupler knows no engine.
+struct PackingTools {
+  /// Called once in the process that makes the packing.
+  std::function<void()> start_process;
+  PackingMaker make;
+  PackingSettler settle = {};  ///< empty where no packing is ever settled
+};
+
+struct PackOptions {
+  std::filesystem::path specification_file;
+  std::filesystem::path output;  ///< ends in .h5
+  std::filesystem::path
+      export_file;  ///< when given, `specification_file` is a packing that is written there as text
+  std::vector<std::string> settings;
+  bool quiet = false;
+  /// A packing and the script that it is brought to rest under, as it is; or nothing.
+  std::vector<std::filesystem::path> settle = {};
+};
+
+/// Makes a packing after a specification, in a process of its own (an engine error ends its process), whose
+/// whole output goes to a log beside the packing. The log is removed when all went well.
+/// @throws RunError in the engine's words
+int pack(const PackOptions& options, const PackingTools& tools);
+
+}  // namespace polargrain::app

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/commands/point.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "common/error.hpp"
+#include "coupler/case/case.hpp"
+#include "app/commands/csv_file.hpp"
+#include "coupler/pool/private_directory.hpp"
+#include "coupler/replay/replay.hpp"
+
+namespace polargrain::app {
+namespace {
+
+const std::vector<std::string> kPathColumns{"h11", "h12", "h21", "h22", "w", "k1", "k2"};
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t\r");
+    const auto last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return cells;
+}
+
+Increment increment_of(const std::vector<double>& v) {
+  Increment increment;
+  increment.displacement_gradient << v[0], v[1], v[2], v[3];
+  increment.micro_rotation = v[4];
+  increment.curvature << v[5], v[6];
+  return increment;
+}
+
+/// Where each column of a path file goes in the order of kPathColumns.
+std::vector<std::size_t> columns_of(const std::vector<std::string>& names, const Fault& place,
+                                    coupler::Faults& faults) {
+  std::vector<std::size_t> columns;
+  for (const std::string& name : names) {
+    const auto known = std::find(kPathColumns.begin(), kPathColumns.end(), name);
+    if (known == kPathColumns.end()) {
+      faults.push_back(
+          {place.file, place.line,
+           fmt::format("there is no column '{}'; expected names out of {}", name, coupler::listed(kPathColumns))});
+    }
+    columns.push_back(static_cast<std::size_t>(known - kPathColumns.begin()) % kPathColumns.size());
+  }
+  return columns;
+}
+
+std::string status_of(Quality quality) {
+  switch (quality) {
+    case Quality::good:
+      return "good";
+    case Quality::unreliable:
+      return "unreliable";
+    case Quality::failed:
+      break;
+  }
+  return "failed";
+}
+
+/// The answers as CSV, on a file or on standard output.
+class AnswerTable {
+ public:
+  AnswerTable(const std::filesystem::path& file, const std::vector<std::string>& field_names) {
+    std::vector<std::string> columns{"increment", "s11", "s22", "s33", "s12", "s21", "m1", "m2", "status"};
+    columns.insert(columns.end(), field_names.begin(), field_names.end());
+    if (!file.empty()) {
+      file_.emplace(file, columns);
+    } else {
+      row(columns);
+    }
+  }
+
+  void answer(std::size_t increment, const Response& response, const std::vector<double>& fields) {
+    std::vector<std::string> cells{std::to_string(increment)};
+    for (const double value : response.stress) cells.push_back(exact(value));
+    cells.push_back(status_of(response.quality));
+    for (const double value : fields) cells.push_back(exact(value));
+    row(cells);
+  }
+
+ private:
+  void row(const std::vector<std::string>& cells) {
+    if (file_) {
+      file_->row(cells);
+    } else {
+      fmt::print("{}\n", fmt::join(cells, ","));
+      std::fflush(stdout);
+    }
+  }
+  std::optional<CsvFile> file_;
+};
+
+/// @returns whether every increment was answered
+bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerTable& table) {
+  material.allocate(1);
+  std::vector<double> fields(material.field_names().size());
+  for (std::size_t i = 0; i <= path.size(); ++i) {
+    const Increment increment = i == 0 ? Increment{} : path[i - 1];
+    Response response;
+    material.evaluate({&increment, 1}, {&response, 1});
+    if (response.quality != Quality::failed) {
+      material.commit();
+      material.fields(0, fields);
+    }
+    table.answer(i, response, fields);
+    if (response.quality == Quality::failed) {
+      fmt::print(stderr, "error: increment {} failed: {}\n", i, response.message);
+      return false;
+    }
+  }
+  return true;
+}
+
+/// What the cell itself answers along the path, its symmetric or skew stress alone, without the Cosserat part
+/// of the case. Ends before an increment that fails.
+std::vector<Response> answers_of(coupler::Pool& pool, const CellDefinition& definition,
+                                 const std::vector<Increment>& path) {
+  const std::uint32_t number = pool.define(definition);
+  std::vector<Response> answers;
+  StatePointer state;
+  for (const Increment& increment : path) {
+    const coupler::PoolRequest request{number, {state, increment}};
+    const CellReply reply = pool.evaluate({&request, 1}).front();
+    if (reply.response.quality == Quality::failed) break;
+    state = reply.state;
+    answers.push_back(reply.response);
+  }
+  return answers;
+}
+
+/// The case; with a replay the engine's own loop steps the grains, as the replay does, so that both print the same
+/// digits.
+coupler::Case case_for(const PointOptions& options) {
+  coupler::Case plain = coupler::read_case(options.case_file, options.settings);
+  const auto recipe = plain.materials.find(options.material);
+  if (options.replay.empty() || recipe == plain.materials.end() || recipe->second->cell() == nullptr)
+    return plain;
+  std::vector<std::string> settings = options.settings;
+  settings.push_back(fmt::format("materials.{}.loop=engine", options.material));
+  return coupler::read_case(options.case_file, settings);
+}
+
+}  // namespace
+
+std::vector<Increment> read_path(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw InputError({file.string(), 0, "there is no such file; give the path of a CSV file of increments"});
+  coupler::Faults faults;
+  std::vector<Increment> increments;
+  std::vector<std::size_t> columns;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const std::vector<std::string> cells = split(line);
+    if (cells.empty() || line.front() == '#' || (cells.size() == 1 && cells[0].empty())) continue;
+    const Fault place{file.string(), number, ""};
+    if (columns.empty()) {
+      columns = columns_of(cells, place, faults);
+      if (!faults.empty()) break;  // the rows of a table whose columns are unknown say nothing
+      continue;
+    }
+    if (cells.size() != columns.size()) {
+      faults.push_back(
+          {place.file, number, fmt::format("expected {} numbers, found {}", columns.size(), cells.size())});
+      continue;
+    }
+    std::vector<double> values(kPathColumns.size(), 0.0);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const auto value = parse_quantity(cells[c], coupler::Dimension::number);
+      if (!value)
+        faults.push_back({place.file, number, fmt::format("expected a number, found '{}'", cells[c])});
+      values[columns[c]] = value.value_or(0.0);
+    }
+    increments.push_back(increment_of(values));
+  }
+  if (faults.empty() && increments.empty()) {
+    faults.push_back(
+        {file.string(), 0,
+         fmt::format("holds no increment; expected a line of names out of {} and an increment a line",
+                     coupler::listed(kPathColumns))});
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return increments;
+}
+
+int point(const PointOptions& options) {
+  const coupler::Case the_case = case_for(options);
+  const std::vector<Increment> path = read_path(options.path_file);
+  const auto recipe = the_case.materials.find(options.material);
+  if (recipe == the_case.materials.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, material] : the_case.materials) names.push_back(name);
+    throw InputError({options.case_file.string(), 0,
+                      fmt::format("has no material '{}'; it has {}", options.material, coupler::listed(names))});
+  }
+  const CellDefinition* const cell = recipe->second->cell();
+  coupler::Replay replay{nullptr, path, {}, fmt::format("The path {}.", options.path_file.string())};
+  if (!options.replay.empty()) {
+    if (cell == nullptr)
+      throw InputError(
+          {"", 0,
+           fmt::format("--replay {}: the material '{}' is not of model cell; there are no grains "
+                       "to replay",
+                       options.replay.string(), options.material)});
+    coupler::write_replay(options.replay, *cell, replay);
+  }
+  coupler::PrivateDirectory logs;
+  std::optional<coupler::Pool> pool;
+  if (recipe->second->needs_workers()) {
+    coupler::PoolOptions pool_options;
+    pool_options.directory = logs.path();
+    logs.keep();  // until the end is known: a dead worker's log must be there to be read
+    pool.emplace(pool_options);
+  }
+  const std::shared_ptr<fem::Material> material = recipe->second->make(pool ? &*pool : nullptr);
+  AnswerTable table(options.output, material->field_names());
+  const bool done = follow(*material, path, table);
+  if (!options.replay.empty()) {
+    replay.answers = answers_of(*pool, *cell, path);
+    coupler::write_replay(options.replay, *cell, replay);
+  }
+  logs.keep(false);
+  return done ? 0 : 1;
+}
+
+}  // namespace polargrain::app

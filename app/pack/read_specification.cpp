@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/pack/read_specification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+#include "coupler/case/data_files.hpp"
+#include "coupler/case/document.hpp"
+#include "coupler/case/section.hpp"
+
+namespace polargrain::app {
+namespace {
+
+/// Placing the grains takes the square of their number; the engine's share grows with the number alone.
+constexpr int kMostGrains = 20000;
+
+/// How many items the list of a key has; at least one, so that its length can be asked for.
+std::size_t length_of(coupler::Section& section, const std::string& key) {
+  const coupler::Entry* entry = section.find(key);
+  return entry != nullptr && entry->kind == coupler::Entry::Kind::sequence
+             ? std::max<std::size_t>(1, entry->items.size())
+             : 1;
+}
+
+void require_ascending(coupler::Section& section, const std::string& key, const std::vector<double>& values) {
+  if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>()))
+    section.fault(key, fmt::format("{}: each value must be greater than the one before", key));
+}
+
+SizeLaw read_sizes(const coupler::Entry& entry, coupler::Faults& faults) {
+  coupler::Section section(entry, "sizes", faults);
+  SizeLaw law;
+  const std::string name = section.choice("law", {"uniform", "lognormal", "list", "sieve"});
+  const auto radii = [&](const std::string& key, std::size_t count) {
+    law.radii = section.quantities(key, count, coupler::Dimension::length, coupler::Limit::positive);
+  };
+  if (name == "uniform") {
+    radii("radius", 2);
+    if (law.radii[0] > law.radii[1]) section.fault("radius", "radius: the first must be the smaller one");
+  } else if (name == "lognormal") {
+    law.kind = SizeLaw::Kind::lognormal;
+    radii("radius", 3);
+    law.deviation = section.quantity("deviation", coupler::Dimension::number, coupler::Limit::positive);
+    require_ascending(section, "radius", law.radii);
+  } else if (name == "list") {
+    law.kind = SizeLaw::Kind::list;
+    radii("radius", length_of(section, "radius"));
+    law.shares = section.quantities("share", law.radii.size(), coupler::Dimension::number, coupler::Limit::positive);
+  } else if (name == "sieve") {
+    law.kind = SizeLaw::Kind::sieve;
+    radii("diameter", std::max<std::size_t>(2, length_of(section, "diameter")));
+    for (double& size : law.radii) size *= 0.5;
+    law.shares = section.quantities("passing", law.radii.size(), coupler::Dimension::number, coupler::Limit::not_negative);
+    require_ascending(section, "diameter", law.radii);
+    if (law.shares.front() != 0.0 || law.shares.back() != 1.0 ||
+        !std::is_sorted(law.shares.begin(), law.shares.end()))
+      section.fault("passing", "passing: must rise from 0 to 100 % (parts of the mass that pass each sieve)");
+  }
+  section.finish();
+  return law;
+}
+
+/// Discs in a plane unless asked otherwise.
+void read_shape(coupler::Section& top, PackingSpecification& specification) {
+  specification.dimension = top.choice_or("dimension", {"2", "3"}, "2") == "3" ? 3 : 2;
+  const std::string natural = specification.dimension == 3 ? "spheres" : "discs";
+  specification.spheres = top.choice_or("shape", {"discs", "spheres"}, natural) == "spheres";
+  if (specification.dimension == 2) {
+    specification.thickness = top.quantity("thickness", coupler::Dimension::length, coupler::Limit::positive);
+    return;
+  }
+  if (!specification.spheres) top.fault("shape", "shape: in dimension 3 grains are spheres");
+  if (top.find("thickness") != nullptr)
+    top.fault("thickness",
+              "thickness: leave it out in dimension 3, where the box is compressed in all directions");
+}
+
+void read_script(coupler::Section& top, const std::filesystem::path& directory, PackingSpecification& specification) {
+  const std::string name = top.text("script", "the path of a LIGGGHTS input script for cells");
+  if (name.empty()) return;
+  const auto file = coupler::find_data_file(name, directory);
+  if (!file) {
+    top.fault("script",
+              fmt::format("script: there is no file '{}', neither beside the specification nor below "
+                          "liggghts_inputs/; correct the path or put the file there",
+                          name));
+    return;
+  }
+  specification.script_file = file->lexically_normal().string();
+  specification.script = coupler::content_of(*file);
+  if (specification.script.empty()) top.fault("script", "script: the file is empty or cannot be read");
+}
+
+/// How it is compressed and when it counts as at rest.
+void read_control(coupler::Section& top, PackingSpecification& specification) {
+  const auto positive = [&top](const char* key, double& value) {
+    value = top.quantity_or(key, coupler::Dimension::number, coupler::Limit::positive, value);
+  };
+  positive("pressure_tolerance", specification.pressure_tolerance);
+  positive("unbalanced_force_ratio", specification.unbalanced_force_ratio);
+  positive("inertial_number", specification.inertial_number);
+  positive("damping", specification.damping);
+  if (specification.damping >= 1.0) top.fault("damping", "damping: must be less than 1");
+  specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
+}
+
+}  // namespace
+
+PackingSpecification read_packing_specification(const std::filesystem::path& file,
+                                                const std::vector<std::string>& settings) {
+  coupler::Entry document = coupler::load_document(file);
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  coupler::Faults faults;
+  PackingSpecification specification;
+  specification.text = coupler::content_of(file);
+  for (const std::string& setting : settings) specification.text += fmt::format("# --set {}\n", setting);
+  coupler::Section top(document, "packing", faults);
+  top.text_or("title", "");
+  specification.grains = top.whole("grains", 4);
+  if (specification.grains > kMostGrains) top.fault("grains", fmt::format("grains: at most {}", kMostGrains));
+  if (const coupler::Entry* entry = top.require("sizes", "a map with the size law"))
+    specification.sizes = read_sizes(*entry, faults);
+  specification.density = top.quantity("density", coupler::Dimension::number, coupler::Limit::positive);
+  read_shape(top, specification);
+  specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
+  specification.friction = top.quantity("friction", coupler::Dimension::number, coupler::Limit::not_negative);
+  if (top.find("void_ratio") != nullptr)
+    specification.void_ratio = top.quantity("void_ratio", coupler::Dimension::number, coupler::Limit::positive);
+  specification.seed = static_cast<std::uint64_t>(top.whole("seed", 0));
+  specification.void_ratio_tolerance = top.quantity_or("void_ratio_tolerance", coupler::Dimension::number,
+                                                       coupler::Limit::positive, specification.void_ratio_tolerance);
+  read_control(top, specification);
+  read_script(top, file.parent_path(), specification);
+  top.finish();
+  if (!faults.empty()) throw InputError(faults);
+  return specification;
+}
+
+PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
+                                   double pressure, const std::string& text,
+                                   const std::vector<std::string>& settings) {
+  coupler::Entry document;
+  document.kind = coupler::Entry::Kind::map;
+  document.file = packing.string();
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  coupler::Faults faults;
+  PackingSpecification specification;
+  coupler::Section top(document, "settling", faults);
+  if (pressure > 0.0 && top.find("pressure") == nullptr)
+    specification.pressure = pressure;
+  else
+    specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
+  read_control(top, specification);
+  top.finish();
+  const auto file = coupler::find_data_file(script.string(), std::filesystem::current_path());
+  if (!file)
+    faults.push_back(
+        {packing.string(), 0, fmt::format("there is no script '{}' to settle it under", script.string())});
+  if (!faults.empty()) throw InputError(faults);
+  specification.script_file = file->lexically_normal().string();
+  specification.script = coupler::content_of(*file);
+  specification.text =
+      text + fmt::format("# settled under {} at {:.6g} Pa\n", script.string(), specification.pressure);
+  return specification;
+}
+
+}  // namespace polargrain::app

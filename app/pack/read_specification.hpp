@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/packing_specification.hpp"
+
+namespace polargrain::app {
+
+/// Reads what `polargrain pack` is asked for (docs/user_guide.md), its script included.
+/// @param settings KEY=VALUE that replace values of the file
+/// @throws InputError with all faults
+PackingSpecification read_packing_specification(const std::filesystem::path& file,
+                                                const std::vector<std::string>& settings);
+
+/// What settling a packing under a script asks for.
+/// @param pressure that the packing records, Pa; 0 for none @param text what the packing was made from, kept
+/// with it
+/// @param settings KEY=VALUE: pressure, pressure_tolerance, unbalanced_force_ratio, inertial_number, damping,
+/// most_steps
+/// @throws InputError with all faults
+PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
+                                   double pressure, const std::string& text,
+                                   const std::vector<std::string>& settings);
+
+}  // namespace polargrain::app

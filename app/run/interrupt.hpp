@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "common/error.hpp"
+
+namespace polargrain::app {
+
+/// Somebody wants the program to stop. Ends it with exit status 3.
+class Interrupted : public RunError {
+ public:
+  using RunError::RunError;
+};
+
+/// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP only leaves a note; a second one ends the
+/// program.
+void note_interrupts();
+
+/// @throws Interrupted when an interrupt was noted, with the name of the signal. To be called wherever a run
+/// may stop in good order.
+void stop_if_interrupted();
+
+}  // namespace polargrain::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/run/monitor_values.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace polargrain::app {
+
+double value_of(const MonitorValues& values, const std::string& name) {
+  const auto place =
+      std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.first == name; });
+  if (place == values.end()) throw RunError("no monitor has the name " + name);
+  return place->second;
+}
+
+MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, const fem::Solver& solver) {
+  MonitorValues values{{"time", solver.state().time},
+                       {"volume_strain", solver.volume_strain()},
+                       {"external_work", solver.state().external_work},
+                       {"internal_work", solver.state().internal_work}};
+  for (const coupler::Monitor& monitor : monitors) {
+    const auto dof = static_cast<Eigen::Index>(monitor.dof);
+    double value = 0.0;
+    switch (monitor.kind) {
+      case coupler::Monitor::Kind::reaction:
+        value = solver.reaction(monitor.on)[dof];
+        break;
+      case coupler::Monitor::Kind::displacement:
+        value = solver.mean_displacement(monitor.on)[dof];
+        break;
+      case coupler::Monitor::Kind::formula:
+        value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });
+    }
+    values.emplace_back(monitor.name, value);
+  }
+  return values;
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+
+namespace polargrain::app {
+
+/// Where a run writes when it is not told: results/NAME in the current directory, NAME being the case file's
+/// name without its ending, or that of its folder when the file is called case.yaml.
+std::filesystem::path default_result_directory(const std::filesystem::path& case_file);
+
+constexpr const char* kCheckpointFile = "checkpoint.h5";
+constexpr const char* kOldCheckpointFile = "checkpoint.old.h5";
+
+/// While it lives no other run can write to the directory; the lock goes with the process, however that ends.
+/// File systems that know no locks do without.
+class DirectoryLock {
+ public:
+  /// @throws InputError when another run is at work there
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+/// Makes the directory, locks it, and empties it of the files of a former run. Anything else in it stays; a
+/// former checkpoint is kept once, as checkpoint.old.h5. To resume: leaves all as it is.
+/// @throws InputError when it exists, is not empty and holds no former result (summary.json, run.log or a
+/// checkpoint): nothing of the user's own is ever mixed with results; when another run is at work in it; to
+/// resume, when it holds no run. RunError when it cannot be made or written.
+[[nodiscard]] std::unique_ptr<DirectoryLock> prepare_result_directory(const std::filesystem::path& directory,
+                                                                      bool resume);
+
+}  // namespace polargrain::app

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/run/run.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+
+#include "common/error.hpp"
+#include "common/prefixed_archive.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/checkpoint/checkpoint.hpp"
+#include "app/run/interrupt.hpp"
+#include "app/run/progress.hpp"
+#include "app/run/result_directory.hpp"
+#include "app/run/run_files.hpp"
+#include "coupler/replay/replay.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Progress for the user, and what happens for the log.
+class RunObserver : public Progress {
+ public:
+  RunObserver(Style style, int steps, spdlog::logger& log) : Progress(stderr, style, steps), log_(log) {}
+  void iterated(const fem::IterationReport& report) override {
+    log_.info("  iteration {}: force residual {:.3e}, moment residual {:.3e}", report.iteration,
+              report.force_residual, report.moment_residual);
+    Progress::iterated(report);
+  }
+  void cut(double time, const std::string& reason, double next_time) override {
+    log_.warn("  step to {:.6g} given up: {}; next try to {:.6g}", time, reason, next_time);
+  }
+
+ private:
+  spdlog::logger& log_;
+};
+
+/// The command that goes on with a run.
+std::string resume_command(const RunOptions& options, const std::filesystem::path& directory) {
+  std::string command =
+      fmt::format("polargrain run {} -o {}", options.case_file.string(), directory.string());
+  for (const std::string& setting : options.settings) command += fmt::format(" --set '{}'", setting);
+  return command + " --resume";
+}
+
+/// One run: its parts in the order they are made.
+class Run {
+ public:
+  /// @param from where to go on; null for a run from the start
+  Run(const RunOptions& options, coupler::Case the_case, std::filesystem::path directory,
+      std::optional<coupler::Listening> listening, std::unique_ptr<coupler::Checkpoint> from)
+      : case_(std::move(the_case)),
+        listening_(std::move(listening)),
+        directory_(std::move(directory)),
+        from_(std::move(from)),
+        resume_command_(resume_command(options, directory_)),
+        checkpoint_seconds_(60.0 * options.checkpoint_minutes.value_or(case_.checkpoint_minutes)),
+        log_("run",
+             std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), !from_)),
+        observer_(Progress::style_for(stderr, options.quiet), case_.steps(), log_),
+        files_(case_, directory_, from_.get()) {
+    log_.flush_on(spdlog::level::info);
+    log_.set_error_handler([](const std::string&) {});  // a full disk shows in the files that matter
+    log_.info("polargrain {}: {} ({})", POLARGRAIN_VERSION, case_.title, case_.file.string());
+    for (const std::string& setting : options.settings) log_.info("--set {}", setting);
+    if (case_.needs_workers()) record_.workers = options.workers;
+    if (from_) go_on();
+  }
+
+  /// @returns whether the last step was committed
+  bool go() {
+    try {
+      if (first_step_ <= case_.steps()) {
+        start();
+        if (!steps()) return false;
+      }
+      record_.status = "done";
+    } catch (const Interrupted& error) {
+      end_badly("stopped", error.what());
+      throw Interrupted(record_.message);
+    } catch (const std::exception& error) {
+      end_badly("failed", error.what());
+      throw RunError(record_.message);
+    }
+    finish();
+    return true;
+  }
+
+  [[nodiscard]] const RunRecord& record() const { return record_; }
+  [[nodiscard]] const coupler::Case& the_case() const { return case_; }
+
+ private:
+  /// Takes over what the checkpoint says about the steps taken.
+  void go_on() {
+    first_step_ = from_->step + 1;
+    saved_step_ = from_->step;
+    for (CommittedStep& step : steps_of_history(from_->history, case_)) count(std::move(step));
+    PrefixedReader totals(from_->state, "run/");
+    restore(totals, record_.costs, counts_before_);
+    record_.pool = counts_before_;
+    log_.info("going on behind step {} of {}", from_->step, case_.steps());
+    if (from_->program != POLARGRAIN_VERSION) {
+      log_.warn("the checkpoint was written by version {}: the last bits of results may differ",
+                from_->program);
+    }
+  }
+
+  void start() {
+    if (case_.needs_workers()) {
+      coupler::PoolOptions options;
+      options.workers = record_.workers;
+      options.directory = directory_;
+      options.tell = [this](const std::string& text) {
+        log_.warn(text);
+        observer_.warn(text);
+      };
+      options.patience = case_.patience;
+      options.listening = std::move(listening_);
+      pool_.emplace(options);
+      pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
+      log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
+      if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
+    }
+    for (auto& [region, material] : case_.problem.materials) {
+      // Every region has a material of its own: a fem::Material holds the states of one region's points.
+      material = case_.materials.at(case_.regions.at(region))->make(pool_ ? &*pool_ : nullptr);
+    }
+    solver_.emplace(case_.problem, case_.solver);
+    solver_->set_observer(&observer_);
+    if (!from_) return;
+    PrefixedReader state(from_->state, "solver/");
+    solver_->restore(state);
+    observer_.go_on(solver_->state().time);
+    last_ = std::move(from_);
+    if (!record_.steps.empty()) files_.write(record_.steps.back(), *solver_);
+  }
+
+  /// @returns whether all steps were committed
+  bool steps() {
+    for (int step = first_step_; step <= case_.steps(); ++step) {
+      stop_if_interrupted();
+      const coupler::PoolCounts before = counts();
+      observer_.begin_step(step);
+      log_.info("step {}", step);
+      const fem::StepReport report =
+          step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
+      log(report);
+      // What was committed of a step that was not reached is shown, but is no place to go on from.
+      const bool partly = !report.converged && step > 0 && report.substeps > 0;
+      CommittedStep committed{step, report, {}};
+      if (report.converged || partly) {
+        committed.values = monitor_values(case_.monitors, *solver_);
+        files_.add(committed);
+      }
+      add_costs(step, report, before);
+      if (report.converged) remember(step);
+      if (report.converged || partly) files_.write(committed, *solver_);
+      files_.write_rows();
+      count(std::move(committed));
+      if (!report.converged) {
+        end_badly("failed",
+                  fmt::format("step {} of {} did not converge: {}", step, case_.steps(), report.message));
+        return false;
+      }
+      log_notes();
+      if (step == case_.steps() || is_due()) save_or_warn();
+      observer_.end_step(report.time);
+    }
+    return true;
+  }
+
+  fem::StepReport take(const coupler::StepTarget& target) {
+    switch (target.control) {
+      case coupler::StepTarget::Control::measure:
+        return solver_->advance_measure(target.measure, target.amount);
+      case coupler::StepTarget::Control::arc_length:
+        return solver_->advance_arc_length(target.amount);
+      case coupler::StepTarget::Control::time:
+        break;
+    }
+    return solver_->advance(target.amount);
+  }
+
+  void log(const fem::StepReport& report) {
+    if (report.within_noise > 0) {
+      log_.warn(
+          "  accepted above the tolerance, within the noise of the stresses: force residual {:.3e}, noise "
+          "{:.3e}",
+          report.force_residual, report.force_noise);
+    }
+    if (report.within_rounding > 0) {
+      log_.warn("  accepted above the tolerance because nothing but rounding is left: force residual {:.3e}",
+                report.force_residual);
+    }
+    if (report.limited > 0) {
+      log_.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
+                case_.solver.largest_strain);
+    }
+    log_.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
+              report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
+              report.evaluations, report.time);
+  }
+
+  void count(CommittedStep step) {
+    record_.iterations += step.report.iterations;
+    record_.cuts += step.report.cuts;
+    record_.evaluations += step.report.evaluations;
+    record_.within_noise += step.report.within_noise;
+    record_.within_rounding += step.report.within_rounding;
+    record_.limited += step.report.limited;
+    if (!step.values.empty()) record_.steps.push_back(std::move(step));
+  }
+
+  /// What the cells have cost since the start of the run, before the checkpoint included.
+  [[nodiscard]] coupler::PoolCounts counts() const {
+    return pool_ ? counts_before_ + pool_->counts() : counts_before_;
+  }
+
+  void add_costs(int step, const fem::StepReport& report, const coupler::PoolCounts& before) {
+    record_.pool = counts();
+    // From the end of the step before, so that output and checkpoints are in it.
+    const double total = seconds_since(lap_);
+    lap_ = Clock::now();
+    const Costs costs =
+        costs_between(before, record_.pool, std::max(1, record_.workers), total,
+                      report.assembly_seconds + report.solve_seconds, report.material_seconds);
+    record_.costs += costs;
+    files_.add(step, costs, record_.pool - before);
+  }
+
+  /// Keeps the run as it is after a step, so that it can be written whenever it has to stop.
+  void remember(int step) {
+    auto checkpoint = std::make_unique<coupler::Checkpoint>();
+    checkpoint->program = POLARGRAIN_VERSION;
+    checkpoint->identity = case_.identity;
+    checkpoint->step = step;
+    checkpoint->history = files_.history();
+    checkpoint->costs = files_.costs();
+    PrefixedWriter totals(checkpoint->state, "run/");
+    save(totals, record_.costs, record_.pool);
+    PrefixedWriter state(checkpoint->state, "solver/");
+    try {
+      // Nothing will follow the last step.
+      if (step < case_.steps()) solver_->save(state);
+      last_ = std::move(checkpoint);
+    } catch (const RunError& error) {
+      if (step == 0) warn(fmt::format("this run cannot be interrupted without loss: {}", error.what()));
+    }
+  }
+
+  void warn(const std::string& text) {
+    log_.warn("  {}", text);
+    observer_.warn(text);
+  }
+
+  [[nodiscard]] bool is_due() const {
+    return saved_step_ < 0 || seconds_since(saved_) >= checkpoint_seconds_;
+  }
+
+  void save_last() {
+    if (!last_ || last_->step == saved_step_) return;
+    const Clock::time_point begin = Clock::now();
+    write_checkpoint(directory_ / kCheckpointFile, *last_);
+    saved_ = Clock::now();
+    saved_step_ = last_->step;
+    log_.info("  checkpoint of step {} written in {:.3f} s", saved_step_, seconds_since(begin));
+  }
+
+  /// A run that computes is worth more than a checkpoint that fails: it goes on and tries again later.
+  void save_or_warn() {
+    try {
+      save_last();
+    } catch (const RunError& error) {
+      saved_ = Clock::now();
+      warn(fmt::format("{}; {}; the run goes on", error.what(), text_of_saved()));
+    }
+  }
+
+  [[nodiscard]] std::string text_of_saved() const {
+    return saved_step_ < 0 ? "there is none yet"
+                           : fmt::format("the last one is of step {} of {}", saved_step_, case_.steps());
+  }
+
+  void log_notes() {
+    for (auto& [region, material] : case_.problem.materials) {
+      for (const std::string& note : material->take_notes()) {
+        observer_.clear();
+        fmt::print(stderr, "note: region '{}': {}\n", region, note);
+        log_.warn("  region '{}': {}", region, note);
+      }
+    }
+  }
+
+  /// @returns what to tell the user of it
+  std::string write_replay_of(const coupler::CellFailure& failure) {
+    const std::filesystem::path replay = directory_ / "replay";
+    try {
+      coupler::write_replay(replay, pool_->definition(failure.definition), failure.request, failure.reason);
+    } catch (const std::exception& error) {
+      return fmt::format("\nthe replay of the cell that failed could not be written: {}", error.what());
+    }
+    return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
+  }
+
+  /// Ends a run that has not reached its end. Nothing in here throws: the reason why it ends must be told.
+  void end_badly(const std::string& status, const std::string& message) {
+    observer_.clear();
+    record_.status = status;
+    record_.message = message;
+    if (status == "failed" && pool_ && pool_->last_failure()) {
+      record_.message += write_replay_of(*pool_->last_failure());
+    }
+    try {
+      save_last();
+    } catch (const std::exception& error) {
+      record_.message += fmt::format("\n{}", error.what());
+    }
+    record_.message += fmt::format("\ncheckpoint: {}", text_of_saved());
+    if (saved_step_ >= 0) record_.message += fmt::format("; to go on:\n  {}", resume_command_);
+    log_.error("{}", record_.message);
+    try {
+      finish();
+    } catch (const std::exception& error) {
+      record_.message += fmt::format("\n{}", error.what());
+    }
+  }
+
+  void finish() {
+    record_.pool = counts();
+    for (const auto& [region, material] : case_.problem.materials) {
+      if (material == nullptr) continue;
+      if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
+    }
+    log_.info("{}", record_.status);
+    write_summary(directory_ / "summary.json", case_, record_);
+  }
+
+  Clock::time_point lap_ = Clock::now();    ///< end of the step before
+  Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
+  coupler::Case case_;
+  std::optional<coupler::Listening> listening_;
+  std::filesystem::path directory_;
+  std::unique_ptr<coupler::Checkpoint> from_;
+  std::string resume_command_;
+  double checkpoint_seconds_;
+  spdlog::logger log_;
+  RunObserver observer_;
+  RunFiles files_;
+  RunRecord record_;
+  int first_step_ = 0;
+  int saved_step_ = -1;               ///< of the checkpoint on disk; -1: there is none
+  std::unique_ptr<coupler::Checkpoint> last_;  ///< after the last committed step
+  coupler::PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from
+  std::optional<coupler::Pool> pool_;
+  std::optional<fem::Solver> solver_;
+};
+
+std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case, const std::filesystem::path& file) {
+  constexpr std::size_t kMostShown = 10;
+  auto checkpoint = std::make_unique<coupler::Checkpoint>(coupler::read_checkpoint(file));
+  std::vector<std::string> lines = differences(checkpoint->identity, the_case.identity);
+  if (lines.empty()) return checkpoint;
+  if (lines.size() > kMostShown) {
+    const std::size_t more = lines.size() - kMostShown;
+    lines.resize(kMostShown);
+    lines.push_back(fmt::format("and {} more", more));
+  }
+  throw InputError(
+      {file.string(), 0,
+       fmt::format("this checkpoint is of another case than {}:\n  {}\nput back what differs, or run without "
+                   "--resume",
+                   the_case.file.string(), fmt::join(lines, "\n  "))});
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  coupler::Case the_case = coupler::read_case(options.case_file, options.settings);
+  if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
+    throw InputError(
+        {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
+  }
+  std::optional<coupler::Listening> listening;
+  if (!options.listen.empty()) listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
+  const std::filesystem::path directory =
+      options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
+  const auto lock = prepare_result_directory(directory, options.resume);
+  std::unique_ptr<coupler::Checkpoint> from;
+  if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
+  note_interrupts();
+  if (!options.quiet) {
+    fmt::print("{}\n", the_case.title);
+    if (from) fmt::print("going on behind step {} of {}\n", from->step, the_case.steps());
+  }
+  std::fflush(stdout);
+  Run the_run(options, std::move(the_case), directory, std::move(listening), std::move(from));
+  const bool done = the_run.go();
+  const RunRecord& record = the_run.record();
+  if (!options.quiet) {
+    fmt::print("\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
+               table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
+               directory.string());
+  }
+  if (!done) fmt::print(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
+  return done ? 0 : 1;
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace polargrain::app {
+
+struct RunOptions {
+  std::filesystem::path case_file;
+  std::filesystem::path directory;  ///< empty: default_result_directory
+  int workers = 1;
+  bool resume = false;                       ///< go on from the checkpoint in the directory
+  std::optional<double> checkpoint_minutes;  ///< in place of the case's own
+  bool quiet = false;
+  std::string listen;          ///< tcp://HOST:PORT where workers of other machines may join; empty: none may
+  std::filesystem::path keys;  ///< directory of 'polargrain keys', needed to listen
+  std::vector<std::string> settings;  ///< of --set
+};
+
+/// Runs a case from its start, or from a checkpoint, to its end and writes the result directory
+/// (docs/file_formats.md). Input is checked whole before anything is written or started.
+/// @returns 0 when the last step is committed, 1 when a step did not converge
+/// @throws InputError, RunError, Interrupted; after the last two what was committed is in the result
+/// directory, with a checkpoint to go on from
+int run(const RunOptions& options);
+
+}  // namespace polargrain::app

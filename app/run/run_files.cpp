@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/run/run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace polargrain::app {
+namespace {
+
+constexpr std::size_t kReportColumns = 12;  ///< of history.csv, before the values
+
+std::vector<std::string> history_columns(const coupler::Case& the_case) {
+  std::vector<std::string> columns{"step",        "time",         "substeps",        "cuts",
+                                   "iterations",  "evaluations",  "force_residual",  "moment_residual",
+                                   "force_noise", "within_noise", "within_rounding", "limited"};
+  for (const std::string& name : coupler::built_in_values()) {
+    if (name != "time") columns.push_back(name);
+  }
+  for (const coupler::Monitor& monitor : the_case.monitors) columns.push_back(monitor.name);
+  return columns;
+}
+
+const std::vector<std::string> kCostColumns{
+    "step",      "total",           "grains",        "messages",
+    "waiting",   "finite_elements", "rest",          "cell_evaluations",
+    "dem_steps", "bytes_sent",      "bytes_received"};
+
+std::filesystem::path fields_file(int step) {
+  return std::filesystem::path("fields") / fmt::format("step-{:05}.vtu", step);
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const coupler::Case& the_case, std::filesystem::path directory, const coupler::Checkpoint* from)
+    : case_(the_case),
+      directory_(std::move(directory)),
+      history_(from == nullptr ? CsvFile(directory_ / "history.csv", history_columns(the_case))
+                               : CsvFile(directory_ / "history.csv", from->history)),
+      costs_(from == nullptr ? CsvFile(directory_ / "costs.csv", kCostColumns)
+                             : CsvFile(directory_ / "costs.csv", from->costs)),
+      collection_(directory_ / "fields.pvd") {
+  if (from != nullptr) go_on(*from);
+}
+
+void RunFiles::go_on(const coupler::Checkpoint& from) {
+  for (const CommittedStep& step : steps_of_history(from.history, case_)) {
+    // The fields of the checkpoint's own step may have been lost with the run: they are written once more.
+    // Behind the last step nothing is left to be lost.
+    if (has_fields(step.step) && (step.step < from.step || from.step == case_.steps())) {
+      collection_.add(step.report.time, fields_file(step.step));
+    }
+  }
+  std::error_code error;
+  for (int step = from.step; step <= case_.steps() && from.step < case_.steps(); ++step) {
+    std::filesystem::remove(directory_ / fields_file(step), error);
+  }
+}
+
+bool RunFiles::has_fields(int step) const {
+  return step % case_.output_every == 0 || step == case_.steps();
+}
+
+void RunFiles::add(const CommittedStep& step) {
+  const fem::StepReport& report = step.report;
+  std::vector<std::string> row{std::to_string(step.step),
+                               exact(report.time),
+                               std::to_string(report.substeps),
+                               std::to_string(report.cuts),
+                               std::to_string(report.iterations),
+                               std::to_string(report.evaluations),
+                               exact(report.force_residual),
+                               exact(report.moment_residual),
+                               exact(report.force_noise),
+                               std::to_string(report.within_noise),
+                               std::to_string(report.within_rounding),
+                               std::to_string(report.limited)};
+  for (const auto& [name, value] : step.values) {
+    if (name != "time") row.push_back(exact(value));
+  }
+  history_.add(row);
+}
+
+void RunFiles::add(int step, const Costs& costs, const coupler::PoolCounts& counts) {
+  std::vector<std::string> row{std::to_string(step)};
+  for (const double seconds :
+       {costs.total, costs.grains, costs.messages, costs.waiting, costs.finite_elements, costs.rest}) {
+    row.push_back(fmt::format("{:.6f}", seconds));
+  }
+  for (const std::int64_t whole :
+       {counts.evaluations, counts.dem_steps, counts.bytes_sent, counts.bytes_received}) {
+    row.push_back(std::to_string(whole));
+  }
+  costs_.add(row);
+}
+
+void RunFiles::write(const CommittedStep& step, const fem::Solver& solver) {
+  write_rows();
+  if (has_fields(step.step) || !step.report.converged) write_fields(step.step, solver);
+}
+
+void RunFiles::write_rows() {
+  history_.write();
+  costs_.write();
+}
+
+void RunFiles::write_fields(int step, const fem::Solver& solver) {
+  std::error_code error;
+  std::filesystem::create_directories(directory_ / "fields", error);  // write_vtu says when it is not there
+  fem::write_vtu(directory_ / fields_file(step), case_.problem.mesh, fem::collect_fields(solver));
+  collection_.add(solver.state().time, fields_file(step));
+}
+
+std::vector<CommittedStep> steps_of_history(const std::string& history, const coupler::Case& the_case) {
+  const std::vector<std::string> columns = history_columns(the_case);
+  std::istringstream lines(history);
+  std::string line;
+  std::getline(lines, line);
+  if (cells_of(line) != columns) throw RunError("the columns of history.csv are not those of the case");
+  std::vector<CommittedStep> steps;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() != columns.size()) throw RunError("a row of history.csv is broken: " + line);
+    const auto real = [&](std::size_t column) { return std::strtod(cells[column].c_str(), nullptr); };
+    const auto whole = [&](std::size_t column) { return std::strtol(cells[column].c_str(), nullptr, 10); };
+    CommittedStep step;
+    step.step = static_cast<int>(whole(0));
+    fem::StepReport& report = step.report;
+    report.converged = true;
+    report.time = real(1);
+    report.substeps = static_cast<int>(whole(2));
+    report.cuts = static_cast<int>(whole(3));
+    report.iterations = static_cast<int>(whole(4));
+    report.evaluations = whole(5);
+    report.force_residual = real(6);
+    report.moment_residual = real(7);
+    report.force_noise = real(8);
+    report.within_noise = static_cast<int>(whole(9));
+    report.within_rounding = static_cast<int>(whole(10));
+    report.limited = static_cast<int>(whole(11));
+    step.values.emplace_back("time", report.time);
+    for (std::size_t c = kReportColumns; c < cells.size(); ++c) step.values.emplace_back(columns[c], real(c));
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/run/costs.hpp"
+#include "app/run/monitor_values.hpp"
+
+namespace polargrain::app {
+
+/// A committed step as the table and the summary need it.
+struct CommittedStep {
+  int step = 0;
+  fem::StepReport report;
+  MonitorValues values;
+};
+
+/// All that is known of a run when it ends.
+struct RunRecord {
+  std::string status = "running";  ///< then "done", "failed" or "stopped" (by a signal)
+  std::string message;             ///< why it failed
+  int workers = 0;                 ///< 0: no material needed any
+  std::vector<CommittedStep> steps;
+  long evaluations = 0;
+  int iterations = 0;
+  int cuts = 0;
+  int within_noise = 0;  ///< this and the next two: see fem::StepReport
+  int within_rounding = 0;
+  int limited = 0;
+  coupler::PoolCounts pool;
+  Costs costs;
+  /// What materials tell of their cost and error, by region; only of those that do.
+  std::map<std::string, std::vector<fem::Figure>> figures;
+};
+
+/// Writes summary.json: status, figures of cost and error, last values of the monitors.
+/// @throws RunError when it cannot be written
+void write_summary(const std::filesystem::path& file, const coupler::Case& the_case, const RunRecord& record);
+
+/// The table a run ends with: at most some twenty steps, evenly spaced, the last one always.
+std::string table_text(const coupler::Case& the_case, const RunRecord& record);
+
+/// Where the time went and what the cells cost.
+std::string costs_text(const RunRecord& record);
+
+/// What the materials tell of their cost and error; empty when none does.
+std::string figures_text(const RunRecord& record);
+
+}  // namespace polargrain::app

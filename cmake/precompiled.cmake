@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Half of the time of a compilation went into reading the same headers of Eigen, fmt and the standard library: they are
+# read once for the libraries and once more, with GoogleTest, for the tests.
+function(polargrain_precompile name)  # polargrain_precompile(NAME headers...): a library to reuse from
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// Nothing but precompiled headers.\n")
+  add_library(${name} OBJECT ${source})
+  target_precompile_headers(${name} PRIVATE ${ARGN})
+endfunction()

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/cells/cell_calls.hpp"
+
+#include "coupler/pool/pool.hpp"
+
+namespace polargrain::coupler {
+
+CellCalls calls_of(Pool& pool, std::uint32_t definition) {
+  return {[&pool, definition] { return pool.initial(definition); },
+          [&pool, definition](std::span<const CellRequest> cells, std::span<const std::size_t> points) {
+            std::vector<PoolRequest> requests;
+            for (std::size_t k = 0; k < cells.size(); ++k)
+              requests.push_back({definition, cells[k], points[k]});
+            return pool.evaluate(requests);
+          },
+          [&pool](std::span<const StatePointer> states) { return pool.collect(states); }};
+}
+
+void collect(const CellCalls& calls, std::span<StatePointer* const> states) {
+  if (!calls.collect) return;
+  std::vector<StatePointer> wanted;
+  for (const StatePointer* const state : states) wanted.push_back(*state);
+  const std::vector<StatePointer> here = calls.collect(wanted);
+  for (std::size_t s = 0; s < states.size(); ++s) *states[s] = here[s];
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/cells/cell_material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/cell_archive.hpp"
+#include "common/error.hpp"
+#include "common/packed_values.hpp"
+#include "coupler/cells/cell_noise.hpp"
+#include "fem/material/rotation.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+bool is_zero(const Increment& increment) {
+  return increment.displacement_gradient.isZero(0.0) && increment.micro_rotation == 0.0 &&
+         increment.curvature.isZero(0.0);
+}
+
+}  // namespace
+
+CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
+                           const std::optional<CosseratParameters>& cosserat)
+    : calls_(calls_of(pool, definition)), cosserat_(cosserat) {}
+
+void CellMaterial::allocate(std::size_t points) {
+  PointState start;
+  start.cell = calls_.initial();
+  if (start.cell.response.quality == Quality::failed) {
+    throw RunError(
+        fmt::format("the packing of a cell cannot be brought to rest: {}", start.cell.response.message));
+  }
+  if (!start.cell.response.message.empty())
+    notes_.push_back(std::exchange(start.cell.response.message, {}));
+  committed_.assign(points, start);
+  trial_ = committed_;
+}
+
+void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+  std::vector<CellRequest> requests;
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    trial_[point] = committed_[point];
+    if (is_zero(increments[point])) continue;
+    const Increment& increment = increments[point];
+    requests.push_back(
+        {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment});
+    points.push_back(point);
+  }
+  std::vector<CellReply> replies = calls_.evaluate(requests, points);
+  for (std::size_t r = 0; r < replies.size(); ++r) {
+    PointState& point = trial_[points[r]];
+    point.cell = std::move(replies[r]);
+    if (cosserat_) point.cosserat.add(increments[points[r]], *cosserat_);
+  }
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    const PointState& state = trial_[point];
+    responses[point] =
+        cosserat_ ? state.cosserat.joined_to(state.cell.response, *cosserat_) : state.cell.response;
+    responses[point].noise = noise_of(trial_[point].cell);
+  }
+}
+
+void CellMaterial::commit() {
+  std::vector<StatePointer*> states;
+  for (PointState& point : trial_) states.push_back(&point.cell.state);
+  collect(calls_, states);
+  committed_ = trial_;
+}
+
+void CellMaterial::save(ArchiveWriter& archive) const {
+  std::vector<CellReply> cells;
+  std::vector<double> cosserat;
+  for (const PointState& point : committed_) {
+    cells.push_back(point.cell);
+    const CosseratPart& part = point.cosserat;
+    cosserat.insert(cosserat.end(), {part.skew_stress, part.couple_stress[0], part.couple_stress[1]});
+  }
+  write_cell_replies(archive, "cells", cells);
+  archive.write("cosserat", std::span<const double>(cosserat));
+}
+
+void CellMaterial::restore(ArchiveReader& archive) {
+  std::vector<CellReply> cells = read_cell_replies(archive, "cells", committed_.size());
+  const std::vector<double> cosserat = read_lists(archive, "cosserat", committed_.size(), 3);
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    const double* const v = &cosserat[3 * point];
+    committed_[point] = {std::move(cells[point]), {v[0], {v[1], v[2]}}};
+  }
+  trial_ = committed_;
+}
+
+std::vector<std::string> CellMaterial::field_names() const {
+  return {"void_ratio",       "coordination_number", "unbalanced_force_ratio",
+          "sliding_fraction", "dem_steps",           "rolling_fraction",
+          "rattlers",         "fabric_11",           "fabric_22",
+          "fabric_12",        "mean_rotation",       "rotation_spread"};
+}
+
+void CellMaterial::fields(std::size_t point, std::span<double> values) const {
+  const CellDiagnostics& d = committed_[point].cell.diagnostics;
+  const std::array<double, 12> found{d.void_ratio,
+                                     d.coordination_number,
+                                     d.unbalanced_force_ratio,
+                                     d.sliding_fraction,
+                                     static_cast<double>(d.dem_steps),
+                                     d.rolling_fraction,
+                                     d.rattlers,
+                                     d.fabric[0],
+                                     d.fabric[1],
+                                     d.fabric[2],
+                                     d.mean_rotation,
+                                     d.rotation_spread};
+  std::copy(found.begin(), found.end(), values.begin());
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupler/cells/cell_calls.hpp"
+#include "coupler/cells/cosserat_part.hpp"
+#include "coupler/pool/pool.hpp"
+#include "fem/material/material.hpp"
+
+namespace polargrain::coupler {
+
+/// A material whose stress comes from boxes of grains, one a point, evaluated by the workers of a pool. Cells
+/// with free rotations give the symmetric stress; skew stress and couple stresses are those of the Cosserat
+/// part (cosserat_part.hpp). Cells with controlled rotations give everything.
+class CellMaterial : public fem::Material {
+ public:
+  /// @param pool must outlive the material @param definition from Pool::define
+  /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
+  CellMaterial(Pool& pool, std::uint32_t definition, const std::optional<CosseratParameters>& cosserat);
+
+  /// Increments are then about the middle of the step, and go to the cells about its start.
+  void use_large_rotations() override { about_middle_ = true; }
+
+  /// Asks for the packing at rest, once; every point starts from it.
+  void allocate(std::size_t points) override;
+  /// Sends the increments of all points to the pool at once. A point whose increment is zero keeps its
+  /// committed answer: nothing has happened to its grains.
+  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  /// Collects the states of the cells.
+  void commit() override;
+  void revert() override { trial_ = committed_; }
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+
+  /// The diagnostics of the cell (docs/user_guide.md).
+  [[nodiscard]] std::vector<std::string> field_names() const override;
+  /// What the engine remarked on the packing and its script, once.
+  [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
+  void fields(std::size_t point, std::span<double> values) const override;
+
+ private:
+  struct PointState {
+    CellReply cell;  ///< the cell's own last answer, with its state
+    CosseratPart cosserat;
+  };
+
+  CellCalls calls_;
+  std::optional<CosseratParameters> cosserat_;
+  bool about_middle_ = false;
+  std::vector<std::string> notes_;
+  std::vector<PointState> committed_;
+  std::vector<PointState> trial_;
+};
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/cells/cosserat_part.hpp"
+
+namespace polargrain::coupler {
+
+Matrix7 symmetric_tangent(const Matrix7& cell) {
+  Matrix7 tangent = Matrix7::Zero();
+  tangent.topLeftCorner<5, 5>() = cell.topLeftCorner<5, 5>();
+  const Vector7 row = 0.5 * (tangent.row(k12) + tangent.row(k21)).transpose();
+  tangent.row(k12) = tangent.row(k21) = row.transpose();
+  const Vector7 column = 0.5 * (tangent.col(k12) + tangent.col(k21));
+  tangent.col(k12) = tangent.col(k21) = column;
+  return tangent;
+}
+
+void CosseratPart::add(const Increment& increment, const CosseratParameters& cosserat) {
+  const Vector7 strain = increment.strain();
+  skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
+  couple_stress += cosserat.couple_modulus() * increment.curvature;                    // A.4
+}
+
+Response CosseratPart::joined_to(const Response& cell, const CosseratParameters& cosserat) const {
+  Response response = cell;
+  if (response.quality == Quality::failed) return response;
+  const double symmetric_shear = 0.5 * (response.stress[k12] + response.stress[k21]);
+  response.stress[k12] = symmetric_shear - 0.5 * skew_stress;
+  response.stress[k21] = symmetric_shear + 0.5 * skew_stress;
+  response.stress.tail<2>() = couple_stress;
+  response.tangent = symmetric_tangent(response.tangent);
+  const double skew_modulus = cosserat.cosserat_shear_modulus;
+  response.tangent(k12, k12) += skew_modulus;
+  response.tangent(k21, k21) += skew_modulus;
+  response.tangent(k12, k21) -= skew_modulus;
+  response.tangent(k21, k12) -= skew_modulus;
+  response.tangent(kCurvature1, kCurvature1) = cosserat.couple_modulus();
+  response.tangent(kCurvature2, kCurvature2) = cosserat.couple_modulus();
+  return response;
+}
+
+}  // namespace polargrain::coupler

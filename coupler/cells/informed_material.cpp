@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/cells/informed_material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/cell_archive.hpp"
+#include "common/error.hpp"
+#include "common/packed_values.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// A cell follows a step in at most so many parts.
+constexpr int kMostParts = 16;
+
+bool is_zero(const Increment& increment) {
+  return increment.displacement_gradient.isZero(0.0) && increment.micro_rotation == 0.0 &&
+         increment.curvature.isZero(0.0);
+}
+
+Increment part_of(Increment increment, int parts) {
+  increment.displacement_gradient /= parts;
+  increment.micro_rotation /= parts;
+  increment.curvature /= parts;
+  return increment;
+}
+
+/// In scaled components, which for want of couple stresses are the unscaled ones. Discs have no out-of-plane
+/// stress: they are lent that of the law, in proportion to the pressures in the plane.
+fem::ScaledVector<double> complete_cell_stress(const Vector7& cell, const fem::ScaledVector<double>& law) {
+  fem::ScaledVector<double> scaled = fem::ScaledVector<double>::Zero();
+  scaled.head<3>() = cell.head<3>();
+  scaled(k12) = scaled(k21) = 0.5 * (cell(k12) + cell(k21));
+  const double law_in_plane = law(k11) + law(k22);
+  if (cell(k33) == 0.0 && law_in_plane < 0.0) {
+    scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));
+  }
+  return scaled;
+}
+
+/// The same return with friction as a straight line through its values at both ends of the step: stress and
+/// state stay, the tangent sees the hardening. A frozen cone alone would let Newton's method overshoot.
+void add_hardening(const fem::ElastoplasticFrame& frame, const fem::FrozenCone& before,
+                   const fem::FrozenCone& after, const fem::ElastoplasticState& start,
+                   const Increment& increment, const fem::ElastoplasticState& end, Response& response) {
+  const double step = end.gamma_p - start.gamma_p;
+  if (end.regime != fem::Regime::smooth || !(step > 1e-12 * (1.0 + end.gamma_p)) ||
+      before.friction == after.friction)
+    return;
+  using fem::PiecewiseLinear;
+  const fem::HardeningCone cone{
+      PiecewiseLinear({{start.gamma_p, before.friction},
+                       {start.gamma_p + 2.0 * step, 2.0 * after.friction - before.friction}}),
+      PiecewiseLinear(after.dilatancy), PiecewiseLinear(after.cohesion)};
+  fem::ElastoplasticState same;
+  const Response hardening = fem::integrate_elastoplastic(frame, cone, start, increment, same);
+  if (hardening.quality == Quality::good && same.regime == fem::Regime::smooth) {
+    response.tangent = hardening.tangent;
+  }
+}
+
+/// Walks over the numbers of a point, writing or reading them.
+struct Packer {
+  std::vector<double>& values;
+  void operator()(double& value) const { values.push_back(value); }
+};
+struct Unpacker {
+  std::span<const double> values;
+  std::size_t next = 0;
+  void operator()(double& value) { value = values[next++]; }
+};
+
+/// Through a double: exact for flags, and for counts below 2^53.
+template <class Visitor, class Whole>
+void visit_whole(Visitor& visit, Whole& whole) {
+  auto value = static_cast<double>(whole);
+  visit(value);
+  whole = static_cast<Whole>(value);
+}
+
+template <class Visitor, class Vector>
+void visit_vector(Visitor& visit, Vector& vector) {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) visit(vector(i));
+}
+
+template <class Visitor>
+void visit_samples(Visitor& visit, std::vector<fem::Mobilisation::Sample>& samples, int window) {
+  std::size_t count = samples.size();
+  visit_whole(visit, count);
+  samples.resize(static_cast<std::size_t>(window) + 1);  // always as many values a point
+  for (fem::Mobilisation::Sample& sample : samples) {
+    visit(sample.deformation);
+    visit_vector(visit, sample.plastic_strain);
+  }
+  samples.resize(count);
+}
+
+}  // namespace
+
+/// All numbers of law and mobilisation, always in the same order and as many.
+template <class Visitor>
+void InformedMaterial::visit_numbers(Visitor& visit, PointState& point, int window) {
+  visit_vector(visit, point.law.scaled_stress);
+  visit(point.law.gamma_p);
+  visit(point.held_friction);
+  visit(point.take_up);
+  visit_whole(visit, point.law.regime);
+  fem::Mobilisation& m = point.mobilisation;
+  for (double* value : {&m.cone.friction, &m.cone.dilatancy, &m.cone.cohesion, &m.micro_friction})
+    visit(*value);
+  visit_whole(visit, m.limited);
+  visit_samples(visit, m.samples, window);
+}
+
+InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters)
+    : calls_(std::move(calls)),
+      parameters_(parameters),
+      frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights), parameters.elastic.internal_length,
+             1e-3} {}
+
+void InformedMaterial::allocate(std::size_t points) {
+  const CellReply packing = calls_.initial();
+  if (packing.response.quality == Quality::failed) {
+    throw RunError(
+        fmt::format("the packing of a cell cannot be brought to rest: {}", packing.response.message));
+  }
+  PointState start;
+  start.cell = packing;
+  Vector7 stress = packing.response.stress;
+  if (stress(k33) == 0.0) stress(k33) = 0.5 * (stress(k11) + stress(k22));  // discs
+  start.law.scaled_stress = complete_cell_stress(stress, stress);
+  start.mobilisation = fem::initial_mobilisation(parameters_.mobilisation);
+  start.held_friction = start.mobilisation.cone.friction;
+  committed_.assign(points, start);
+  trial_ = committed_;
+  increments_.assign(points, Increment{});
+}
+
+fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Increment& increment) const {
+  fem::ElastoplasticState start = committed_[point].law;
+  if (large_rotations_) {
+    start.scaled_stress = fem::rotated(start.scaled_stress, fem::rotation_angle(increment));
+  }
+  return start;
+}
+
+Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increment) const {
+  const Vector7& stress = committed_[point].cell.response.stress;
+  return large_rotations_ ? fem::rotated(stress, fem::rotation_angle(increment)) : stress;
+}
+
+Increment InformedMaterial::for_cell(const Increment& increment) const {
+  if (large_rotations_) return fem::about_start(increment);
+  Increment straight = increment;
+  const Eigen::Matrix2d& h = increment.displacement_gradient;
+  straight.displacement_gradient = 0.5 * (h + h.transpose());
+  straight.micro_rotation -= 0.5 * (h(1, 0) - h(0, 1));
+  return straight;
+}
+
+void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+  increments_.assign(increments.begin(), increments.end());
+  if (parameters_.update == InformedUpdate::frozen) {
+    evaluate_frozen(increments, responses);
+  } else {
+    evaluate_fixed_point(increments, responses);
+  }
+}
+
+Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
+  const PointState& before = committed_[point];
+  const fem::FrozenCone& cone = before.mobilisation.cone;
+  const fem::ElastoplasticState start = law_start(point, increment);
+  fem::ElastoplasticState& end = trial_[point].law;
+  if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
+    using fem::PiecewiseLinear;
+    const fem::HardeningCone taken_up{PiecewiseLinear({{start.gamma_p, before.held_friction},
+                                                       {start.gamma_p + before.take_up, cone.friction}}),
+                                      PiecewiseLinear(cone.dilatancy), PiecewiseLinear(cone.cohesion)};
+    Response response = fem::integrate_elastoplastic(frame_, taken_up, start, increment, end);
+    if (response.quality == Quality::good) return response;
+  }
+  // Nothing to take up, or softening too steep to have one answer: at once.
+  return fem::integrate_elastoplastic(frame_, cone, start, increment, end);
+}
+
+void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    trial_[point] = committed_[point];
+    responses[point] = integrate(point, increments[point]);
+  }
+}
+
+void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increments,
+                                            std::span<Response> responses) {
+  // With the cone of the last step it shows which points yield at all.
+  evaluate_frozen(increments, responses);
+  std::vector<CellRequest> requests;
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    if (is_zero(increments[point]) || responses[point].quality == Quality::failed) continue;
+    requests.push_back({committed_[point].cell.state, for_cell(increments[point])});
+    points.push_back(point);
+  }
+  const std::vector<CellReply> replies = calls_.evaluate(requests, points);
+  for (std::size_t r = 0; r < replies.size(); ++r) {
+    const std::size_t point = points[r];
+    const Response& cell = replies[r].response;
+    if (cell.quality != Quality::failed) {
+      take(replies[r], increments[point], point);
+      const fem::ElastoplasticState start = law_start(point, increments[point]);
+      const fem::FrozenCone& cone = trial_[point].mobilisation.cone;
+      Response& response = responses[point];
+      response = fem::integrate_elastoplastic(frame_, cone, start, increments[point], trial_[point].law);
+      add_hardening(frame_, committed_[point].mobilisation.cone, cone, start, increments[point],
+                    trial_[point].law, response);
+    }
+    if (cell.quality < responses[point].quality) {
+      responses[point].quality = cell.quality;
+      responses[point].message = cell.message;
+      responses[point].step_factor = cell.step_factor;
+    }
+  }
+}
+
+void InformedMaterial::commit() {
+  if (parameters_.update == InformedUpdate::frozen) {
+    std::vector<std::size_t> points;
+    for (std::size_t point = 0; point < committed_.size(); ++point) {
+      if (!is_zero(increments_[point])) points.push_back(point);
+    }
+    follow(points);
+  }
+  std::vector<StatePointer*> states;
+  for (PointState& point : trial_) states.push_back(&point.cell.state);
+  collect(calls_, states);
+  committed_ = trial_;
+}
+
+void InformedMaterial::follow(std::span<const std::size_t> points) {
+  std::vector<std::size_t> pending(points.begin(), points.end());
+  std::vector<CellReply> last(committed_.size());
+  for (int parts = 1; !pending.empty(); parts *= 2) {
+    if (parts > kMostParts) {
+      throw RunError(
+          fmt::format("the cell of point {} cannot follow a step of its material, even in {} parts: {}; take "
+                      "smaller steps, or update: fixed_point, which cuts steps for its cells",
+                      pending.front(), kMostParts, last[pending.front()].response.message));
+    }
+    for (const std::size_t point : pending) last[point] = CellReply{{}, {}, committed_[point].cell.state};
+    std::vector<std::size_t> following = pending;
+    for (int part = 0; part < parts && !following.empty(); ++part) {
+      std::vector<CellRequest> requests;
+      for (const std::size_t point : following) {
+        requests.push_back({last[point].state, part_of(for_cell(increments_[point]), parts)});
+      }
+      std::vector<CellReply> replies = calls_.evaluate(requests, following);
+      for (std::size_t r = 0; r < replies.size(); ++r) {
+        replies[r].diagnostics.dem_steps += last[following[r]].diagnostics.dem_steps;
+        last[following[r]] = std::move(replies[r]);
+      }
+      const auto gone = [&](std::size_t point) { return last[point].response.quality != Quality::good; };
+      std::erase_if(following, gone);
+    }
+    for (const std::size_t point : following) take(last[point], increments_[point], point);
+    std::erase_if(pending, [&](std::size_t point) { return last[point].response.quality == Quality::good; });
+  }
+}
+
+void InformedMaterial::take(const CellReply& reply, const Increment& increment, std::size_t point) {
+  PointState& trial = trial_[point];
+  const fem::ScaledVector<double>& law = trial.law.scaled_stress;
+  const fem::MicroStep step{
+      scaled_strain(increment),
+      complete_cell_stress(cell_start(point, increment), law_start(point, increment).scaled_stress),
+      complete_cell_stress(reply.response.stress, law), law.head<3>().sum() / 3.0,
+      trial.law.regime == fem::Regime::smooth};
+  trial.mobilisation =
+      fem::advance(committed_[point].mobilisation, step, frame_.moduli, parameters_.mobilisation);
+  const bool frozen = parameters_.update == InformedUpdate::frozen;
+  trial.held_friction = (frozen ? committed_[point] : trial).mobilisation.cone.friction;
+  trial.take_up = trial.law.gamma_p - committed_[point].law.gamma_p;
+  trial.cell = reply;
+}
+
+/// The strain of the cell: symmetric, without curvature.
+fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& increment) {
+  Vector7 strain = increment.strain();
+  strain(k12) = strain(k21) = 0.5 * (strain(k12) + strain(k21));
+  strain.tail<2>().setZero();
+  return strain;
+}
+
+double InformedMaterial::mismatch(const PointState& point) {
+  const auto in_plane = [](const fem::ScaledVector<double>& s) {
+    return std::sqrt(s(k11) * s(k11) + s(k22) * s(k22) + 0.5 * (s(k12) + s(k21)) * (s(k12) + s(k21)));
+  };
+  const double size = in_plane(point.law.scaled_stress);
+  const double difference = in_plane(
+      point.law.scaled_stress - complete_cell_stress(point.cell.response.stress, point.law.scaled_stress));
+  return size > 0.0 ? difference / size : difference;
+}
+
+void InformedMaterial::save(ArchiveWriter& archive) const {
+  std::vector<double> values;
+  std::vector<CellReply> cells;
+  for (PointState point : committed_) {
+    Packer pack{values};
+    visit_numbers(pack, point, parameters_.mobilisation.window);
+    cells.push_back(point.cell);
+  }
+  archive.write("laws", std::span<const double>(values));
+  write_cell_replies(archive, "cells", cells);
+}
+
+void InformedMaterial::restore(ArchiveReader& archive) {
+  std::vector<double> one;
+  Packer pack{one};
+  PointState any;
+  visit_numbers(pack, any, parameters_.mobilisation.window);
+  const std::size_t length = one.size();
+  const std::vector<double> values = read_lists(archive, "laws", committed_.size(), length);
+  std::vector<CellReply> cells = read_cell_replies(archive, "cells", committed_.size());
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    Unpacker unpack{std::span(values).subspan(point * length, length)};
+    visit_numbers(unpack, committed_[point], parameters_.mobilisation.window);
+    committed_[point].cell = std::move(cells[point]);
+  }
+  trial_ = committed_;
+}
+
+std::vector<std::string> InformedMaterial::field_names() const {
+  return {
+      "friction",        "dilatancy",  "dilatancy_limited",   "plastic_shear",          "regime",
+      "stress_mismatch", "void_ratio", "coordination_number", "unbalanced_force_ratio", "sliding_fraction",
+      "dem_steps"};
+}
+
+void InformedMaterial::fields(std::size_t point, std::span<double> values) const {
+  const PointState& p = committed_[point];
+  const std::array<double, 11> all{p.mobilisation.cone.friction,
+                                   p.mobilisation.cone.dilatancy,
+                                   p.mobilisation.limited ? 1.0 : 0.0,
+                                   p.law.gamma_p,
+                                   static_cast<double>(p.law.regime),
+                                   mismatch(p),
+                                   p.cell.diagnostics.void_ratio,
+                                   p.cell.diagnostics.coordination_number,
+                                   p.cell.diagnostics.unbalanced_force_ratio,
+                                   p.cell.diagnostics.sliding_fraction,
+                                   static_cast<double>(p.cell.diagnostics.dem_steps)};
+  std::copy(all.begin(), all.end(), values.begin());
+}
+
+std::vector<fem::Figure> InformedMaterial::figures() const {
+  if (committed_.empty()) return {};
+  std::vector<double> mismatches;
+  double sum = 0.0;
+  double limited = 0.0;
+  for (const PointState& point : committed_) {
+    mismatches.push_back(mismatch(point));
+    sum += mismatches.back();
+    if (point.mobilisation.limited) limited += 1.0;
+  }
+  std::sort(mismatches.begin(), mismatches.end());
+  const auto count = static_cast<double>(mismatches.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count)) - 1;
+  return {{"stress_mismatch_mean", sum / count},
+          {"stress_mismatch_percentile_95", mismatches[rank]},
+          {"stress_mismatch_largest", mismatches.back()},
+          {"dilatancy_limited", limited / count}};
+}
+
+}  // namespace polargrain::coupler

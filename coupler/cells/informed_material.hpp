@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "common/cell.hpp"
+#include "coupler/cells/cell_calls.hpp"
+#include "fem/material/elastoplastic.hpp"
+#include "fem/material/material.hpp"
+#include "fem/material/mobilisation.hpp"
+
+namespace polargrain::coupler {
+
+/// When the cells are asked.
+enum class InformedUpdate {
+  frozen,      ///< once a committed step, for the cone of the next one: first order in the step
+  fixed_point  ///< in every evaluation, for the cone of this step: a cell call a Newton iteration
+};
+
+struct InformedParameters {
+  fem::ElasticParameters elastic;  ///< of the law; its initial stress is that of the packing
+  fem::InvariantWeights weights;
+  fem::MobilisationOptions mobilisation;
+  InformedUpdate update = InformedUpdate::frozen;
+};
+
+/// The generalised elastoplastic Cosserat material (docs/theory/plasticity.md, B.9): at each point a
+/// closed-form law carries the stress, and a cell that follows the point's strain tells it friction and
+/// dilatancy. What law and cell disagree about is shown as the field stress_mismatch.
+class InformedMaterial : public fem::Material {
+ public:
+  /// @param calls must live as long as the material
+  InformedMaterial(CellCalls calls, const InformedParameters& parameters);
+
+  /// Every point starts from the packing at rest; where the cell has no out-of-plane stress, from the mean of
+  /// the two others.
+  void allocate(std::size_t points) override;
+  void use_large_rotations() override { large_rotations_ = true; }
+  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  /// Frozen: the cells now follow the step. One that has no good answer follows it in halves, quarters, ...
+  /// @throws RunError when it has none in sixteenths either.
+  void commit() override;
+  void revert() override { trial_ = committed_; }
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+
+  /// friction, dilatancy (M_phi, M_psi of the cone), dilatancy_limited (1: a limit acts), plastic_shear,
+  /// regime, stress_mismatch, and of the cell void_ratio, coordination_number, unbalanced_force_ratio,
+  /// sliding_fraction, dem_steps.
+  [[nodiscard]] std::vector<std::string> field_names() const override;
+  void fields(std::size_t point, std::span<double> values) const override;
+  /// stress_mismatch_mean, stress_mismatch_percentile_95, stress_mismatch_largest over the points of the last
+  /// committed step, and dilatancy_limited: the share of them where a limit acts.
+  [[nodiscard]] std::vector<fem::Figure> figures() const override;
+
+ private:
+  struct PointState {
+    fem::ElastoplasticState law;
+    fem::Mobilisation mobilisation;
+    /// The law takes a change of friction up in a straight line over the plastic shear of the step before:
+    /// from `held_friction` at the start of the step to that of the cone `take_up` later.
+    double held_friction = 0.0;
+    double take_up = 0.0;
+    CellReply cell;  ///< its last answer, with its state
+  };
+
+  template <class Visitor>
+  static void visit_numbers(Visitor& visit, PointState& point, int window);
+  [[nodiscard]] Response integrate(std::size_t point, const Increment& increment);
+  void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);
+  void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
+  /// Law and cell turned to the frame at the end of the increment.
+  [[nodiscard]] fem::ElastoplasticState law_start(std::size_t point, const Increment& increment) const;
+  [[nodiscard]] Vector7 cell_start(std::size_t point, const Increment& increment) const;
+  /// What the cell is to follow: without the rotation that small deformation leaves out of the law's stress.
+  [[nodiscard]] Increment for_cell(const Increment& increment) const;
+  /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
+  void follow(std::span<const std::size_t> points);
+  void take(const CellReply& reply, const Increment& increment, std::size_t point);
+  /// Norm of the difference of the in-plane stresses of law and cell, over that of the law.
+  [[nodiscard]] static double mismatch(const PointState& point);
+  [[nodiscard]] static fem::ScaledVector<double> scaled_strain(const Increment& increment);
+
+  CellCalls calls_;
+  InformedParameters parameters_;
+  fem::ElastoplasticFrame frame_;
+  bool large_rotations_ = false;
+  std::vector<Increment> increments_;  ///< of the last evaluation
+  std::vector<PointState> committed_;
+  std::vector<PointState> trial_;
+};
+
+}  // namespace polargrain::coupler
