@@ -8,6 +8,7 @@
 
 #include "common/increment.hpp"
 #include "common/packing.hpp"
+#include "common/record.hpp"
 #include "common/response.hpp"
 #include "common/state.hpp"
 
@@ -26,6 +27,16 @@ enum class CellRotations { free, controlled };
 /// (docs/theory/grains.md), else the engine's own. The others are for comparison: always the engine's own, and
 /// the plain twin of the loop over discs.
 enum class CellLoop { automatic, engine, plain };
+
+constexpr Choices choices_of(CellTangent) {
+  return {0, 3};
+}
+constexpr Choices choices_of(CellRotations) {
+  return {0, 2};
+}
+constexpr Choices choices_of(CellLoop) {
+  return {0, 3};
+}
 
 /// How a cell is loaded and when its answer counts as quasi-static (mechanics G.3).
 struct CellControl {
@@ -47,6 +58,20 @@ struct CellControl {
   CellLoop loop = CellLoop::automatic;
 };
 
+template <RecordOf<CellControl> Record, class Visit>
+void describe(Record& control, Visit&& visit) {
+  visit(FieldNotes{"inertial_number", "1", "mean loading rate"}, control.inertial_number);
+  visit(FieldNotes{"unbalanced_force_ratio", "1", "at read-out"}, control.unbalanced_force_ratio);
+  visit(FieldNotes{"unbalanced_moment_ratio", "1", "at read-out"}, control.unbalanced_moment_ratio);
+  visit(FieldNotes{"damping", "1", "share of the critical damping of a mean grain on one mean contact"}, control.damping);
+  visit(FieldNotes{"least_steps", "1", "fewest DEM steps of a loading ramp"}, control.least_steps);
+  visit(FieldNotes{"most_relaxation_steps", "1", "DEM steps after which an answer is unreliable"},
+        control.most_relaxation_steps);
+  visit(FieldNotes{"tangent", "", "0 none, 1 Voigt, 2 condensed"}, control.tangent);
+  visit(FieldNotes{"rotations", "", "0 free, 1 controlled"}, control.rotations);
+  visit(FieldNotes{"loop", "", "0 automatic, 1 the engine's own, 2 plain"}, control.loop);
+}
+
 /// What a worker must know to stand in for cells of one material. Sent whole, so that a worker needs no file.
 struct CellDefinition {
   std::string name;         ///< the material's name in the case
@@ -56,30 +81,59 @@ struct CellDefinition {
   CellControl control;
 };
 
+template <RecordOf<CellDefinition> Record, class Visit>
+void describe(Record& definition, Visit&& visit) {
+  visit(FieldNotes{"name", "", "name of the material in the case"}, definition.name);
+  visit(FieldNotes{"script_file", "", "the user's script, for messages"}, definition.script_file);
+  visit(FieldNotes{"script", "", "text of the script"}, definition.script);
+  visit(FieldNotes{"packing", "", "the packing that cells start from"}, definition.packing);
+  visit(FieldNotes{"control", "", "how cells are loaded and read out"}, definition.control);
+}
+
 /// One evaluation: from a state (or, when null, from the packing) along an increment.
 struct CellRequest {
   StatePointer state;
   Increment increment;
 };
 
-/// Diagnostics of a cell at read-out.
+/// Diagnostics of a cell at read-out: what each field means is said in its description below, once.
 struct CellDiagnostics {
-  double unbalanced_force_ratio = 0.0;   ///< reached at read-out
-  double unbalanced_moment_ratio = 0.0;  ///< reached at read-out
-  double void_ratio = 0.0;               ///< in plane: (area of the box - area of grains) / area of grains
-  double coordination_number = 0.0;      ///< 2 contacts / grains
-  double sliding_fraction = 0.0;         ///< contacts at the sliding limit / contacts
-  double multiplier = 0.0;  ///< s21 - s12 that holds the mean rotation, Pa; 0 with free rotations
+  double unbalanced_force_ratio = 0.0;
+  double unbalanced_moment_ratio = 0.0;
+  double void_ratio = 0.0;
+  double coordination_number = 0.0;
+  double sliding_fraction = 0.0;
+  double rolling_fraction = 0.0;
+  double rattlers = 0.0;
+  double multiplier = 0.0;
+  double mean_rotation = 0.0;
+  double rotation_spread = 0.0;
+  std::array<double, 3> fabric{};
   std::int64_t contacts = 0;
   std::int64_t dem_steps = 0;
-  double engine_seconds = 0.0;    ///< wall time inside the engine; never part of a result
-  double rolling_fraction = 0.0;  ///< contacts at the rolling limit / contacts (rolling models li_chu, epsd2)
-  double rattlers = 0.0;          ///< grains without a contact / grains
-  double mean_rotation = 0.0;     ///< of the grains, since the packing, rad
-  double rotation_spread = 0.0;   ///< standard deviation of the rotations of the grains, rad
-  /// Fabric tensor in the laboratory, F_ij = mean of n_i n_j over the contacts (trace 1): F11, F22, F12.
-  std::array<double, 3> fabric{};
+  double engine_seconds = 0.0;
 };
+
+template <RecordOf<CellDiagnostics> Record, class Visit>
+void describe(Record& d, Visit&& visit) {
+  visit(FieldNotes{"void_ratio", "1", "in the plane, area of the voids / area of the grains"}, d.void_ratio);
+  visit(FieldNotes{"coordination_number", "1", "2 contacts / grains"}, d.coordination_number);
+  visit(FieldNotes{"unbalanced_force_ratio", "1", "mean unbalanced force / mean contact force"},
+        d.unbalanced_force_ratio);
+  visit(FieldNotes{"unbalanced_moment_ratio", "1", "mean unbalanced moment / (mean contact force times mean radius)"},
+        d.unbalanced_moment_ratio);
+  visit(FieldNotes{"sliding_fraction", "1", "contacts at the sliding limit / contacts"}, d.sliding_fraction);
+  visit(FieldNotes{"rolling_fraction", "1", "contacts at the rolling limit / contacts (models `li_chu`, `epsd2`)"},
+        d.rolling_fraction);
+  visit(FieldNotes{"rattlers", "1", "grains without a contact / grains"}, d.rattlers);
+  visit(FieldNotes{"multiplier", "Pa", "s21 - s12 that holds the mean rotation; 0 with free rotations"}, d.multiplier);
+  visit(FieldNotes{"mean_rotation", "rad", "mean rotation of the grains since the packing"}, d.mean_rotation);
+  visit(FieldNotes{"rotation_spread", "rad", "standard deviation of the rotations of the grains"}, d.rotation_spread);
+  visit(FieldNotes{"fabric", "1", "mean of n_i n_j over the contacts in the laboratory, trace 1", "_11 _22 _12"}, d.fabric);
+  visit(FieldNotes{"contacts", "1", "contacts in the cell"}, d.contacts);
+  visit(FieldNotes{"dem_steps", "1", "DEM steps of the last evaluation"}, d.dem_steps);
+  visit(FieldNotes{"engine_seconds", "s", "wall time inside the engine", {}, FieldUse::cost}, d.engine_seconds);
+}
 
 /// Answer of a cell. Stress and tangent are the cell's own (laboratory frame); Response::tangent is with
 /// respect to the Cosserat strain.
@@ -88,6 +142,13 @@ struct CellReply {
   CellDiagnostics diagnostics;
   StatePointer state;  ///< state after the increment; null when the evaluation failed
 };
+
+template <RecordOf<CellReply> Record, class Visit>
+void describe(Record& reply, Visit&& visit) {
+  visit(FieldNotes{"response", "", "stress and tangent of the cell"}, reply.response);
+  visit(FieldNotes{"diagnostics", "", "diagnostics at read-out"}, reply.diagnostics);
+  visit(FieldNotes{"state", "", "state after the increment"}, reply.state);
+}
 
 /// One engine that stands in for the cells of one definition. What it answers depends on its arguments alone,
 /// to the bit, so any engine made from an equal definition may take any request.

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/archive.hpp"
-#include "common/response.hpp"
 
 namespace polargrain {
 
@@ -14,11 +13,5 @@ namespace polargrain {
 /// @throws RunError when the archive does not hold `count` lists of `length` values under that name
 std::vector<double> read_lists(ArchiveReader& archive, const std::string& name, std::size_t count,
                                std::size_t length);
-
-/// Stress, tangent, quality, step factor and noise of committed answers. The message is left out: what is
-/// committed is good and has none.
-void write_responses(ArchiveWriter& archive, const std::string& name, std::span<const Response> responses);
-/// @throws RunError when the archive does not hold `count` of them
-std::vector<Response> read_responses(ArchiveReader& archive, const std::string& name, std::size_t count);
 
 }  // namespace polargrain

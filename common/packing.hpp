@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/record.hpp"
 #include "common/state.hpp"
 
 namespace polargrain {
@@ -19,6 +20,16 @@ struct Grain {
   double moment_of_inertia = 0.0;                      ///< kg m^2, about e_3
   double height = 0.0;                                 ///< x3 of the centre, m; 0 in a plane packing
 };
+
+template <RecordOf<Grain> Record, class Visit>
+void describe(Record& grain, Visit&& visit) {
+  visit(FieldNotes{"id", "", "number of the grain"}, grain.id);
+  visit(FieldNotes{"x", "m", "centre in the plane", "1 2"}, grain.position);
+  visit(FieldNotes{"radius", "m", "radius"}, grain.radius);
+  visit(FieldNotes{"mass", "kg", "mass"}, grain.mass);
+  visit(FieldNotes{"moment_of_inertia", "kg m2", "moment of inertia about e_3"}, grain.moment_of_inertia);
+  visit(FieldNotes{"height", "m", "x3 of the centre; 0 in a plane packing"}, grain.height);
+}
 
 /// The prepared initial state of a cell: grains in a periodic box.
 struct Packing {
@@ -38,6 +49,17 @@ struct Packing {
 
   [[nodiscard]] double volume() const { return box.determinant() * thickness; }
 };
+
+template <RecordOf<Packing> Record, class Visit>
+void describe(Record& packing, Visit&& visit) {
+  visit(FieldNotes{"dimension", "", "2: plane; 3: spheres in a box that is periodic in x3 too"}, packing.dimension);
+  visit(FieldNotes{"box", "m", "base vectors of the periodic box as columns", "_11 _12 _21 _22"}, packing.box);
+  visit(FieldNotes{"thickness", "m", "out of plane; stresses are per this thickness"}, packing.thickness);
+  visit(FieldNotes{"grains", "", "the grains"}, packing.grains);
+  visit(FieldNotes{"pressure", "Pa", "mean normal stress at rest when it was made, compression positive; 0: not recorded"},
+        packing.pressure);
+  visit(FieldNotes{"state", "", "velocities and contact histories of a packing made with friction"}, packing.state);
+}
 
 /// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first
 /// line `# cell ... xx=... xy=... yx=... yy=... z=... p=...` with the base vectors as columns (xy: x component of

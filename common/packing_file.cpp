@@ -13,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "common/hdf5_file.hpp"
+#include "common/record_table.hpp"
 #include "common/sealed_file.hpp"
 #include "common/state.hpp"
 #include "common/write_file.hpp"
@@ -34,7 +35,7 @@ struct Content {
   std::vector<double> box;       // columns are base vectors, one after the other; then the thickness
   std::vector<std::int64_t> id;  // of the grains
   std::vector<double> grains;    // x, y, radius, mass, moment of inertia of each
-  std::vector<double> reached;   // in the order of PackingReached
+  std::vector<double> reached;   // in the order of the description of PackingReached
   std::vector<std::uint8_t> state;
   std::vector<double> heights;  // of the grains; none in a plane packing, nor in its file
   int version = kPlane;
@@ -66,7 +67,6 @@ struct Content {
 
 Content content_of(const PreparedPacking& prepared) {
   const Packing& packing = prepared.packing;
-  const PackingReached& r = prepared.reached;
   Content content;
   content.specification = prepared.specification;
   content.box = {packing.box(0, 0), packing.box(1, 0), packing.box(0, 1), packing.box(1, 1),
@@ -79,16 +79,7 @@ Content content_of(const PreparedPacking& prepared) {
     if (packing.dimension == 3) content.heights.push_back(grain.height);
   }
   content.version = packing.dimension == 3 ? kSpace : kPlane;
-  content.reached = {r.void_ratio,
-                     r.coordination_number,
-                     r.rattlers,
-                     r.pressure,
-                     r.anisotropy,
-                     r.shear,
-                     r.unbalanced_force_ratio,
-                     r.unbalanced_moment_ratio,
-                     r.friction,
-                     r.dem_steps};
+  content.reached = values_of(prepared.reached);
   if (packing.state)
     for (const std::byte byte : packing.state->bytes())
       content.state.push_back(std::to_integer<std::uint8_t>(byte));
@@ -103,7 +94,7 @@ PreparedPacking packing_of(const Content& content) {
   require(content.box.size() == kValues, "the box is no box");
   require(!content.id.empty() && content.grains.size() == kValues * content.id.size(),
           "the grains are incomplete");
-  require(content.reached.size() == 10, "what was reached is incomplete");
+  require(content.reached.size() == names_of_columns<PackingReached>().size(), "what was reached is incomplete");
   require(content.heights.size() == (content.version == kSpace ? content.id.size() : 0),
           "the heights of the grains are incomplete");
   for (const auto* array : {&content.box, &content.grains, &content.reached, &content.heights})
@@ -125,9 +116,9 @@ PreparedPacking packing_of(const Content& content) {
             "the ids of grains are wrong");
     packing.grains.push_back(grain);
   }
-  const std::vector<double>& r = content.reached;
-  packing.pressure = std::max(0.0, r[3]);
-  prepared.reached = {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9]};
+  const RecordValues reached{content.reached, {}, {}, {}};
+  prepared.reached = RecordReader(reached, "what was reached", true).read<PackingReached>();
+  packing.pressure = std::max(0.0, prepared.reached.pressure);
   if (!content.state.empty()) {
     std::vector<std::byte> bytes(content.state.size());
     std::memcpy(bytes.data(), content.state.data(), bytes.size());

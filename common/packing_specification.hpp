@@ -66,6 +66,23 @@ struct PackingReached {
   double dem_steps = 0.0;  ///< of the last compression
 };
 
+template <RecordOf<PackingReached> Record, class Visit>
+void describe(Record& reached, Visit&& visit) {
+  visit(FieldNotes{"void_ratio", "1", "in plane; of the volumes in dimension 3"}, reached.void_ratio);
+  visit(FieldNotes{"coordination_number", "1", "2 contacts / grains"}, reached.coordination_number);
+  visit(FieldNotes{"rattlers", "1", "grains without a contact / grains"}, reached.rattlers);
+  visit(FieldNotes{"pressure", "Pa", "mean of the axes, compression positive"}, reached.pressure);
+  visit(FieldNotes{"anisotropy", "1", "(s11 - s22) / (s11 + s22), where it is largest of all pairs of axes"},
+        reached.anisotropy);
+  visit(FieldNotes{"shear", "1", "(s12 + s21) / (s11 + s22)"}, reached.shear);
+  visit(FieldNotes{"unbalanced_force_ratio", "1", "mean unbalanced force / mean contact force"},
+        reached.unbalanced_force_ratio);
+  visit(FieldNotes{"unbalanced_moment_ratio", "1", "mean unbalanced moment / (mean contact force times mean radius)"},
+        reached.unbalanced_moment_ratio);
+  visit(FieldNotes{"friction", "1", "sliding friction while it was made"}, reached.friction);
+  visit(FieldNotes{"dem_steps", "1", "of the last compression"}, reached.dem_steps);
+}
+
 struct PreparedPacking {
   Packing packing;
   PackingReached reached;

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
+#include "common/record_table.hpp"
 #include "coupler/case/case.hpp"
 #include "app/commands/csv_file.hpp"
 #include "coupler/pool/private_directory.hpp"
@@ -21,7 +22,7 @@
 namespace polargrain::app {
 namespace {
 
-const std::vector<std::string> kPathColumns{"h11", "h12", "h21", "h22", "w", "k1", "k2"};
+const std::vector<std::string> kPathColumns = names_of_columns<Increment>();
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells;
@@ -34,12 +35,9 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
-Increment increment_of(const std::vector<double>& v) {
-  Increment increment;
-  increment.displacement_gradient << v[0], v[1], v[2], v[3];
-  increment.micro_rotation = v[4];
-  increment.curvature << v[5], v[6];
-  return increment;
+Increment increment_of(const std::vector<double>& numbers) {
+  const RecordValues values{numbers, {}, {}, {}};
+  return RecordReader(values, "an increment", true).read<Increment>();
 }
 
 /// Where each column of a path file goes in the order of kPathColumns.

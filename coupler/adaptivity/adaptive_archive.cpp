@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // An adaptive material in a checkpoint: cells, what is known of them, who follows whom, and what was
 // measured.
-#include "common/cell_archive.hpp"
 #include "common/error.hpp"
 #include "common/packed_values.hpp"
+#include "common/record_archive.hpp"
 #include "coupler/adaptivity/adaptive_material.hpp"
 
 namespace polargrain::coupler {
@@ -62,7 +62,7 @@ void AdaptiveMaterial::save(ArchiveWriter& archive) const {
                                          audits_};
   archive.write("counts", std::span<const std::int64_t>(counts));
   archive.write("tightening", std::span<const double>(&tightening_, 1));
-  write_cell_replies(archive, "cells", answers);
+  write_records(archive, "cells", std::span<const CellReply>(answers));
   archive.write("curvatures", std::span<const double>(curvatures));
   archive.write("points", std::span<const double>(numbers));
   archive.write("sources", std::span<const std::int64_t>(whole));
@@ -78,7 +78,7 @@ void AdaptiveMaterial::restore(ArchiveReader& archive) {
   const std::vector<double> tightening = archive.doubles("tightening");
   if (counts.size() != 8 || counts[0] < 1 || tightening.size() != 1) report_mismatch();
   const auto cells = static_cast<std::size_t>(counts[0]);
-  std::vector<CellReply> answers = read_cell_replies(archive, "cells", cells);
+  std::vector<CellReply> answers = read_records<CellReply>(archive, "cells", cells);
   const std::vector<double> curvatures = read_lists(archive, "curvatures", cells, kCurvature);
   cells_.assign(cells, Cell{});
   for (std::size_t c = 0; c < cells; ++c) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/record_table.hpp"
 #include "coupler/adaptivity/adaptive_material.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 
@@ -133,26 +134,14 @@ std::vector<std::string> AdaptiveMaterial::take_notes() {
 }
 
 std::vector<std::string> AdaptiveMaterial::field_names() const {
-  return {"source",
-          "cell",
-          "error_estimate",
-          "void_ratio",
-          "coordination_number",
-          "unbalanced_force_ratio",
-          "sliding_fraction",
-          "dem_steps"};
+  return joined_names({"source", "cell", "error_estimate"}, names_of_columns<CellDiagnostics>());
 }
 
 void AdaptiveMaterial::fields(std::size_t point, std::span<double> values) const {
-  const CellDiagnostics& d = cells_[points_[point].cell].answer.diagnostics;
   values[0] = static_cast<double>(points_[point].source);
   values[1] = static_cast<double>(points_[point].cell);
   values[2] = points_[point].estimate / confining_;
-  values[3] = d.void_ratio;
-  values[4] = d.coordination_number;
-  values[5] = d.unbalanced_force_ratio;
-  values[6] = d.sliding_fraction;
-  values[7] = static_cast<double>(d.dem_steps);
+  std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3);
 }
 
 }  // namespace polargrain::coupler

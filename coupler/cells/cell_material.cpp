@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
-#include "common/cell_archive.hpp"
 #include "common/error.hpp"
-#include "common/packed_values.hpp"
+#include "common/record_archive.hpp"
+#include "common/record_table.hpp"
 #include "coupler/cells/cell_noise.hpp"
 #include "fem/material/rotation.hpp"
 
@@ -72,49 +72,20 @@ void CellMaterial::commit() {
 }
 
 void CellMaterial::save(ArchiveWriter& archive) const {
-  std::vector<CellReply> cells;
-  std::vector<double> cosserat;
-  for (const PointState& point : committed_) {
-    cells.push_back(point.cell);
-    const CosseratPart& part = point.cosserat;
-    cosserat.insert(cosserat.end(), {part.skew_stress, part.couple_stress[0], part.couple_stress[1]});
-  }
-  write_cell_replies(archive, "cells", cells);
-  archive.write("cosserat", std::span<const double>(cosserat));
+  write_records(archive, "points", std::span<const PointState>(committed_));
 }
 
 void CellMaterial::restore(ArchiveReader& archive) {
-  std::vector<CellReply> cells = read_cell_replies(archive, "cells", committed_.size());
-  const std::vector<double> cosserat = read_lists(archive, "cosserat", committed_.size(), 3);
-  for (std::size_t point = 0; point < committed_.size(); ++point) {
-    const double* const v = &cosserat[3 * point];
-    committed_[point] = {std::move(cells[point]), {v[0], {v[1], v[2]}}};
-  }
+  committed_ = read_records<PointState>(archive, "points", committed_.size());
   trial_ = committed_;
 }
 
 std::vector<std::string> CellMaterial::field_names() const {
-  return {"void_ratio",       "coordination_number", "unbalanced_force_ratio",
-          "sliding_fraction", "dem_steps",           "rolling_fraction",
-          "rattlers",         "fabric_11",           "fabric_22",
-          "fabric_12",        "mean_rotation",       "rotation_spread"};
+  return names_of_columns<CellDiagnostics>();
 }
 
 void CellMaterial::fields(std::size_t point, std::span<double> values) const {
-  const CellDiagnostics& d = committed_[point].cell.diagnostics;
-  const std::array<double, 12> found{d.void_ratio,
-                                     d.coordination_number,
-                                     d.unbalanced_force_ratio,
-                                     d.sliding_fraction,
-                                     static_cast<double>(d.dem_steps),
-                                     d.rolling_fraction,
-                                     d.rattlers,
-                                     d.fabric[0],
-                                     d.fabric[1],
-                                     d.fabric[2],
-                                     d.mean_rotation,
-                                     d.rotation_spread};
-  std::copy(found.begin(), found.end(), values.begin());
+  std::ranges::copy(values_of(committed_[point].cell.diagnostics), values.begin());
 }
 
 }  // namespace polargrain::coupler

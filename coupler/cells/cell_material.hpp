@@ -46,6 +46,12 @@ class CellMaterial : public fem::Material {
   struct PointState {
     CellReply cell;  ///< the cell's own last answer, with its state
     CosseratPart cosserat;
+
+    template <RecordOf<PointState> Record, class Visit>
+    friend void describe(Record& point, Visit&& visit) {
+      visit(FieldNotes{"cell", "", "the cell's last answer"}, point.cell);
+      visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
+    }
   };
 
   CellCalls calls_;

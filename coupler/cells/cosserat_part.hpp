@@ -34,6 +34,12 @@ struct CosseratPart {
   [[nodiscard]] Response joined_to(const Response& cell, const CosseratParameters& cosserat) const;
 };
 
+template <RecordOf<CosseratPart> Record, class Visit>
+void describe(Record& part, Visit&& visit) {
+  visit(FieldNotes{"skew_stress", "Pa", "s21 - s12"}, part.skew_stress);
+  visit(FieldNotes{"couple_stress", "N/m", "couple stress", "_1 _2"}, part.couple_stress);
+}
+
 /// The tangent of the symmetric stress with respect to the Cosserat strain: mean of the two shear rows, and,
 /// because a cell with free rotations feels eps12 and eps21 through their sum alone, mean of the two shear
 /// columns. Nothing in the rows and columns of the curvatures.

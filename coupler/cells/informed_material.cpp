@@ -7,9 +7,10 @@
 #include <array>
 #include <cmath>
 
-#include "common/cell_archive.hpp"
 #include "common/error.hpp"
 #include "common/packed_values.hpp"
+#include "common/record_archive.hpp"
+#include "common/record_table.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -314,7 +315,7 @@ void InformedMaterial::save(ArchiveWriter& archive) const {
     cells.push_back(point.cell);
   }
   archive.write("laws", std::span<const double>(values));
-  write_cell_replies(archive, "cells", cells);
+  write_records(archive, "cells", std::span<const CellReply>(cells));
 }
 
 void InformedMaterial::restore(ArchiveReader& archive) {
@@ -324,7 +325,7 @@ void InformedMaterial::restore(ArchiveReader& archive) {
   visit_numbers(pack, any, parameters_.mobilisation.window);
   const std::size_t length = one.size();
   const std::vector<double> values = read_lists(archive, "laws", committed_.size(), length);
-  std::vector<CellReply> cells = read_cell_replies(archive, "cells", committed_.size());
+  std::vector<CellReply> cells = read_records<CellReply>(archive, "cells", committed_.size());
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     Unpacker unpack{std::span(values).subspan(point * length, length)};
     visit_numbers(unpack, committed_[point], parameters_.mobilisation.window);
@@ -334,26 +335,20 @@ void InformedMaterial::restore(ArchiveReader& archive) {
 }
 
 std::vector<std::string> InformedMaterial::field_names() const {
-  return {
-      "friction",        "dilatancy",  "dilatancy_limited",   "plastic_shear",          "regime",
-      "stress_mismatch", "void_ratio", "coordination_number", "unbalanced_force_ratio", "sliding_fraction",
-      "dem_steps"};
+  return joined_names({"friction", "dilatancy", "dilatancy_limited", "plastic_shear", "regime", "stress_mismatch"},
+                      names_of_columns<CellDiagnostics>());
 }
 
 void InformedMaterial::fields(std::size_t point, std::span<double> values) const {
   const PointState& p = committed_[point];
-  const std::array<double, 11> all{p.mobilisation.cone.friction,
-                                   p.mobilisation.cone.dilatancy,
-                                   p.mobilisation.limited ? 1.0 : 0.0,
-                                   p.law.gamma_p,
-                                   static_cast<double>(p.law.regime),
-                                   mismatch(p),
-                                   p.cell.diagnostics.void_ratio,
-                                   p.cell.diagnostics.coordination_number,
-                                   p.cell.diagnostics.unbalanced_force_ratio,
-                                   p.cell.diagnostics.sliding_fraction,
-                                   static_cast<double>(p.cell.diagnostics.dem_steps)};
-  std::copy(all.begin(), all.end(), values.begin());
+  const std::array<double, 6> own{p.mobilisation.cone.friction,
+                                  p.mobilisation.cone.dilatancy,
+                                  p.mobilisation.limited ? 1.0 : 0.0,
+                                  p.law.gamma_p,
+                                  static_cast<double>(p.law.regime),
+                                  mismatch(p)};
+  std::ranges::copy(own, values.begin());
+  std::ranges::copy(values_of(p.cell.diagnostics), values.begin() + own.size());
 }
 
 std::vector<fem::Figure> InformedMaterial::figures() const {

@@ -70,13 +70,15 @@ class ArrayReader {
     require_finite(values, what_);
     return values;
   }
-  std::vector<double> finite_numbers(std::size_t count) {
+  std::vector<double> all_numbers() { return numbers_of(block()); }
+  std::vector<std::int64_t> all_integers() {
     const std::span<const std::byte> bytes = block();
-    if (bytes.size() != count * sizeof(double)) wrong(fmt::format("{} doubles", count));
-    std::vector<double> values = numbers_of(bytes);
-    require_finite(values, what_);
+    if (bytes.size() % sizeof(std::int64_t) != 0) wrong("a block of whole numbers");
+    std::vector<std::int64_t> values(bytes.size() / sizeof(std::int64_t));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
+  [[nodiscard]] bool text_follows() const { return is_next(msgpack::type::STR); }
   /// A state with its bytes, or none.
   StatePointer state() {
     if (is_next(msgpack::type::NIL)) {

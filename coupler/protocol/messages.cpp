@@ -43,11 +43,6 @@ void write(ArrayWriter& writer, const EvaluateRequest& m) {
   ArrayWriter cells = writer.part();
   for (const CellToEvaluate& cell : m.cells) write(cells.part(), cell);
 }
-void write(ArrayWriter&& writer, const CellReply& cell) {
-  write(writer.part(), cell.response);
-  write(writer.part(), cell.diagnostics);
-  writer.state(cell.state);
-}
 void write(ArrayWriter& writer, const Reply& m) {
   writer.whole(m.request);
   ArrayWriter cells = writer.part();
@@ -141,22 +136,11 @@ EvaluateRequest read_evaluate(ArrayReader& reader) {
   return m;
 }
 
-CellReply read_cell_reply(ArrayReader& cells) {
-  ArrayReader reader(cells.part(), "the answer of a cell");
-  CellReply cell;
-  cell.response = read_response(reader.part());
-  cell.diagnostics = read_diagnostics(reader.part());
-  cell.state = reader.state_or_name();
-  reader.end();
-  if (!cell.state && cell.response.quality != Quality::failed) {
-    throw ProtocolError("a reply that did not fail has no state");
-  }
-  return cell;
-}
-
 Reply read_reply(ArrayReader& reader) {
   const std::uint64_t request = reader.whole();
-  return {request, read_list<CellReply>(reader.part(), "a list of answers", read_cell_reply)};
+  return {request, read_list<CellReply>(reader.part(), "a list of answers", [](ArrayReader& cells) {
+            return read_cell_reply(cells.part());
+          })};
 }
 
 States read_states(ArrayReader& reader) {

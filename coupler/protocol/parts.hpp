@@ -6,16 +6,16 @@
 
 namespace polargrain::coupler {
 
-/// The parts of messages, each a pair of write and read. @throws ProtocolError (all reads) saying what is
-/// wrong
+/// The records in messages, each an array of its own: doubles as one block, whole numbers as one block, texts,
+/// states (common/record_values.hpp). What a record consists of is said by its description alone; here stands
+/// what of it may be used.
 void write(ArrayWriter&& writer, const Increment& increment);
 void write(ArrayWriter&& writer, const CellDefinition& cell);
-void write(ArrayWriter&& writer, const Response& response);
-void write(ArrayWriter&& writer, const CellDiagnostics& diagnostics);
+void write(ArrayWriter&& writer, const CellReply& reply);
 
+/// @throws ProtocolError (all reads) saying what is wrong
 Increment read_increment(const msgpack::object& object);
 CellDefinition read_definition(const msgpack::object& object);
-Response read_response(const msgpack::object& object);
-CellDiagnostics read_diagnostics(const msgpack::object& object);
+CellReply read_cell_reply(const msgpack::object& object);
 
 }  // namespace polargrain::coupler

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "common/packed_values.hpp"
+#include "common/record_archive.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -30,7 +31,7 @@ void write_state(ArchiveWriter& archive, const SolverState& state) {
   std::vector<double> strain;
   for (const Vector7& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
-  write_responses(archive, "responses", state.responses);
+  write_records(archive, "responses", std::span<const Response>(state.responses));
 }
 
 SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points) {
@@ -50,7 +51,7 @@ SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t po
   const std::vector<double> strain = read_lists(archive, "strain", points, 7);
   state.strain.resize(points);
   for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[7 * i], 7, state.strain[i].data());
-  state.responses = read_responses(archive, "responses", points);
+  state.responses = read_records<Response>(archive, "responses", points);
   return state;
 }
 

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(record_test unit unit/record_test.cpp LIBS polargrain_pool)
+target_compile_definitions(record_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 polargrain_test(coupler_messages_test unit unit/coupler_messages_test.cpp LIBS polargrain_pool)
 polargrain_test(coupler_case_test unit unit/coupler_case_test.cpp LIBS polargrain_coupler)
 polargrain_test(coupler_noise_test unit unit/coupler_noise_test.cpp LIBS polargrain_common)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "common/record_table.hpp"
 #include "coupler/protocol/messages.hpp"
 
 namespace polargrain::coupler {
@@ -80,12 +81,43 @@ TEST(Messages, DoublesKeepTheirBits) {
   }
 }
 
+/// Every field of the description, whatever fields it has.
 TEST(Messages, DiagnosticsKeepTheirPlaces) {
   Reply reply = some_reply();
-  CellDiagnostics& d = reply.cells[1].diagnostics;
-  d = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7, 8, 9.0, 10.0, 11.0, 12.0, 13.0, {14.0, 15.0, 16.0}};
+  double next = 1.0;
+  describe(reply.cells[1].diagnostics, [&next](const FieldNotes&, auto& member) {
+    if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(member)>>) {
+      member = static_cast<std::remove_reference_t<decltype(member)>>(next++);
+    } else {
+      for (double& value : member) value = next++;
+    }
+  });
   const CellDiagnostics back = round_trip(reply).cells.at(1).diagnostics;
-  EXPECT_EQ(std::memcmp(&back, &d, sizeof d), 0);
+  EXPECT_EQ(values_of(back), values_of(reply.cells[1].diagnostics));
+  EXPECT_EQ(back.engine_seconds, reply.cells[1].diagnostics.engine_seconds);
+  EXPECT_GT(next, 16.0);
+}
+
+/// What was lost on the way before: the noise of a stress, the heights of grains and the dimension of a packing.
+TEST(Messages, NothingOfAnAnswerOrAPackingIsLost) {
+  Reply reply = some_reply();
+  reply.cells[0].response.noise = {1.0, 2.0, 3.0};
+  EXPECT_EQ(round_trip(reply).cells[0].response.noise.couple, 3.0);
+  Define define{3, some_definition()};
+  define.cell.packing.dimension = 3;
+  define.cell.packing.grains[1].height = 0.25;
+  define.cell.packing.pressure = 7e4;
+  const Packing packing = round_trip(define).cell.packing;
+  EXPECT_EQ(packing.dimension, 3);
+  EXPECT_EQ(packing.grains[1].height, 0.25);
+  EXPECT_EQ(packing.pressure, 7e4);
+}
+
+/// A number of the diagnostics that is not finite would come out in the tables of a run.
+TEST(Messages, DiagnosticsMustBeFinite) {
+  Reply reply = some_reply();
+  reply.cells[0].diagnostics.fabric[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of(encode(reply)).find("diagnostics"), std::string::npos);
 }
 
 TEST(Messages, AnIncrementKeepsItsComponents) {
