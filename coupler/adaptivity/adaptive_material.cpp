@@ -29,11 +29,7 @@ AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const CosseratParameters& co
     : calls_(std::move(calls)), cosserat_(cosserat), options_(options) {}
 
 void AdaptiveMaterial::allocate(std::size_t points) {
-  Cell packing{calls_.initial(), {}};
-  if (packing.answer.response.quality == Quality::failed) {
-    throw RunError(
-        fmt::format("the packing of a cell cannot be brought to rest: {}", packing.answer.response.message));
-  }
+  Cell packing{packing_at_rest(calls_, notes_), {}};
   make_symmetric(packing.answer);
   const Vector7& stress = packing.answer.response.stress;
   confining_ = -0.5 * (stress[k11] + stress[k22]);

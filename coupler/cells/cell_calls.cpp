@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/cells/cell_calls.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/error.hpp"
 #include "coupler/pool/pool.hpp"
 
 namespace polargrain::coupler {
@@ -14,6 +19,15 @@ CellCalls calls_of(Pool& pool, std::uint32_t definition) {
             return pool.evaluate(requests);
           },
           [&pool](std::span<const StatePointer> states) { return pool.collect(states); }};
+}
+
+CellReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes) {
+  CellReply packing = calls.initial();
+  if (packing.response.quality == Quality::failed)
+    throw RunError(
+        fmt::format("the packing of a cell cannot be brought to rest: {}", packing.response.message));
+  if (!packing.response.message.empty()) notes.push_back(std::exchange(packing.response.message, {}));
+  return packing;
 }
 
 void collect(const CellCalls& calls, std::span<StatePointer* const> states) {

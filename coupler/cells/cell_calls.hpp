@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/cell.hpp"
@@ -24,6 +25,11 @@ class Pool;
 
 /// The cells of a definition as the workers of a pool answer for them. @param pool must outlive the calls
 CellCalls calls_of(Pool& pool, std::uint32_t definition);
+
+/// The packing at rest. What the engine remarked on it and its script goes to the notes instead of into the
+/// answer.
+/// @throws RunError when it cannot be brought to rest
+CellReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes);
 
 /// Sees to it that the bytes of all these states are here; null pointers stay.
 void collect(const CellCalls& calls, std::span<StatePointer* const> states);

@@ -28,13 +28,7 @@ CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
 
 void CellMaterial::allocate(std::size_t points) {
   PointState start;
-  start.cell = calls_.initial();
-  if (start.cell.response.quality == Quality::failed) {
-    throw RunError(
-        fmt::format("the packing of a cell cannot be brought to rest: {}", start.cell.response.message));
-  }
-  if (!start.cell.response.message.empty())
-    notes_.push_back(std::exchange(start.cell.response.message, {}));
+  start.cell = packing_at_rest(calls_, notes_);
   committed_.assign(points, start);
   trial_ = committed_;
 }

@@ -124,11 +124,7 @@ InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& pa
              1e-3} {}
 
 void InformedMaterial::allocate(std::size_t points) {
-  const CellReply packing = calls_.initial();
-  if (packing.response.quality == Quality::failed) {
-    throw RunError(
-        fmt::format("the packing of a cell cannot be brought to rest: {}", packing.response.message));
-  }
+  const CellReply packing = packing_at_rest(calls_, notes_);
   PointState start;
   start.cell = packing;
   Vector7 stress = packing.response.stress;

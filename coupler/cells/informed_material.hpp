@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/cell.hpp"
@@ -52,6 +54,8 @@ class InformedMaterial : public fem::Material {
   /// stress_mismatch_mean, stress_mismatch_percentile_95, stress_mismatch_largest over the points of the last
   /// committed step, and dilatancy_limited: the share of them where a limit acts.
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
+  /// What the engine remarked on the packing and its script, once.
+  [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 
  private:
   struct PointState {
@@ -82,6 +86,7 @@ class InformedMaterial : public fem::Material {
   [[nodiscard]] static fem::ScaledVector<double> scaled_strain(const Increment& increment);
 
   CellCalls calls_;
+  std::vector<std::string> notes_;
   InformedParameters parameters_;
   fem::ElastoplasticFrame frame_;
   bool large_rotations_ = false;

@@ -159,6 +159,19 @@ std::vector<Eigen::Matrix2d> three_bands(std::size_t points) {
 // The regression test on what adaptivity is for: 90 points in three bands, twenty steps. A cell a point would
 // be 1800 runs. The numbers were counted when the test was written; they may fall, and must not rise
 // unnoticed.
+TEST_F(AdaptiveMaterialTest, ARemarkOnTheScriptIsPassedOnOnce) {
+  CellCalls calls = cells_.calls();
+  calls.initial = [this] {
+    CellReply packing = cells_.at(Eigen::Matrix2d::Zero());
+    packing.response.message = "too many DEM steps";
+    return packing;
+  };
+  AdaptiveMaterial sand(calls, kCosserat, {0.02, 0.0, 1});
+  sand.allocate(3);
+  EXPECT_EQ(sand.take_notes(), std::vector<std::string>{"too many DEM steps"});
+  EXPECT_TRUE(sand.take_notes().empty());
+}
+
 TEST_F(AdaptiveMaterialTest, FewCellsServeManyPointsOfLikeHistory) {
   AdaptiveMaterial sand = material(90, 0.02);
   double largest = 0.0;

@@ -147,6 +147,20 @@ TEST(InformedMaterial, FrozenIsFirstOrderAndTheFixedPointTenTimesBetter) {
       [](int steps) { return informed(InformedUpdate::fixed_point, steps); });
 }
 
+TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
+  KnownCells grains(false);
+  CellCalls calls = grains.calls_to_it();
+  calls.initial = [&grains] {
+    CellReply packing = grains.initial();
+    packing.response.message = "too many DEM steps";
+    return packing;
+  };
+  InformedMaterial sand(calls, parameters(InformedUpdate::frozen));
+  sand.allocate(2);
+  EXPECT_EQ(sand.take_notes(), std::vector<std::string>{"too many DEM steps"});
+  EXPECT_TRUE(sand.take_notes().empty());
+}
+
 TEST(InformedMaterial, DiscsAreLentTheOutOfPlaneStressOfTheLaw) {
   // The cell hides its s33. What the law lends it instead follows the same flow rule, one step late.
   const Curve fine = reference();
