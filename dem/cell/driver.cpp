@@ -42,14 +42,7 @@ Driver::Driver(const Packing& packing, const std::string& script, const std::str
   strain_ = dynamic_cast<FixCellStrain*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
   lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
   strain_->begin(BoxPath(Box::from_base_vectors(packing.box).reduced(), Eigen::Matrix2d::Zero(), 0), 0.0);
-  // Stock contact models are packed into one number, six bits each; the rolling one comes fourth.
-  const auto pair =
-      lammps.force->pair != nullptr ? dynamic_cast<LAMMPS_NS::PairGran*>(lammps.force->pair) : nullptr;
-  constexpr std::int64_t kPlace = 18;
-  constexpr std::int64_t kMask = 63;
-  if (pair != nullptr && ((pair->hashcode() >> kPlace) & kMask) == LIGGGHTS::ContactModels::ROLLING_EPSD2)
-    rolling_friction_ = lammps.modify->find_fix_property("coefficientRollingFriction", "property/global",
-                                                         "peratomtypepair", 0, 0, "polargrain", false);
+  rolling_.emplace(lammps);
   lammps.update->nsteps = 0;
   lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
   lammps.update->whichflag = 1;  // dynamics
@@ -61,7 +54,7 @@ void Driver::set_up() {
   contact_recorder().on = true;
   lammps().update->integrate->setup_minimal(1);
   contact_recorder().on = false;
-  complete_rolling();
+  rolling_->complete(contact_recorder().contacts);
 }
 
 void Driver::run(int steps) {
@@ -76,24 +69,8 @@ void Driver::run(int steps) {
   contact_recorder().on = true;
   update.integrate->run(1);
   contact_recorder().on = false;
-  complete_rolling();
+  rolling_->complete(contact_recorder().contacts);
   check_grains();
-}
-
-void Driver::complete_rolling() {
-  if (rolling_friction_ == nullptr) return;
-  const LAMMPS_NS::Atom& atom = *lammps().atom;
-  for (Contact& contact : contact_recorder().contacts) {
-    const double first = atom.radius[contact.first];
-    const double second = atom.radius[contact.second];
-    const double radius = first * second / (first + second);
-    contact.rolling_stiffness = contact.tangential_stiffness * radius * radius;
-    const double friction =
-        rolling_friction_->compute_array(atom.type[contact.first] - 1, atom.type[contact.second] - 1);
-    // The moment was taken from a difference of torques: a few digits are lost.
-    contact.rolling_at_limit =
-        std::abs(contact.moment) >= friction * radius * std::abs(contact.normal_force()) * (1.0 - 1e-6);
-  }
 }
 
 void Driver::check_grains() {
@@ -110,7 +87,7 @@ void Driver::check_grains() {
 }
 
 std::string Driver::settle_time_step(double damping) {
-  return time_step_->settle(lammps(), contacts(), damping_rate(damping), script_file_);
+  return time_step_->settle(lammps(), contacts(), inertia_of(lammps()), damping_rate(damping), script_file_);
 }
 
 double Driver::volume() const {

@@ -9,6 +9,7 @@
 #include "dem/cell/fix_cell_strain.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/script_time_step.hpp"
+#include "dem/cell/stock_rolling.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
 
@@ -61,8 +62,6 @@ class Driver {
 
  private:
   void check_grains();
-  /// Rolling stiffness and limit of the recorded contacts, where the stock model epsd2 keeps them to itself.
-  void complete_rolling();
 
   int grains_ = 0;
   double mean_radius_ = 0.0;
@@ -73,8 +72,7 @@ class Driver {
   Engine engine_;
   std::optional<ScriptTimeStep> time_step_;
   FixCellStrain* strain_ = nullptr;
-  LAMMPS_NS::Fix* rolling_friction_ =
-      nullptr;  ///< coefficientRollingFriction; null unless the model is epsd2
+  std::optional<StockRolling> rolling_;
 };
 
 }  // namespace polargrain::dem

@@ -12,9 +12,6 @@ namespace polargrain::dem {
 
 namespace {
 
-/// s; the engine is started with it, and takes no step before another one is known.
-constexpr double kUntilContactsAreKnown = 1e-9;
-
 /// A step of a script may be so many times smaller than the program's own before that is worth a word.
 constexpr double kWaste = 3.0;
 
@@ -51,10 +48,11 @@ ScriptTimeStep::ScriptTimeStep(LAMMPS_NS::LAMMPS& lammps) : given_(lammps.update
 }
 
 std::string ScriptTimeStep::settle(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts,
-                                   double damping_rate, const std::string& where) const {
+                                   const Inertia& inertia, double damping_rate,
+                                   const std::string& where) const {
   if (contacts.empty()) return {};
-  const double stable = stable_time_step(largest_frequency(contacts, inertia_of(lammps)),
-                                         longest_viscous_time(contacts), damping_rate);
+  const double stable =
+      stable_time_step(largest_frequency(contacts, inertia), longest_viscous_time(contacts), damping_rate);
   const double chosen = chosen_time_step(stable);
   const double given = lammps.update->dt;
   if (!given_) {

@@ -11,6 +11,9 @@ class LAMMPS;
 
 namespace polargrain::dem {
 
+/// s; the engine is started with it, and takes no step before another one is known.
+inline constexpr double kUntilContactsAreKnown = 1e-9;
+
 /// Sets the time step of an engine and of all its parts that keep a copy, s.
 void set_time_step(LAMMPS_NS::LAMMPS& lammps, double time_step);
 
@@ -31,8 +34,8 @@ class ScriptTimeStep {
   /// @param damping_rate of the damping against the affine flow, 1/s @param where the user's script, for
   /// messages
   /// @returns a remark for the user when the script's step wastes more than a factor of three; else nothing
-  std::string settle(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts, double damping_rate,
-                     const std::string& where) const;
+  std::string settle(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts, const Inertia& inertia,
+                     double damping_rate, const std::string& where) const;
 
   /// The same while a packing is made: bounds take the place of the eigenvalue, of the contacts there are and
   /// of grains among the stiffest contacts there have been. A step of the script's is refused when the

@@ -101,7 +101,7 @@ void FixBiaxial::setup(int vflag) {
   if (state_.rate > 0.0 && state_.reference_height == 0.0) {
     state_.reference_height = height();
     state_.reference_area = area();
-    state_.compress_start = static_cast<double>(update->ntimestep);
+    state_.time = 0.0;
     state_.top_velocity = 0.0;
   }
   post_force(vflag);
@@ -110,8 +110,8 @@ void FixBiaxial::setup(int vflag) {
 
 void FixBiaxial::initial_integrate(int) {
   if (state_.rate > 0.0) {
-    const double time = (static_cast<double>(update->ntimestep) - state_.compress_start) * update->dt;
-    const double share = std::min(1.0, time * state_.rate / kRunUp);
+    state_.time += update->dt;
+    const double share = std::min(1.0, state_.time * state_.rate / kRunUp);
     state_.top_velocity = -share * state_.rate * state_.reference_height;
   } else {
     move_under_pressure();
@@ -205,6 +205,43 @@ void FixBiaxial::push_membrane() {
   right_force_ = push(right_, Side::right);
 }
 
+void FixBiaxial::add_springs(std::vector<Contact>& contacts, Inertia& inertia) const {
+  const double endless = std::numeric_limits<double>::infinity();
+  const auto body = [&inertia, endless](double mass) {
+    inertia.masses.push_back(mass);
+    inertia.moments.push_back(endless);
+    inertia.radii.push_back(0.0);
+    return static_cast<int>(inertia.masses.size()) - 1;
+  };
+  const int ground = body(endless);
+  const int plate = body(state_.rate > 0.0 ? endless : kPlatenMass * grain_mass_);
+  const auto spring = [&contacts](int grain, int other, const Eigen::Vector2d& branch) -> Contact& {
+    Contact& added = contacts.emplace_back();
+    added.first = grain;
+    added.second = other;
+    added.branch = branch;
+    added.force.setZero();
+    return added;
+  };
+  for (int k = 0; k < atom->nlocal; ++k) {
+    const double radius = atom->radius[k];
+    const double y = atom->x[k][1];
+    const double stiffness = 2.0 * modulus_ * radius;
+    const auto platen = [&](int which, double way) {
+      Contact& contact = spring(k, which, {0.0, way * radius});
+      contact.normal_stiffness = stiffness;
+      contact.normal_viscosity = 2.0 * damping_ * std::sqrt(stiffness * atom->rmass[k]);
+    };
+    if (y + radius > state_.top) platen(plate, 1.0);
+    if (y - radius < state_.bottom) platen(ground, -1.0);
+  }
+  for (const std::vector<int>* const chain : {&left_, &right_})
+    for (const int tag : *chain) {
+      Contact& pressed = spring(atom->map(tag), ground, Eigen::Vector2d::UnitX());
+      pressed.normal_stiffness = pressed.tangential_stiffness = pressure_ * thickness_;
+    }
+}
+
 std::pair<double, double> FixBiaxial::excess_forces() const {
   const auto x = [&](int tag) { return atom->x[atom->map(tag)][0]; };
   const double line_pressure = pressure_ * thickness_;
@@ -216,14 +253,14 @@ double FixBiaxial::area() const {
   return enclosed_area(centres(left_), centres(right_), state_.bottom, state_.top);
 }
 
-void FixBiaxial::end_of_step() {
-  measure_unbalanced();
-}
-
 void FixBiaxial::measure_unbalanced() {
   double sum = 0.0;
   for (int k = 0; k < atom->nlocal; ++k) sum += std::hypot(atom->f[k][0], atom->f[k][1]);
   unbalanced_ = sum / atom->nlocal / (pressure_ * thickness_ * mean_diameter_);
+}
+
+void FixBiaxial::end_of_step() {
+  measure_unbalanced();
 }
 
 double FixBiaxial::compute_vector(int index) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dem/engine/liggghts.hpp"
+#include "dem/specimen/further_springs.hpp"
 #include "dem/specimen/membrane_chain.hpp"
 
 namespace polargrain::dem {
@@ -40,7 +41,7 @@ namespace polargrain::dem {
 ///
 /// Restarts: position and speed of the platen, its mode, the references and the grains under the membranes
 /// are in the restart file. One process only.
-class FixBiaxial : public LAMMPS_NS::Fix {
+class FixBiaxial : public LAMMPS_NS::Fix, public FurtherSprings {
  public:
   FixBiaxial(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
 
@@ -54,6 +55,10 @@ class FixBiaxial : public LAMMPS_NS::Fix {
   int modify_param(int count, char** words) override;
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
+  /// Contacts of the platens; the membranes as springs of P T in all directions, which is more than a
+  /// pressure that follows its grains can do. The upper platen is a body of its mass while the pressure is on
+  /// it.
+  void add_springs(std::vector<Contact>& contacts, Inertia& inertia) const override;
 
  private:
   /// What a restart file keeps.
@@ -64,8 +69,8 @@ class FixBiaxial : public LAMMPS_NS::Fix {
     double rate = 0.0;  ///< 0: the pressure is on the platen
     double reference_height = 0.0;
     double reference_area = 0.0;
-    double compress_start = 0.0;  ///< step
-    double placed = 0.0;          ///< whether the platens stand
+    double time = 0.0;    ///< since the start of the compression, s
+    double placed = 0.0;  ///< whether the platens stand
   };
 
   void place_platens();

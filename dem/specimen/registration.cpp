@@ -4,6 +4,7 @@
 #include "dem/engine/private_access.hpp"
 #include "dem/specimen/fix_biaxial.hpp"
 #include "dem/specimen/fix_grain_rotation.hpp"
+#include "dem/specimen/fix_time_step.hpp"
 
 namespace polargrain::dem {
 
@@ -15,6 +16,9 @@ void register_specimen_fixes(LAMMPS_NS::Modify& modify) {
   };
   fix_table(modify)["grain/rotation"] = [](LAMMPS* lammps, int count, char** words) -> Fix* {
     return new FixGrainRotation(lammps, count, words);
+  };
+  fix_table(modify)["time_step/contacts"] = [](LAMMPS* lammps, int count, char** words) -> Fix* {
+    return new FixTimeStep(lammps, count, words);
   };
 }
 

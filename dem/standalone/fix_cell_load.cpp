@@ -14,6 +14,7 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/script_time_step.hpp"
+#include "dem/cell/stock_rolling.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/private_access.hpp"
 
@@ -128,9 +129,10 @@ void FixCellLoad::post_create() {
                "stiffness in the script is not the one the packing was made with");
   time_of_grain_ = 2.0 * mean_radius_ * std::sqrt(density_ / pressure);
   rate_ = 2.0 * control_.damping * std::sqrt(mean_normal_stiffness(contact_recorder().contacts) / mean_mass_);
-  if (const std::string remark = time_step.settle(*lmp, contact_recorder().contacts, rate_, "this script");
-      !remark.empty() && screen != nullptr)
-    fmt::print(screen, "polargrain: {}\n", remark);
+  StockRolling(*lmp).complete(contact_recorder().contacts);
+  const std::string remark =
+      time_step.settle(*lmp, contact_recorder().contacts, inertia_of(*lmp), rate_, "this script");
+  if (!remark.empty() && screen != nullptr) fmt::print(screen, "polargrain: {}\n", remark);
   least_force_ = kLeastForce * mean_contact_force(contact_recorder().contacts);
 }
 

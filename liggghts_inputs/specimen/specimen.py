@@ -21,7 +21,6 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-TIME_STEP = 1e-5  # s, that of material.in
 COLUMNS = ("step,axial_strain,stress_ratio,volume_strain,width,height,top_force,bottom_force,unbalanced_ratio,"
            "membrane_grains")
 
@@ -38,7 +37,7 @@ def read_options():
     parser.add_argument("--rolling", type=float, default=0.4, help="coefficient of rolling friction; 0: none [0.4]")
     parser.add_argument("--friction", type=float, default=math.tan(0.5), help="coefficient of friction [tan 0.5]")
     parser.add_argument("--strain", type=float, default=0.10, help="axial strain at the end [0.1]")
-    parser.add_argument("--rate", type=float, default=0.24, help="axial strain rate, 1/s [0.24: inertial number 3.6e-4]")
+    parser.add_argument("--rate", type=float, default=0.24, help="axial strain rate, 1/s [0.24: inertial number 3.9e-4]")
     parser.add_argument("--frame", type=float, default=0.001, help="axial strain between two frames [0.001]")
     parser.add_argument("--damping", type=float, default=0.2, help="damping ratio of the contacts [0.2]")
     parser.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER",
@@ -132,6 +131,11 @@ def variables(options):
     return ["-var", "folder", options.output.resolve(), "-var", "damping", options.damping]
 
 
+def time_step(options):
+    """The one that the seating came to, s; the compression goes on with it."""
+    return float(re.findall(r"^polargrain: time step (\S+) s", (options.output / "seating.log").read_text(), re.M)[-1])
+
+
 def frames_done(options):
     """Steps of the restart files, ascending."""
     return sorted(int(file.stem.split("-")[1]) for file in (options.output / "restart").glob("step-*.restart"))
@@ -157,7 +161,7 @@ def main():
         run([liggghts, "-in", "seating.in", "-log", "none", "-var", "data", data.resolve(), *variables(options),
              "-var", "final_friction", options.friction, "-var", "final_rolling", options.rolling],
             options.output / "seating.log", HERE)
-    steps = round(options.frame / (options.rate * TIME_STEP))
+    steps = round(options.frame / (options.rate * time_step(options)))
     row_steps = max(1, round(steps / 10))
     steps = 10 * row_steps
     last = round(options.strain / options.frame) * steps
@@ -177,6 +181,8 @@ def main():
     for step in done + frames_done(options):  # the last two are enough to go on
         if step not in frames_done(options)[-2:]:
             (options.output / f"restart/step-{step}.restart").unlink(missing_ok=True)
+    for remark in re.findall(r"^polargrain: (time step .* stiffened)", (options.output / "compression.log").read_text(), re.M):
+        print(f"{remark}; strains grow more slowly from there")
     print(f"done: {options.output / 'history.csv'}")
 
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The biaxial apparatus (platens, membranes) around a lattice of equal discs, whose strength is known: Rowe
 // 1962, docs/theory.md E.7(c).
+#include "tests/support/specimen_lattice.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <numbers>
 #include <sstream>
@@ -16,40 +16,12 @@
 
 namespace {
 
-using polargrain::testing::content;
-using polargrain::testing::Scratch;
+using namespace polargrain::testing;
 
-constexpr double kRadius = 0.005;
-constexpr double kPressure = 1e4;  // contact stiffness over pressure and thickness: 3000
-constexpr int kColumns = 8;
-constexpr int kRows = 15;
-
-void write_lattice(const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out.precision(17);
-  const int count = (kRows / 2 + 1) * kColumns + kRows / 2 * (kColumns - 1);
-  // The engine's discs have unit thickness; those of the lattice are 0.1 m thick.
-  const double density = 2650.0 * 0.1;
-  out << "lattice\n\n"
-      << count
-      << " atoms\n1 atom types\n\n-0.1 0.3 xlo xhi\n-0.1 0.4 ylo yhi\n-0.05 0.05 zlo zhi\n\nAtoms\n\n";
-  int id = 0;
-  for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kColumns - row % 2; ++column)
-      out << ++id << " 1 " << 2.0 * kRadius << " " << density << " " << kRadius * (2 * column + 1 + row % 2)
-          << " " << kRadius * (1.0 + std::sqrt(3.0) * row) << " 0\n";
-}
-
-/// Runs a script of the specimens; its output.
-std::string run_script(const std::string& script, const std::string& variables) {
-  const std::string command = std::string("cd ") + SPECIMEN_INPUTS + " && " + POLARGRAIN_LIGGGHTS + " -in " +
-                              script + " -log none " + variables + " 2>&1";
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::string text;
-  std::array<char, 4096> block{};
-  while (const std::size_t got = fread(block.data(), 1, block.size(), pipe)) text.append(block.data(), got);
-  EXPECT_EQ(pclose(pipe), 0) << text;
-  return text;
+/// Runs a script of the specimens.
+void run_script(const std::string& script, const std::string& variables) {
+  const ScriptRun run = run_liggghts_script(SPECIMEN_INPUTS, script, variables);
+  EXPECT_EQ(run.status, 0) << run.text;
 }
 
 struct Row {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/stock_rolling.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "dem/engine/liggghts.hpp"
+
+namespace polargrain::dem {
+
+StockRolling::StockRolling(LAMMPS_NS::LAMMPS& lammps) : lammps_(&lammps) {
+  // Stock contact models are packed into one number, six bits each; the rolling one comes fourth.
+  auto* const pair =
+      lammps.force->pair != nullptr ? dynamic_cast<LAMMPS_NS::PairGran*>(lammps.force->pair) : nullptr;
+  constexpr std::int64_t kPlace = 18;
+  constexpr std::int64_t kMask = 63;
+  if (pair != nullptr && ((pair->hashcode() >> kPlace) & kMask) == LIGGGHTS::ContactModels::ROLLING_EPSD2)
+    friction_ = lammps.modify->find_fix_property("coefficientRollingFriction", "property/global",
+                                                 "peratomtypepair", 0, 0, "polargrain", false);
+}
+
+void StockRolling::complete(std::vector<Contact>& contacts) const {
+  if (friction_ == nullptr) return;
+  const LAMMPS_NS::Atom& atom = *lammps_->atom;
+  for (Contact& contact : contacts) {
+    const double first = atom.radius[contact.first];
+    const double second = atom.radius[contact.second];
+    const double radius = first * second / (first + second);
+    contact.rolling_stiffness = contact.tangential_stiffness * radius * radius;
+    const double friction =
+        friction_->compute_array(atom.type[contact.first] - 1, atom.type[contact.second] - 1);
+    // The moment was taken from a difference of torques: a few digits are lost.
+    contact.rolling_at_limit =
+        std::abs(contact.moment) >= friction * radius * std::abs(contact.normal_force()) * (1.0 - 1e-6);
+  }
+}
+
+}  // namespace polargrain::dem
