@@ -34,12 +34,14 @@ void describe(Record& grain, Visit&& visit) {
 /// The prepared initial state of a cell: grains in a periodic box.
 struct Packing {
   /// 2: a plane packing, what cells are made of. 3: spheres in a box that is periodic in x3 too, with the
-  /// period `thickness`; its box is a right one.
+  /// height `thickness`.
   int dimension = 2;
   /// Columns are the base vectors of the periodic box, m.
   Eigen::Matrix2d box = Eigen::Matrix2d::Zero();
   /// Out-of-plane thickness, m; stresses are per this true thickness.
   double thickness = 0.0;
+  /// Components along x1 and x2 of the third base vector, m; 0 in a plane packing.
+  Eigen::Vector2d lean = Eigen::Vector2d::Zero();
   std::vector<Grain> grains;
   /// Mean normal stress at rest when it was made, compression positive, Pa; 0: not recorded.
   double pressure = 0.0;
@@ -62,8 +64,9 @@ void describe(Record& packing, Visit&& visit) {
 }
 
 /// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first
-/// line `# cell ... xx=... xy=... yx=... yy=... z=... p=...` with the base vectors as columns (xy: x component of
-/// the second vector) and the pressure (may be left out), a line of column names `id,x,y,r,mass,Izz`, then one grain a line.
+/// line `# cell ... xx=... xy=... yx=... yy=... z=... p=...` with the base vectors as columns (xy: x
+/// component of the second vector) and the pressure (may be left out), a line of column names
+/// `id,x,y,r,mass,Izz`, then one grain a line.
 /// @throws InputError naming file and line when the file is missing, a number does not parse, a radius or
 /// mass is not positive, the box has no area, or two grains share an id.
 Packing read_packing(const std::filesystem::path& file);

@@ -32,7 +32,9 @@ constexpr int kSpace = 2;  // with the heights of the grains
 /// What a file consists of: named arrays of bytes or doubles, and their hash.
 struct Content {
   std::string specification;
-  std::vector<double> box;       // columns are base vectors, one after the other; then the thickness
+  /// Columns are base vectors, one after the other; then the thickness and, in space, the lean (files of
+  /// right boxes may lack it).
+  std::vector<double> box;
   std::vector<std::int64_t> id;  // of the grains
   std::vector<double> grains;    // x, y, radius, mass, moment of inertia of each
   std::vector<double> reached;   // in the order of the description of PackingReached
@@ -71,6 +73,7 @@ Content content_of(const PreparedPacking& prepared) {
   content.specification = prepared.specification;
   content.box = {packing.box(0, 0), packing.box(1, 0), packing.box(0, 1), packing.box(1, 1),
                  packing.thickness};
+  if (packing.dimension == 3) content.box.insert(content.box.end(), {packing.lean.x(), packing.lean.y()});
   for (const Grain& grain : packing.grains) {
     content.id.push_back(grain.id);
     for (const double value :
@@ -91,7 +94,8 @@ PreparedPacking packing_of(const Content& content) {
     if (!fine) throw RunError(what);
   };
   constexpr std::size_t kValues = 5;
-  require(content.box.size() == kValues, "the box is no box");
+  const bool leans = content.version == kSpace && content.box.size() == kValues + 2;
+  require(content.box.size() == kValues || leans, "the box is no box");
   require(!content.id.empty() && content.grains.size() == kValues * content.id.size(),
           "the grains are incomplete");
   require(content.reached.size() == names_of_columns<PackingReached>().size(), "what was reached is incomplete");
@@ -105,6 +109,7 @@ PreparedPacking packing_of(const Content& content) {
   packing.dimension = content.version == kSpace ? 3 : 2;
   packing.box << content.box[0], content.box[2], content.box[1], content.box[3];
   packing.thickness = content.box[4];
+  if (leans) packing.lean << content.box[5], content.box[6];
   require(packing.volume() > 0.0 && packing.thickness > 0.0, "the box has no volume");
   std::set<std::int64_t> ids;
   for (std::size_t k = 0; k < content.id.size(); ++k) {

@@ -59,7 +59,7 @@ struct PackingReached {
   double rattlers = 0.0;             ///< grains without a contact / grains
   double pressure = 0.0;             ///< mean of the axes, Pa
   double anisotropy = 0.0;           ///< (s11 - s22) / (s11 + s22), where it is largest of all pairs of axes
-  double shear = 0.0;                ///< (s12 + s21) / (s11 + s22)
+  double shear = 0.0;                ///< (s12 + s21) / (s11 + s22), where it is largest of all pairs
   double unbalanced_force_ratio = 0.0;
   double unbalanced_moment_ratio = 0.0;
   double friction = 0.0;   ///< while it was made
@@ -89,11 +89,11 @@ struct PreparedPacking {
   std::string specification;  ///< text of the user's specification
 };
 
-/// Brings a packing to rest under a script and a pressure. @param specification script, pressure and what rest is; the rest
-/// of it counts for nothing
-using PackingSettler = std::function<PreparedPacking(
-    const PackingSpecification& specification, const PreparedPacking& packing,
-    const std::function<void(const PackingReached&)>& progress)>;
+/// Brings a packing to rest under a script and a pressure. @param specification script, pressure and what
+/// rest is; the rest of it counts for nothing
+using PackingSettler =
+    std::function<PreparedPacking(const PackingSpecification& specification, const PreparedPacking& packing,
+                                  const std::function<void(const PackingReached&)>& progress)>;
 
 /// Makes a packing. @param progress called now and then with what is reached so far; may be empty
 using PackingMaker = std::function<PreparedPacking(

@@ -79,6 +79,11 @@ StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<con
 }
 
 namespace {
+bool has_layout(LAMMPS_NS::LAMMPS& lammps, const Header& header) {
+  return header.grains == static_cast<std::uint64_t>(lammps.atom->natoms) &&
+         header.history_values == static_cast<std::uint64_t>(granular_pair(lammps).dnum());
+}
+
 /// A state of the loop over discs, taken up by the engine's own.
 RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   const DiscSelection models = disc_models(lammps);
@@ -91,6 +96,13 @@ RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
 }
 }  // namespace
 
+bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+  Header header;
+  if (is_disc_state(state) || state.bytes().size() < sizeof(Header)) return false;
+  std::memcpy(&header, state.bytes().data(), sizeof(Header));
+  return header.magic == kMagic && has_layout(lammps, header);
+}
+
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   if (is_disc_state(state)) return restore_discs(lammps, state);
   Header header;
@@ -101,8 +113,7 @@ RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   const std::size_t length_of_rotations = header.grains * sizeof(double);
   if (header.magic != kMagic || (bytes.size() != length && bytes.size() != length + length_of_rotations))
     throw RunError("this is not the state of a cell, or it was cut short");
-  if (header.grains != static_cast<std::uint64_t>(lammps.atom->natoms) ||
-      header.history_values != static_cast<std::uint64_t>(granular_pair(lammps).dnum()))
+  if (!has_layout(lammps, header))
     throw RunError("this state belongs to a cell of another packing or another input script");
   std::vector<double> values(header.values);
   std::memcpy(values.data(), bytes.data() + sizeof(Header), header.values * sizeof(double));

@@ -28,4 +28,8 @@ struct RestoredState {
 /// values).
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state);
 
+/// Whether the engine's script and packing have the layout of a state that was saved with save_state: as many
+/// grains, as many values a contact.
+bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state);
+
 }  // namespace polargrain::dem

@@ -26,6 +26,7 @@ Packing pressed_together(Packing packing) {
   constexpr double kShrunk = 0.85;
   packing.box *= kShrunk;
   if (packing.dimension == 3) packing.thickness *= kShrunk;
+  packing.lean *= kShrunk;
   for (Grain& grain : packing.grains) {
     grain.position *= kShrunk;
     grain.height *= kShrunk;

@@ -20,7 +20,8 @@ class PlaneBox final : public PressedBox {
         driver_(packing, specification.script, specification.script_file, [friction](Engine& engine) {
           if (friction) set_friction(engine, *friction);
         }) {
-    if (packing.state) restore_state(driver_.lammps(), *packing.state);
+    if (packing.state && state_fits(driver_.lammps(), *packing.state))
+      restore_state(driver_.lammps(), *packing.state);
     driver_.set_up();
     radii_ = inertia_of(driver_.lammps()).radii;
     stiffest_.see(driver_.contacts());
@@ -32,9 +33,10 @@ class PlaneBox final : public PressedBox {
     }
   }
 
-  void move(const Eigen::Vector3d& strain, double shear, int steps, double damping_rate) override {
+  void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
+            double damping_rate) override {
     Eigen::Matrix2d h;
-    h << strain(0), shear, 0.0, strain(1);
+    h << strain(0), shear(0), 0.0, strain(1);
     // The last step stands still, so that the grains keep nothing of the affine velocity.
     driver_.strain().begin(BoxPath(driver_.strain().box().reduced(), h, steps - 1), damping_rate);
     driver_.run(steps);
@@ -55,14 +57,14 @@ class PlaneBox final : public PressedBox {
     seen.normal_stiffness = mean_normal_stiffness(contacts);
     const Eigen::Matrix2d stress = average_stress(contacts, volume);
     seen.stress << stress(0, 0), stress(1, 1), 0.0;
-    seen.shear = 0.5 * (stress(0, 1) + stress(1, 0));
+    seen.shear(0) = 0.5 * (stress(0, 1) + stress(1, 0));
     for (const Contact& contact : contacts) {
       const double length = contact.branch.norm();
       const Eigen::Array2d part = (contact.branch / length).array().square();
       const double kn = contact.normal_stiffness * length * length / volume;
       const double kt = contact.tangential_stiffness * length * length / volume;
       seen.stiffness.head<2>().array() += kn * part;
-      seen.shear_stiffness += kn * part(0) * part(1) + 0.5 * kt * part(1) * (part(1) - part(0));
+      seen.shear_stiffness(0) += kn * part(0) * part(1) + 0.5 * kt * part(1) * (part(1) - part(0));
     }
     return seen;
   }

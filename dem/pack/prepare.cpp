@@ -29,6 +29,7 @@ class Compression {
   Compression(const PackingSpecification& specification, const Packing& start, std::optional<double> friction)
       : specification_(specification),
         axes_(specification.dimension),
+        planes_(axes_ == 3 ? 3 : 1),
         keep_contacts_(!friction || *friction > 0.0),
         box_(specification.dimension == 3 ? make_space_box(specification, start, friction)
                                           : make_plane_box(specification, start, friction)) {
@@ -39,7 +40,7 @@ class Compression {
   /// @throws RunError after too many steps
   PreparedPacking compress(const Progress& progress) {
     Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-    double shear = 0.0;
+    Eigen::Vector3d shear = Eigen::Vector3d::Zero();
     std::int64_t chunk = 0;
     do {
       if (reached_.dem_steps > static_cast<double>(specification_.most_steps)) give_up();
@@ -49,7 +50,8 @@ class Compression {
       for (int axis = 0; axis < axes_; ++axis)
         strain(axis) = step_towards(-specification_.pressure - now_.stress(axis), now_.stiffness(axis), -1.0);
       // A right box would keep whatever shear stress its grains jam with.
-      if (axes_ == 2) shear = step_towards(-now_.shear, now_.shear_stiffness, 0.0);
+      for (int plane = 0; plane < planes_; ++plane)
+        shear(plane) = step_towards(-now_.shear(plane), now_.shear_stiffness(plane), 0.0);
       if (progress && ++chunk % kChunksOfProgress == 0) progress(reached_);
     } while (!done());
     if (too_large(now_.overlaps))
@@ -85,14 +87,16 @@ class Compression {
     reached_.pressure = -mean;
     if (now_.contacts == 0 || mean == 0.0) return;
     reached_.anisotropy = 0.5 * (stress.maxCoeff() - stress.minCoeff()) / std::abs(mean);
-    reached_.shear = now_.shear / mean;
+    int plane = 0;
+    now_.shear.cwiseAbs().maxCoeff(&plane);
+    reached_.shear = now_.shear(plane) / mean;
     reached_.unbalanced_force_ratio = now_.unbalanced_force_ratio;
     reached_.unbalanced_moment_ratio = now_.unbalanced_moment_ratio;
   }
 
   [[nodiscard]] bool done() const {
     const double allowed = specification_.pressure_tolerance * specification_.pressure;
-    bool fits = axes_ == 3 || std::abs(now_.shear) <= allowed;
+    bool fits = now_.shear.cwiseAbs().maxCoeff() <= allowed;
     for (int axis = 0; axis < axes_; ++axis)
       fits = fits && std::abs(now_.stress(axis) + specification_.pressure) <= allowed;
     return fits && now_.contacts > 0 &&
@@ -101,16 +105,23 @@ class Compression {
   }
 
   [[noreturn]] void give_up() const {
-    throw RunError(fmt::format(
-        "the packing did not come to rest within {} DEM steps: pressure {:.4g} kPa, anisotropy {:.1e}, shear "
-        "{:.1e}, unbalanced force ratio {:.1e}, moment ratio {:.1e}, coordination number {:.2f}; raise "
-        "unbalanced_force_ratio, damping or most_steps",
-        specification_.most_steps, 1e-3 * reached_.pressure, reached_.anisotropy, reached_.shear,
-        reached_.unbalanced_force_ratio, reached_.unbalanced_moment_ratio, reached_.coordination_number));
+    throw RunError(
+        fmt::format("the packing did not come to an isotropic rest within {} DEM steps: pressure {:.6g} kPa "
+                    "(asked {:.6g}), "
+                    "anisotropy {:.1e}, shear {:.1e} (each at most {:.1e}), unbalanced force ratio {:.1e}, "
+                    "moment ratio {:.1e} "
+                    "(at most {:.1e}), coordination number {:.2f}; raise pressure_tolerance, "
+                    "unbalanced_force_ratio, damping or "
+                    "most_steps",
+                    specification_.most_steps, 1e-3 * reached_.pressure, 1e-3 * specification_.pressure,
+                    reached_.anisotropy, reached_.shear, specification_.pressure_tolerance,
+                    reached_.unbalanced_force_ratio, reached_.unbalanced_moment_ratio,
+                    specification_.unbalanced_force_ratio, reached_.coordination_number));
   }
 
   const PackingSpecification& specification_;
   int axes_;
+  int planes_;          // that can be sheared
   bool keep_contacts_;  // with friction, what lies ready in tangential springs belongs to the packing
   std::unique_ptr<PressedBox> box_;
   double damping_rate_ = 0.0;
@@ -204,8 +215,7 @@ PreparedPacking prepare_packing(const PackingSpecification& specification,
 
 PreparedPacking settle_packing(const PackingSpecification& specification, const PreparedPacking& packing,
                                const std::function<void(const PackingReached&)>& progress) {
-  Packing start = packing.packing;
-  start.state = nullptr;
+  const Packing& start = packing.packing;
   PackingSpecification asked = specification;
   asked.dimension = start.dimension;
   double mass = 0.0;

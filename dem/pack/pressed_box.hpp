@@ -18,10 +18,11 @@ class PressedBox {
   struct Look {
     int contacts = 0;
     Eigen::Vector3d stress = Eigen::Vector3d::Zero();  ///< normal stresses of the axes
-    double shear = 0.0;  ///< (s12 + s21) / 2; boxes in space have no control of it
-    /// Affine stiffness of the axes against an isotropic strain, of the shear against h12; Pa.
+    /// Shear stresses (s_ij + s_ji) / 2 of the planes 12, 13, 23; a plane box has the first.
+    Eigen::Vector3d shear = Eigen::Vector3d::Zero();
+    /// Affine stiffness of the axes against an isotropic strain, of the shears against h12, h13, h23; Pa.
     Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();
-    double shear_stiffness = 0.0;
+    Eigen::Vector3d shear_stiffness = Eigen::Vector3d::Zero();
     double normal_stiffness = 0.0;  ///< mean of the contacts, N/m
     double unbalanced_force_ratio = 0.0;
     double unbalanced_moment_ratio = 0.0;
@@ -33,8 +34,9 @@ class PressedBox {
 
   virtual ~PressedBox() = default;
   /// Takes DEM steps while the box is strained smoothly and stands still in the last.
-  /// @param strain of the axes @param shear h12 of a plane box @param damping_rate viscous, 1/s
-  virtual void move(const Eigen::Vector3d& strain, double shear, int steps, double damping_rate) = 0;
+  /// @param strain of the axes @param shear h12, h13, h23 @param damping_rate viscous, 1/s
+  virtual void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
+                    double damping_rate) = 0;
   [[nodiscard]] virtual Look look() const = 0;
   /// Grains and box as they are; with `keep_contacts` the state of the contacts as well.
   virtual Packing packing(bool keep_contacts) = 0;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -15,12 +17,15 @@
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/private_access.hpp"
-#include "dem/pack/fix_right_box.hpp"
+#include "dem/pack/fix_space_box.hpp"
 #include "dem/pack/pressed_box.hpp"
 
 namespace polargrain::dem {
 
 namespace {
+
+/// Directions i, j of the shears h_ij: 12, 13, 23.
+constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
 
 Eigen::Vector3d branch_of(const Contact& contact) {
   return {contact.branch.x(), contact.branch.y(), contact.branch_3};
@@ -42,22 +47,22 @@ class SpaceBox final : public PressedBox {
       solid_ += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
     }
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-    fix_table(*lammps.modify)["pack/right_box"] = [](LAMMPS_NS::LAMMPS* owner, int words, char** word) {
-      return static_cast<LAMMPS_NS::Fix*>(new FixRightBox(owner, words, word));
+    fix_table(*lammps.modify)["pack/space_box"] = [](LAMMPS_NS::LAMMPS* owner, int words, char** word) {
+      return static_cast<LAMMPS_NS::Fix*>(new FixSpaceBox(owner, words, word));
     };
     const PackingDataFile data(packing);
     engine_.command(fmt::format("variable packing index {}", data.path()));
     engine_.script(specification.script, specification.script_file);
     if (friction) set_friction(engine_, *friction);
     script_time_step_.emplace(lammps);
-    engine_.command("fix polargrain_box all pack/right_box");
-    strain_ = dynamic_cast<FixRightBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
+    engine_.command("fix polargrain_box all pack/space_box");
+    strain_ = dynamic_cast<FixSpaceBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
     lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
     lammps.update->nsteps = 0;
     lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
     lammps.update->whichflag = 1;  // dynamics
     lammps.init();
-    if (packing.state) restore_state(lammps, *packing.state);
+    if (packing.state && state_fits(lammps, *packing.state)) restore_state(lammps, *packing.state);
     set_up();
     radii_ = inertia_of(lammps).radii;
     stiffest_.see(contact_recorder().contacts);
@@ -73,9 +78,12 @@ class SpaceBox final : public PressedBox {
                              script_file_);
   }
 
-  void move(const Eigen::Vector3d& strain, double, int steps, double damping_rate) override {
+  void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
+            double damping_rate) override {
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-    strain_->begin(strain, steps - 1, damping_rate);
+    Eigen::Matrix3d gradient = strain.asDiagonal();
+    for (int plane = 0; plane < 3; ++plane) gradient(kPlanes[plane][0], kPlanes[plane][1]) = shear(plane);
+    strain_->begin(gradient, steps - 1, damping_rate);
     lammps.update->laststep =
         lammps.update->ntimestep + steps + 1;  // no step is the engine's last: it would print
     lammps.output->next = lammps.update->laststep;
@@ -86,7 +94,7 @@ class SpaceBox final : public PressedBox {
 
   [[nodiscard]] Look look() const override {
     const std::vector<Contact>& contacts = contact_recorder().contacts;
-    const double volume = strain_->lengths().prod();
+    const double volume = strain_->base_vectors().determinant();
     const auto grains = static_cast<double>(packing_.grains.size());
     std::vector<bool> touched(packing_.grains.size(), false);
     Look seen;
@@ -100,8 +108,15 @@ class SpaceBox final : public PressedBox {
       force += on_first.norm() / seen.contacts;
       seen.normal_stiffness += contact.normal_stiffness / seen.contacts;
       seen.stress += branch.cwiseProduct(on_first) / volume;
-      seen.shear += 0.5 * (branch.x() * on_first.y() + branch.y() * on_first.x()) / volume;
       seen.stiffness += contact.normal_stiffness / volume * branch.cwiseAbs2();
+      const Eigen::Vector3d part = branch.cwiseAbs2() / branch.squaredNorm();
+      for (int plane = 0; plane < 3; ++plane) {
+        const auto [i, j] = kPlanes[plane];
+        seen.shear(plane) += 0.5 * (branch(i) * on_first(j) + branch(j) * on_first(i)) / volume;
+        seen.shear_stiffness(plane) +=
+            branch.squaredNorm() / volume * part(j) *
+            (contact.normal_stiffness * part(i) + contact.tangential_stiffness * (0.5 - part(i)));
+      }
     }
     const auto carrying = static_cast<double>(std::count(touched.begin(), touched.end(), true));
     seen.rattlers = 1.0 - carrying / grains;
@@ -116,22 +131,27 @@ class SpaceBox final : public PressedBox {
 
   Packing packing(bool keep_contacts) override {
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-    const Eigen::Vector3d lengths = strain_->lengths();
+    const Eigen::Matrix3d box = strain_->base_vectors();
     Packing packing = packing_;
-    packing.box = lengths.head<2>().asDiagonal();
-    packing.thickness = lengths.z();
+    packing.box = box.topLeftCorner<2, 2>();
+    packing.thickness = box(2, 2);
+    packing.lean = box.topRightCorner<2, 1>();
     for (int k = 0; k < lammps.atom->nlocal; ++k) {
       Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(lammps.atom->x[k]);
-      for (int axis = 0; axis < 3; ++axis)
-        position(axis) -= lengths(axis) * std::floor(position(axis) / lengths(axis));
+      // Along the third base vector first: the others have nothing of what it folds.
+      for (int axis = 2; axis >= 0; --axis) {
+        const Eigen::Vector3d inner = box.inverse() * position;
+        position -= std::floor(inner(axis)) * box.col(axis);
+      }
       Grain& grain = packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)];
       grain.position = position.head<2>();
       grain.height = position.z();
     }
-    Box box;
-    box.length_x = lengths.x();
-    box.length_y = lengths.y();
-    packing.state = keep_contacts ? save_state(lammps, box) : nullptr;
+    Box plane;
+    plane.length_x = box(0, 0);
+    plane.length_y = box(1, 1);
+    plane.tilt = box(0, 1);
+    packing.state = keep_contacts ? save_state(lammps, plane) : nullptr;
     return packing;
   }
 
@@ -169,7 +189,7 @@ class SpaceBox final : public PressedBox {
   std::optional<ScriptTimeStep> script_time_step_;
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
-  FixRightBox* strain_ = nullptr;
+  FixSpaceBox* strain_ = nullptr;
   double mean_mass_ = 0.0;
   double mean_radius_ = 0.0;
   double solid_ = 0.0;  // volume of the grains, m^3

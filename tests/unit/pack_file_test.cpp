@@ -37,6 +37,7 @@ PreparedPacking some_packing_in_space() {
   PreparedPacking prepared = some_packing();
   prepared.packing.dimension = 3;
   prepared.packing.box << 0.2, 0.0, 0.0, 0.1;
+  prepared.packing.lean << 0.01 / 3.0, -0.02 / 7.0;
   for (Grain& grain : prepared.packing.grains) grain.height = 0.1 / 7.0 * static_cast<double>(grain.id);
   return prepared;
 }
@@ -48,11 +49,12 @@ class PackingFileTest : public testing::Test {
       (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_pack_file_test.h5");
 };
 
-TEST_F(PackingFileTest, KeepsTheHeightsOfGrainsInSpace) {
+TEST_F(PackingFileTest, KeepsTheHeightsOfGrainsInSpaceAndTheLeanOfTheirBox) {
   const PreparedPacking written = some_packing_in_space();
   write_packing_file(file_, written);
   const Packing read = read_packing_file(file_).packing;
   EXPECT_EQ(read.dimension, 3);
+  EXPECT_EQ(read.lean, written.packing.lean);
   for (std::size_t k = 0; k < read.grains.size(); ++k)
     EXPECT_EQ(read.grains[k].height, written.packing.grains[k].height);
   write_packing_file(file_, some_packing());

@@ -3,7 +3,10 @@
 // ratio asked for or a clear word, and of use as cells.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
 #include <cstdio>
+#include <iostream>
 
 #include "common/error.hpp"
 #include "dem/cell/cell_service.hpp"
@@ -76,6 +79,90 @@ TEST(PackPrepare, FrictionlessSpheresAreNearlyIsostatic) {
   for (const Grain& grain : made.packing.grains) {
     EXPECT_GE(grain.height, 0.0);
     EXPECT_LT(grain.height, made.packing.thickness);
+  }
+}
+
+/// Mean stress of frictionless spheres from their places alone: every pair of grains and images that overlap,
+/// with the contact law of the script, Pa.
+Eigen::Matrix3d stress_of_places(const Packing& packing) {
+  constexpr double kModulus = 6e8;  // contactModulus of spheres_hooke_radii.in
+  Eigen::Matrix3d box = Eigen::Matrix3d::Zero();
+  box.topLeftCorner<2, 2>() = packing.box;
+  box.col(2) << packing.lean, packing.thickness;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const auto place = [](const Grain& grain) {
+    return Eigen::Vector3d(grain.position.x(), grain.position.y(), grain.height);
+  };
+  for (const Grain& one : packing.grains)
+    for (const Grain& other : packing.grains)
+      for (int image = 0; image < 27; ++image) {
+        const Eigen::Vector3d shift = box * Eigen::Vector3d(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
+        const Eigen::Vector3d branch = place(other) + shift - place(one);
+        const double overlap = one.radius + other.radius - branch.norm();
+        if (!(overlap > 0.0) || branch.norm() == 0.0) continue;
+        const double stiffness = kModulus * 2.0 * one.radius * other.radius / (one.radius + other.radius);
+        sum -= 0.5 * stiffness * overlap / branch.norm() * branch * branch.transpose();  // each pair twice
+      }
+  return sum / (packing.box.determinant() * packing.thickness);
+}
+
+TEST(PackPrepare, SpheresEndWithoutShear) {
+  PackingSpecification asked = in_space(60, 0.0);
+  asked.unbalanced_force_ratio = 1e-4;
+  const PreparedPacking made = prepare_packing(asked, {});
+  expect_at_rest(asked, made.reached);
+  EXPECT_LE(std::abs(made.reached.shear), asked.pressure_tolerance);
+  const Packing& packing = made.packing;
+  const Eigen::Matrix3d stress = stress_of_places(packing) / -asked.pressure;
+  std::cout << "[figure] sixty spheres: stress over pressure, from their places\n"
+            << stress << "\n[figure] tilts over lengths: " << packing.box(0, 1) / packing.box(0, 0) << " "
+            << packing.lean.x() / packing.box(0, 0) << " " << packing.lean.y() / packing.box(1, 1) << "\n";
+  // Forces of the last motion, up to the unbalanced ratio, are not in the places.
+  EXPECT_LE((stress - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(),
+            asked.pressure_tolerance + asked.unbalanced_force_ratio);
+  // It took a tilt about each axis to get there: a right box of so few spheres keeps a shear of some per
+  // cent.
+  EXPECT_GT(std::abs(packing.box(0, 1)) / packing.box(0, 0), 1e-4);
+  EXPECT_GT(packing.lean.cwiseAbs().minCoeff() / packing.box(0, 0), 1e-4);
+
+  // With friction it ends alike, and the tilted box with its state is where the next one goes on from.
+  PackingSpecification rough = in_space(60, 0.4);
+  const PreparedPacking stuck = prepare_packing(rough, {});
+  EXPECT_LE(std::abs(stuck.reached.shear), rough.pressure_tolerance);
+  rough.most_steps = 200;
+  const PackingReached again = settle_packing(rough, stuck, {}).reached;
+  EXPECT_LE(std::abs(again.shear), rough.pressure_tolerance);
+  EXPECT_NEAR(again.void_ratio, stuck.reached.void_ratio, 1e-5);
+}
+
+TEST(PackPrepare, SettlingKeepsTheTangentialSprings) {
+  PackingSpecification asked = specification(100, 0.4);
+  PreparedPacking made = prepare_packing(asked, {});
+  ASSERT_TRUE(made.packing.state);
+  const PackingReached kept = settle_packing(asked, made, {}).reached;
+  made.packing.state = nullptr;
+  const PackingReached anew = settle_packing(asked, made, {}).reached;
+  std::printf("[figure] settled again: %g DEM steps, %g when springs start anew\n", kept.dem_steps,
+              anew.dem_steps);
+  EXPECT_LE(kept.dem_steps, 60.0);  // it is at rest as it is: a look or two
+  EXPECT_GT(anew.dem_steps, 5.0 * kept.dem_steps);
+  EXPECT_NEAR(kept.void_ratio, made.reached.void_ratio, 1e-5);
+}
+
+TEST(PackPrepare, SaysHowFarFromIsotropicItWas) {
+  for (PackingSpecification asked : {specification(60, 0.0), in_space(40, 0.0)}) {
+    asked.most_steps = 2000;
+    try {
+      prepare_packing(asked, {});
+      FAIL() << "no packing is at rest so soon";
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find("did not come to an isotropic rest within 2000 DEM steps"),
+                std::string::npos)
+          << error.what();
+      EXPECT_NE(std::string(error.what()).find("(asked 100), anisotropy "), std::string::npos)
+          << error.what();
+      EXPECT_NE(std::string(error.what()).find("(each at most 1.0e-03)"), std::string::npos) << error.what();
+    }
   }
 }
 
