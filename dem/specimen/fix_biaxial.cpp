@@ -23,6 +23,10 @@ constexpr double kPlatenMass = 0.1;  ///< of the grains' mass
 /// Part of its radius by which a grain under the membrane may sink before the membrane leaves it. Without it
 /// a grain that the membrane just touches is pushed in, left, springs back, and is pushed again for ever.
 constexpr double kSlack = 0.05;
+/// Searches for which a grain that the membrane has left is braked. It was pressed against others and springs
+/// off them; flying, it would come under the membrane again, be pushed in again, and drum on the specimen for
+/// ever.
+constexpr int kBraked = 50;
 
 }  // namespace
 
@@ -133,6 +137,18 @@ void FixBiaxial::post_force(int) {
   if (update->ntimestep % every_ == 0) find_chains();
   push_platens();
   push_membrane();
+  brake_freed();
+}
+
+void FixBiaxial::brake_freed() {
+  for (const int tag : freed_) {
+    const int k = atom->map(tag);
+    if (k < 0) continue;
+    const double drag = 2.0 * damping_ * std::sqrt(2.0 * modulus_ * atom->radius[k] * atom->rmass[k]);
+    const double along = state_.top_velocity * (atom->x[k][1] - state_.bottom) / height();
+    atom->f[k][0] -= drag * atom->v[k][0];
+    atom->f[k][1] -= drag * (atom->v[k][1] - along);
+  }
 }
 
 void FixBiaxial::push_platens() {
@@ -171,8 +187,19 @@ void FixBiaxial::find_chains() {
     return chain;
   };
   try {
-    left_ = tags(Side::left, left_);
-    right_ = tags(Side::right, right_);
+    for (int& left : searches_left_) --left;
+    for (const auto& [chain, side] : {std::pair(&left_, Side::left), std::pair(&right_, Side::right)}) {
+      const std::vector<int> before = std::exchange(*chain, tags(side, *chain));
+      for (const int tag : before) {
+        if (std::find(chain->begin(), chain->end(), tag) != chain->end()) continue;
+        freed_.push_back(tag);
+        searches_left_.push_back(kBraked);
+      }
+    }
+    const auto over =
+        std::find_if(searches_left_.begin(), searches_left_.end(), [](int left) { return left > 0; });
+    freed_.erase(freed_.begin(), freed_.begin() + (over - searches_left_.begin()));
+    searches_left_.erase(searches_left_.begin(), over);
   } catch (const std::exception& problem) {
     error->all(FLERR, fmt::format("Fix biaxial at step {}: {}", update->ntimestep, problem.what()).c_str());
   }
@@ -298,7 +325,7 @@ void FixBiaxial::write_restart(FILE* file) {
   if (comm->me != 0) return;
   // The state, then the chains, each led by its length.
   std::vector<int> chains;
-  for (const std::vector<int>* const chain : {&left_, &right_}) {
+  for (const std::vector<int>* const chain : {&left_, &right_, &freed_, &searches_left_}) {
     chains.push_back(static_cast<int>(chain->size()));
     chains.insert(chains.end(), chain->begin(), chain->end());
   }
@@ -311,7 +338,7 @@ void FixBiaxial::write_restart(FILE* file) {
 void FixBiaxial::restart(char* buffer) {
   std::memcpy(&state_, buffer, sizeof(State));
   const char* place = buffer + sizeof(State);
-  for (std::vector<int>* const chain : {&left_, &right_}) {
+  for (std::vector<int>* const chain : {&left_, &right_, &freed_, &searches_left_}) {
     int length = 0;
     std::memcpy(&length, place, sizeof(int));
     place += sizeof(int);

@@ -21,7 +21,9 @@ namespace polargrain::dem {
 ///
 /// E    contact modulus of the platens (Pa): stiffness 2 E r against a disc of radius r, as a wall of the
 ///      normal model hooke/radii. The platens are smooth: no tangential force.
-/// Z    damping ratio of the platens' contacts, 0.2
+/// Z    damping ratio of the platens' contacts, 0.2; a grain that a membrane has left is braked as by one of
+/// them
+///      for 50 searches
 /// T    thickness of the discs, m, 1; stresses are forces per thickness
 /// R    radius of the probe that finds the grains under the membrane (dem/specimen/membrane_chain.hpp), m;
 ///      twice the greatest radius
@@ -77,6 +79,7 @@ class FixBiaxial : public LAMMPS_NS::Fix, public FurtherSprings {
   void find_chains();
   void push_platens();
   void push_membrane();
+  void brake_freed();
   void measure_unbalanced();
   [[nodiscard]] std::vector<Eigen::Vector2d> centres(const std::vector<int>& tags) const;
   [[nodiscard]] double height() const { return state_.top - state_.bottom; }
@@ -95,6 +98,8 @@ class FixBiaxial : public LAMMPS_NS::Fix, public FurtherSprings {
   State state_;
   std::vector<int> left_;  ///< tags of the grains under the membrane, bottom first
   std::vector<int> right_;
+  std::vector<int> freed_;          ///< tags of those it has left lately, the earliest first
+  std::vector<int> searches_left_;  ///< for which they are still braked
   double mean_diameter_ = 0.0;
   double grain_mass_ = 0.0;  ///< of all
   double top_force_ = 0.0;
