@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "common/cell.hpp"
 #include "common/record_archive.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
 
@@ -67,7 +68,7 @@ int main(int count, char** arguments) {
   std::vector<CellReply> read;
   const double reading = seconds_of([&] {
     coupler::Checkpoint again = coupler::read_checkpoint(file);
-    read = read_cell_replies(again.state, "cells", cells);
+    read = read_records<CellReply>(again.state, "cells", cells);
   });
   for (std::size_t i = 0; i < cells; ++i) {
     if (read[i].state->name() != committed[i].state->name()) return 1;

@@ -57,6 +57,7 @@ void describe(Record& packing, Visit&& visit) {
   visit(FieldNotes{"dimension", "", "2: plane; 3: spheres in a box that is periodic in x3 too"}, packing.dimension);
   visit(FieldNotes{"box", "m", "base vectors of the periodic box as columns", "_11 _12 _21 _22"}, packing.box);
   visit(FieldNotes{"thickness", "m", "out of plane; stresses are per this thickness"}, packing.thickness);
+  visit(FieldNotes{"lean", "m", "in-plane components of the third base vector", "_1 _2"}, packing.lean);
   visit(FieldNotes{"grains", "", "the grains"}, packing.grains);
   visit(FieldNotes{"pressure", "Pa", "mean normal stress at rest when it was made, compression positive; 0: not recorded"},
         packing.pressure);

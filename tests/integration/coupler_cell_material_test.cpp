@@ -121,7 +121,7 @@ TEST_F(CellMaterialTest, ACommitBringsTheStates) {
   EXPECT_EQ(pool_.counts().states_fetched, 1);
   MemoryArchive archive;
   sand.save(archive);
-  EXPECT_TRUE(archive.states("cells/states").at(0)->is_here());
+  EXPECT_TRUE(archive.states("points/states").at(0)->is_here());
 }
 
 TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
