@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "common/error.hpp"
+#include "common/standard_streams.hpp"
 #include "common/prefixed_archive.hpp"
 #include "coupler/case/case.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
@@ -50,6 +51,7 @@ std::string resume_command(const RunOptions& options, const std::filesystem::pat
   std::string command =
       fmt::format("polargrain run {} -o {}", options.case_file.string(), directory.string());
   for (const std::string& setting : options.settings) command += fmt::format(" --set '{}'", setting);
+  if (options.scripts.trusted) command += " --trust-scripts";
   return command + " --resume";
 }
 
@@ -58,8 +60,11 @@ class Run {
  public:
   /// @param from where to go on; null for a run from the start
   Run(const RunOptions& options, coupler::Case the_case, std::filesystem::path directory,
-      std::optional<coupler::Listening> listening, std::unique_ptr<coupler::Checkpoint> from)
-      : case_(std::move(the_case)),
+      const DirectoryLock& lock, std::optional<coupler::Listening> listening,
+      std::unique_ptr<coupler::Checkpoint> from)
+      : options_(options),
+        lock_(lock),
+        case_(std::move(the_case)),
         listening_(std::move(listening)),
         directory_(std::move(directory)),
         from_(std::move(from)),
@@ -125,8 +130,10 @@ class Run {
         observer_.warn(text);
       };
       options.patience = case_.patience;
+      options.trust_scripts = options_.scripts.trusted;
       options.listening = std::move(listening_);
       pool_.emplace(options);
+      note_interrupts();  // what the messages are sent with may have changed what signals do
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
       if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
@@ -149,7 +156,6 @@ class Run {
   bool steps() {
     for (int step = first_step_; step <= case_.steps(); ++step) {
       stop_if_interrupted();
-      const coupler::PoolCounts before = counts();
       observer_.begin_step(step);
       log_.info("step {}", step);
       const fem::StepReport report =
@@ -162,8 +168,9 @@ class Run {
         committed.values = monitor_values(case_.monitors, *solver_);
         files_.add(committed);
       }
-      add_costs(step, report, before);
+      add_costs(step, report);
       if (report.converged) remember(step);
+      if (const auto displaced = lock_.displacement()) throw RunError(displaced->text);
       if (report.converged || partly) files_.write(committed, *solver_);
       files_.write_rows();
       count(std::move(committed));
@@ -226,16 +233,24 @@ class Run {
     return pool_ ? counts_before_ + pool_->counts() : counts_before_;
   }
 
-  void add_costs(int step, const fem::StepReport& report, const coupler::PoolCounts& before) {
+  void add_costs(int step, const fem::StepReport& report) {
+    const coupler::PoolCounts before = record_.pool;
+    const Costs costs = add_lap(report);
+    files_.add(step, costs, record_.pool - before);
+  }
+
+  /// What the time since the last call went into, cells that no step came of included, so that seconds and cells of the
+  /// summary tell of the same work. From the end of the step before: output and checkpoints are in it.
+  Costs add_lap(const fem::StepReport& report) {
+    const coupler::PoolCounts before = record_.pool;
     record_.pool = counts();
-    // From the end of the step before, so that output and checkpoints are in it.
     const double total = seconds_since(lap_);
     lap_ = Clock::now();
     const Costs costs =
         costs_between(before, record_.pool, std::max(1, record_.workers), total,
                       report.assembly_seconds + report.solve_seconds, report.material_seconds);
     record_.costs += costs;
-    files_.add(step, costs, record_.pool - before);
+    return costs;
   }
 
   /// Keeps the run as it is after a step, so that it can be written whenever it has to stop.
@@ -295,7 +310,7 @@ class Run {
     for (auto& [region, material] : case_.problem.materials) {
       for (const std::string& note : material->take_notes()) {
         observer_.clear();
-        fmt::print(stderr, "note: region '{}': {}\n", region, note);
+        tell(stderr, "note: region '{}': {}\n", region, note);
         log_.warn("  region '{}': {}", region, note);
       }
     }
@@ -312,11 +327,25 @@ class Run {
     return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
   }
 
+  /// When the directory has gone, what can be saved goes where it is now, or to a new one.
+  void follow_directory() {
+    const auto displaced = lock_.displacement();
+    if (!displaced) return;
+    if (displaced->now.empty()) saved_step_ = -1;  // the checkpoint went with it
+    try {
+      directory_ = displaced->now.empty() ? make_rescue_directory(directory_) : displaced->now;
+    } catch (const RunError& error) {
+      record_.message += fmt::format("; {}", error.what());
+    }
+    resume_command_ = resume_command(options_, directory_);
+  }
+
   /// Ends a run that has not reached its end. Nothing in here throws: the reason why it ends must be told.
   void end_badly(const std::string& status, const std::string& message) {
     observer_.clear();
     record_.status = status;
     record_.message = message;
+    follow_directory();
     if (status == "failed" && pool_ && pool_->last_failure()) {
       record_.message += write_replay_of(*pool_->last_failure());
     }
@@ -336,7 +365,7 @@ class Run {
   }
 
   void finish() {
-    record_.pool = counts();
+    add_lap({});
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
@@ -345,6 +374,8 @@ class Run {
     write_summary(directory_ / "summary.json", case_, record_);
   }
 
+  const RunOptions& options_;
+  const DirectoryLock& lock_;
   Clock::time_point lap_ = Clock::now();    ///< end of the step before
   Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
   coupler::Case case_;
@@ -385,7 +416,7 @@ std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_cas
 }  // namespace
 
 int run(const RunOptions& options) {
-  coupler::Case the_case = coupler::read_case(options.case_file, options.settings);
+  coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
     throw InputError(
         {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
@@ -399,19 +430,18 @@ int run(const RunOptions& options) {
   if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
   note_interrupts();
   if (!options.quiet) {
-    fmt::print("{}\n", the_case.title);
-    if (from) fmt::print("going on behind step {} of {}\n", from->step, the_case.steps());
+    tell(stdout, "{}\n", the_case.title);
+    if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());
   }
-  std::fflush(stdout);
-  Run the_run(options, std::move(the_case), directory, std::move(listening), std::move(from));
+  Run the_run(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from));
   const bool done = the_run.go();
   const RunRecord& record = the_run.record();
   if (!options.quiet) {
-    fmt::print("\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
+    tell(stdout, "\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
                table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
                directory.string());
   }
-  if (!done) fmt::print(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
+  if (!done) tell(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
   return done ? 0 : 1;
 }
 

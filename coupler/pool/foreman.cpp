@@ -52,6 +52,7 @@ CrewOptions crew_options(const PoolOptions& options) {
   crew.directory = options.directory;
   crew.worker_command = options.worker_command;
   if (crew.worker_command.empty()) crew.worker_command = {own_program(), "worker"};
+  if (options.trust_scripts) crew.worker_command.emplace_back("--trust-scripts");
   crew.startup_seconds = options.startup_seconds;
   crew.cache_bytes = options.cache_bytes;
   crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;

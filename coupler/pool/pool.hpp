@@ -23,6 +23,8 @@ struct PoolOptions {
   std::filesystem::path directory;
   /// The program and its leading arguments; the pool adds `--connect URL`. Empty: this program, `worker`.
   std::vector<std::string> worker_command;
+  /// Local workers run any script (common/script.hpp).
+  bool trust_scripts = false;
   /// A worker that has not said Hello after so long is a start-up failure.
   double startup_seconds = 10.0;
   /// What a worker is taken to keep; see StateCache.

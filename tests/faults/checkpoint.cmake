@@ -11,3 +11,11 @@ if(TARGET polargrain)
                              POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(checkpoint_grains_test polargrain)
 endif()
+
+# Streams, directories and signals.
+polargrain_test(faults_process_test faults faults/process_test.cpp LIBS polargrain_options)
+target_compile_definitions(faults_process_test PRIVATE POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+add_dependencies(faults_process_test fake_polargrain)
+polargrain_test(faults_script_trust_test faults faults/script_trust_test.cpp LIBS polargrain_options)
+target_compile_definitions(faults_script_trust_test PRIVATE POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+add_dependencies(faults_script_trust_test fake_polargrain)
