@@ -9,15 +9,15 @@ namespace {
 /// Most steps of a case. A row of each stays in memory, for checkpoints, and is written once more with each of them.
 constexpr int kMostSteps = 1000000;
 
-/// What a step keeps in memory: its place in the plan, its rows, its values for the summary.
-constexpr double kBytesOfStep = 1500.0;
+/// What a step keeps in memory, measured: its place in the plan, its rows, its values for the summary.
+constexpr double kBytesOfStep = 1000.0;
 
 /// @returns the count that a key gives; 1, with a fault, where it and those before are too many
 int step_count(Section& section, std::size_t before) {
   const int count = section.whole("count", 1);
   const double all = static_cast<double>(before) + count;
   if (all <= kMostSteps) return count;
-  section.fault("count", fmt::format("count: {:.0f} steps would take {:.3g} GB of memory; at most {} are taken", all,
+  section.fault("count", fmt::format("count: {:.0f} steps would take {:.0f} GB of memory; at most {} are taken", all,
                                      1e-9 * kBytesOfStep * all, kMostSteps));
   return 1;
 }

@@ -152,11 +152,10 @@ TEST_F(ProcessFaults, SecondsAgreeWithTheirPartsAndWithTheCells) {
 TEST_F(ProcessFaults, WhatNoMachineHoldsIsRefusedWithTheMemoryItWouldTake) {
   const Outcome elements = shell("$P check case.yaml --set 'mesh.rectangle.elements=[100000, 100000]'");
   EXPECT_EQ(elements.status, 2);
-  EXPECT_NE(elements.errors.find("elements: 10000000000 of them would take "), std::string::npos) << elements.errors;
-  EXPECT_NE(elements.errors.find(" GB of memory; at most 1000000 are taken"), std::string::npos) << elements.errors;
+  EXPECT_NE(elements.errors.find("elements: 10000000000 of them would take 650000 GB of memory; at most 1000000 are taken"), std::string::npos) << elements.errors;
   const Outcome steps = shell("$P check case.yaml --set steps.count=2000000000");
   EXPECT_EQ(steps.status, 2);
-  EXPECT_NE(steps.errors.find("count: 2000000000 steps would take 3e+03 GB of memory"), std::string::npos)
+  EXPECT_NE(steps.errors.find("count: 2000000000 steps would take 2000 GB of memory"), std::string::npos)
       << steps.errors;
   // Stages count together.
   const Outcome stages = shell(
