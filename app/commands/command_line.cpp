@@ -17,6 +17,7 @@
 #include "app/run/interrupt.hpp"
 #include "app/commands/pack.hpp"
 #include "app/commands/point.hpp"
+#include "app/commands/verify.hpp"
 #include "app/run/run.hpp"
 #include "coupler/pool/worker.hpp"
 
@@ -36,6 +37,7 @@ Try:
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
   polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
   polargrain run case.yaml --set steps.count=10     change a value for one run
+  polargrain verify results/biaxial                 hold a result against its proof, some cells evaluated again
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
   polargrain pack --settle dense400.h5 soft.in -o soft400.h5    bring one to rest under another script
@@ -355,7 +357,17 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   keys_command->add_option("--worker", keys_worker, "Name of the worker's key to add [worker]")
       ->type_name("NAME");
 
-  for (CLI::App* command : {run_command, band_command, check_command, point_command, pack_command,
+  VerifyOptions verify_options;
+  verify_options.workers = default_workers();
+  CLI::App* verify_command = app.add_subcommand(
+      "verify", "Hold a result against its proof: files, case, and a sample of cells evaluated again");
+  verify_command->add_option("DIR", verify_options.directory, "Results of run")->required();
+  verify_command->add_option("-w,--workers", verify_options.workers, "Worker processes [one a core]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  add_trust(*verify_command, verify_options.scripts, engine);
+
+  for (CLI::App* command : {verify_command, run_command, band_command, check_command, point_command, pack_command,
                             bench_command, worker_command, keys_command})
     command->footer("");
 
@@ -374,6 +386,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       if (bench_options.cases.empty()) take_demo(bench_options);
       return bench(bench_options, packing_tools);
     }
+    if (verify_command->parsed()) return verify(verify_options);
     if (keys_command->parsed()) return keys(keys_directory, keys_worker);
     return work(worker_options, engine);
   });

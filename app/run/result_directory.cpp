@@ -70,7 +70,7 @@ void clear(const fs::path& directory) {
   }
   // The log last: it tells that the directory is ours, should this be interrupted.
   for (const char* file :
-       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "fields", "logs", "replay", "run.log"}) {
+       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "sample.h5", "fields", "logs", "replay", "run.log"}) {
     fs::remove_all(directory / file);
   }
 }

@@ -6,18 +6,18 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <cstdio>
 #include <optional>
 
 #include "common/error.hpp"
-#include "common/standard_streams.hpp"
 #include "common/prefixed_archive.hpp"
-#include "coupler/case/case.hpp"
-#include "coupler/checkpoint/checkpoint.hpp"
+#include "common/standard_streams.hpp"
 #include "app/run/interrupt.hpp"
-#include "app/run/progress.hpp"
+#include "app/run/proof.hpp"
 #include "app/run/result_directory.hpp"
+#include "app/run/resume.hpp"
 #include "app/run/run_files.hpp"
+#include "app/run/run_observer.hpp"
+#include "app/run/sample.hpp"
 #include "coupler/replay/replay.hpp"
 
 namespace polargrain::app {
@@ -27,32 +27,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Progress for the user, and what happens for the log.
-class RunObserver : public Progress {
- public:
-  RunObserver(Style style, int steps, spdlog::logger& log) : Progress(stderr, style, steps), log_(log) {}
-  void iterated(const fem::IterationReport& report) override {
-    log_.info("  iteration {}: force residual {:.3e}, moment residual {:.3e}", report.iteration,
-              report.force_residual, report.moment_residual);
-    Progress::iterated(report);
-  }
-  void cut(double time, const std::string& reason, double next_time) override {
-    log_.warn("  step to {:.6g} given up: {}; next try to {:.6g}", time, reason, next_time);
-  }
-
- private:
-  spdlog::logger& log_;
-};
-
-/// The command that goes on with a run.
-std::string resume_command(const RunOptions& options, const std::filesystem::path& directory) {
-  std::string command =
-      fmt::format("polargrain run {} -o {}", options.case_file.string(), directory.string());
-  for (const std::string& setting : options.settings) command += fmt::format(" --set '{}'", setting);
-  if (options.scripts.trusted) command += " --trust-scripts";
-  return command + " --resume";
 }
 
 /// One run: its parts in the order they are made.
@@ -134,6 +108,7 @@ class Run {
       options.listening = std::move(listening_);
       pool_.emplace(options);
       note_interrupts();  // what the messages are sent with may have changed what signals do
+      pool_->on_answers([this](auto requests, auto replies) { sample_.take(requests, replies); });
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
       if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
@@ -160,7 +135,7 @@ class Run {
       log_.info("step {}", step);
       const fem::StepReport report =
           step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
-      log(report);
+      log_step(log_, report, case_.solver.largest_strain);
       // What was committed of a step that was not reached is shown, but is no place to go on from.
       const bool partly = !report.converged && step > 0 && report.substeps > 0;
       CommittedStep committed{step, report, {}};
@@ -196,26 +171,6 @@ class Run {
         break;
     }
     return solver_->advance(target.amount);
-  }
-
-  void log(const fem::StepReport& report) {
-    if (report.within_noise > 0) {
-      log_.warn(
-          "  accepted above the tolerance, within the noise of the stresses: force residual {:.3e}, noise "
-          "{:.3e}",
-          report.force_residual, report.force_noise);
-    }
-    if (report.within_rounding > 0) {
-      log_.warn("  accepted above the tolerance because nothing but rounding is left: force residual {:.3e}",
-                report.force_residual);
-    }
-    if (report.limited > 0) {
-      log_.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
-                case_.solver.largest_strain);
-    }
-    log_.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
-              report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
-              report.evaluations, report.time);
   }
 
   void count(CommittedStep step) {
@@ -364,13 +319,26 @@ class Run {
     }
   }
 
+  /// For polargrain verify. Without it the result is what it is.
+  void save_sample() {
+    try {
+      write_sample(directory_ / kSampleFile, case_.identity, sample_.answers());
+    } catch (const RunError& error) {
+      warn(fmt::format("this result cannot be verified: {}", error.what()));
+    }
+  }
+
   void finish() {
     add_lap({});
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
     }
+    if (pool_) record_.evaluations_by_worker = pool_->evaluations_by_worker();
     log_.info("{}", record_.status);
+    save_sample();
+    record_.settings = options_.settings;
+    record_.results = names_of_results(directory_);
     write_summary(directory_ / "summary.json", case_, record_);
   }
 
@@ -394,24 +362,8 @@ class Run {
   coupler::PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
   std::optional<fem::Solver> solver_;
+  Sample sample_;
 };
-
-std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case, const std::filesystem::path& file) {
-  constexpr std::size_t kMostShown = 10;
-  auto checkpoint = std::make_unique<coupler::Checkpoint>(coupler::read_checkpoint(file));
-  std::vector<std::string> lines = differences(checkpoint->identity, the_case.identity);
-  if (lines.empty()) return checkpoint;
-  if (lines.size() > kMostShown) {
-    const std::size_t more = lines.size() - kMostShown;
-    lines.resize(kMostShown);
-    lines.push_back(fmt::format("and {} more", more));
-  }
-  throw InputError(
-      {file.string(), 0,
-       fmt::format("this checkpoint is of another case than {}:\n  {}\nput back what differs, or run without "
-                   "--resume",
-                   the_case.file.string(), fmt::join(lines, "\n  "))});
-}
 
 }  // namespace
 

@@ -282,6 +282,7 @@ void Foreman::take_replies(Member& member, const Reply& reply) {
 
 void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
   ++counts.evaluations;
+  ++evaluations_by_worker[member.name];
   counts.dem_steps += reply.diagnostics.dem_steps;
   counts.engine_seconds += reply.diagnostics.engine_seconds;
   if (done.kind == Task::Kind::again) {

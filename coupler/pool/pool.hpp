@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -111,7 +112,11 @@ class Pool {
   /// Called after each reply of an evaluate, and twice a second while there is none, with the cells done and
   /// the cells asked for.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> call);
+  /// Called behind each evaluate with its requests, their states with bytes, and its replies.
+  void on_answers(std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> call);
   [[nodiscard]] const PoolCounts& counts() const;
+  /// Evaluations that each worker has answered, by its name.
+  [[nodiscard]] const std::map<std::string, std::int64_t>& evaluations_by_worker() const;
   /// Where workers of other machines may join; empty when nowhere.
   [[nodiscard]] std::string listening_url() const;
   /// Connections that were refused so far.
