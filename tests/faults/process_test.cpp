@@ -127,6 +127,17 @@ TEST_F(ProcessFaults, TwoSignalsAtOnceAreOneWish) {
   EXPECT_EQ(shell("$P run case.yaml -o out -w 1 --quiet --resume").status, 0);
 }
 
+TEST_F(ProcessFaults, WorkersGainNoRightsAndLeaveNoCore) {
+  RunningProgram program(scratch_.path(), "run case.yaml -o out -w 1 --quiet");
+  wait_for_steps(1);
+  const std::vector<pid_t> workers = children_of(program.id());
+  ASSERT_EQ(workers.size(), 1u);
+  const std::filesystem::path of_worker = "/proc/" + std::to_string(workers.front());
+  EXPECT_NE(content(of_worker / "status").find("NoNewPrivs:\t1"), std::string::npos);
+  const std::string limits = content(of_worker / "limits");
+  EXPECT_EQ(limits.compare(limits.find("Max core file size"), 28, "Max core file size        0 "), 0) << limits;
+}
+
 TEST_F(ProcessFaults, SecondsAgreeWithTheirPartsAndWithTheCells) {
   const auto expect_agreement = [this] {
     const std::string summary = result("out/summary.json");
