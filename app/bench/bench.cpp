@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "common/error.hpp"
+#include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
 #include "app/bench/bench_band.hpp"
 #include "app/bench/bench_page.hpp"
@@ -66,6 +67,7 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
   run_options.resume = options.resume && std::filesystem::exists(directory / kCheckpointFile);
   run_options.quiet = true;
   run_options.settings = setting.overrides;
+  run_options.scripts = options.scripts;
   try {
     if (run(run_options) != 0)
       result.status = fmt::format("stopped; see {}", (directory / "run.log").string());
@@ -101,7 +103,7 @@ Checked check(const BenchOptions& options, const std::vector<BenchSetting>& sett
   Checked checked;
   for (const BenchSetting& setting : settings) {
     if (setting.grains > 0) continue;  // its packing is not there yet, the rest is that of the case as given
-    const coupler::Case the_case = coupler::read_case(setting.case_file, setting.overrides);
+    const coupler::Case the_case = coupler::read_case(setting.case_file, setting.overrides, options.scripts);
     if (checked.title.empty()) checked = {the_case.title, axes_of(options, the_case)};
     check_axes(checked.axes, the_case);
   }
@@ -125,10 +127,10 @@ class Report {
   }
 
   void print(const std::string& reference) const {
-    fmt::print("{}\nreference: {}\n", markdown(table_), reference);
+    tell(stdout, "{}\nreference: {}\n", markdown(table_), reference);
     if (!reference_of_sizes_.empty())
-      fmt::print("reference of the packings of {}: {}\n", options_.pack.string(), reference_of_sizes_);
-    fmt::print("results: {} (bench.csv, bench.html, and a folder for each run)\n",
+      tell(stdout, "reference of the packings of {}: {}\n", options_.pack.string(), reference_of_sizes_);
+    tell(stdout, "results: {} (bench.csv, bench.html, and a folder for each run)\n",
                options_.directory.string());
   }
 
@@ -145,7 +147,7 @@ void print_progress(const BenchSetting& setting, std::size_t done, std::size_t a
           ? ""
           : fmt::format(", about {} left",
                         duration_text(spent / static_cast<double>(done) * static_cast<double>(all - done)));
-  fmt::print(stderr, "run {} of {}: {}{}{}{}\n", done + 1, all, setting.group,
+  tell(stderr, "run {} of {}: {}{}{}{}\n", done + 1, all, setting.group,
              setting.label.empty() ? "" : ", ", setting.label, left);
 }
 

@@ -28,6 +28,7 @@ struct BenchOptions {
   std::vector<double> band;
   std::string x;               ///< monitor along the curve; empty: the first of the case's table
   std::vector<std::string> y;  ///< monitors whose error counts; empty: the others of the case's table
+  ScriptRules scripts = {};
 };
 
 /// Runs cases over a grid of settings and measures speed against error: bench.csv and bench.html in the

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "common/error.hpp"
+#include "common/standard_streams.hpp"
+#include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/section.hpp"
 #include "app/bench/bench_settings.hpp"
@@ -40,7 +42,7 @@ void check_script(const BenchOptions& options, const PackingSpecification& speci
   coupler::Faults faults;
   for (const MaterialWithCells& material : materials) {
     const auto file = coupler::find_data_file(material.script, options.cases.front().parent_path());
-    if (!file || coupler::content_of(*file) == specification.script) continue;  // read_case tells what is not there
+    if (!file || coupler::text_of_script(*file) == specification.script) continue;  // read_case tells what is not there
     faults.push_back(entry->fault(
         fmt::format("script: {} has another content than {}, the script of material '{}' in {}; give both "
                     "the same, in a copy of the specification",
@@ -58,7 +60,7 @@ std::string origin_of(const PackingSpecification& specification) {
 
 std::vector<BenchPacking> bench_packings(const BenchOptions& options) {
   if (options.pack.empty()) return {};
-  const PackingSpecification as_written = read_packing_specification(options.pack, {});
+  const PackingSpecification as_written = read_packing_specification(options.pack, {}, options.scripts);
   if (as_written.dimension != 2)
     throw InputError({options.pack.string(), 0, "is of spheres in space; cells are plane (dimension: 2)"});
   check_script(options, as_written);
@@ -69,7 +71,7 @@ std::vector<BenchPacking> bench_packings(const BenchOptions& options) {
   std::vector<BenchPacking> packings;
   for (const int grains : sizes) {
     for (const int seed : options.seeds) {
-      read_packing_specification(options.pack, settings_of(grains, seed));
+      read_packing_specification(options.pack, settings_of(grains, seed), options.scripts);
       packings.push_back({grains, seed,
                           std::filesystem::absolute(options.directory / "packings" /
                                                     fmt::format("grains{}-seed{}.h5", grains, seed))});
@@ -84,12 +86,14 @@ void make_packings(const BenchOptions& options, const std::vector<BenchPacking>&
   for (std::size_t k = 0; k < packings.size(); ++k) {
     const BenchPacking& packing = packings[k];
     PackOptions pack_options{options.pack, packing.file, {}, settings_of(packing.grains, packing.seed), true};
-    const std::string origin = origin_of(read_packing_specification(options.pack, pack_options.settings));
+    pack_options.scripts = options.scripts;
+    const std::string origin =
+        origin_of(read_packing_specification(options.pack, pack_options.settings, options.scripts));
     std::filesystem::path note = packing.file;
     note.replace_extension(".txt");
     const bool kept = std::filesystem::exists(packing.file) && coupler::content_of(note) == origin;
     if (!options.quiet)
-      fmt::print(stderr, "packing {} of {}: {} grains, seed {}{}\n", k + 1, packings.size(), packing.grains,
+      tell(stderr, "packing {} of {}: {} grains, seed {}{}\n", k + 1, packings.size(), packing.grains,
                  packing.seed, kept ? ", is there" : "");
     if (kept) continue;
     std::filesystem::remove(note);

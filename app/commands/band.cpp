@@ -10,6 +10,7 @@
 #include "band/frames.hpp"
 #include "band/shear_band.hpp"
 #include "common/error.hpp"
+#include "common/standard_streams.hpp"
 #include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
 
@@ -125,15 +126,15 @@ BandMeasurement measure_band(const BandCommandOptions& options) {
 
 int band(const BandCommandOptions& options) {
   const BandMeasurement measured = measure_band(options);
-  fmt::print("{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(),
+  tell(stdout, "{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(),
              measured.begin, measured.end, measured.places,
              measured.of_grains ? "grains" : "integration points");
   if (!measured.search.band) {
-    fmt::print("  no band: {}\n", measured.search.reason);
+    tell(stdout, "  no band: {}\n", measured.search.reason);
     return 0;
   }
   const Band& found = *measured.search.band;
-  fmt::print(
+  tell(stdout,
       "  inclination   {:.1f} degrees from the horizontal\n"
       "  thickness     {:.4g} m at half maximum (resolution {:.2g} m)\n"
       "  shear strain  {:.4f} at its greatest, {:.4f} in the background\n"

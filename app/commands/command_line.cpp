@@ -10,12 +10,14 @@
 #include <thread>
 
 #include "common/error.hpp"
+#include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
 #include "app/commands/band.hpp"
 #include "app/bench/bench.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/commands/pack.hpp"
 #include "app/commands/point.hpp"
+#include "app/commands/verify.hpp"
 #include "app/run/run.hpp"
 #include "coupler/pool/worker.hpp"
 
@@ -35,6 +37,7 @@ Try:
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
   polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
   polargrain run case.yaml --set steps.count=10     change a value for one run
+  polargrain verify results/biaxial                 hold a result against its proof, some cells evaluated again
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
   polargrain pack --settle dense400.h5 soft.in -o soft400.h5    bring one to rest under another script
@@ -55,6 +58,7 @@ struct WorkerOptions {
   std::string log;
   std::string key;
   double patience_seconds = coupler::ServeOptions{}.patience_seconds;
+  ScriptRules scripts = {};
 };
 
 /// Makes a worker that srun or mpirun has started forget it: every worker is an MPI world of its own, or its
@@ -73,6 +77,17 @@ void forget_launcher() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
 }
 
+/// Makes engines for scripts that this worker may run: whoever started it says which, not the coordinator.
+std::unique_ptr<CellService> make_checked_service(const CellDefinition& definition, const ScriptRules& rules,
+                                                  const WorkerEngine& engine) {
+  const std::vector<Fault> faults = script_faults(definition.script, definition.script_file, rules);
+  if (!faults.empty()) {
+    throw RunError(fmt::format("this worker runs no such script ({}); start it with --trust-scripts to run any",
+                               faults.front().text()));
+  }
+  return engine.make_service(definition);
+}
+
 int work(const WorkerOptions& options, const WorkerEngine& engine) {
   for (std::FILE* stream : {stdout, stderr}) {
     if (!options.log.empty() && std::freopen(options.log.c_str(), "a", stream) == nullptr) {
@@ -85,11 +100,14 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     if (!options.key.empty()) serve_options.key = coupler::read_worker_key(options.key);
     forget_launcher();
     engine.start_process();
-    serve(options.url, engine.make_service, serve_options);
+    const CellServiceFactory make_service = [&](const CellDefinition& definition) {
+      return make_checked_service(definition, options.scripts, engine);
+    };
+    serve(options.url, make_service, serve_options);
   } catch (const InputError& error) {
     throw;  // what the user gave is wrong; told like everywhere else
   } catch (const std::exception& error) {
-    fmt::print(stderr, "ERROR: {}\n", error.what());
+    tell(stderr, "ERROR: {}\n", error.what());
     return kRunFailed;
   }
   return 0;
@@ -97,7 +115,7 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
 
 int keys(const std::string& directory, const std::string& worker) {
   coupler::make_keys(directory, worker);
-  fmt::print(
+  tell(stdout,
       "{0}/{1}.key is new: copy it to where workers run, and to nowhere else.\n"
       "  here:  polargrain run CASE.yaml --listen tcp://*:5570 --keys {0}\n"
       "  there: polargrain worker --connect tcp://HOST:5570 --key {1}.key\n",
@@ -105,9 +123,9 @@ int keys(const std::string& directory, const std::string& worker) {
   return 0;
 }
 
-int check(const std::string& file, const std::vector<std::string>& settings) {
-  const coupler::Case the_case = coupler::read_case(file, settings);
-  fmt::print("{}: no faults; {} elements, {} nodes, {} steps, {}\n", file,
+int check(const std::string& file, const std::vector<std::string>& settings, const ScriptRules& scripts) {
+  const coupler::Case the_case = coupler::read_case(file, settings, scripts);
+  tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", file,
              the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
              the_case.needs_workers() ? "needs workers" : "needs no workers");
   return 0;
@@ -127,13 +145,13 @@ int guarded(const std::function<int()>& command) {
   try {
     return command();
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell(stderr, "{}\n", error.what());
     return kInputWrong;
   } catch (const Interrupted& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell(stderr, "{}\n", error.what());
     return kStopped;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    tell(stderr, "error: {}\n", error.what());
     return kRunFailed;
   }
 }
@@ -146,9 +164,17 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+/// @param rules of the command, which get what the engine understands too
+void add_trust(CLI::App& command, ScriptRules& rules, const WorkerEngine& engine) {
+  rules.more_commands = engine.script_commands;
+  command.add_flag("--trust-scripts", rules.trusted,
+                   "Run scripts of cells that can do more than set up a cell: start programs, read and write files");
+}
+
 }  // namespace
 
 int command_line(int count, char** arguments, const WorkerEngine& engine, const PackingTools& packing_tools) {
+  make_signals_of_writes_errors();
   CLI::App app(kIntroduction, "polargrain");
   app.set_version_flag("--version", "polargrain " POLARGRAIN_VERSION);
   app.footer(kExamples);
@@ -178,12 +204,15 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->check(CLI::NonNegativeNumber);
   run_command->add_flag("--quiet", run_options.quiet, "Print nothing but errors");
   add_settings(*run_command, run_options.settings);
+  add_trust(*run_command, run_options.scripts, engine);
 
   std::string check_file;
   std::vector<std::string> check_settings;
   CLI::App* check_command = app.add_subcommand("check", "Report all faults of a case; run nothing");
   check_command->add_option("CASE", check_file, "Case file (YAML)")->required();
   add_settings(*check_command, check_settings);
+  ScriptRules check_scripts;
+  add_trust(*check_command, check_scripts, engine);
 
   PointOptions point_options;
   CLI::App* point_command = app.add_subcommand("point", "Take one point of a material along a path");
@@ -199,6 +228,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
                    "Also write the path as a folder for polargrain-liggghts (materials of model cell)")
       ->type_name("DIR");
   add_settings(*point_command, point_options.settings);
+  add_trust(*point_command, point_options.scripts, engine);
 
   PackOptions pack_options;
   CLI::App* pack_command = app.add_subcommand("pack", "Make a packing of grains, or export one");
@@ -221,6 +251,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   pack_output->excludes(pack_export);
   pack_command->add_flag("--quiet", pack_options.quiet, "Print nothing but errors");
   add_settings(*pack_command, pack_options.settings);
+  add_trust(*pack_command, pack_options.scripts, engine);
 
   BandCommandOptions band_options;
   CLI::App* band_command =
@@ -302,6 +333,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->check(CLI::NonNegativeNumber);
   bench_command->add_flag("--quiet", bench_options.quiet, "Print nothing but errors");
   add_settings(*bench_command, bench_options.settings);
+  add_trust(*bench_command, bench_options.scripts, engine);
 
   WorkerOptions worker_options;
   CLI::App* worker_command = app.add_subcommand("worker", "Serve cells to a coordinator (started by run)");
@@ -316,6 +348,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->type_name("SECONDS");
   worker_command->add_option("--log", worker_options.log, "Append all output to this file")
       ->type_name("FILE");
+  add_trust(*worker_command, worker_options.scripts, engine);
 
   std::string keys_directory;
   std::string keys_worker = "worker";
@@ -324,7 +357,17 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   keys_command->add_option("--worker", keys_worker, "Name of the worker's key to add [worker]")
       ->type_name("NAME");
 
-  for (CLI::App* command : {run_command, band_command, check_command, point_command, pack_command,
+  VerifyOptions verify_options;
+  verify_options.workers = default_workers();
+  CLI::App* verify_command = app.add_subcommand(
+      "verify", "Hold a result against its proof: files, case, and a sample of cells evaluated again");
+  verify_command->add_option("DIR", verify_options.directory, "Results of run")->required();
+  verify_command->add_option("-w,--workers", verify_options.workers, "Worker processes [one a core]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  add_trust(*verify_command, verify_options.scripts, engine);
+
+  for (CLI::App* command : {verify_command, run_command, band_command, check_command, point_command, pack_command,
                             bench_command, worker_command, keys_command})
     command->footer("");
 
@@ -333,9 +376,9 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kInputWrong;
   }
-  return guarded([&] {
+  const int status = guarded([&] {
     if (run_command->parsed()) return run(run_options);
-    if (check_command->parsed()) return check(check_file, check_settings);
+    if (check_command->parsed()) return check(check_file, check_settings, check_scripts);
     if (point_command->parsed()) return point(point_options);
     if (band_command->parsed()) return band(band_options);
     if (pack_command->parsed()) return pack(pack_options, packing_tools);
@@ -343,9 +386,14 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       if (bench_options.cases.empty()) take_demo(bench_options);
       return bench(bench_options, packing_tools);
     }
+    if (verify_command->parsed()) return verify(verify_options);
     if (keys_command->parsed()) return keys(keys_directory, keys_worker);
     return work(worker_options, engine);
   });
+  // What a run says is a comfort; what other commands say is what they were asked for.
+  if (status != 0 || run_command->parsed() || std::ferror(stdout) == 0) return status;
+  tell(stderr, "error: standard output cannot be written\n");
+  return kRunFailed;
 }
 
 }  // namespace polargrain::app

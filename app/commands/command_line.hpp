@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <functional>
+#include <set>
+#include <string>
 
 #include "common/cell.hpp"
 #include "app/commands/pack.hpp"
@@ -12,6 +14,8 @@ struct WorkerEngine {
   /// Called once, before anything else, in a process that becomes a worker.
   std::function<void()> start_process;
   CellServiceFactory make_service;
+  /// Commands of scripts that it understands beside LIGGGHTS's own and that can do no harm.
+  std::set<std::string> script_commands = {};
 };
 
 /// The whole program: reads the command line, does what it says.

@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "common/error.hpp"
+#include "common/standard_streams.hpp"
 #include "common/packing_data.hpp"
 #include "common/packing_file.hpp"
 #include "app/pack/read_specification.hpp"
@@ -51,7 +52,7 @@ using Work = std::function<PreparedPacking(const std::function<void(const Packin
     write_packing_file(output, make(progress));
     status = 0;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "ERROR: {}\n", error.what());
+    tell(stderr, "ERROR: {}\n", error.what());
   }
   std::exit(status);
 }
@@ -77,13 +78,13 @@ bool make_in_child(const Work& make, const PackOptions& options, const PackingTo
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!options.quiet && isatty(STDERR_FILENO)) fmt::print(stderr, "\n");
+  if (!options.quiet && isatty(STDERR_FILENO)) tell(stderr, "\n");
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
   const PackingReached& reached = packing.reached;
-  fmt::print(
+  tell(stdout,
       "{}: {} grains in {:.6g} m x {:.6g} m{}\n"
       "  void ratio             {:.4f}\n"
       "  coordination number    {:.3f}   (without a contact: {:.1f} % of the grains)\n"
@@ -114,7 +115,7 @@ PackingSpecification settling(const PackOptions& options) {
   const PreparedPacking packing = packing_to_settle(options.settle.front());
   const double pressure = packing.reached.pressure;
   return read_settling(options.settle.front(), options.settle.back(), pressure, packing.specification,
-                       options.settings);
+                       options.settings, options.scripts);
 }
 
 }  // namespace
@@ -128,7 +129,8 @@ int pack(const PackOptions& options, const PackingTools& tools) {
     throw InputError({"", 0, "pack: name a specification (YAML), or --settle PACKING SCRIPT"});
   const bool settles = options.settle.size() == 2;
   const PackingSpecification specification =
-      settles ? settling(options) : read_packing_specification(options.specification_file, options.settings);
+      settles ? settling(options)
+              : read_packing_specification(options.specification_file, options.settings, options.scripts);
   check_output(options.output);
   const Work make = [&](const std::function<void(const PackingReached&)>& progress) {
     if (!settles) return tools.make(specification, progress);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/packing_specification.hpp"
+#include "common/script.hpp"
 
 namespace polargrain::app {
 
@@ -26,6 +27,7 @@ struct PackOptions {
   bool quiet = false;
   /// A packing and the script that it is brought to rest under, as it is; or nothing.
   std::vector<std::filesystem::path> settle = {};
+  ScriptRules scripts = {};
 };
 
 /// Makes a packing after a specification, in a process of its own (an engine error ends its process), whose

@@ -14,6 +14,7 @@
 
 #include "common/error.hpp"
 #include "common/record_table.hpp"
+#include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
 #include "app/commands/csv_file.hpp"
 #include "coupler/pool/private_directory.hpp"
@@ -94,8 +95,7 @@ class AnswerTable {
     if (file_) {
       file_->row(cells);
     } else {
-      fmt::print("{}\n", fmt::join(cells, ","));
-      std::fflush(stdout);
+      if (!tell(stdout, "{}\n", fmt::join(cells, ","))) throw RunError("standard output takes no more rows");
     }
   }
   std::optional<CsvFile> file_;
@@ -116,7 +116,7 @@ bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerT
     }
     table.answer(i, response, fields);
     if (response.quality == Quality::failed) {
-      fmt::print(stderr, "error: increment {} failed: {}\n", i, response.message);
+      tell(stderr, "error: increment {} failed: {}\n", i, response.message);
       return false;
     }
   }
@@ -143,13 +143,13 @@ std::vector<Response> answers_of(coupler::Pool& pool, const CellDefinition& defi
 /// The case; with a replay the engine's own loop steps the grains, as the replay does, so that both print the same
 /// digits.
 coupler::Case case_for(const PointOptions& options) {
-  coupler::Case plain = coupler::read_case(options.case_file, options.settings);
+  coupler::Case plain = coupler::read_case(options.case_file, options.settings, options.scripts);
   const auto recipe = plain.materials.find(options.material);
   if (options.replay.empty() || recipe == plain.materials.end() || recipe->second->cell() == nullptr)
     return plain;
   std::vector<std::string> settings = options.settings;
   settings.push_back(fmt::format("materials.{}.loop=engine", options.material));
-  return coupler::read_case(options.case_file, settings);
+  return coupler::read_case(options.case_file, settings, options.scripts);
 }
 
 }  // namespace
@@ -221,6 +221,7 @@ int point(const PointOptions& options) {
   if (recipe->second->needs_workers()) {
     coupler::PoolOptions pool_options;
     pool_options.directory = logs.path();
+    pool_options.trust_scripts = options.scripts.trusted;
     logs.keep();  // until the end is known: a dead worker's log must be there to be read
     pool.emplace(pool_options);
   }

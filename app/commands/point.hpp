@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/increment.hpp"
+#include "common/script.hpp"
 
 namespace polargrain::app {
 
@@ -15,6 +16,7 @@ struct PointOptions {
   std::filesystem::path output;  ///< empty: standard output
   std::filesystem::path replay;  ///< when given, gets the path as a script for polargrain-liggghts
   std::vector<std::string> settings;
+  ScriptRules scripts = {};
 };
 
 /// Reads a path: a line of column names out of h11,h12,h21,h22,w,k1,k2 in any order (columns left out are

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/case/section.hpp"
@@ -77,22 +78,6 @@ void read_shape(coupler::Section& top, PackingSpecification& specification) {
               "thickness: leave it out in dimension 3, where the box is compressed in all directions");
 }
 
-void read_script(coupler::Section& top, const std::filesystem::path& directory, PackingSpecification& specification) {
-  const std::string name = top.text("script", "the path of a LIGGGHTS input script for cells");
-  if (name.empty()) return;
-  const auto file = coupler::find_data_file(name, directory);
-  if (!file) {
-    top.fault("script",
-              fmt::format("script: there is no file '{}', neither beside the specification nor below "
-                          "liggghts_inputs/; correct the path or put the file there",
-                          name));
-    return;
-  }
-  specification.script_file = file->lexically_normal().string();
-  specification.script = coupler::content_of(*file);
-  if (specification.script.empty()) top.fault("script", "script: the file is empty or cannot be read");
-}
-
 /// How it is compressed and when it counts as at rest.
 void read_control(coupler::Section& top, PackingSpecification& specification) {
   const auto positive = [&top](const char* key, double& value) {
@@ -109,7 +94,8 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
 }  // namespace
 
 PackingSpecification read_packing_specification(const std::filesystem::path& file,
-                                                const std::vector<std::string>& settings) {
+                                                const std::vector<std::string>& settings,
+                                                const ScriptRules& scripts) {
   coupler::Entry document = coupler::load_document(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
   coupler::Faults faults;
@@ -132,7 +118,9 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   specification.void_ratio_tolerance = top.quantity_or("void_ratio_tolerance", coupler::Dimension::number,
                                                        coupler::Limit::positive, specification.void_ratio_tolerance);
   read_control(top, specification);
-  read_script(top, file.parent_path(), specification);
+  coupler::CellScript script = read_cell_script("script", top, faults, {file.parent_path(), scripts});
+  specification.script_file = std::move(script.file);
+  specification.script = std::move(script.text);
   top.finish();
   if (!faults.empty()) throw InputError(faults);
   return specification;
@@ -140,7 +128,7 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
 
 PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
                                    double pressure, const std::string& text,
-                                   const std::vector<std::string>& settings) {
+                                   const std::vector<std::string>& settings, const ScriptRules& scripts) {
   coupler::Entry document;
   document.kind = coupler::Entry::Kind::map;
   document.file = packing.string();
@@ -160,7 +148,9 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
         {packing.string(), 0, fmt::format("there is no script '{}' to settle it under", script.string())});
   if (!faults.empty()) throw InputError(faults);
   specification.script_file = file->lexically_normal().string();
-  specification.script = coupler::content_of(*file);
+  specification.script = coupler::text_of_script(*file);
+  faults = script_faults(specification.script, specification.script_file, scripts);
+  if (!faults.empty()) throw InputError(faults);
   specification.text =
       text + fmt::format("# settled under {} at {:.6g} Pa\n", script.string(), specification.pressure);
   return specification;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/packing_specification.hpp"
+#include "common/script.hpp"
 
 namespace polargrain::app {
 
@@ -12,7 +13,8 @@ namespace polargrain::app {
 /// @param settings KEY=VALUE that replace values of the file
 /// @throws InputError with all faults
 PackingSpecification read_packing_specification(const std::filesystem::path& file,
-                                                const std::vector<std::string>& settings);
+                                                const std::vector<std::string>& settings,
+                                                const ScriptRules& scripts = {});
 
 /// What settling a packing under a script asks for.
 /// @param pressure that the packing records, Pa; 0 for none @param text what the packing was made from, kept
@@ -22,6 +24,6 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
 /// @throws InputError with all faults
 PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
                                    double pressure, const std::string& text,
-                                   const std::vector<std::string>& settings);
+                                   const std::vector<std::string>& settings, const ScriptRules& scripts = {});
 
 }  // namespace polargrain::app

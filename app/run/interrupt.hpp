@@ -10,8 +10,11 @@ class Interrupted : public RunError {
   using RunError::RunError;
 };
 
-/// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP only leaves a note; a second one ends the
-/// program.
+/// Signals that follow the first one within so many seconds say the same: batch systems and terminals send two.
+constexpr double kSameWishSeconds = 1.0;
+
+/// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP only leaves a note; one that comes kSameWishSeconds later
+/// ends the program.
 void note_interrupts();
 
 /// @throws Interrupted when an interrupt was noted, with the name of the signal. To be called wherever a run

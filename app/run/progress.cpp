@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/run/interrupt.hpp"
+#include "common/standard_streams.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -77,24 +78,21 @@ void Progress::show(bool whole_line) {
   if (!whole_line && std::chrono::duration<double>(now - shown_).count() < wait) return;
   shown_ = now;
   if (style_ == Style::terminal) {
-    fmt::print(out_, "\r{}\033[K{}", line(), whole_line ? "\n" : "");
+    tell(out_, "\r{}\033[K{}", line(), whole_line ? "\n" : "");
   } else {
-    fmt::print(out_, "{}\n", line());
+    tell(out_, "{}\n", line());
   }
-  std::fflush(out_);
 }
 
 void Progress::warn(const std::string& text) {
   if (style_ == Style::quiet) return;
   clear();
-  fmt::print(out_, "warning: {}\n", text);
-  std::fflush(out_);
+  tell(out_, "warning: {}\n", text);
 }
 
 void Progress::clear() {
   if (style_ != Style::terminal) return;
-  fmt::print(out_, "\r\033[K");
-  std::fflush(out_);
+  tell(out_, "\r\033[K");
 }
 
 }  // namespace polargrain::app

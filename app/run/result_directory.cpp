@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -21,7 +22,7 @@ fs::path default_result_directory(const fs::path& case_file) {
 }
 
 DirectoryLock::DirectoryLock(const fs::path& directory)
-    : descriptor_(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    : directory_(directory), descriptor_(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(descriptor_);
     throw InputError({directory.string(), 0,
@@ -34,6 +35,33 @@ DirectoryLock::~DirectoryLock() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
+std::optional<Displacement> DirectoryLock::displacement() const {
+  struct stat ours {};
+  if (descriptor_ < 0 || fstat(descriptor_, &ours) != 0) return std::nullopt;
+  const auto leads_here = [&ours](const fs::path& path) {
+    struct stat found {};
+    return stat(path.c_str(), &found) == 0 && found.st_dev == ours.st_dev && found.st_ino == ours.st_ino;
+  };
+  if (leads_here(directory_)) return std::nullopt;
+  std::error_code error;
+  const fs::path now = fs::read_symlink(fmt::format("/proc/self/fd/{}", descriptor_), error);
+  if (!error && leads_here(now)) {
+    return Displacement{now, fmt::format("the result directory {} was renamed to {} during the run",
+                                         directory_.string(), now.string())};
+  }
+  return Displacement{
+      {}, fmt::format("the result directory {} was removed during the run", directory_.string())};
+}
+
+fs::path make_rescue_directory(const fs::path& directory) try {
+  fs::path place = directory;
+  if (fs::exists(place)) place += ".rescued";
+  fs::create_directories(place);
+  return place;
+} catch (const fs::filesystem_error& error) {
+  throw RunError(fmt::format("no directory can be made in its place: {}", error.code().message()));
+}
+
 namespace {
 
 void clear(const fs::path& directory) {
@@ -42,7 +70,7 @@ void clear(const fs::path& directory) {
   }
   // The log last: it tells that the directory is ours, should this be interrupted.
   for (const char* file :
-       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "fields", "logs", "replay", "run.log"}) {
+       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "sample.h5", "fields", "logs", "replay", "run.log"}) {
     fs::remove_all(directory / file);
   }
 }

@@ -2,6 +2,8 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace polargrain::app {
 
@@ -11,6 +13,12 @@ std::filesystem::path default_result_directory(const std::filesystem::path& case
 
 constexpr const char* kCheckpointFile = "checkpoint.h5";
 constexpr const char* kOldCheckpointFile = "checkpoint.old.h5";
+
+/// Somebody renamed or removed the result directory during the run.
+struct Displacement {
+  std::filesystem::path now;  ///< where it is; empty when it was removed
+  std::string text;           ///< what happened, for the user
+};
 
 /// While it lives no other run can write to the directory; the lock goes with the process, however that ends.
 /// File systems that know no locks do without.
@@ -22,7 +30,11 @@ class DirectoryLock {
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
+  /// @returns nothing while its name still leads to the directory
+  [[nodiscard]] std::optional<Displacement> displacement() const;
+
  private:
+  std::filesystem::path directory_;
   int descriptor_;
 };
 
@@ -33,5 +45,9 @@ class DirectoryLock {
 /// resume, when it holds no run. RunError when it cannot be made or written.
 [[nodiscard]] std::unique_ptr<DirectoryLock> prepare_result_directory(const std::filesystem::path& directory,
                                                                       bool resume);
+
+/// A place for what can be saved of a run whose directory was removed: its name again, or, when something else has that
+/// name by now, NAME.rescued. @throws RunError when it cannot be made
+std::filesystem::path make_rescue_directory(const std::filesystem::path& directory);
 
 }  // namespace polargrain::app

@@ -6,17 +6,18 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <cstdio>
 #include <optional>
 
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
-#include "coupler/case/case.hpp"
-#include "coupler/checkpoint/checkpoint.hpp"
+#include "common/standard_streams.hpp"
 #include "app/run/interrupt.hpp"
-#include "app/run/progress.hpp"
+#include "app/run/proof.hpp"
 #include "app/run/result_directory.hpp"
+#include "app/run/resume.hpp"
 #include "app/run/run_files.hpp"
+#include "app/run/run_observer.hpp"
+#include "app/run/sample.hpp"
 #include "coupler/replay/replay.hpp"
 
 namespace polargrain::app {
@@ -28,38 +29,16 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Progress for the user, and what happens for the log.
-class RunObserver : public Progress {
- public:
-  RunObserver(Style style, int steps, spdlog::logger& log) : Progress(stderr, style, steps), log_(log) {}
-  void iterated(const fem::IterationReport& report) override {
-    log_.info("  iteration {}: force residual {:.3e}, moment residual {:.3e}", report.iteration,
-              report.force_residual, report.moment_residual);
-    Progress::iterated(report);
-  }
-  void cut(double time, const std::string& reason, double next_time) override {
-    log_.warn("  step to {:.6g} given up: {}; next try to {:.6g}", time, reason, next_time);
-  }
-
- private:
-  spdlog::logger& log_;
-};
-
-/// The command that goes on with a run.
-std::string resume_command(const RunOptions& options, const std::filesystem::path& directory) {
-  std::string command =
-      fmt::format("polargrain run {} -o {}", options.case_file.string(), directory.string());
-  for (const std::string& setting : options.settings) command += fmt::format(" --set '{}'", setting);
-  return command + " --resume";
-}
-
 /// One run: its parts in the order they are made.
 class Run {
  public:
   /// @param from where to go on; null for a run from the start
   Run(const RunOptions& options, coupler::Case the_case, std::filesystem::path directory,
-      std::optional<coupler::Listening> listening, std::unique_ptr<coupler::Checkpoint> from)
-      : case_(std::move(the_case)),
+      const DirectoryLock& lock, std::optional<coupler::Listening> listening,
+      std::unique_ptr<coupler::Checkpoint> from)
+      : options_(options),
+        lock_(lock),
+        case_(std::move(the_case)),
         listening_(std::move(listening)),
         directory_(std::move(directory)),
         from_(std::move(from)),
@@ -125,8 +104,11 @@ class Run {
         observer_.warn(text);
       };
       options.patience = case_.patience;
+      options.trust_scripts = options_.scripts.trusted;
       options.listening = std::move(listening_);
       pool_.emplace(options);
+      note_interrupts();  // what the messages are sent with may have changed what signals do
+      pool_->on_answers([this](auto requests, auto replies) { sample_.take(requests, replies); });
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
       if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
@@ -149,12 +131,11 @@ class Run {
   bool steps() {
     for (int step = first_step_; step <= case_.steps(); ++step) {
       stop_if_interrupted();
-      const coupler::PoolCounts before = counts();
       observer_.begin_step(step);
       log_.info("step {}", step);
       const fem::StepReport report =
           step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
-      log(report);
+      log_step(log_, report, case_.solver.largest_strain);
       // What was committed of a step that was not reached is shown, but is no place to go on from.
       const bool partly = !report.converged && step > 0 && report.substeps > 0;
       CommittedStep committed{step, report, {}};
@@ -162,8 +143,9 @@ class Run {
         committed.values = monitor_values(case_.monitors, *solver_);
         files_.add(committed);
       }
-      add_costs(step, report, before);
+      add_costs(step, report);
       if (report.converged) remember(step);
+      if (const auto displaced = lock_.displacement()) throw RunError(displaced->text);
       if (report.converged || partly) files_.write(committed, *solver_);
       files_.write_rows();
       count(std::move(committed));
@@ -191,26 +173,6 @@ class Run {
     return solver_->advance(target.amount);
   }
 
-  void log(const fem::StepReport& report) {
-    if (report.within_noise > 0) {
-      log_.warn(
-          "  accepted above the tolerance, within the noise of the stresses: force residual {:.3e}, noise "
-          "{:.3e}",
-          report.force_residual, report.force_noise);
-    }
-    if (report.within_rounding > 0) {
-      log_.warn("  accepted above the tolerance because nothing but rounding is left: force residual {:.3e}",
-                report.force_residual);
-    }
-    if (report.limited > 0) {
-      log_.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
-                case_.solver.largest_strain);
-    }
-    log_.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
-              report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
-              report.evaluations, report.time);
-  }
-
   void count(CommittedStep step) {
     record_.iterations += step.report.iterations;
     record_.cuts += step.report.cuts;
@@ -226,16 +188,24 @@ class Run {
     return pool_ ? counts_before_ + pool_->counts() : counts_before_;
   }
 
-  void add_costs(int step, const fem::StepReport& report, const coupler::PoolCounts& before) {
+  void add_costs(int step, const fem::StepReport& report) {
+    const coupler::PoolCounts before = record_.pool;
+    const Costs costs = add_lap(report);
+    files_.add(step, costs, record_.pool - before);
+  }
+
+  /// What the time since the last call went into, cells that no step came of included, so that seconds and cells of the
+  /// summary tell of the same work. From the end of the step before: output and checkpoints are in it.
+  Costs add_lap(const fem::StepReport& report) {
+    const coupler::PoolCounts before = record_.pool;
     record_.pool = counts();
-    // From the end of the step before, so that output and checkpoints are in it.
     const double total = seconds_since(lap_);
     lap_ = Clock::now();
     const Costs costs =
         costs_between(before, record_.pool, std::max(1, record_.workers), total,
                       report.assembly_seconds + report.solve_seconds, report.material_seconds);
     record_.costs += costs;
-    files_.add(step, costs, record_.pool - before);
+    return costs;
   }
 
   /// Keeps the run as it is after a step, so that it can be written whenever it has to stop.
@@ -295,7 +265,7 @@ class Run {
     for (auto& [region, material] : case_.problem.materials) {
       for (const std::string& note : material->take_notes()) {
         observer_.clear();
-        fmt::print(stderr, "note: region '{}': {}\n", region, note);
+        tell(stderr, "note: region '{}': {}\n", region, note);
         log_.warn("  region '{}': {}", region, note);
       }
     }
@@ -312,11 +282,25 @@ class Run {
     return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
   }
 
+  /// When the directory has gone, what can be saved goes where it is now, or to a new one.
+  void follow_directory() {
+    const auto displaced = lock_.displacement();
+    if (!displaced) return;
+    if (displaced->now.empty()) saved_step_ = -1;  // the checkpoint went with it
+    try {
+      directory_ = displaced->now.empty() ? make_rescue_directory(directory_) : displaced->now;
+    } catch (const RunError& error) {
+      record_.message += fmt::format("; {}", error.what());
+    }
+    resume_command_ = resume_command(options_, directory_);
+  }
+
   /// Ends a run that has not reached its end. Nothing in here throws: the reason why it ends must be told.
   void end_badly(const std::string& status, const std::string& message) {
     observer_.clear();
     record_.status = status;
     record_.message = message;
+    follow_directory();
     if (status == "failed" && pool_ && pool_->last_failure()) {
       record_.message += write_replay_of(*pool_->last_failure());
     }
@@ -335,16 +319,31 @@ class Run {
     }
   }
 
+  /// For polargrain verify. Without it the result is what it is.
+  void save_sample() {
+    try {
+      write_sample(directory_ / kSampleFile, case_.identity, sample_.answers());
+    } catch (const RunError& error) {
+      warn(fmt::format("this result cannot be verified: {}", error.what()));
+    }
+  }
+
   void finish() {
-    record_.pool = counts();
+    add_lap({});
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
     }
+    if (pool_) record_.evaluations_by_worker = pool_->evaluations_by_worker();
     log_.info("{}", record_.status);
+    save_sample();
+    record_.settings = options_.settings;
+    record_.results = names_of_results(directory_);
     write_summary(directory_ / "summary.json", case_, record_);
   }
 
+  const RunOptions& options_;
+  const DirectoryLock& lock_;
   Clock::time_point lap_ = Clock::now();    ///< end of the step before
   Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
   coupler::Case case_;
@@ -363,29 +362,13 @@ class Run {
   coupler::PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
   std::optional<fem::Solver> solver_;
+  Sample sample_;
 };
-
-std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case, const std::filesystem::path& file) {
-  constexpr std::size_t kMostShown = 10;
-  auto checkpoint = std::make_unique<coupler::Checkpoint>(coupler::read_checkpoint(file));
-  std::vector<std::string> lines = differences(checkpoint->identity, the_case.identity);
-  if (lines.empty()) return checkpoint;
-  if (lines.size() > kMostShown) {
-    const std::size_t more = lines.size() - kMostShown;
-    lines.resize(kMostShown);
-    lines.push_back(fmt::format("and {} more", more));
-  }
-  throw InputError(
-      {file.string(), 0,
-       fmt::format("this checkpoint is of another case than {}:\n  {}\nput back what differs, or run without "
-                   "--resume",
-                   the_case.file.string(), fmt::join(lines, "\n  "))});
-}
 
 }  // namespace
 
 int run(const RunOptions& options) {
-  coupler::Case the_case = coupler::read_case(options.case_file, options.settings);
+  coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
     throw InputError(
         {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
@@ -399,19 +382,18 @@ int run(const RunOptions& options) {
   if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
   note_interrupts();
   if (!options.quiet) {
-    fmt::print("{}\n", the_case.title);
-    if (from) fmt::print("going on behind step {} of {}\n", from->step, the_case.steps());
+    tell(stdout, "{}\n", the_case.title);
+    if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());
   }
-  std::fflush(stdout);
-  Run the_run(options, std::move(the_case), directory, std::move(listening), std::move(from));
+  Run the_run(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from));
   const bool done = the_run.go();
   const RunRecord& record = the_run.record();
   if (!options.quiet) {
-    fmt::print("\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
+    tell(stdout, "\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
                table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
                directory.string());
   }
-  if (!done) fmt::print(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
+  if (!done) tell(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
   return done ? 0 : 1;
 }
 

@@ -116,7 +116,8 @@ void RunFiles::write_rows() {
 
 void RunFiles::write_fields(int step, const fem::Solver& solver) {
   std::error_code error;
-  std::filesystem::create_directories(directory_ / "fields", error);  // write_vtu says when it is not there
+  // Not the result directory itself: when that was removed, somebody has to be told.
+  std::filesystem::create_directory(directory_ / "fields", error);  // write_vtu says when it is not there
   fem::write_vtu(directory_ / fields_file(step), case_.problem.mesh, fem::collect_fields(solver));
   collection_.add(solver.state().time, fields_file(step));
 }

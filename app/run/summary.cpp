@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "app/run/proof.hpp"
 #include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
 
@@ -103,6 +104,28 @@ std::string material_figures(const RunRecord& record) {
   return regions.finish("  ");
 }
 
+std::string names_figure(const std::map<std::string, std::string>& names) {
+  JsonObject object;
+  for (const auto& [key, name] : names) object.text(key, name);
+  return object.finish("    ");
+}
+
+/// What the result was made from, by whom, and what it is.
+std::string proof_figures(const coupler::Case& the_case, const RunRecord& record) {
+  JsonObject workers;
+  for (const auto& [worker, count] : record.evaluations_by_worker) workers.whole(worker, count);
+  std::vector<std::string> settings;
+  for (const std::string& setting : record.settings) settings.push_back(quoted(setting));
+  return JsonObject()
+      .text("processor", processor_model())
+      .text("case_file", name_of_file(the_case.file))
+      .raw("settings", fmt::format("[{}]", fmt::join(settings, ", ")))
+      .raw("files", names_figure(the_case.identity.files))
+      .raw("results", names_figure(record.results))
+      .raw("evaluations_by_worker", workers.finish("    "))
+      .finish("  ");
+}
+
 std::string last_values(const RunRecord& record) {
   JsonObject values;
   if (!record.steps.empty()) {
@@ -134,6 +157,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                                .raw("seconds", cost_figures(record))
                                .raw("cells", cell_figures(record.pool))
                                .raw("materials", material_figures(record))
+                               .raw("proof", proof_figures(the_case, record))
                                .finish("");
   fem::write_file(file, text + '\n');
 }

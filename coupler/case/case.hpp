@@ -65,7 +65,9 @@ struct Case {
 
 /// Reads and checks a case file; runs nothing and writes nothing.
 /// @param settings "key=value" of --set, put into the document before it is read
+/// @param scripts which scripts of cells it may name
 /// @throws InputError with all faults, in the order of the file
-Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {},
+               const ScriptRules& scripts = {});
 
 }  // namespace polargrain::coupler

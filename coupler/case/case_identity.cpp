@@ -3,18 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "common/state.hpp"
+#include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
-std::string name_of_content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(in), {}};
+/// What a script includes is part of it.
+std::string name_of_content(const std::filesystem::path& file, const std::string& key) {
+  const std::string content = key.ends_with("script") ? text_of_script(file) : content_of(file);
   return name_of(std::as_bytes(std::span(content))).text();
 }
 
@@ -29,7 +27,7 @@ void collect(const Entry& entry, const std::string& key, const std::filesystem::
   }
   if (entry.kind != Entry::Kind::scalar) return;
   identity.values[key] = entry.text;
-  if (const auto file = find_data_file(entry.text, directory)) identity.files[key] = name_of_content(*file);
+  if (const auto file = find_data_file(entry.text, directory)) identity.files[key] = name_of_content(*file, key);
 }
 
 bool matters(const std::string& key) {

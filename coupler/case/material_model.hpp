@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "coupler/case/cell_script.hpp"
 #include "coupler/case/section.hpp"
 #include "coupler/pool/pool.hpp"
 #include "fem/material/material.hpp"
@@ -31,10 +32,10 @@ struct MaterialModel {
   std::string name;     ///< what `model:` says
   std::string summary;  ///< one line for the help
   /// Reads the parameters from the material's section, puts what is wrong on its list of faults, and calls
-  /// nothing of its finish(). @param material name in the case @param directory of the case file
+  /// nothing of its finish(). @param material name in the case
   /// @returns null only when there were faults
   std::unique_ptr<MaterialRecipe> (*read)(const std::string& material, Section& section, Faults& faults,
-                                          const std::filesystem::path& directory);
+                                          const CaseFiles& files);
 };
 
 /// All models, in the order of the help.

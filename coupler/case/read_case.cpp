@@ -14,8 +14,8 @@ namespace {
 /// Reads one case; each function one section of it.
 class CaseReader {
  public:
-  CaseReader(const std::filesystem::path& file, const Entry& document, Faults& faults)
-      : document_(document), faults_(faults), parts_{file.parent_path(), {}, false, faults} {
+  CaseReader(const std::filesystem::path& file, const Entry& document, const ScriptRules& scripts, Faults& faults)
+      : document_(document), faults_(faults), scripts_(scripts), parts_{file.parent_path(), {}, false, faults} {
     case_.file = file;
   }
 
@@ -60,7 +60,7 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        case_.materials[member.key] = model.read(member.key, section, faults_, parts_.directory);
+        case_.materials[member.key] = model.read(member.key, section, faults_, CaseFiles{parts_.directory, scripts_});
         section.finish();
       }
     }
@@ -241,6 +241,7 @@ class CaseReader {
   }
   const Entry& document_;
   Faults& faults_;
+  const ScriptRules& scripts_;
   CaseParts parts_;
   Case& case_ = parts_.result;
   const Entry* boundary_ = nullptr;
@@ -260,11 +261,12 @@ bool Case::needs_workers() const {
   });
 }
 
-Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings,
+               const ScriptRules& scripts) {
   Entry document = load_document(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
   Faults faults;
-  Case result = CaseReader(file, document, faults).read();
+  Case result = CaseReader(file, document, scripts, faults).read();
   result.identity = identity_of(document, file.parent_path());
   // In the order of the file; faults of options and of other files keep their order behind it.
   std::stable_sort(faults.begin(), faults.end(), [&](const Fault& a, const Fault& b) {

@@ -6,6 +6,22 @@
 namespace polargrain::coupler {
 namespace {
 
+/// Most steps of a case. A row of each stays in memory, for checkpoints, and is written once more with each of them.
+constexpr int kMostSteps = 1000000;
+
+/// What a step keeps in memory, measured: its place in the plan, its rows, its values for the summary.
+constexpr double kBytesOfStep = 1000.0;
+
+/// @returns the count that a key gives; 1, with a fault, where it and those before are too many
+int step_count(Section& section, std::size_t before) {
+  const int count = section.whole("count", 1);
+  const double all = static_cast<double>(before) + count;
+  if (all <= kMostSteps) return count;
+  section.fault("count", fmt::format("count: {:.0f} steps would take {:.0f} GB of memory; at most {} are taken", all,
+                                     1e-9 * kBytesOfStep * all, kMostSteps));
+  return 1;
+}
+
 /// Mean of a dof over the nodes of a place, less its mean over another.
 fem::DisplacementMeasure read_measure(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section section(entry, name + ": measure", parts.faults);
@@ -33,7 +49,7 @@ fem::DisplacementMeasure read_measure(const Entry& entry, const std::string& nam
 void read_stage(const Entry& entry, const std::string& name, double& time, CaseParts& parts) {
   Section stage(entry, name, parts.faults);
   std::vector<StepTarget>& plan = parts.result.plan;
-  const int count = stage.whole("count", 1);
+  const int count = step_count(stage, plan.size());
   const bool until = stage.find("until") != nullptr;
   const Entry* measure = stage.find("measure");
   const bool arc = stage.find("arc_length") != nullptr;
@@ -87,7 +103,7 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   std::vector<StepTarget>& plan = parts.result.plan;
   const Entry* stages = steps.find("stages");
   if (stages == nullptr) {
-    const int count = steps.whole("count", 1);
+    const int count = step_count(steps, 0);
     for (int i = 1; i <= count; ++i) {
       plan.push_back({StepTarget::Control::time, static_cast<double>(i) / count, {}});
     }

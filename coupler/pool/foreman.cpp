@@ -52,6 +52,7 @@ CrewOptions crew_options(const PoolOptions& options) {
   crew.directory = options.directory;
   crew.worker_command = options.worker_command;
   if (crew.worker_command.empty()) crew.worker_command = {own_program(), "worker"};
+  if (options.trust_scripts) crew.worker_command.emplace_back("--trust-scripts");
   crew.startup_seconds = options.startup_seconds;
   crew.cache_bytes = options.cache_bytes;
   crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;
@@ -281,6 +282,7 @@ void Foreman::take_replies(Member& member, const Reply& reply) {
 
 void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
   ++counts.evaluations;
+  ++evaluations_by_worker[member.name];
   counts.dem_steps += reply.diagnostics.dem_steps;
   counts.engine_seconds += reply.diagnostics.engine_seconds;
   if (done.kind == Task::Kind::again) {

@@ -35,6 +35,7 @@ class Foreman final : private CrewEvents {
 
   std::function<void(std::size_t, std::size_t)> progress;  ///< see Pool::on_progress
   PoolCounts counts;
+  std::map<std::string, std::int64_t> evaluations_by_worker;
 
  private:
   using Clock = std::chrono::steady_clock;

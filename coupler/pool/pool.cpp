@@ -84,6 +84,11 @@ class Pool::Implementation {
       CellReply& reply = tasks[task_of[r]].reply;
       tasks.size() == requests.size() ? replies.push_back(std::move(reply)) : replies.push_back(reply);
     }
+    if (on_answers) {
+      std::vector<PoolRequest> asked(requests.begin(), requests.end());
+      for (std::size_t r = 0; r < asked.size(); ++r) asked[r].cell.state = starts[r];
+      on_answers(asked, replies);
+    }
     return replies;
   }
 
@@ -115,6 +120,7 @@ class Pool::Implementation {
 
   Foreman foreman;
   std::optional<CellFailure> failure;
+  std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> on_answers;
 
  private:
   /// The first in the order of the requests, whoever was faster.
@@ -151,6 +157,12 @@ const std::optional<CellFailure>& Pool::last_failure() const {
 }
 void Pool::on_progress(std::function<void(std::size_t, std::size_t)> call) {
   implementation_->foreman.progress = std::move(call);
+}
+void Pool::on_answers(std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> call) {
+  implementation_->on_answers = std::move(call);
+}
+const std::map<std::string, std::int64_t>& Pool::evaluations_by_worker() const {
+  return implementation_->foreman.evaluations_by_worker;
 }
 const PoolCounts& Pool::counts() const {
   return implementation_->foreman.counts;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,6 +24,8 @@ struct PoolOptions {
   std::filesystem::path directory;
   /// The program and its leading arguments; the pool adds `--connect URL`. Empty: this program, `worker`.
   std::vector<std::string> worker_command;
+  /// Local workers run any script (common/script.hpp).
+  bool trust_scripts = false;
   /// A worker that has not said Hello after so long is a start-up failure.
   double startup_seconds = 10.0;
   /// What a worker is taken to keep; see StateCache.
@@ -109,7 +112,11 @@ class Pool {
   /// Called after each reply of an evaluate, and twice a second while there is none, with the cells done and
   /// the cells asked for.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> call);
+  /// Called behind each evaluate with its requests, their states with bytes, and its replies.
+  void on_answers(std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> call);
   [[nodiscard]] const PoolCounts& counts() const;
+  /// Evaluations that each worker has answered, by its name.
+  [[nodiscard]] const std::map<std::string, std::int64_t>& evaluations_by_worker() const;
   /// Where workers of other machines may join; empty when nowhere.
   [[nodiscard]] std::string listening_url() const;
   /// Connections that were refused so far.

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <sstream>
 
+#include "common/script.hpp"
 #include "dem/cell/fix_cell_strain.hpp"
 #include "dem/contact/registration.hpp"
 #include "dem/engine/liggghts.hpp"
@@ -80,24 +80,9 @@ void Engine::command(const std::string& line) {
 }
 
 void Engine::script(const std::string& text, const std::string& script_file) {
-  std::istringstream lines(text);
-  std::string line;
-  std::string command_text;
-  int number = 0;
-  while (std::getline(lines, line)) {
-    ++number;
-    const std::size_t last = line.find_last_not_of(" \t\r");
-    if (last != std::string::npos && line[last] == '&') {
-      command_text += line.substr(0, last);
-      continue;
-    }
-    command_text += line;
-    const std::size_t first = command_text.find_first_not_of(" \t\r");
-    if (first != std::string::npos && command_text[first] != '#') {
-      std::printf("polargrain: %s:%d: %s\n", script_file.c_str(), number, command_text.c_str());
-      command(command_text);
-    }
-    command_text.clear();
+  for (const ScriptCommand& line : commands_of_script(text, script_file)) {
+    std::printf("polargrain: %s:%d: %s\n", line.file.c_str(), line.line, line.text.c_str());
+    command(line.text);
   }
   std::printf("polargrain: %s: read to its end\n", script_file.c_str());
 }

@@ -178,8 +178,9 @@ TEST_F(RunTest, GrainsLostOnEveryTryEndTheRunInTheEnginesWords) {
 }
 
 TEST_F(RunTest, ABrokenScriptEndsTheRunInTheEnginesWords) {
-  set_script("pear_style gran 1");
-  const Outcome outcome = polargrain("run case.yaml -o out -w 2 --quiet");
+  set_script("young 1e8\npear_style gran");
+  EXPECT_EQ(polargrain("run case.yaml -o out -w 2 --quiet").status, 2);
+  const Outcome outcome = polargrain("run case.yaml -o out -w 2 --quiet --trust-scripts");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.errors.find("ERROR: Unknown command: pear_style (../input.cpp:209)"), std::string::npos)
       << outcome.errors;

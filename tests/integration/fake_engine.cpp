@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "common/error.hpp"
+#include "common/script.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -40,15 +41,14 @@ Matrix7 stiffness(double young) {
 class FakeEngine : public CellService {
  public:
   explicit FakeEngine(const CellDefinition& definition) {
-    std::istringstream script(definition.script);
-    std::string command;
-    while (script >> command) {
-      if (command != "young" && command != "softening" && command != "fail_beyond" &&
-          command != "die_beyond" && command != "refuse_beyond" && command != "hang_beyond" &&
-          command != "sleep_milliseconds" && command != "young_of_mass" && command != "state_bytes") {
-        die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
+    for (const ScriptCommand& line : commands_of_script(definition.script, definition.script_file)) {
+      std::istringstream words(line.text);
+      for (std::string command; words >> command;) {
+        if (!fake_commands().contains(command)) {
+          die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());
+        }
+        words >> settings_[command];
       }
-      script >> settings_[command];
     }
     double young = settings_.count("young") != 0 ? settings_["young"] : kYoung;
     if (settings_.count("young_of_mass") != 0)
@@ -89,6 +89,8 @@ class FakeEngine : public CellService {
       const Vector7 change = softened(stress[k11] - stress[k22]) * strain / substeps;
       for (int i = 0; i < 5; ++i) stress[i] += change[i];
     }
+    // Another engine than the one of the run, for tests of `verify`: the last digits of its answers differ.
+    if (std::getenv("FAKE_ENGINE_FORGES") != nullptr) stress[k11] *= 1.0 + 1e-15;
     CellReply made = reply(stress, start[5] + 1.0);
     made.response.tangent = softened(stress[k11] - stress[k22]);
     return made;
@@ -143,6 +145,13 @@ class FakeEngine : public CellService {
 };
 
 }  // namespace
+
+const std::set<std::string>& fake_commands() {
+  static const std::set<std::string> commands{"young",         "softening",     "fail_beyond",
+                                              "die_beyond",    "refuse_beyond", "hang_beyond",
+                                              "young_of_mass", "state_bytes",   "sleep_milliseconds"};
+  return commands;
+}
 
 std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition) {
   return std::make_unique<FakeEngine>(definition);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <memory>
+#include <set>
+#include <string>
 
 #include "common/cell.hpp"
 #include "common/packing_specification.hpp"
@@ -22,6 +24,9 @@ namespace polargrain::testing {
 ///
 /// An unknown command ends the process as LIGGGHTS does.
 std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition);
+
+/// The commands of its scripts.
+const std::set<std::string>& fake_commands();
 
 /// Stress after an increment from the packing, for the default modulus.
 Vector7 fake_stress(const Increment& increment);

@@ -4,3 +4,5 @@ target_compile_definitions(record_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PR
 polargrain_test(coupler_messages_test unit unit/coupler_messages_test.cpp LIBS polargrain_pool)
 polargrain_test(coupler_case_test unit unit/coupler_case_test.cpp LIBS polargrain_coupler)
 polargrain_test(coupler_noise_test unit unit/coupler_noise_test.cpp LIBS polargrain_common)
+polargrain_test(script_test unit unit/script_test.cpp LIBS polargrain_common)
+target_compile_definitions(script_test PRIVATE CELL_SCRIPTS="${PROJECT_SOURCE_DIR}/liggghts_inputs/cells")

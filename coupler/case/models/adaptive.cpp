@@ -35,9 +35,9 @@ AdaptivityOptions read_options(Section& section) {
 }
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const std::filesystem::path& directory) {
+                                     const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
-  CellDefinition definition = read_cell_definition(material, section, faults, directory);
+  CellDefinition definition = read_cell_definition(material, section, faults, files);
   const CosseratParameters cosserat = read_cosserat_parameters(section);
   const AdaptivityOptions options = read_options(section);
   if (definition.control.tangent == CellTangent::voigt) {

@@ -40,9 +40,9 @@ void refuse_cosserat_parameters(Section& section) {
 }
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const std::filesystem::path& directory) {
+                                     const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
-  CellDefinition definition = read_cell_definition(material, section, faults, directory);
+  CellDefinition definition = read_cell_definition(material, section, faults, files);
   std::optional<CosseratParameters> cosserat;
   if (section.choice_or("rotations", {"free", "controlled"}, "free") == "controlled") {
     definition.control.rotations = CellRotations::controlled;

@@ -9,16 +9,15 @@
 namespace polargrain::coupler {
 namespace {
 
-/// The path of a file that the key names; empty, with a fault, when there is none.
-std::filesystem::path file_of(Section& section, const std::string& key, const std::string& what,
-                              const std::filesystem::path& directory) {
-  const std::string name = section.text(key, what);
+/// The path of the packing; empty, with a fault, when there is none.
+std::filesystem::path packing_file(Section& section, const std::filesystem::path& directory) {
+  const std::string name = section.text("packing", "the path of a packing (CSV or HDF5)");
   if (name.empty()) return {};
   if (const auto file = find_data_file(name, directory)) return *file;
-  section.fault(key,
-                fmt::format("{}: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
+  section.fault("packing",
+                fmt::format("packing: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
                             "correct the path or put the file there",
-                            key, name));
+                            name));
   return {};
 }
 
@@ -44,17 +43,14 @@ CellControl read_control(Section& section) {
 }  // namespace
 
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
-                                    const std::filesystem::path& directory) {
+                                    const CaseFiles& files) {
   CellDefinition definition;
   definition.name = material;
-  const auto script = file_of(section, "script", "the path of a LIGGGHTS input script for cells", directory);
-  const auto packing = file_of(section, "packing", "the path of a packing (CSV or HDF5)", directory);
+  const CellScript script = read_cell_script("script", section, faults, files);
+  definition.script_file = script.file;
+  definition.script = script.text;
+  const auto packing = packing_file(section, files.directory);
   definition.control = read_control(section);
-  if (!script.empty()) {
-    definition.script_file = script.lexically_normal().string();
-    definition.script = content_of(script);
-    if (definition.script.empty()) section.fault("script", "script: the file is empty or cannot be read");
-  }
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
       if (definition.packing.dimension != 2)

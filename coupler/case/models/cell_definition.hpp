@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <filesystem>
 #include <string>
 
 #include "common/cell.hpp"
+#include "coupler/case/cell_script.hpp"
 #include "coupler/case/section.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 
@@ -12,7 +12,7 @@ namespace polargrain::coupler {
 /// Reads what every model with cells asks for: script, packing and how the cells are loaded. Only fit for use
 /// when no fault has been added.
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
-                                    const std::filesystem::path& directory);
+                                    const CaseFiles& files);
 
 /// Reads G, Gc and lc.
 CosseratParameters read_cosserat_parameters(Section& section);

@@ -23,7 +23,7 @@ class ElasticRecipe : public MaterialRecipe {
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const std::filesystem::path&) {
+                                     const CaseFiles&) {
   const std::size_t faults_before = faults.size();
   fem::ElasticParameters parameters;
   parameters.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);

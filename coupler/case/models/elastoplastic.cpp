@@ -50,7 +50,7 @@ fem::PiecewiseLinear strength(Section& section, const std::string& key, Dimensio
 }
 
 std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const std::filesystem::path&) {
+                                     const CaseFiles&) {
   const std::size_t faults_before = faults.size();
   fem::ElastoplasticParameters parameters;
   parameters.elastic.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);

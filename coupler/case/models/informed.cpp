@@ -24,9 +24,9 @@ class InformedRecipe : public MaterialRecipe {
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const std::filesystem::path& directory) {
+                                     const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
-  CellDefinition definition = read_cell_definition(material, section, faults, directory);
+  CellDefinition definition = read_cell_definition(material, section, faults, files);
   const InformedParameters parameters = read_informed_parameters(section, read_cosserat_parameters(section));
   if (faults.size() != faults_before) return nullptr;
   definition.control.tangent = CellTangent::none;  // the law has one of its own

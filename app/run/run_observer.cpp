@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/run/run_observer.hpp"
+
+namespace polargrain::app {
+
+void log_step(spdlog::logger& log, const fem::StepReport& report, double largest_strain) {
+  if (report.within_noise > 0) {
+    log.warn(
+        "  accepted above the tolerance, within the noise of the stresses: force residual {:.3e}, noise "
+        "{:.3e}",
+        report.force_residual, report.force_noise);
+  }
+  if (report.within_rounding > 0) {
+    log.warn("  accepted above the tolerance because nothing but rounding is left: force residual {:.3e}",
+             report.force_residual);
+  }
+  if (report.limited > 0) {
+    log.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
+             largest_strain);
+  }
+  log.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
+           report.converged ? "converged" : "NOT converged", report.iterations, report.cuts, report.evaluations,
+           report.time);
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <string>
+
+#include "app/run/progress.hpp"
+
+namespace polargrain::app {
+
+/// Progress for the user, and what happens for the log.
+class RunObserver : public Progress {
+ public:
+  RunObserver(Style style, int steps, spdlog::logger& log) : Progress(stderr, style, steps), log_(log) {}
+  void iterated(const fem::IterationReport& report) override {
+    log_.info("  iteration {}: force residual {:.3e}, moment residual {:.3e}", report.iteration,
+              report.force_residual, report.moment_residual);
+    Progress::iterated(report);
+  }
+  void cut(double time, const std::string& reason, double next_time) override {
+    log_.warn("  step to {:.6g} given up: {}; next try to {:.6g}", time, reason, next_time);
+  }
+
+ private:
+  spdlog::logger& log_;
+};
+
+/// What a step came to, for the log. @param largest_strain that corrections are shortened to
+void log_step(spdlog::logger& log, const fem::StepReport& report, double largest_strain);
+
+}  // namespace polargrain::app

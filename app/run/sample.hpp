@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "coupler/checkpoint/checkpoint.hpp"
+#include "coupler/pool/pool.hpp"
+
+namespace polargrain::app {
+
+/// What a cell was asked and what it answered, in bits.
+struct SampledAnswer {
+  coupler::PoolRequest request;  ///< its state with bytes; null: from the packing
+  Response response;
+  ContentName state;  ///< name of the state that was answered
+  [[nodiscard]] bool same_answer(const CellReply& reply) const;
+};
+
+/// Some of all answers of a run, so that anybody can ask again (polargrain verify): sixteen, each of all with the same
+/// chance. Which ones depends on their order alone, not on workers or time.
+class Sample {
+ public:
+  void take(std::span<const coupler::PoolRequest> requests, std::span<const CellReply> replies);
+  [[nodiscard]] const std::vector<SampledAnswer>& answers() const { return answers_; }
+
+ private:
+  std::uint64_t seen_ = 0;
+  std::vector<SampledAnswer> answers_;
+};
+
+/// Writes a sample in the form of a checkpoint (docs/file_formats.md). An empty one leaves the file that is there: a run
+/// that is resumed when it was done asks no cell. @throws RunError
+void write_sample(const std::filesystem::path& file, const coupler::CaseIdentity& identity,
+                  const std::vector<SampledAnswer>& answers);
+
+/// @param sample as read by read_checkpoint @throws RunError when it holds none
+std::vector<SampledAnswer> answers_of(coupler::Checkpoint& sample);
+
+}  // namespace polargrain::app
