@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "common/cell.hpp"
+#include "common/state_check.hpp"
 #include "app/commands/pack.hpp"
 
 namespace polargrain::app {
@@ -12,6 +13,8 @@ struct WorkerEngine {
   /// Called once, before anything else, in a process that becomes a worker.
   std::function<void()> start_process;
   CellServiceFactory make_service;
+  /// Judges the states that workers send; may be empty.
+  StateCheck state_fault = {};
 };
 
 /// The whole program: reads the command line, does what it says.

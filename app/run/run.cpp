@@ -61,6 +61,7 @@ class Run {
       std::optional<coupler::Listening> listening, std::unique_ptr<coupler::Checkpoint> from)
       : case_(std::move(the_case)),
         listening_(std::move(listening)),
+        state_fault_(options.state_fault),
         directory_(std::move(directory)),
         from_(std::move(from)),
         resume_command_(resume_command(options, directory_)),
@@ -126,6 +127,7 @@ class Run {
       };
       options.patience = case_.patience;
       options.listening = std::move(listening_);
+      options.state_fault = state_fault_;
       pool_.emplace(options);
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
@@ -349,6 +351,7 @@ class Run {
   Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
   coupler::Case case_;
   std::optional<coupler::Listening> listening_;
+  StateCheck state_fault_;
   std::filesystem::path directory_;
   std::unique_ptr<coupler::Checkpoint> from_;
   std::string resume_command_;

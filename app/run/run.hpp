@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/state_check.hpp"
+
 namespace polargrain::app {
 
 struct RunOptions {
@@ -17,6 +19,7 @@ struct RunOptions {
   std::string listen;          ///< tcp://HOST:PORT where workers of other machines may join; empty: none may
   std::filesystem::path keys;  ///< directory of 'polargrain keys', needed to listen
   std::vector<std::string> settings;  ///< of --set
+  StateCheck state_fault = {};        ///< see PoolOptions
 };
 
 /// Runs a case from its start, or from a checkpoint, to its end and writes the result directory

@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "common/cell.hpp"
+#include "coupler/pool/attempts.hpp"
+#include "coupler/pool/evidence.hpp"
 
 namespace polargrain::coupler {
 
@@ -25,14 +27,19 @@ struct Task {
 
   CellReply reply = {};
   bool alone = false;  ///< was with a worker that was lost, beside others: the next worker has nothing else
-  int ends_by_work = 0;
-  int ends_from_outside = 0;
+  Attempts attempts = {};  ///< that came to nothing
+
+  // fetch, again: of the evaluation that made the state
+  Evidence evidence = {};
+  StatePointer other = {};  ///< what a second evaluation came to instead
 };
 
 /// Whether two tasks may go in one message.
 inline bool go_together(const Task& a, const Task& b) {
-  return a.kind != Task::Kind::rest && a.kind == b.kind && a.definition == b.definition && !a.alone &&
-         !b.alone;
+  const auto travels_alone = [](const Task& task) {
+    return task.kind == Task::Kind::rest || task.alone || !task.attempts.empty();
+  };
+  return a.kind == b.kind && a.definition == b.definition && !travels_alone(a) && !travels_alone(b);
 }
 
 }  // namespace polargrain::coupler

@@ -149,7 +149,7 @@ CellReply read_cell_reply(ArrayReader& cells) {
   cell.state = reader.state_or_name();
   reader.end();
   if (!cell.state && cell.response.quality != Quality::failed) {
-    throw ProtocolError("a reply that did not fail has no state");
+    throw FalseMessage("a reply that did not fail has no state");
   }
   return cell;
 }
@@ -186,7 +186,7 @@ Welcome read_welcome(ArrayReader& reader) {
 Message read_message(ArrayReader& reader, std::uint64_t kind) {
   switch (kind) {
     case kind_of<Stop>():
-      return Stop{reader.text()};
+      return Stop{reader.words()};
     case kind_of<Welcome>():
       return read_welcome(reader);
     case kind_of<Define>(): {
@@ -211,7 +211,7 @@ Message read_message(ArrayReader& reader, std::uint64_t kind) {
     case kind_of<Refusal>(): {
       const std::uint64_t request = reader.whole();
       const std::uint32_t place = reader.whole32();
-      return Refusal{request, place, reader.text()};
+      return Refusal{request, place, reader.words()};
     }
     case kind_of<FetchRequest>(): {
       const std::uint64_t request = reader.whole();

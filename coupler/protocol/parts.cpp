@@ -6,6 +6,12 @@
 #include <unordered_set>
 
 namespace polargrain::coupler {
+namespace {
+/// Contacts or DEM steps, and seconds, of an evaluation: far beyond what there can be, and small enough to be
+/// added up.
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 40;
+constexpr double kMostSeconds = 1e9;
+}  // namespace
 
 void write(ArrayWriter&& writer, const Increment& increment) {
   const auto& h = increment.displacement_gradient;
@@ -146,9 +152,11 @@ Response read_response(const msgpack::object& object) {
   const std::int64_t quality = reader.whole_signed();
   if (quality < -1 || quality > 1) throw ProtocolError("no such quality of a response");
   response.quality = static_cast<Quality>(quality);
-  response.message = reader.text();
+  response.message = reader.words();
   response.step_factor = reader.finite_numbers<1>()[0];
   reader.end();
+  if (!(response.step_factor > 0.0 && response.step_factor <= 1.0))
+    throw FalseMessage("a response proposes a part of its increment that is none");
   // A failed response has no numbers worth anything; all others are going to be used.
   if (response.quality != Quality::failed) {
     require_finite(stress, "a stress");
@@ -179,12 +187,16 @@ void write(ArrayWriter&& writer, const CellDiagnostics& d) {
 
 CellDiagnostics read_diagnostics(const msgpack::object& object) {
   ArrayReader reader(object, "a cell's diagnostics");
-  const std::array<double, 14> v = reader.numbers<14>();
+  const std::array<double, 14> v = reader.finite_numbers<14>();
   CellDiagnostics d{v[0], v[1], v[2], v[3], v[4], v[5],  0,
                     0,    v[6], v[7], v[8], v[9], v[10], {v[11], v[12], v[13]}};
   d.contacts = reader.whole_signed();
   d.dem_steps = reader.whole_signed();
   reader.end();
+  if (d.contacts < 0 || d.contacts > kMostCounted || d.dem_steps < 0 || d.dem_steps > kMostCounted ||
+      !(d.engine_seconds >= 0.0 && d.engine_seconds <= kMostSeconds)) {
+    throw FalseMessage("a cell's diagnostics count what no cell can have done");
+  }
   return d;
 }
 

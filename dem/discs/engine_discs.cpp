@@ -154,6 +154,12 @@ void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, co
     throw RunError("this state belongs to a cell of another packing or another input script");
   history->pre_exchange();
   for (int k = 0; k < atom.nlocal; ++k) {
+    const std::string fault = motion_fault(snapshot.box, static_cast<std::size_t>(k),
+                                           snapshot.discs[static_cast<std::size_t>(k)], atom.radius[k],
+                                           lammps.update->dt);
+    if (!fault.empty()) throw RunError(fault);
+  }
+  for (int k = 0; k < atom.nlocal; ++k) {
     const DiscSnapshot::Motion& disc = snapshot.discs[static_cast<std::size_t>(k)];
     atom.x[k][0] = disc.x;
     atom.x[k][1] = disc.y;

@@ -23,6 +23,9 @@ namespace polargrain::testing {
 /// An unknown command ends the process as LIGGGHTS does.
 std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition);
 
+/// Its StateCheck: the size that the script says, and finite numbers.
+std::string fake_state_fault(const CellDefinition& definition, const State& state);
+
 /// Stress after an increment from the packing, for the default modulus.
 Vector7 fake_stress(const Increment& increment);
 

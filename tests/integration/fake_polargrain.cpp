@@ -5,7 +5,7 @@
 
 int main(int count, char** arguments) {
   return polargrain::app::command_line(
-      count, arguments, {[] {}, polargrain::testing::make_fake_engine},
+      count, arguments, {[] {}, polargrain::testing::make_fake_engine, polargrain::testing::fake_state_fault},
       {[] {}, [](const auto& specification,
                  const auto&) { return polargrain::testing::make_fake_packing(specification); }});
 }
