@@ -104,7 +104,15 @@ class Bins {
 
 std::string geometry_fault(const Packing& packing) {
   std::string fault;
-  bool some_touch = false;
+  double period = packing.box.norm();  // shortest way to an image
+  double largest = 0.0;
+  for (const Eigen::Vector2d& steps : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1),
+                                       Eigen::Vector2d(1, -1)})
+    period = std::min(period, (packing.box * steps).norm());
+  for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+  if (2.0 * largest - period > kMostOverlapToStart * largest)
+    return fmt::format("a grain of radius {:.3g} m has no room in a box of period {:.3g} m", largest, period);
+  bool some_touch = 2.0 * largest > period;  // its own image
   Bins(packing).for_near_pairs([&](std::size_t i, std::size_t j, double distance) {
     const Grain& first = packing.grains[i];
     const Grain& second = packing.grains[j];
