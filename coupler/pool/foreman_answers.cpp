@@ -14,6 +14,9 @@ namespace {
 /// Times that a request is sent again because its worker misses something: its definition, and its states.
 constexpr int kMostSupplied = 3;
 
+/// States that evaluations of one cell may come to, beside the one that was named first.
+constexpr std::size_t kMostOtherStates = 2;
+
 /// The job of a request, if the worker has it: other answers are late or doubled, and of no use.
 std::deque<Job>::iterator find_job(Member& member, std::uint64_t request) {
   return std::find_if(member.jobs.begin(), member.jobs.end(),
@@ -78,16 +81,19 @@ void Foreman::take_other_state(Member& member, Task& done, const CellReply& repl
   const std::string text = fmt::format("{} evaluates {} again, whose state {} does not bring, and comes to "
                                        "another state",
                                        member.name, place_of(done), first);
-  const bool confirmed = done.other && reply.state && done.other->name() == reply.state->name();
-  if (!done.other && reply.state) {
-    done.other = std::make_shared<const State>(reply.state->name(), reply.state->size());
-    done.attempts.add({Attempt::End::other_state, member.number, member.party, text});
+  Attempt attempt{Attempt::End::other_state, member.number, member.party, text};
+  if (!reply.state) return end_attempt(done, std::move(attempt));
+  const ContentName name = reply.state->name();
+  if (std::find(done.others.begin(), done.others.end(), name) == done.others.end()) {
+    done.others.push_back(name);
+    if (done.others.size() > kMostOtherStates)
+      throw RunError(text + ": the machines of the workers do not compute alike");
+    done.attempts.add(std::move(attempt));
     say_again(text, 1);
     queue_.add_first(static_cast<std::size_t>(&done - tasks_->data()));
     give_all();
     return;
   }
-  if (!confirmed) throw RunError(text + ": the machines of the workers do not compute alike");
   if (name_of_answer(reply) != done.evidence.answer)
     throw RunError(fmt::format("{}, and to other numbers than {} gave, which are in the results of this step: {} "
                                "has sent what is false, or the machines of the workers do not compute alike",

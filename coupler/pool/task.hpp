@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/cell.hpp"
 #include "coupler/pool/attempts.hpp"
@@ -31,7 +32,7 @@ struct Task {
 
   // fetch, again: of the evaluation that made the state
   Evidence evidence = {};
-  StatePointer other = {};  ///< what a second evaluation came to instead
+  std::vector<ContentName> others = {};  ///< what evaluations again have come to instead
 };
 
 /// Whether two tasks may go in one message.
