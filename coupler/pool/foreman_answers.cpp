@@ -78,9 +78,10 @@ void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
 /// and the numbers that came with it are those that were used.
 void Foreman::take_other_state(Member& member, Task& done, const CellReply& reply) {
   const std::string& first = done.evidence.who;
-  const std::string text = fmt::format("{} evaluates {} again, whose state {} does not bring, and comes to "
-                                       "another state",
-                                       member.name, place_of(done), first);
+  const std::string text = fmt::format(
+      "{} evaluates {} again, whose state {} does not bring, and comes to "
+      "another state",
+      member.name, place_of(done), first);
   Attempt attempt{Attempt::End::other_state, member.number, member.party, text};
   if (!reply.state) return end_attempt(done, std::move(attempt));
   const ContentName name = reply.state->name();
@@ -95,10 +96,12 @@ void Foreman::take_other_state(Member& member, Task& done, const CellReply& repl
     return;
   }
   if (name_of_answer(reply) != done.evidence.answer)
-    throw RunError(fmt::format("{}, and to other numbers than {} gave, which are in the results of this step: {} "
-                               "has sent what is false, or the machines of the workers do not compute alike",
-                               text, first, first));
-  tell(fmt::format("{}, as another evaluation did: {} named a false state; its numbers were right", text, first));
+    throw RunError(
+        fmt::format("{}, and to other numbers than {} gave, which are in the results of this step: {} "
+                    "has sent what is false, or the machines of the workers do not compute alike",
+                    text, first, first));
+  tell(fmt::format("{}, as another evaluation did: {} named a false state; its numbers were right", text,
+                   first));
   for (const Member& other : crew_.members())
     if (other.name == first) blamed_.emplace(other.number, "it named a state that its cell does not come to");
   done.reply = reply;
@@ -117,7 +120,8 @@ void Foreman::blame_others(const Member& member, const Task& done) {
     const bool contradicted =
         attempt.end == Attempt::End::refused || attempt.end == Attempt::End::other_state;
     if (contradicted && attempt.worker != member.number && present_.contains(attempt.worker))
-      blamed_.emplace(attempt.worker, fmt::format("{} answers what it does not: {}", member.name, attempt.words));
+      blamed_.emplace(attempt.worker,
+                      fmt::format("{} answers what it does not: {}", member.name, attempt.words));
   }
 }
 
@@ -208,9 +212,8 @@ void Foreman::take_refusal(Member& member, const Refusal& refusal) {
   Task& refused = task(job.tasks[refusal.place]);
   job.tasks.erase(job.tasks.begin() + refusal.place);
   put_back(job);
-  end_attempt(refused,
-              {Attempt::End::refused, member.number, member.party,
-               fmt::format("{} refuses {}: {}", member.name, place_of(refused), refusal.message)});
+  end_attempt(refused, {Attempt::End::refused, member.number, member.party,
+                        fmt::format("{} refuses {}: {}", member.name, place_of(refused), refusal.message)});
   give_all();
 }
 

@@ -123,7 +123,10 @@ std::unique_ptr<GrainBox> Cell::choose_box(const Packing& packing) {
 }
 
 void Cell::check(const Packing& packing, double pressure, const std::string& script_file) {
-  PackingAtRest found{pressure, packing.pressure, 0.0, equilibrium(),
+  PackingAtRest found{pressure,
+                      packing.pressure,
+                      0.0,
+                      equilibrium(),
                       overlaps_of(grains_->contacts(), inertia_.radii),
                       !controlled() || !grains_->weights().empty()};
   if (pressure > 0.0)

@@ -112,7 +112,10 @@ StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<con
     const int count = atom.avec->pack_exchange(k, grain.data());
     values.insert(values.end(), grain.begin(), grain.begin() + count);
   }
-  const PackedGrains packed{box, static_cast<std::size_t>(granular_pair(lammps).dnum()), std::move(values), {},
+  const PackedGrains packed{box,
+                            static_cast<std::size_t>(granular_pair(lammps).dnum()),
+                            std::move(values),
+                            {},
                             {rotations.begin(), rotations.end()}};
   return encode(packed, static_cast<std::size_t>(atom.nlocal));
 }

@@ -38,7 +38,7 @@ std::int64_t whole(double value) {
 std::size_t index_of(double value, std::size_t count) {
   const std::int64_t number = whole(value);
   return number >= 1 && number <= static_cast<std::int64_t>(count) ? static_cast<std::size_t>(number - 1)
-                                                                     : count;
+                                                                   : count;
 }
 
 void check_contacts(std::span<const double> record, const GrainLayout& layout, std::size_t grains) {
@@ -132,11 +132,13 @@ void check_records(const PackedGrains& state, const GrainLayout& layout) {
     for (const std::size_t place : layout.fixed)
       if (whole(record[place]) != whole(layout.heads[tag][place]))
         throw RunError("this state belongs to a cell of another packing or another input script");
-    const GrainMotion motion{record[GrainLayout::kPlace],        record[GrainLayout::kPlace + 1],
-                             record[GrainLayout::kVelocity],     record[GrainLayout::kVelocity + 1],
-                             record[layout.spin + 2],            state.rotations.empty() ? 0.0 : state.rotations[k]};
+    const GrainMotion motion{
+        record[GrainLayout::kPlace],    record[GrainLayout::kPlace + 1],
+        record[GrainLayout::kVelocity], record[GrainLayout::kVelocity + 1],
+        record[layout.spin + 2],        state.rotations.empty() ? 0.0 : state.rotations[k]};
     const double radius = layout.radii[tag];
-    if (const std::string fault = motion_fault(state.box, k, motion, radius, layout.time_step); !fault.empty())
+    if (const std::string fault = motion_fault(state.box, k, motion, radius, layout.time_step);
+        !fault.empty())
       throw RunError(fault);
     // The engine looks for grains in x3 too, though discs stay in their plane.
     if (!(std::abs(record[GrainLayout::kPlace + 2] - layout.heads[tag][GrainLayout::kPlace + 2]) <= radius))

@@ -41,19 +41,19 @@ struct GrainLayout {
   static constexpr std::size_t kVelocity = 4;
   static constexpr std::size_t kTag = 7;
 
-  std::size_t head = 0;             ///< values before the contacts, the length among them
-  std::size_t tail = 0;             ///< values behind them
-  bool has_history = true;          ///< contacts are packed
-  std::size_t history_values = 0;   ///< springs of a contact
-  std::size_t spin = 0;             ///< where the spin begins
-  std::vector<std::size_t> fixed;   ///< places in the head that hold the bits of the engine's own grain
+  std::size_t head = 0;            ///< values before the contacts, the length among them
+  std::size_t tail = 0;            ///< values behind them
+  bool has_history = true;         ///< contacts are packed
+  std::size_t history_values = 0;  ///< springs of a contact
+  std::size_t spin = 0;            ///< where the spin begins
+  std::vector<std::size_t> fixed;  ///< places in the head that hold the bits of the engine's own grain
   std::vector<std::vector<double>> heads;  ///< of the engine's own grains, by their tags
   std::vector<double> radii;               ///< m, by tags
   double time_step = 0.0;                  ///< s
 };
 
-/// @throws RunError when a record is none of this engine: other grains, lengths that do not fit, partners that
-/// are no grains, a place outside of the box
+/// @throws RunError when a record is none of this engine: other grains, lengths that do not fit, partners
+/// that are no grains, a place outside of the box
 void check_records(const PackedGrains& state, const GrainLayout& layout);
 
 }  // namespace polargrain::dem

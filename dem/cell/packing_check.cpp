@@ -106,8 +106,8 @@ std::string geometry_fault(const Packing& packing) {
   std::string fault;
   double period = packing.box.norm();  // shortest way to an image
   double largest = 0.0;
-  for (const Eigen::Vector2d& steps : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1),
-                                       Eigen::Vector2d(1, -1)})
+  for (const Eigen::Vector2d& steps :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
     period = std::min(period, (packing.box * steps).norm());
   for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
   if (2.0 * largest - period > kMostOverlapToStart * largest)
@@ -116,8 +116,7 @@ std::string geometry_fault(const Packing& packing) {
   Bins(packing).for_near_pairs([&](std::size_t i, std::size_t j, double distance) {
     const Grain& first = packing.grains[i];
     const Grain& second = packing.grains[j];
-    const double overlap =
-        (first.radius + second.radius - distance) / std::min(first.radius, second.radius);
+    const double overlap = (first.radius + second.radius - distance) / std::min(first.radius, second.radius);
     some_touch = some_touch || overlap > 0.0;
     if (overlap <= kMostOverlapToStart) return true;
     fault = fmt::format(
@@ -126,7 +125,8 @@ std::string geometry_fault(const Packing& packing) {
         first.id, second.id, 100.0 * overlap);
     return false;
   });
-  if (fault.empty() && !some_touch) fault = "the packing carries no pressure at rest: its grains do not touch";
+  if (fault.empty() && !some_touch)
+    fault = "the packing carries no pressure at rest: its grains do not touch";
   return fault;
 }
 

@@ -40,8 +40,8 @@ bool too_large(const Overlaps& overlaps);
 /// Both with their limits, for messages.
 std::string description(const Overlaps& overlaps);
 
-/// Overlap of two grains over the smaller radius beyond which no engine is asked: the centre of one is nearly in
-/// the other, as no script can want it.
+/// Overlap of two grains over the smaller radius beyond which no engine is asked: the centre of one is nearly
+/// in the other, as no script can want it.
 inline constexpr double kMostOverlapToStart = 0.75;
 /// k_n / (p t) beyond which a packing carries no pressure to speak of: grains that touch and no more. Sand
 /// under 1 kPa has 1e7.

@@ -38,15 +38,16 @@ std::string box_fault(const Box& box, double grain_area) {
 
 std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& motion, double radius,
                          double time_step) {
-  const bool is_sound =
-      motion.y >= -radius && motion.y <= box.length_y + radius &&
-      std::abs(motion.x) <= 2.0 * box.length_x + radius && std::isfinite(motion.vx) &&
-      std::isfinite(motion.vy) && std::isfinite(motion.spin) && std::abs(motion.vx) * time_step < radius &&
-      std::abs(motion.vy) * time_step < radius && std::abs(motion.spin) * time_step < 1.0 &&
-      std::abs(motion.turned) < kMostTurns;
+  const bool is_sound = motion.y >= -radius && motion.y <= box.length_y + radius &&
+                        std::abs(motion.x) <= 2.0 * box.length_x + radius && std::isfinite(motion.vx) &&
+                        std::isfinite(motion.vy) && std::isfinite(motion.spin) &&
+                        std::abs(motion.vx) * time_step < radius &&
+                        std::abs(motion.vy) * time_step < radius && std::abs(motion.spin) * time_step < 1.0 &&
+                        std::abs(motion.turned) < kMostTurns;
   if (is_sound) return {};
   return fmt::format(
-      "this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}) m and moves at ({:.3g}, {:.3g}) m/s "
+      "this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}) m and moves at ({:.3g}, {:.3g}) "
+      "m/s "
       "and {:.3g} rad/s, turned by {:.3g} rad",
       grain, motion.x, motion.y, motion.vx, motion.vy, motion.spin, motion.turned);
 }

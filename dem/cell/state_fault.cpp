@@ -21,8 +21,7 @@ void check_discs(const Packing& packing, double area, const State& state) {
                                packing.grains.size()));
   if (const std::string fault = box_fault(snapshot.box, area); !fault.empty()) throw RunError(fault);
   for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
-    const std::string fault =
-        motion_fault(snapshot.box, k, snapshot.discs[k], packing.grains[k].radius, 0.0);
+    const std::string fault = motion_fault(snapshot.box, k, snapshot.discs[k], packing.grains[k].radius, 0.0);
     if (!fault.empty()) throw RunError(fault);
   }
 }

@@ -9,7 +9,8 @@
 namespace polargrain::dem {
 
 int DiscCombination::code() const {
-  const int laws = static_cast<int>(normal) + 4 * (static_cast<int>(tangential) + 4 * static_cast<int>(rolling));
+  const int laws =
+      static_cast<int>(normal) + 4 * (static_cast<int>(tangential) + 4 * static_cast<int>(rolling));
   return laws * 4 + (settings.rolling_force ? 2 : 0) + (settings.symmetric ? 1 : 0);
 }
 

@@ -96,8 +96,8 @@ void DiscBox::check(const DiscSnapshot& snapshot) const {
   for (const double radius : definition_.radii) area += std::numbers::pi * radius * radius;
   if (const std::string fault = box_fault(snapshot.box, area); !fault.empty()) throw RunError(fault);
   for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
-    const std::string fault = motion_fault(snapshot.box, k, snapshot.discs[k], definition_.radii[k],
-                                           definition_.time_step);
+    const std::string fault =
+        motion_fault(snapshot.box, k, snapshot.discs[k], definition_.radii[k], definition_.time_step);
     if (!fault.empty()) throw RunError(fault);
   }
 }

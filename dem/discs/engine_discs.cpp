@@ -154,9 +154,9 @@ void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, co
     throw RunError("this state belongs to a cell of another packing or another input script");
   history->pre_exchange();
   for (int k = 0; k < atom.nlocal; ++k) {
-    const std::string fault = motion_fault(snapshot.box, static_cast<std::size_t>(k),
-                                           snapshot.discs[static_cast<std::size_t>(k)], atom.radius[k],
-                                           lammps.update->dt);
+    const std::string fault =
+        motion_fault(snapshot.box, static_cast<std::size_t>(k), snapshot.discs[static_cast<std::size_t>(k)],
+                     atom.radius[k], lammps.update->dt);
     if (!fault.empty()) throw RunError(fault);
   }
   for (int k = 0; k < atom.nlocal; ++k) {

@@ -146,8 +146,7 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
     write(file, bytes);
     const Outcome outcome = polargrain("run case.yaml -o out --resume");
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.errors,
-              "out/checkpoint.h5: this checkpoint cannot be used: " + why + "; " + advice);
+    EXPECT_EQ(outcome.errors, "out/checkpoint.h5: this checkpoint cannot be used: " + why + "; " + advice);
   };
   const std::string cut = "it was cut short, or is none of ours: the mark at its end is missing";
   const std::string damaged = "it is damaged: its content does not match the hash at its end";

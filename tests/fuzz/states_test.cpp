@@ -92,7 +92,8 @@ TEST(FlippedStates, OfDiscsAreRefusedOrGoneOnFrom) {
     } catch (const RunError&) {  // refused, as it should be
     }
   }
-  std::cout << "[figure] " << runs() << " spoiled states of discs, of which " << accepted << " gone on from\n";
+  std::cout << "[figure] " << runs() << " spoiled states of discs, of which " << accepted
+            << " gone on from\n";
   EXPECT_GT(accepted, runs() / 100);  // bits of places: the search reaches beyond the checks
   EXPECT_LT(accepted, runs());
   box.restore(*good);
@@ -123,9 +124,22 @@ Packed packed_lattice(const Packing& packing) {
   for (std::int64_t k = 0; k < count; ++k) {
     const Grain& grain = packing.grains[static_cast<std::size_t>(k)];
     const std::vector<double> head{17.0 + 1 + kPartners * (1 + kSprings),
-                                   grain.position.x(), grain.position.y(), 0.0, 1e-3, -1e-3, 0.0,
-                                   hidden(k + 1), hidden(1), hidden(1), hidden(0x20080200), grain.radius,
-                                   2650.0, grain.mass, 0.0, 0.0, 0.1};
+                                   grain.position.x(),
+                                   grain.position.y(),
+                                   0.0,
+                                   1e-3,
+                                   -1e-3,
+                                   0.0,
+                                   hidden(k + 1),
+                                   hidden(1),
+                                   hidden(1),
+                                   hidden(0x20080200),
+                                   grain.radius,
+                                   2650.0,
+                                   grain.mass,
+                                   0.0,
+                                   0.0,
+                                   0.1};
     made.layout.heads.push_back(head);
     made.layout.radii.push_back(grain.radius);
     std::vector<double>& values = made.state.values;
@@ -194,8 +208,9 @@ TEST(StateFault, NamesWhatIsWrong) {
   const Packed packed = packed_lattice(cell.packing);
   for (const std::size_t size : {std::size_t{0}, std::size_t{100}, std::size_t{200'000'000}}) {
     const State by_name_alone({1, 2}, size);
-    EXPECT_EQ(state_fault(cell, by_name_alone).find("a state has " + std::to_string(size) + " bytes; one of 36"),
-              0u)
+    EXPECT_EQ(
+        state_fault(cell, by_name_alone).find("a state has " + std::to_string(size) + " bytes; one of 36"),
+        0u)
         << state_fault(cell, by_name_alone);
   }
   EXPECT_EQ(state_fault(cell, *bytes_of(5000)), "this is not the state of a cell");

@@ -420,10 +420,10 @@ TEST_F(PoolTest, AWorkerThatSaysNothingIsReported) {
 
 /// A worker command that fails for the worker whose log has this name.
 std::vector<std::string> fails_as(const std::string& log, const std::string& failure) {
-  return {"/bin/sh", "-c",
-          "case $(readlink /proc/$$/fd/1) in *" + log + ") " + failure + ";; esac; exec " FAKE_WORKER
-          " \"$@\"",
-          "worker"};
+  return {
+      "/bin/sh", "-c",
+      "case $(readlink /proc/$$/fd/1) in *" + log + ") " + failure + ";; esac; exec " FAKE_WORKER " \"$@\"",
+      "worker"};
 }
 
 TEST_F(PoolTest, AWorkerThatCrashesAtItsStartLeavesTheOthersAtWork) {

@@ -30,13 +30,12 @@ std::string digits(double value) {
 
 /// A packing of equal discs.
 std::string packing(double side_x, double side_y, const std::vector<Place>& places) {
-  std::string text = "# cell xx=" + digits(side_x) + " xy=0 yx=0 yy=" + digits(side_y) +
-                     " z=0.1\nid,x,y,r,mass,Izz\n";
+  std::string text =
+      "# cell xx=" + digits(side_x) + " xy=0 yx=0 yy=" + digits(side_y) + " z=0.1\nid,x,y,r,mass,Izz\n";
   const double mass = 2650.0 * std::numbers::pi * kRadius * kRadius * 0.1;
   for (std::size_t k = 0; k < places.size(); ++k)
     text += std::to_string(k) + "," + digits(places[k].x) + "," + digits(places[k].y) + "," +
-            digits(kRadius) + "," + digits(mass) + "," +
-            digits(0.5 * mass * kRadius * kRadius) + "\n";
+            digits(kRadius) + "," + digits(mass) + "," + digits(0.5 * mass * kRadius * kRadius) + "\n";
   return text;
 }
 
@@ -64,7 +63,8 @@ std::vector<Odd> odd_packings() {
       {"TouchingByALittle", square(8, 2.0 * kRadius * (1.0 - 1e-13)), "touch"},
       {"FarApart", square(8, 3.0 * kRadius), "its grains do not touch"},
       {"TwoGrains", packing(0.03, 0.03, {{0.01, 0.015}, {0.01 + 1.99 * kRadius, 0.015}}), nullptr},
-      {"TwoGrainsInARow", packing(3.98 * kRadius, 0.03, {{kRadius, 0.015}, {2.99 * kRadius, 0.015}}), nullptr},
+      {"TwoGrainsInARow", packing(3.98 * kRadius, 0.03, {{kRadius, 0.015}, {2.99 * kRadius, 0.015}}),
+       nullptr},
       {"OneGrain", packing(1.99 * kRadius, 1.99 * kRadius, {{kRadius, kRadius}}), nullptr},
   };
 }
@@ -87,8 +87,8 @@ TEST_P(OddPackings, AreRefusedOrAnsweredInTime) {
             "  - {on: top, move: {u2: -1 mm}}\nsteps: {count: 1}\n");
   const Outcome outcome = run_in(scratch.path(), "timeout 100 " POLARGRAIN " point case.yaml sand path.csv");
   // Status 2: the case is refused; 1: in words of the engine or of the cell; 124 is that of timeout.
-  EXPECT_TRUE(outcome.status == 0 || outcome.status == 1 || outcome.status == 2)
-      << outcome.status << '\n' << outcome.errors;
+  EXPECT_TRUE(outcome.status == 0 || outcome.status == 1 || outcome.status == 2) << outcome.status << '\n'
+                                                                                 << outcome.errors;
   for (const char* end : {"killed by signal", "it hangs"})
     EXPECT_EQ(outcome.errors.find(end), std::string::npos) << outcome.errors;
   if (odd.refusal == nullptr) return;

@@ -33,9 +33,18 @@ class Spoiler {
   }
 
   void put_word(std::vector<std::byte>& bytes) {
-    const std::array<double, 12> numbers{0.0, -1.0, 1.0, 1e300, -1e300, 1e-320, 47.0, 1e9,
+    const std::array<double, 12> numbers{0.0,
+                                         -1.0,
+                                         1.0,
+                                         1e300,
+                                         -1e300,
+                                         1e-320,
+                                         47.0,
+                                         1e9,
                                          std::numeric_limits<double>::quiet_NaN(),
-                                         std::numeric_limits<double>::infinity(), -0.0, 1e-3};
+                                         std::numeric_limits<double>::infinity(),
+                                         -0.0,
+                                         1e-3};
     const std::array<std::int64_t, 8> wholes{0, 1, 2, -1, INT32_MAX, INT32_MIN, INT64_MAX, 65537};
     if (bytes.size() < 8) return;
     const std::size_t place = std::min(place_in(bytes) / 8 * 8, bytes.size() - 8);
@@ -60,7 +69,8 @@ class Spoiler {
         return;
       case 2: {
         const std::vector<std::byte> piece(at, at + static_cast<std::ptrdiff_t>(length));
-        bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(place_in(bytes)), piece.begin(), piece.end());
+        bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(place_in(bytes)), piece.begin(),
+                     piece.end());
         return;
       }
       case 3:

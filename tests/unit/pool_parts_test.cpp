@@ -17,8 +17,10 @@ TEST(PlainText, KeepsWhatIsPlain) {
 TEST(PlainText, TakesControlOutOfWords) {
   EXPECT_EQ(plain_text("\x1b[31mred\x07\r\n\tend\x7f"), "?[31mred?   end?");
   EXPECT_EQ(plain_text(std::string_view("a\0b", 3)), "a?b");
-  EXPECT_EQ(plain_text("\xc2\x9b" "31m"), "??31m");           // the one-character form of ESC [
-  EXPECT_EQ(plain_text("\xff\xc3(\xe2\x82"), std::string("?") + "?(" + "??");      // no UTF-8, or cut short
+  EXPECT_EQ(plain_text("\xc2\x9b"
+                       "31m"),
+            "??31m");  // the one-character form of ESC [
+  EXPECT_EQ(plain_text("\xff\xc3(\xe2\x82"), std::string("?") + "?(" + "??");  // no UTF-8, or cut short
 }
 
 TEST(PlainText, CutsAndSaysSo) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// States whose bits were flipped, given to LIGGGHTS itself: it refuses them, goes on from them, or ends in its own
-// words, and never by a signal. A process for each. POLARGRAIN_FUZZ_RUNS asks for more than the few of every day.
+// States whose bits were flipped, given to LIGGGHTS itself: it refuses them, goes on from them, or ends in
+// its own words, and never by a signal. A process for each. POLARGRAIN_FUZZ_RUNS asks for more than the few
+// of every day.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
