@@ -7,7 +7,6 @@
 
 int main(int count, char** arguments) {
   using namespace polargrain;
-  return app::command_line(count, arguments,
-                           {dem::start_engine_process, dem::make_cell_service, dem::state_fault},
-                           {dem::start_engine_process, dem::prepare_packing, dem::settle_packing});
+  return app::command_line(count, arguments, {dem::start_engine_process, dem::make_cell_service, dem::state_fault},
+                               {dem::start_engine_process, dem::prepare_packing, dem::settle_packing});
 }

@@ -2,9 +2,9 @@
 #pragma once
 #include <functional>
 
-#include "app/commands/pack.hpp"
 #include "common/cell.hpp"
 #include "common/state_check.hpp"
+#include "app/commands/pack.hpp"
 
 namespace polargrain::app {
 

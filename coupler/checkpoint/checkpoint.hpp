@@ -22,8 +22,8 @@ struct Checkpoint {
 std::filesystem::path checkpoint_before(const std::filesystem::path& file);
 
 /// Writes a checkpoint beside its final place, brings it to the disk and puts it in place: whatever happens,
-/// `file` is the former one or the new one, whole; behind it the former one is `checkpoint_before`. States
-/// are stored once by their content.
+/// `file` is the former one or the new one, whole; behind it the former one is `checkpoint_before`. States are
+/// stored once by their content.
 /// @throws RunError when it cannot be written; a former one is then untouched
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 

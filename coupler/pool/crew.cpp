@@ -208,9 +208,8 @@ void Crew::send_away(Member& member, const std::string& cause) {
     sent_away_.insert(member.address);
     if (++offences_[member.party] == kMostOffences) {
       switchboard_.shut_out(member.party);
-      say(fmt::format(
-          "{} guests with the key {} were sent away: nobody else comes in with it during this run",
-          kMostOffences, member.party));
+      say(fmt::format("{} guests with the key {} were sent away: nobody else comes in with it during this run",
+                      kMostOffences, member.party));
     }
   }
   give_up(member, cause);

@@ -138,8 +138,8 @@ struct Envelope {
 std::string encode(const Message& message, std::uint64_t session = 0);
 
 /// Takes nothing on trust: kinds, counts, lengths, finite numbers, and that a state's bytes have its name;
-/// words for the user come back as plain text (common/plain_text.hpp). Of a Hello of another version only
-/// that version is read.
+/// words for the user come back as plain text (common/plain_text.hpp). Of a Hello of another version only that
+/// version is read.
 /// @throws ProtocolError saying what is wrong; FalseMessage when it is an answer that no cell can give
 Envelope decode(std::span<const std::byte> bytes);
 
