@@ -41,9 +41,21 @@ void synchronise(const std::filesystem::path& directory) {
   close(descriptor);
 }
 
+/// Gives a file a second name, in the place of what has that name. Where the file system knows no second
+/// names, the file loses its first one: it is then under one of both at every moment.
+void keep_as(const std::filesystem::path& file, const std::filesystem::path& kept) {
+  std::filesystem::path second = kept;
+  second += ".part";
+  std::error_code nothing;
+  std::filesystem::remove(second, nothing);
+  const bool linked = link(file.c_str(), second.c_str()) == 0;
+  if (linked || errno != ENOENT) (void)std::rename(linked ? second.c_str() : file.c_str(), kept.c_str());
+}
+
 }  // namespace
 
-void write_file(const std::filesystem::path& file, const std::string& content, Durability durability) {
+void write_file(const std::filesystem::path& file, const std::string& content, Durability durability,
+                const std::filesystem::path& keep) {
   std::filesystem::path temporary = file;
   temporary += ".part";
   std::error_code nothing;
@@ -51,6 +63,7 @@ void write_file(const std::filesystem::path& file, const std::string& content, D
     std::filesystem::remove(temporary, nothing);
     throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(reason)));
   }
+  if (!keep.empty()) keep_as(file, keep);
   if (std::rename(temporary.c_str(), file.c_str()) != 0) {
     const int reason = errno;
     std::filesystem::remove(temporary, nothing);

@@ -12,8 +12,9 @@ enum class Durability {
 
 /// Writes a file beside its final place and renames it, so that readers see it complete or not at all, and
 /// whatever happens it is the former one or the new one.
+/// @param keep where the former one goes when the new one is there; empty: nowhere
 /// @throws RunError with the reason when it cannot be written; a former one is then untouched
 void write_file(const std::filesystem::path& file, const std::string& content,
-                Durability durability = Durability::system);
+                Durability durability = Durability::system, const std::filesystem::path& keep = {});
 
 }  // namespace polargrain

@@ -182,6 +182,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
 
   RunOptions run_options;
   run_options.workers = default_workers();
+  run_options.state_fault = engine.state_fault;
   CLI::App* run_command = app.add_subcommand("run", "Run a case");
   run_command->add_option("CASE", run_options.case_file, "Case file (YAML)")->required();
   run_command->add_option("-o,--output", run_options.directory, "Result directory [results/NAME]")

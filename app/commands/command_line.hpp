@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/cell.hpp"
+#include "common/state_check.hpp"
 #include "app/commands/pack.hpp"
 
 namespace polargrain::app {
@@ -16,6 +17,8 @@ struct WorkerEngine {
   CellServiceFactory make_service;
   /// Commands of scripts that it understands beside LIGGGHTS's own and that can do no harm.
   std::set<std::string> script_commands = {};
+  /// Judges the states that workers send; may be empty.
+  StateCheck state_fault = {};
 };
 
 /// The whole program: reads the command line, does what it says.

@@ -70,7 +70,8 @@ void clear(const fs::path& directory) {
   }
   // The log last: it tells that the directory is ours, should this be interrupted.
   for (const char* file :
-       {"history.csv", "costs.csv", "fields.pvd", "summary.json", "sample.h5", "fields", "logs", "replay", "run.log"}) {
+       {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "summary.json", "sample.h5", "fields", "logs",
+        "replay", "run.log"}) {
     fs::remove_all(directory / file);
   }
 }
@@ -83,7 +84,7 @@ std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& director
     throw InputError({name, 0, "is a file, so no result directory; give another with -o DIR"});
   }
   bool is_result = false;
-  for (const char* file : {"summary.json", "run.log", kCheckpointFile, kOldCheckpointFile}) {
+  for (const char* file : {"summary.json", "run.log", kCheckpointFile, kCheckpointBeforeFile, kOldCheckpointFile}) {
     is_result = is_result || fs::exists(directory / file);
   }
   if (resume && !is_result) {

@@ -12,6 +12,7 @@ namespace polargrain::app {
 std::filesystem::path default_result_directory(const std::filesystem::path& case_file);
 
 constexpr const char* kCheckpointFile = "checkpoint.h5";
+constexpr const char* kCheckpointBeforeFile = "checkpoint.before.h5";  ///< coupler::checkpoint_before
 constexpr const char* kOldCheckpointFile = "checkpoint.old.h5";
 
 /// Somebody renamed or removed the result directory during the run.

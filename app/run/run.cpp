@@ -40,6 +40,7 @@ class Run {
         lock_(lock),
         case_(std::move(the_case)),
         listening_(std::move(listening)),
+        state_fault_(options.state_fault),
         directory_(std::move(directory)),
         from_(std::move(from)),
         resume_command_(resume_command(options, directory_)),
@@ -106,6 +107,7 @@ class Run {
       options.patience = case_.patience;
       options.trust_scripts = options_.scripts.trusted;
       options.listening = std::move(listening_);
+      options.state_fault = state_fault_;
       pool_.emplace(options);
       note_interrupts();  // what the messages are sent with may have changed what signals do
       pool_->on_answers([this](auto requests, auto replies) { sample_.take(requests, replies); });
@@ -348,6 +350,7 @@ class Run {
   Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
   coupler::Case case_;
   std::optional<coupler::Listening> listening_;
+  StateCheck state_fault_;
   std::filesystem::path directory_;
   std::unique_ptr<coupler::Checkpoint> from_;
   std::string resume_command_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/script.hpp"
+#include "common/state_check.hpp"
 
 namespace polargrain::app {
 
@@ -20,6 +21,7 @@ struct RunOptions {
   std::filesystem::path keys;  ///< directory of 'polargrain keys', needed to listen
   std::vector<std::string> settings;  ///< of --set
   ScriptRules scripts = {};           ///< which scripts of cells are run
+  StateCheck state_fault = {};        ///< see PoolOptions
 };
 
 /// Runs a case from its start, or from a checkpoint, to its end and writes the result directory

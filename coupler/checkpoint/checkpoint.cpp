@@ -179,39 +179,68 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   hdf5::silence();
   std::string bytes = content_of(checkpoint);
   seal(bytes);
-  write_file(file, bytes, Durability::disk);
+  write_file(file, bytes, Durability::disk, checkpoint_before(file));
 } catch (const RunError& error) {
   throw RunError(fmt::format("the checkpoint {}", error.what()));
 }
+
+std::filesystem::path checkpoint_before(const std::filesystem::path& file) {
+  std::filesystem::path before = file;
+  return before.replace_extension(".before" + file.extension().string());
+}
+
+namespace {
+
+/// @throws RunError saying what is wrong with the file
+Checkpoint read_whole(const std::filesystem::path& file) {
+  check_seal(file);
+  const Handle in(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it is no HDF5 file");
+  const std::vector<std::int64_t> version = read_values<std::int64_t>(in, "version");
+  if (version != std::vector{kVersion}) {
+    throw RunError(fmt::format("it is of version {}; this program reads version {}",
+                               version.empty() ? 0 : version.front(), kVersion));
+  }
+  Checkpoint checkpoint;
+  checkpoint.program = read_text(in, "program");
+  checkpoint.identity.values = pairs_of(read_text(in, "case/values"));
+  checkpoint.identity.files = pairs_of(read_text(in, "case/files"));
+  const std::vector<std::int64_t> step = read_values<std::int64_t>(in, "run/step");
+  if (step.size() != 1 || step[0] < 0 || step[0] > INT32_MAX) throw RunError("its step is no number");
+  checkpoint.step = static_cast<int>(step[0]);
+  checkpoint.history = read_text(in, "run/history");
+  checkpoint.costs = read_text(in, "run/costs");
+  read_arrays(in, checkpoint.state);
+  return checkpoint;
+}
+
+/// What to do when a checkpoint cannot be read.
+std::string advice(const std::filesystem::path& file) {
+  const std::filesystem::path before = checkpoint_before(file);
+  try {
+    return fmt::format("the one before it, {}, is of step {} and can be read: to go on from there, "
+                       "'mv {} {}' and run with --resume again",
+                       before.string(), read_whole(before).step, before.string(), file.string());
+  } catch (const RunError&) {  // there is none, or it is no better
+    return "run without --resume";
+  }
+}
+
+}  // namespace
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
   hdf5::silence();
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw InputError({file.string(), 0, "there is no checkpoint to go on from; run without --resume"});
+    const bool is_kept = std::filesystem::exists(checkpoint_before(file), error);
+    throw InputError({file.string(), 0,
+                      "there is no checkpoint to go on from; " +
+                          (is_kept ? advice(file) : std::string("run without --resume"))});
   }
   try {
-    check_seal(file);
-    const Handle in(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it is no HDF5 file");
-    const std::vector<std::int64_t> version = read_values<std::int64_t>(in, "version");
-    if (version != std::vector{kVersion}) {
-      throw RunError(fmt::format("it is of version {}; this program reads version {}",
-                                 version.empty() ? 0 : version.front(), kVersion));
-    }
-    Checkpoint checkpoint;
-    checkpoint.program = read_text(in, "program");
-    checkpoint.identity.values = pairs_of(read_text(in, "case/values"));
-    checkpoint.identity.files = pairs_of(read_text(in, "case/files"));
-    const std::vector<std::int64_t> step = read_values<std::int64_t>(in, "run/step");
-    if (step.size() != 1 || step[0] < 0 || step[0] > INT32_MAX) throw RunError("its step is no number");
-    checkpoint.step = static_cast<int>(step[0]);
-    checkpoint.history = read_text(in, "run/history");
-    checkpoint.costs = read_text(in, "run/costs");
-    read_arrays(in, checkpoint.state);
-    return checkpoint;
+    return read_whole(file);
   } catch (const RunError& what) {
-    throw InputError({file.string(), 0,
-                      fmt::format("this checkpoint cannot be used: {}; run without --resume", what.what())});
+    throw InputError(
+        {file.string(), 0, fmt::format("this checkpoint cannot be used: {}; {}", what.what(), advice(file))});
   }
 }
 

@@ -18,12 +18,17 @@ struct Checkpoint {
   MemoryArchive state;  ///< of the solver and the materials; empty when the step was the last of the run
 };
 
+/// Where the checkpoint before the one in `file` is kept: `checkpoint.before.h5` beside `checkpoint.h5`.
+std::filesystem::path checkpoint_before(const std::filesystem::path& file);
+
 /// Writes a checkpoint beside its final place, brings it to the disk and puts it in place: whatever happens,
-/// `file` is the former one or the new one, whole. States are stored once by their content.
+/// `file` is the former one or the new one, whole; behind it the former one is `checkpoint_before`. States are
+/// stored once by their content.
 /// @throws RunError when it cannot be written; a former one is then untouched
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// @throws InputError when there is none, or when it is damaged, cut short, or of another version
+/// @throws InputError when there is none, or when it is damaged, cut short, or of another version; it names
+/// the one before when that can be read
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace polargrain::coupler

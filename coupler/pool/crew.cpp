@@ -21,6 +21,9 @@ constexpr int kStopMilliseconds = 500;
 constexpr int kMostFruitless = 100;
 constexpr int kFruitlessEnd = 20;
 
+/// Guests of one key that may be sent away until the key is shut out.
+constexpr int kMostOffences = 3;
+
 /// Messages in a row that make no sense, after which a worker is given up.
 constexpr int kMostUnreadable = 3;
 
@@ -68,9 +71,16 @@ void Crew::start() {
     std::filesystem::remove(seat.log);
     fill(seat);
   }
-  const auto absent = [](const Seat& seat) { return seat.address.id.empty(); };
-  while (std::any_of(seats_.begin(), seats_.end(), absent)) listen(std::chrono::milliseconds(100));
+  const auto waited_for = [](const Seat& seat) { return !seat.has_reported && seat.false_start.empty(); };
+  while (std::any_of(seats_.begin(), seats_.end(), waited_for)) listen(std::chrono::milliseconds(100));
+  if (!seats_.empty() && !any_has_reported()) throw RunError(seats_.front().false_start);
   starting_ = false;
+  for (const Seat& seat : seats_)
+    if (!seat.false_start.empty()) say(seat.false_start + "the others go on; it is started again");
+}
+
+bool Crew::any_has_reported() const {
+  return std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return seat.has_reported; });
 }
 
 void Crew::fill(Seat& seat) {
@@ -117,8 +127,10 @@ void Crew::watch_seats() {
     last_end_ = fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
                             seat.number, options_.startup_seconds, seat.log.string(),
                             log_excerpt(seat.log, seat.log_start));
-    if (starting_) throw RunError(last_end_);
-    seat.process->finish(0);  // its end is noticed like any other
+    seat.process->finish(0);
+    seat.process.reset();
+    seat.fruitless += kFruitlessEnd;
+    handle_false_start(seat);
   }
   if (!any) throw RunError("no worker is left: each was started several times; the last: " + last_end_);
 }
@@ -145,8 +157,20 @@ void Crew::handle_end(Seat& seat) {
     return;
   }
   last_end_ = fmt::format("worker {} died before it reported: {}{}", seat.number, loss.cause, loss.details);
-  if (starting_ && !outside) throw RunError(last_end_);
-  say(last_end_);
+  if (outside) {
+    say(last_end_);
+  } else {
+    handle_false_start(seat);
+  }
+}
+
+void Crew::handle_false_start(Seat& seat) {
+  seat.false_start = last_end_;
+  seat.due = Clock::now() + std::chrono::milliseconds(10 * seat.fruitless);
+  seats_are_quiet_ = false;
+  if (starting_) return;
+  const bool is_given_up = seat.fruitless >= kMostFruitless;
+  say(last_end_ + (is_given_up ? "it is not started again" : "it is started again"));
 }
 
 void Crew::remove(const Address& address, const Loss& loss) {
@@ -176,6 +200,19 @@ void Crew::give_up(Member& member, const std::string& cause) {
     break;
   }
   remove(address, {"was given up", cause, details, from_outside});
+}
+
+void Crew::send_away(Member& member, const std::string& cause) {
+  if (member.address.remote) {
+    switchboard_.send(member.address, encode(Stop{cause}, session_));
+    sent_away_.insert(member.address);
+    if (++offences_[member.party] == kMostOffences) {
+      switchboard_.shut_out(member.party);
+      say(fmt::format("{} guests with the key {} were sent away: nobody else comes in with it during this run",
+                      kMostOffences, member.party));
+    }
+  }
+  give_up(member, cause);
 }
 
 void Crew::send(Member& member, const Message& message) {
@@ -211,6 +248,9 @@ void Crew::receive(const Address& from, std::span<const std::byte> bytes) {
     } else if (member != nullptr && envelope.session == session_) {
       events_.said(*member, envelope.message);
     }  // else a straggler: meant for another session, or from one who was given up; it will say Hello again
+  } catch (const FalseMessage& error) {
+    if (member != nullptr) send_away(*member, fmt::format("it sent what cannot be true: {}", error.what()));
+    return;
   } catch (const ProtocolError& error) {
     if (member == nullptr) return;
     // One broken message is as good as lost and asked for again; a worker that sends nothing else is broken.
@@ -229,13 +269,17 @@ void Crew::greet(const Address& from, const Hello& hello) {
     const std::string reason = fmt::format(
         "it speaks version {} of the messages instead of {}; use the same polargrain on both sides",
         hello.version, kProtocolVersion);
-    if (starting_ && !from.remote) throw RunError("a worker cannot be used: " + reason);
+    if (!from.remote && !any_has_reported()) throw RunError("a worker cannot be used: " + reason);
     say("a worker was sent away: " + reason);
     switchboard_.send(from, encode(Stop{reason}, session_));
     return;
   }
   if (Member* known = member_at(from)) {
     send(*known, Welcome{options_.heartbeat_seconds});
+    return;
+  }
+  if (sent_away_.contains(from)) {
+    switchboard_.send(from, encode(Stop{"it was sent away before"}, session_));
     return;
   }
   std::string name;
@@ -248,10 +292,11 @@ void Crew::greet(const Address& from, const Hello& hello) {
     if (seat == seats_.end() || !seat->address.id.empty())
       return;  // none of ours, or one that is gone already
     seat->address = from;
+    seat->has_reported = true;
     name = fmt::format("worker {}", seat->number);
   }
   Member& member =
-      members_.emplace_back(Member{name, from, ++last_member_, StateCache(options_.cache_bytes)});
+      members_.emplace_back(Member{name, from, ++last_member_, from.key, StateCache(options_.cache_bytes)});
   places_[from] = std::prev(members_.end());
   send(member, Welcome{options_.heartbeat_seconds});
   events_.joined(member);

@@ -39,6 +39,7 @@ struct Job {
   std::chrono::steady_clock::time_point heard;   ///< last sign of life, or `sent`
   std::chrono::steady_clock::time_point resent;  ///< last time it was sent, or sent again
   bool begun = false;                            ///< it has said Working
+  int supplied = 0;                              ///< times it was sent again because something was missing
 };
 
 /// A worker that has been welcomed.
@@ -46,6 +47,7 @@ struct Member {
   std::string name;  ///< "worker 3", "worker 12 on node7"
   Address address;
   std::uint64_t number = 0;              ///< never given twice
+  std::string party;                     ///< whose it is: the key of a guest; empty for our own processes
   StateCache known;                      ///< names of the states it was sent and should still have
   std::set<std::uint32_t> defined = {};  ///< definitions it was sent
   std::deque<Job> jobs = {};             ///< the first is being worked on, the others lie ready with it
@@ -83,8 +85,8 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// Starts the local workers and waits until they have reported.
-  /// @throws RunError when one does not: a program that cannot start
+  /// Starts the local workers and waits until each has reported or failed to.
+  /// @throws RunError when all of them fail to: a program that cannot start
   void start();
   /// Waits for something to happen, not longer than `timeout`, and handles it.
   /// @throws RunError when no worker is left and none can come
@@ -93,6 +95,9 @@ class Crew {
   void send(Member& member, const Message& message);
   /// Does without a member: kills it if it is ours (another is started), forgets it otherwise.
   void give_up(Member& member, const std::string& cause);
+  /// The same with a member that was found to say what is false. A guest is told, is not let in again by this
+  /// connection, and its key is shut out of the run when that happens too often.
+  void send_away(Member& member, const std::string& cause);
   /// Local workers that have answered get their number of restarts back.
   static void praise(Member& member) { member.has_answered = true; }
 
@@ -114,6 +119,8 @@ class Crew {
     Clock::time_point started = {};
     Clock::time_point due = {};  ///< when an empty seat is to be filled
     int fruitless = 0;           ///< counts ends without a job since it last answered
+    bool has_reported = false;   ///< one of its processes has
+    std::string false_start = {};  ///< how its last process ended that did not report; empty: none did
   };
 
   void fill(Seat& seat);
@@ -121,7 +128,10 @@ class Crew {
   void receive_all();
   void receive(const Address& from, std::span<const std::byte> bytes);
   void greet(const Address& from, const Hello& hello);
+  [[nodiscard]] bool any_has_reported() const;
   void handle_end(Seat& seat);
+  /// A process did not come as far as its Hello; `last_end_` says how it ended.
+  void handle_false_start(Seat& seat);
   void remove(const Address& address, const Loss& loss);
   void ping_guests();
   void say(const std::string& text) const;
@@ -139,6 +149,8 @@ class Crew {
   std::set<Address> unreachable_;
   std::string last_end_;  ///< how the last process ended, for the message when none is left
   bool starting_ = true;
+  std::set<Address> sent_away_;
+  std::map<std::string, int> offences_;  ///< by party
   int guests_ = 0;
   std::uint64_t last_member_ = 0;
   Clock::time_point pinged_ = Clock::now();

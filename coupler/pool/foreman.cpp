@@ -11,11 +11,6 @@
 namespace polargrain::coupler {
 namespace {
 
-/// Workers that a cell may end before it is taken to be the cell's fault: by an end of the engine's own
-/// making, and by one that came from outside, which the memory a cell takes may also bring about.
-constexpr int kMostEndsByWork = 2;
-constexpr int kMostEndsFromOutside = 10;
-
 /// How often the clocks of the workers are looked at, at least.
 constexpr std::chrono::milliseconds kLongestTick{500};
 constexpr double kTicksInSilence = 20.0;
@@ -23,9 +18,6 @@ constexpr double kTicksInSilence = 20.0;
 /// A request without a sign of life is sent again so many times before its worker is given up for silent.
 constexpr double kResends = 10.0;
 constexpr double kHeartbeatsInSilence = 30.0;
-
-/// A worker has one job at work and one more at hand, so that it never waits for the coordinator.
-constexpr std::size_t kJobsAtHand = 2;
 
 /// A message brings work for about so long: enough that it costs next to nothing, not so much that others
 /// wait for the last one.
@@ -59,12 +51,6 @@ CrewOptions crew_options(const PoolOptions& options) {
   crew.listening = options.listening;
   crew.tell = options.tell;
   return crew;
-}
-
-/// The job of a request, if the worker has it: other answers are late or doubled, and of no use.
-std::deque<Job>::iterator find_job(Member& member, std::uint64_t request) {
-  return std::find_if(member.jobs.begin(), member.jobs.end(),
-                      [&](const Job& job) { return job.request == request; });
 }
 
 }  // namespace
@@ -127,15 +113,15 @@ void Foreman::said(Member& member, const Message& message) {
   } else if (const auto* states = std::get_if<States>(&message)) {
     take_states(member, *states);
   } else if (const auto* working = std::get_if<Working>(&message)) {
-    const auto job = find_job(member, working->request);
-    if (job != member.jobs.end()) job->begun = true;
+    for (Job& job : member.jobs) job.begun = job.begun || job.request == working->request;
   } else if (const auto* missing = std::get_if<Missing>(&message)) {
     supply(member, *missing);
   } else if (const auto* refusal = std::get_if<Refusal>(&message)) {
     take_refusal(member, *refusal);
   } else {
-    throw ProtocolError("a message that is no answer");
+    throw FalseMessage("a message that is no answer");
   }
+  send_away_the_blamed();
 }
 
 void Foreman::lost(Member& member, const Loss& loss) {
@@ -161,7 +147,8 @@ void Foreman::lost(Member& member, const Loss& loss) {
   // A connection that closes before the work began says nothing about the cell.
   const bool counts_for_cell = !loss.from_outside || !member.address.remote || had.begun;
   if (had.tasks.size() == 1 && first.kind != Task::Kind::fetch && counts_for_cell) {
-    end_attempt(first, text, loss.from_outside);
+    end_attempt(first, {loss.from_outside ? Attempt::End::from_outside : Attempt::End::by_work,
+                        member.number, member.party, text});
   } else {
     // Which of several cells it was shows when each is alone with a worker.
     for (const std::size_t number : had.tasks) task(number).alone = had.tasks.size() > 1;
@@ -197,7 +184,8 @@ void Foreman::give_next(Member& member, std::size_t jobs) {
     // The last ones go to whoever is free first.
     if (!is_free && (queue_.size() <= crew_.members().size() || first_of(member.jobs.front()).alone)) return;
     std::vector<std::size_t> tasks = queue_.take(
-        member.number, [&](const Task& first) { return first.alone && !is_free ? 0 : most_at_once(first); });
+        member.number, [&](const Task& first) { return may_take(member, first); },
+        [&](const Task& first) { return first.alone && !is_free ? 0 : most_at_once(first); });
     if (tasks.empty()) return;
     const Clock::time_point now = Clock::now();
     member.jobs.push_back({std::move(tasks), ++last_request_, now, now, now});
@@ -210,7 +198,7 @@ std::size_t Foreman::most_at_once(const Task& first) {
     return std::clamp<std::size_t>(kMostStateBytes / (first.wanted->size() + 1), 1, kMostStates);
   }
   const Definition& definition = definitions_[first.definition];
-  if (first.alone || definition.answers == 0) return 1;
+  if (first.alone || !first.attempts.empty() || definition.answers == 0) return 1;
   const double mean = definition.seconds / static_cast<double>(definition.answers);
   const double in_time = std::min(kSecondsInRequest / mean, static_cast<double>(kMostCells));
   const std::size_t share = queue_.size() / (2 * crew_.members().size());
@@ -257,172 +245,6 @@ EvaluateRequest Foreman::request_for(Member& member, const Job& job) {
     ++counts.states_sent;
   }
   return message;
-}
-
-// ---- their answers
-
-void Foreman::take_replies(Member& member, const Reply& reply) {
-  const auto found = find_job(member, reply.request);
-  if (found == member.jobs.end()) return;
-  const Task& first = first_of(*found);
-  if (first.kind == Task::Kind::fetch || reply.cells.size() != found->tasks.size()) {
-    throw ProtocolError("a reply that does not fit its request");
-  }
-  for (const CellReply& cell : reply.cells) {
-    if (first.kind != Task::Kind::evaluate && cell.state && !cell.state->is_here()) {
-      throw ProtocolError("a reply without the bytes that were asked for");
-    }
-  }
-  const Job job = finished(member, reply.request);
-  for (std::size_t c = 0; c < job.tasks.size(); ++c) {
-    take_reply(member, task(job.tasks[c]), reply.cells[c]);
-  }
-  give_next(member, kJobsAtHand);
-}
-
-void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
-  ++counts.evaluations;
-  ++evaluations_by_worker[member.name];
-  counts.dem_steps += reply.diagnostics.dem_steps;
-  counts.engine_seconds += reply.diagnostics.engine_seconds;
-  if (done.kind == Task::Kind::again) {
-    ++counts.evaluations_again;
-    if (!reply.state || reply.state->name() != done.wanted->name()) {
-      end_attempt(done,
-                  fmt::format("{} evaluates {} again, whose worker is lost, and comes to another state: the "
-                              "machines of the workers do not compute alike",
-                              member.name, place_of(done)),
-                  false);
-      return;
-    }
-  }
-  done.reply = reply;
-  if (reply.state) {
-    done.reply.state = done.kind == Task::Kind::again
-                           ? book_.arrived(reply.state, member.number)
-                           : book_.enter(reply.state, member.number, {done.definition, done.cell});
-  }
-  ++done_;
-}
-
-void Foreman::take_states(Member& member, const States& answer) {
-  const auto found = find_job(member, answer.request);
-  if (found == member.jobs.end()) return;
-  if (first_of(*found).kind != Task::Kind::fetch || answer.states.size() != found->tasks.size()) {
-    throw ProtocolError("states that do not fit their request");
-  }
-  for (std::size_t s = 0; s < answer.states.size(); ++s) {
-    const StatePointer& state = answer.states[s];
-    if (state && state->name() != task(found->tasks[s]).wanted->name()) {
-      throw ProtocolError("the bytes of a state do not have its name");
-    }
-  }
-  const Job job = finished(member, answer.request);
-  for (std::size_t s = 0; s < job.tasks.size(); ++s) {
-    Task& done = task(job.tasks[s]);
-    if (!answer.states[s]) {  // dropped: somebody makes it again
-      done.kind = Task::Kind::again;
-      enqueue(job.tasks[s]);
-      give_all();
-      continue;
-    }
-    ++counts.states_fetched;
-    done.reply.state = book_.arrived(answer.states[s], member.number);
-    ++done_;
-  }
-  give_next(member, kJobsAtHand);
-}
-
-Job Foreman::finished(Member& member, std::uint64_t request) {
-  const auto found = find_job(member, request);
-  Job job = std::move(*found);
-  const bool was_current = found == member.jobs.begin();
-  member.jobs.erase(found);
-  const Clock::time_point now = Clock::now();
-  if (was_current && !member.jobs.empty()) {
-    Job& next = member.jobs.front();
-    next.sent = next.heard = next.resent = now;
-  }
-  Crew::praise(member);
-  const double busy = was_current ? seconds_of(now - job.sent) : 0.0;
-  counts.busy_seconds += busy;
-  if (first_of(job).kind == Task::Kind::evaluate) {
-    Definition& definition = definitions_[first_of(job).definition];
-    definition.longest = std::max(definition.longest, busy);
-    definition.seconds += busy;
-    definition.answers += static_cast<std::int64_t>(job.tasks.size());
-  }
-  return job;
-}
-
-/// The worker lacks what it was thought to have: all is sent again, lest what comes drives out what is there.
-void Foreman::supply(Member& member, const Missing& missing) {
-  const auto job = find_job(member, missing.request);
-  if (job == member.jobs.end()) return;
-  if (first_of(*job).kind == Task::Kind::fetch) throw ProtocolError("it misses something for no reason");
-  job->resent = Clock::now();
-  if (missing.definition) member.defined.erase(first_of(*job).definition);
-  for (const std::size_t number : job->tasks) {
-    if (const StatePointer& state = task(number).cell.state) member.known.forget(state->name());
-    task(number).home = 0;
-  }
-  send(member, *job);
-}
-
-void Foreman::take_refusal(Member& member, const Refusal& refusal) {
-  const auto found = find_job(member, refusal.request);
-  if (found == member.jobs.end()) return;
-  if (refusal.place >= found->tasks.size() || first_of(*found).kind == Task::Kind::fetch) {
-    throw ProtocolError("a refusal that does not fit its request");
-  }
-  Job job = finished(member, refusal.request);
-  Task& refused = task(job.tasks[refusal.place]);
-  job.tasks.erase(job.tasks.begin() + refusal.place);
-  put_back(job);
-  end_attempt(refused, fmt::format("{} refuses {}: {}", member.name, place_of(refused), refusal.message),
-              false);
-  give_all();
-}
-
-// ---- what cannot be carried to its end
-
-void Foreman::put_back(const Job& job) {
-  for (auto number = job.tasks.rbegin(); number != job.tasks.rend(); ++number) {
-    if (task(*number).kind == Task::Kind::fetch) task(*number).kind = Task::Kind::again;
-    queue_.add_first(*number);
-  }
-}
-
-/// Somebody could not carry a task to its end.
-void Foreman::end_attempt(Task& ended, const std::string& text, bool from_outside) {
-  ++(from_outside ? ended.ends_from_outside : ended.ends_by_work);
-  if (ended.ends_by_work < kMostEndsByWork && ended.ends_from_outside < kMostEndsFromOutside) {
-    say_again(text, 1);
-    queue_.add_first(static_cast<std::size_t>(&ended - tasks_->data()));
-    return;
-  }
-  if (ended.kind != Task::Kind::evaluate) throw RunError(text);
-  tell(text + "\nno worker can answer it: the cell counts as failed");
-  ended.reply.response.quality = Quality::failed;
-  ended.reply.response.step_factor = 0.5;
-  ended.reply.response.message = text;
-  ++done_;
-}
-
-void Foreman::say_again(const std::string& text, std::size_t cells) const {
-  tell(text + (text.ends_with('\n') ? "" : "; ") +
-       (cells == 1 ? "its cell goes to another worker" : "its cells go to other workers"));
-}
-
-std::string Foreman::place_of(const Task& at) const {
-  const CellDefinition& cell = definitions_[at.definition].cell;
-  const std::string what = at.point ? fmt::format("point {}", *at.point) : "a cell";
-  return fmt::format("{} of material '{}' ({})", what, cell.name, cell.script_file);
-}
-
-std::string Foreman::place_of(const Job& job) const {
-  const std::string first = place_of(task(job.tasks.front()));
-  return job.tasks.size() == 1 ? first : fmt::format("{} cells from {} on", job.tasks.size(), first);
 }
 
 // ---- clocks

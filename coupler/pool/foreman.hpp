@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -39,6 +40,8 @@ class Foreman final : private CrewEvents {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// A worker has one job at work and one more at hand, so that it never waits for the coordinator.
+  static constexpr std::size_t kJobsAtHand = 2;
   struct Definition {
     CellDefinition cell;
     double longest = 0.0;  ///< s, of the requests answered so far
@@ -63,6 +66,12 @@ class Foreman final : private CrewEvents {
   void take_replies(Member& member, const Reply& reply);
   void take_states(Member& member, const States& answer);
   void take_reply(Member& member, Task& task, const CellReply& reply);
+  void take_other_state(Member& member, Task& task, const CellReply& reply);
+  /// @throws FalseMessage when a state that was sent is none of such a cell
+  void check_state(const Task& task, const StatePointer& state) const;
+  /// Somebody has done a task: who refused it, or came to something else, was wrong.
+  void blame_others(const Member& member, const Task& done);
+  void send_away_the_blamed();
   void take_refusal(Member& member, const Refusal& refusal);
   void supply(Member& member, const Missing& missing);
   /// Takes a job off its worker, with the time it took.
@@ -71,7 +80,9 @@ class Foreman final : private CrewEvents {
 
   // What cannot be carried to its end.
   void put_back(const Job& job);
-  void end_attempt(Task& task, const std::string& text, bool from_outside);
+  void end_attempt(Task& task, Attempt attempt);
+  [[nodiscard]] bool may_take(const Member& member, const Task& task);
+  [[nodiscard]] std::vector<Candidate> present();
   void say_again(const std::string& text, std::size_t cells) const;
   [[nodiscard]] std::string place_of(const Task& task) const;
   [[nodiscard]] std::string place_of(const Job& job) const;
@@ -90,6 +101,7 @@ class Foreman final : private CrewEvents {
   std::vector<Definition> definitions_;
   StateBook book_;
   std::unordered_set<std::uint64_t> present_;  ///< numbers of the workers there are
+  std::map<std::uint64_t, std::string> blamed_;  ///< of them: who is to be sent away, and why
   Crew crew_;
 
   // The tasks at work. Request numbers run on, so that no late answer fits a new request.

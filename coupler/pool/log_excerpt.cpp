@@ -5,6 +5,8 @@
 #include <fstream>
 #include <vector>
 
+#include "common/plain_text.hpp"
+
 namespace polargrain::coupler {
 namespace {
 
@@ -33,7 +35,7 @@ std::string command_at_fault(const std::vector<std::string>& lines) {
     if (line.rfind(announcement, 0) == 0) command = line.substr(announcement.size());
   }
   const bool finished = command.ends_with(": read to its end");
-  return command.empty() || finished ? std::string() : command + '\n';
+  return command.empty() || finished ? std::string() : plain_text(command) + '\n';
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ std::string log_excerpt(const std::filesystem::path& log, std::uintmax_t from, s
   const std::vector<std::string>& chosen = errors.empty() ? lines : errors;
   std::string text = errors.empty() ? std::string() : command_at_fault(lines);
   for (std::size_t i = chosen.size() - std::min(most_lines, chosen.size()); i < chosen.size(); ++i) {
-    text += chosen[i] + '\n';
+    text += plain_text(chosen[i]) + '\n';
   }
   return text;
 }

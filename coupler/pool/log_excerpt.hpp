@@ -7,7 +7,8 @@
 namespace polargrain::coupler {
 
 /// What a dead worker's log says about its end: the last lines that contain "ERROR", as LIGGGHTS writes them,
-/// or in their absence the last lines. Reads no more than the last 64 kB.
+/// or in their absence the last lines. Reads no more than the last 64 kB;
+/// lines come as plain text (common/plain_text.hpp).
 /// @param from where in the file to begin: what earlier processes wrote is of no interest
 /// @returns at most `most_lines` lines, each ended by '\n'; empty when the log is empty or cannot be read.
 std::string log_excerpt(const std::filesystem::path& log, std::uintmax_t from = 0,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/cell.hpp"
+#include "common/state_check.hpp"
 #include "coupler/pool/patience.hpp"
 #include "coupler/pool/switchboard.hpp"
 #include "coupler/pool/worker.hpp"
@@ -33,6 +34,8 @@ struct PoolOptions {
   PatienceLimits patience;
   /// Where workers of other machines may join and leave at any time.
   std::optional<Listening> listening;
+  /// Judges each state that a worker sends, before anybody uses it; empty: only names are checked.
+  StateCheck state_fault;
   /// Gets a sentence about everything the user should know that ends nothing: a worker lost, a guest refused.
   std::function<void(const std::string&)> tell;
 };

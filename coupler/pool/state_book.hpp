@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/cell.hpp"
+#include "coupler/pool/evidence.hpp"
 
 namespace polargrain::coupler {
 
@@ -14,6 +15,7 @@ namespace polargrain::coupler {
 struct Origin {
   std::uint32_t definition = 0;
   CellRequest request;  ///< its state is here, or null
+  Evidence evidence = {};
 };
 
 /// What the coordinator knows of the states it has given out: which worker has the bytes, and, of those whose

@@ -134,18 +134,21 @@ bool Switchboard::wait(std::chrono::milliseconds timeout) {
 
 bool Switchboard::receive(Address& from, zmq::message_t& bytes) {
   from.remote = false;
-  if (receive_from(local_, from.id, bytes)) return true;
+  if (receive_from(local_, from, bytes)) return true;
   from.remote = true;
-  return remote_ && receive_from(*remote_, from.id, bytes);
+  return remote_ && receive_from(*remote_, from, bytes);
 }
 
-bool Switchboard::receive_from(zmq::socket_t& socket, std::string& id, zmq::message_t& bytes) {
+bool Switchboard::receive_from(zmq::socket_t& socket, Address& from, zmq::message_t& bytes) {
   zmq::message_t address;
   if (!socket.recv(address, zmq::recv_flags::dontwait)) return false;
-  id = address.to_string();
+  from.id = address.to_string();
   bytes.rebuild();
   bool more = address.more();
   if (more && socket.recv(bytes)) more = bytes.more();
+  // What judge_keys has said of the connection.
+  const char* const key = from.remote ? zmq_msg_gets(bytes.handle(), "User-Id") : nullptr;
+  from.key = key == nullptr ? "" : key;
   while (more) {  // no worker of ours sends a third part; read it away to stay in step
     zmq::message_t rest;
     if (!socket.recv(rest)) break;
@@ -171,13 +174,16 @@ void Switchboard::judge_keys() {
       zmq_z85_encode(key.data(), reinterpret_cast<const std::uint8_t*>(credentials.data()),
                      credentials.size());
     }
-    const bool welcome = mechanism == "CURVE" && keys_.allowed.contains(key.data());
-    if (!welcome) note_refusal(fmt::format("{}: its key {} is not in workers.allowed", address, key.data()));
+    const bool shut_out = shut_out_.contains(key.data());
+    const bool welcome = mechanism == "CURVE" && keys_.allowed.contains(key.data()) && !shut_out;
+    if (!welcome)
+      note_refusal(fmt::format("{}: its key {} is {}", address, key.data(),
+                               shut_out ? "shut out of this run" : "not in workers.allowed"));
     const std::array<std::string, 6> answer{"1.0",
                                             request,
                                             welcome ? "200" : "400",
                                             welcome ? "OK" : "this key is not allowed",
-                                            welcome ? keys_.allowed.at(key.data()) : "",
+                                            welcome ? key.data() : "",
                                             ""};
     for (std::size_t part = 0; part < answer.size(); ++part) {
       gate_->send(zmq::buffer(answer[part]),

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 #include <zmq.hpp>
@@ -23,6 +24,7 @@ struct Listening {
 struct Address {
   bool remote = false;
   std::string id = {};
+  std::string key = {};  ///< that a remote one has proved to hold
   auto operator<=>(const Address&) const = default;
 };
 
@@ -43,6 +45,8 @@ class Switchboard {
   /// Where others may come to, with the port chosen when the URL left it open (tcp://...:*); empty when not
   /// listening.
   [[nodiscard]] std::string remote_url() const;
+  /// Nobody comes in with this key any more; who is in stays.
+  void shut_out(const std::string& key) { shut_out_.insert(key); }
   /// @returns false when nobody is (any more) at that address
   bool send(const Address& to, const std::string& bytes);
   /// Waits for this descriptor too from now on, until it is closed.
@@ -59,7 +63,7 @@ class Switchboard {
   void judge_keys();
   void note_failed_handshakes();
   void note_refusal(const std::string& who);
-  static bool receive_from(zmq::socket_t& socket, std::string& id, zmq::message_t& bytes);
+  static bool receive_from(zmq::socket_t& socket, Address& from, zmq::message_t& bytes);
 
   std::function<void(const std::string&)> tell_;
   /// The watched descriptors behind a single one, so that waiting costs the same however many there are.
@@ -70,6 +74,7 @@ class Switchboard {
   std::optional<zmq::socket_t> monitor_;  ///< told by ZeroMQ of handshakes that fail
   std::optional<zmq::socket_t> remote_;
   CoordinatorKeys keys_;
+  std::set<std::string> shut_out_;  ///< of the keys
   std::string local_url_;
   std::size_t refused_ = 0;
 };

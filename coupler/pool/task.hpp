@@ -2,8 +2,11 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/cell.hpp"
+#include "coupler/pool/attempts.hpp"
+#include "coupler/pool/evidence.hpp"
 
 namespace polargrain::coupler {
 
@@ -25,14 +28,19 @@ struct Task {
 
   CellReply reply = {};
   bool alone = false;  ///< was with a worker that was lost, beside others: the next worker has nothing else
-  int ends_by_work = 0;
-  int ends_from_outside = 0;
+  Attempts attempts = {};  ///< that came to nothing
+
+  // fetch, again: of the evaluation that made the state
+  Evidence evidence = {};
+  std::vector<ContentName> others = {};  ///< what evaluations again have come to instead
 };
 
 /// Whether two tasks may go in one message.
 inline bool go_together(const Task& a, const Task& b) {
-  return a.kind != Task::Kind::rest && a.kind == b.kind && a.definition == b.definition && !a.alone &&
-         !b.alone;
+  const auto travels_alone = [](const Task& task) {
+    return task.kind == Task::Kind::rest || task.alone || !task.attempts.empty();
+  };
+  return a.kind == b.kind && a.definition == b.definition && !travels_alone(a) && !travels_alone(b);
 }
 
 }  // namespace polargrain::coupler

@@ -17,23 +17,29 @@ void TaskQueue::put_in(Queue& queue, std::size_t task, bool first) {
   ++size_;
 }
 
-std::vector<std::size_t> TaskQueue::take(std::uint64_t worker,
+std::vector<std::size_t> TaskQueue::take(std::uint64_t worker, const std::function<bool(const Task&)>& may,
                                          const std::function<std::size_t(const Task&)>& most) {
   const auto own = own_.find(worker);
   Queue* queue = own != own_.end() && !own->second.empty() ? &own->second : nullptr;
-  if (queue == nullptr) queue = !common_.empty() ? &common_ : longest();
+  std::size_t passed = 0;
+  if (queue == nullptr) {
+    // What somebody has tried in vain is always in this queue, and may be for others only.
+    while (passed < common_.size() && !may((*tasks_)[common_[passed]])) ++passed;
+    queue = passed < common_.size() ? &common_ : longest();
+  }
   if (queue == nullptr) return {};
+  if (queue != &common_) passed = 0;
   // From another's queue what its owner would come to last.
   const bool from_back = queue != &common_ && (own == own_.end() || queue != &own->second);
-  const auto next = [&] { return from_back ? queue->back() : queue->front(); };
+  const auto next = [&] { return from_back ? queue->back() : (*queue)[passed]; };
   const Task& first = (*tasks_)[next()];
   const std::size_t limit = most(first);
   if (limit == 0) return {};
   std::vector<std::size_t> taken;
   do {
     taken.push_back(next());
-    from_back ? queue->pop_back() : queue->pop_front();
-  } while (taken.size() < limit && !queue->empty() && go_together(first, (*tasks_)[next()]));
+    from_back ? queue->pop_back() : void(queue->erase(queue->begin() + static_cast<std::ptrdiff_t>(passed)));
+  } while (taken.size() < limit && passed < queue->size() && go_together(first, (*tasks_)[next()]));
   size_ -= taken.size();
   return taken;
 }

@@ -23,8 +23,10 @@ class TaskQueue {
   [[nodiscard]] std::size_t size() const { return size_; }
 
   /// What this worker should do next, as tasks that go together; nothing when there is nothing it can do.
+  /// @param may whether a task may go to this worker at all; others are passed over
   /// @param most how many, given the first of them; 0 when that one is not for this worker now
-  std::vector<std::size_t> take(std::uint64_t worker, const std::function<std::size_t(const Task&)>& most);
+  std::vector<std::size_t> take(std::uint64_t worker, const std::function<bool(const Task&)>& may,
+                                const std::function<std::size_t(const Task&)>& most);
   /// All that was put aside for a worker.
   std::vector<std::size_t> take_all_of(std::uint64_t worker);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -24,6 +25,26 @@ constexpr std::chrono::milliseconds kHelloPeriod{500};
 
 /// A worker that has heard nothing for so long says Hello again: its coordinator may have been replaced.
 constexpr std::chrono::seconds kSilence{10};
+
+/// An answer with numbers that are none is no answer: who sent it would be taken for a liar.
+CellReply honest(CellReply reply) {
+  const CellDiagnostics& d = reply.diagnostics;
+  bool finite = reply.response.quality == Quality::failed ||
+                (reply.response.stress.allFinite() && reply.response.tangent.allFinite());
+  for (const double value :
+       {d.unbalanced_force_ratio, d.unbalanced_moment_ratio, d.void_ratio, d.coordination_number,
+        d.sliding_fraction, d.multiplier, d.rolling_fraction, d.rattlers, d.mean_rotation, d.rotation_spread,
+        d.fabric[0], d.fabric[1], d.fabric[2]})
+    finite = finite && std::isfinite(value);
+  if (finite) return reply;
+  CellReply failed;
+  failed.response.quality = Quality::failed;
+  failed.response.step_factor = 0.5;
+  failed.response.message = "the cell's answer holds numbers that are not finite";
+  failed.diagnostics.dem_steps = d.dem_steps;
+  failed.diagnostics.engine_seconds = d.engine_seconds;
+  return failed;
+}
 
 /// Turns each message received into the message to send back. One session; see Welcome.
 class Desk {
@@ -69,7 +90,7 @@ class Desk {
     Reply reply{request.request, {}};
     for (std::size_t c = 0; c < starts.size(); ++c) {
       try {
-        reply.cells.push_back(engine.evaluate({starts[c], request.cells[c].increment}));
+        reply.cells.push_back(honest(engine.evaluate({starts[c], request.cells[c].increment})));
       } catch (const std::exception& error) {
         return Refusal{request.request, static_cast<std::uint32_t>(c), error.what()};
       }

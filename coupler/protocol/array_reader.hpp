@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/plain_text.hpp"
 #include "common/state.hpp"
 #include "coupler/protocol/messages.hpp"
 #include "coupler/protocol/numbers.hpp"
@@ -50,6 +51,12 @@ class ArrayReader {
     const msgpack::object& member = next();
     if (member.type != msgpack::type::STR) wrong("a text");
     return {member.via.str.ptr, member.via.str.size};
+  }
+  /// A text for the user.
+  std::string words() {
+    const msgpack::object& member = next();
+    if (member.type != msgpack::type::STR) wrong("a text");
+    return plain_text({member.via.str.ptr, member.via.str.size});
   }
   std::span<const std::byte> block() {
     const msgpack::object& member = next();

@@ -170,7 +170,7 @@ Welcome read_welcome(ArrayReader& reader) {
 Message read_message(ArrayReader& reader, std::uint64_t kind) {
   switch (kind) {
     case kind_of<Stop>():
-      return Stop{reader.text()};
+      return Stop{reader.words()};
     case kind_of<Welcome>():
       return read_welcome(reader);
     case kind_of<Define>(): {
@@ -195,7 +195,7 @@ Message read_message(ArrayReader& reader, std::uint64_t kind) {
     case kind_of<Refusal>(): {
       const std::uint64_t request = reader.whole();
       const std::uint32_t place = reader.whole32();
-      return Refusal{request, place, reader.text()};
+      return Refusal{request, place, reader.words()};
     }
     case kind_of<FetchRequest>(): {
       const std::uint64_t request = reader.whole();

@@ -26,6 +26,13 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The bytes are a message of this protocol, but what it says cannot be true: no line makes that of an honest
+/// message, so its sender is at fault.
+class FalseMessage : public ProtocolError {
+ public:
+  using ProtocolError::ProtocolError;
+};
+
 /// Worker to coordinator, again and again until it is welcomed, and whenever it has heard nothing for long.
 struct Hello {
   std::uint32_t version = kProtocolVersion;
@@ -130,9 +137,10 @@ struct Envelope {
 /// @returns the message as msgpack: an array of its kind (its place in Message), its members and the session.
 std::string encode(const Message& message, std::uint64_t session = 0);
 
-/// Takes nothing on trust: kinds, counts, lengths, finite numbers, and that a state's bytes have its name. Of
-/// a Hello of another version only that version is read.
-/// @throws ProtocolError saying what is wrong
+/// Takes nothing on trust: kinds, counts, lengths, finite numbers, and that a state's bytes have its name;
+/// words for the user come back as plain text (common/plain_text.hpp). Of a Hello of another version only that
+/// version is read.
+/// @throws ProtocolError saying what is wrong; FalseMessage when it is an answer that no cell can give
 Envelope decode(std::span<const std::byte> bytes);
 
 }  // namespace polargrain::coupler

@@ -26,7 +26,7 @@ std::vector<double> numbers_of(std::span<const std::byte> bytes) {
 void require_finite(std::span<const double> numbers, const char* what) {
   for (const double number : numbers) {
     if (!std::isfinite(number))
-      throw ProtocolError(fmt::format("{} holds a number that is not finite", what));
+      throw FalseMessage(fmt::format("{} holds a number that is not finite", what));
   }
 }
 

@@ -4,10 +4,15 @@
 #include <array>
 #include <unordered_set>
 
+#include "common/plain_text.hpp"
 #include "coupler/protocol/record_message.hpp"
 
 namespace polargrain::coupler {
 namespace {
+/// Contacts or DEM steps, and seconds, of an evaluation: far beyond what there can be, and small enough to be
+/// added up.
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 40;
+constexpr double kMostSeconds = 1e9;
 
 void require_usable(const Packing& packing) {
   if (packing.grains.empty()) throw ProtocolError("a packing has no grains");
@@ -27,6 +32,14 @@ void require_finite_fields(const Record& record, const char* what) {
   RecordValues values;
   append(values, record, true);
   require_finite(values.numbers, what);
+}
+
+void require_possible(const CellDiagnostics& d) {
+  require_finite_fields(d, "a cell's diagnostics");
+  if (d.contacts < 0 || d.contacts > kMostCounted || d.dem_steps < 0 || d.dem_steps > kMostCounted ||
+      !(d.engine_seconds >= 0.0 && d.engine_seconds <= kMostSeconds)) {
+    throw FalseMessage("a cell's diagnostics count what no cell can have done");
+  }
 }
 
 }  // namespace
@@ -59,14 +72,16 @@ CellDefinition read_definition(const msgpack::object& object) {
 
 CellReply read_cell_reply(const msgpack::object& object) {
   auto reply = read_record<CellReply>(object, "the answer of a cell");
-  const Response& response = reply.response;
-  require_finite({&response.step_factor, 1}, "a response");
+  Response& response = reply.response;
+  response.message = plain_text(response.message);
+  if (!(response.step_factor > 0.0 && response.step_factor <= 1.0))
+    throw FalseMessage("a response proposes a part of its increment that is none");
+  require_possible(reply.diagnostics);
   // A failed response has no numbers worth anything; all others are going to be used.
   if (response.quality == Quality::failed) return reply;
   require_finite({response.stress.data(), 7}, "a stress");
   require_finite({response.tangent.data(), 49}, "a tangent");
-  require_finite_fields(reply.diagnostics, "a cell's diagnostics");
-  if (!reply.state) throw ProtocolError("a reply that did not fail has no state");
+  if (!reply.state) throw FalseMessage("a reply that did not fail has no state");
   return reply;
 }
 

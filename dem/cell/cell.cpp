@@ -71,10 +71,16 @@ class Cell final : public CellService {
   CellReply initial_;
 };
 
+/// @throws RunError when the places of its grains are none of a packing
+const CellDefinition& sound(const CellDefinition& definition) {
+  if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
+  return definition;
+}
+
 Cell::Cell(const CellDefinition& definition)
     : control_(definition.control),
       thickness_(definition.packing.thickness),
-      driver_(definition.packing, definition.script, definition.script_file) {
+      driver_(sound(definition).packing, definition.script, definition.script_file) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   if (controlled()) check_rolling_model();
   const Packing& packing = definition.packing;
@@ -117,8 +123,12 @@ std::unique_ptr<GrainBox> Cell::choose_box(const Packing& packing) {
 }
 
 void Cell::check(const Packing& packing, double pressure, const std::string& script_file) {
-  PackingAtRest found{pressure, packing.pressure, 0.0, equilibrium(),
-                      overlaps_of(grains_->contacts(), inertia_.radii)};
+  PackingAtRest found{pressure,
+                      packing.pressure,
+                      0.0,
+                      equilibrium(),
+                      overlaps_of(grains_->contacts(), inertia_.radii),
+                      !controlled() || !grains_->weights().empty()};
   if (pressure > 0.0)
     found.stiffness_level = mean_normal_stiffness(grains_->contacts()) / (pressure * packing.thickness);
   const double unrest = std::max(control_.unbalanced_force_ratio, control_.unbalanced_moment_ratio);
@@ -293,7 +303,9 @@ Matrix7 Cell::tangent() {
   const std::span<const Contact> contacts = grains_->contacts();
   const Eigen::Matrix2d frame = grains_->box().frame();
   const double v = volume();
-  if (control_.tangent == CellTangent::condensed) {
+  // Grains that have no neighbours but one each have no mean rotation that could be held.
+  const bool has_rotation = !controlled() || !grains_->weights().empty();
+  if (control_.tangent == CellTangent::condensed && has_rotation) {
     const ContactNetwork network{contacts, driver_.grains(), frame, v, kHold};
     const auto condensed = controlled() ? condensed_tangent_.cosserat(network, grains_->weights())
                                         : condensed_tangent_.classical(network);

@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/cell/cell_state.hpp"
 
-#include <cstring>
+#include <fmt/format.h>
+
+#include <bit>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "common/error.hpp"
+#include "dem/cell/packed_grains.hpp"
 #include "dem/discs/disc_box.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
 
 namespace {
-
-/// First bytes of every state; plain numbers, so that another process of the same machine type reads it.
-struct Header {
-  std::uint64_t magic = 0;
-  std::uint64_t grains = 0;
-  std::uint64_t history_values = 0;  ///< per contact and side
-  std::uint64_t values = 0;          ///< doubles of the packed grains; rotations may follow, one a grain
-  Box box;
-};
-constexpr std::uint64_t kMagic = 0x31306c6c65636770ULL;  // "pgcell01" as bytes
 
 LAMMPS_NS::PairGran& granular_pair(LAMMPS_NS::LAMMPS& lammps) {
   return *static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair);
@@ -52,38 +46,81 @@ class GrainMasses {
   std::vector<std::pair<double, double>> values_;
 };
 
+/// Values that a fix packs with a grain.
+std::size_t packed_length(LAMMPS_NS::LAMMPS& lammps, LAMMPS_NS::Fix& fix, std::vector<double>& buffer) {
+  if (lammps.atom->nlocal == 0) return 0;
+  return static_cast<std::size_t>(fix.pack_exchange(0, buffer.data()));
+}
+
+/// Room for a grain with the most contacts that the engine allows.
+std::vector<double> room_for_a_grain(const LAMMPS_NS::LAMMPS& lammps) {
+  return std::vector<double>(32 + static_cast<std::size_t>(lammps.comm->maxexchange_fix) + 64);
+}
+
+/// As the engine's own grains are packed now; their histories are with them (gather_histories).
+GrainLayout layout_of(LAMMPS_NS::LAMMPS& lammps) {
+  LAMMPS_NS::Atom& atom = *lammps.atom;
+  LAMMPS_NS::Fix* const history = granular_pair(lammps).get_fix_history();
+  std::vector<double> buffer = room_for_a_grain(lammps);
+  GrainLayout layout;
+  layout.has_history = false;
+  layout.history_values = static_cast<std::size_t>(granular_pair(lammps).dnum());
+  layout.time_step = lammps.update->dt;
+  std::size_t before = 0;
+  for (int k = 0; k < atom.nextra_grow; ++k) {
+    LAMMPS_NS::Fix& fix = *lammps.modify->fix[atom.extra_grow[k]];
+    if (&fix == history) {
+      layout.has_history = true;
+    } else if (std::string_view(fix.style).starts_with("contacthistory")) {
+      throw RunError(fmt::format("fix {} keeps contacts of its own: states of such a cell cannot be taken up",
+                                 fix.style));
+    } else {
+      (layout.has_history ? layout.tail : before) += packed_length(lammps, fix, buffer);
+    }
+  }
+  // Length, place, velocity, tag, type, mask, image, radius, density, mass, spin: an atom_style granular.
+  constexpr std::size_t kType = 8, kMask = 9, kRadius = 11, kSpin = 14, kOwn = 17;
+  layout.head = kOwn + before;
+  layout.spin = kSpin;
+  layout.fixed = {kType, kMask, kRadius};
+  layout.heads.resize(static_cast<std::size_t>(atom.nlocal));
+  layout.radii.resize(layout.heads.size());
+  for (int k = 0; k < atom.nlocal; ++k) {
+    const auto length = static_cast<std::size_t>(atom.avec->pack_exchange(k, buffer.data()));
+    const bool is_known = length >= layout.head + layout.tail &&
+                          std::bit_cast<std::int64_t>(buffer[GrainLayout::kTag]) == atom.tag[k] &&
+                          std::bit_cast<std::int64_t>(buffer[kType]) == atom.type[k] &&
+                          buffer[kRadius] == atom.radius[k] && buffer[kSpin + 2] == atom.omega[k][2];
+    const auto tag = static_cast<std::size_t>(atom.tag[k] - 1);
+    if (!is_known || tag >= layout.heads.size())
+      throw RunError("states of cells need atom_style granular, and grains counted from 1");
+    layout.heads[tag].assign(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(layout.head));
+    layout.radii[tag] = atom.radius[k];
+  }
+  return layout;
+}
+
 }  // namespace
 
 StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations) {
   gather_histories(lammps);
   LAMMPS_NS::Atom& atom = *lammps.atom;
-  // One grain is packed at a time; room for the most contacts the engine allows a grain.
-  std::vector<double> grain(32 + static_cast<std::size_t>(lammps.comm->maxexchange_fix) + 64);
+  std::vector<double> grain = room_for_a_grain(lammps);
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(atom.nlocal) * 48);
   for (int k = 0; k < atom.nlocal; ++k) {
     const int count = atom.avec->pack_exchange(k, grain.data());
     values.insert(values.end(), grain.begin(), grain.begin() + count);
   }
-  Header header;
-  header.magic = kMagic;
-  header.grains = static_cast<std::uint64_t>(atom.nlocal);
-  header.history_values = static_cast<std::uint64_t>(granular_pair(lammps).dnum());
-  header.values = values.size();
-  header.box = box;
-  values.insert(values.end(), rotations.begin(), rotations.end());
-  std::vector<std::byte> bytes(sizeof(Header) + values.size() * sizeof(double));
-  std::memcpy(bytes.data(), &header, sizeof(Header));
-  std::memcpy(bytes.data() + sizeof(Header), values.data(), values.size() * sizeof(double));
-  return std::make_shared<const State>(std::move(bytes));
+  const PackedGrains packed{box,
+                            static_cast<std::size_t>(granular_pair(lammps).dnum()),
+                            std::move(values),
+                            {},
+                            {rotations.begin(), rotations.end()}};
+  return encode(packed, static_cast<std::size_t>(atom.nlocal));
 }
 
 namespace {
-bool has_layout(LAMMPS_NS::LAMMPS& lammps, const Header& header) {
-  return header.grains == static_cast<std::uint64_t>(lammps.atom->natoms) &&
-         header.history_values == static_cast<std::uint64_t>(granular_pair(lammps).dnum());
-}
-
 /// A state of the loop over discs, taken up by the engine's own.
 RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   const DiscSelection models = disc_models(lammps);
@@ -97,45 +134,30 @@ RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
 }  // namespace
 
 bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  Header header;
-  if (is_disc_state(state) || state.bytes().size() < sizeof(Header)) return false;
-  std::memcpy(&header, state.bytes().data(), sizeof(Header));
-  return header.magic == kMagic && has_layout(lammps, header);
+  if (is_disc_state(state)) return false;
+  try {
+    const PackedGrains packed = decode_grains(state);
+    return packed.grains() == static_cast<std::size_t>(lammps.atom->natoms) &&
+           packed.history_values == static_cast<std::size_t>(granular_pair(lammps).dnum());
+  } catch (const RunError&) {
+    return false;
+  }
 }
 
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   if (is_disc_state(state)) return restore_discs(lammps, state);
-  Header header;
-  const auto bytes = state.bytes();
-  if (bytes.size() < sizeof(Header)) throw RunError("this is not the state of a cell: it is too short");
-  std::memcpy(&header, bytes.data(), sizeof(Header));
-  const std::size_t length = sizeof(Header) + header.values * sizeof(double);
-  const std::size_t length_of_rotations = header.grains * sizeof(double);
-  if (header.magic != kMagic || (bytes.size() != length && bytes.size() != length + length_of_rotations))
-    throw RunError("this is not the state of a cell, or it was cut short");
-  if (!has_layout(lammps, header))
-    throw RunError("this state belongs to a cell of another packing or another input script");
-  std::vector<double> values(header.values);
-  std::memcpy(values.data(), bytes.data() + sizeof(Header), header.values * sizeof(double));
-
+  PackedGrains packed = decode_grains(state);
   gather_histories(lammps);
+  check_records(packed, layout_of(lammps));
   LAMMPS_NS::Atom& atom = *lammps.atom;
   const GrainMasses masses(atom);
   atom.nlocal = 0;
   atom.nghost = 0;
-  std::size_t place = 0;
-  for (std::uint64_t k = 0; k < header.grains; ++k) {
-    // The first value of a packed grain is its length.
-    if (place >= values.size() || !(values[place] >= 1.0) ||
-        values[place] > static_cast<double>(values.size() - place))
-      throw RunError("this state of a cell is damaged");
-    place += static_cast<std::size_t>(atom.avec->unpack_exchange(&values[place]));
-  }
+  for (std::size_t k = 0; k < packed.grains(); ++k)
+    atom.avec->unpack_exchange(&packed.values[packed.starts[k]]);
   masses.put_back(atom);
-  RestoredState restored{header.box, std::vector<double>(header.grains, 0.0)};
-  if (bytes.size() > length)
-    std::memcpy(restored.rotations.data(), bytes.data() + length, length_of_rotations);
-  return restored;
+  packed.rotations.resize(packed.grains(), 0.0);
+  return {packed.box, std::move(packed.rotations)};
 }
 
 }  // namespace polargrain::dem

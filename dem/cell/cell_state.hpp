@@ -24,8 +24,8 @@ struct RestoredState {
 
 /// Puts a state into the engine in place of what is there; the grains keep the masses they have in the
 /// engine, which are the packing's. Forces and neighbour lists are not set up yet.
-/// @throws RunError when the bytes are not a state of this engine (another length, another number of history
-/// values).
+/// @throws RunError when the bytes are not a state of this engine: nothing of them is believed
+/// (packed_grains.hpp, disc_state.hpp), because the engine believes every length and partner.
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state);
 
 /// Whether the engine's script and packing have the layout of a state that was saved with save_state: as many

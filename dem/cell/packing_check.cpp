@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace polargrain::dem {
 
@@ -33,12 +37,109 @@ Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> 
   return found;
 }
 
+namespace {
+
+/// Grains by the bins they lie in; bins divide the box evenly and are wider than any two grains that touch.
+class Bins {
+ public:
+  explicit Bins(const Packing& packing) : packing_(packing), inverse_(packing.box.inverse()) {
+    for (const Grain& grain : packing.grains) largest_ = std::max(largest_, grain.radius);
+    const double area = packing.box.determinant();
+    const auto bins_along = [&](int side) {
+      const double width = area / packing.box.col(1 - side).norm();
+      return static_cast<int>(std::clamp(width / (2.0 * largest_), 1.0, 1e4));
+    };
+    columns_ = bins_along(0);
+    rows_ = bins_along(1);
+    for (std::size_t k = 0; k < packing.grains.size(); ++k) {
+      const Eigen::Vector2d part = inverse_ * packing.grains[k].position;
+      places_.emplace_back(part.x() - std::floor(part.x()), part.y() - std::floor(part.y()));
+      bins_[bin_of(k, 0, 0)].push_back(k);
+    }
+  }
+
+  /// Calls `visit(i, j, distance)` for each two grains in bins next to each other, until it returns false.
+  template <class Visit>
+  void for_near_pairs(Visit visit) const {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      std::set<std::pair<int, int>> near;  // in a small box one bin lies on several sides
+      for (const int row : {-1, 0, 1})
+        for (const int column : {-1, 0, 1}) near.insert(bin_of(i, column, row));
+      for (const auto& bin : near) {
+        const auto found = bins_.find(bin);
+        if (found == bins_.end()) continue;
+        for (const std::size_t j : found->second)
+          if (j > i && !visit(i, j, distance(i, j))) return;
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::pair<int, int> bin_of(std::size_t k, int columns_away, int rows_away) const {
+    const int column = std::min(columns_ - 1, static_cast<int>(places_[k].x() * columns_));
+    const int row = std::min(rows_ - 1, static_cast<int>(places_[k].y() * rows_));
+    return {(column + columns_away + columns_) % columns_, (row + rows_away + rows_) % rows_};
+  }
+  /// Of the nearest images.
+  [[nodiscard]] double distance(std::size_t i, std::size_t j) const {
+    Eigen::Vector2d part = places_[i] - places_[j];
+    part -= Eigen::Vector2d(std::round(part.x()), std::round(part.y()));
+    double least = packing_.box.norm();
+    for (const double p : {-1.0, 0.0, 1.0})
+      for (const double q : {-1.0, 0.0, 1.0})
+        least = std::min(least, (packing_.box * (part + Eigen::Vector2d(p, q))).norm());
+    return least;
+  }
+
+  const Packing& packing_;
+  Eigen::Matrix2d inverse_;
+  double largest_ = 0.0;
+  int columns_ = 1;
+  int rows_ = 1;
+  std::vector<Eigen::Vector2d> places_;  ///< as parts of the base vectors, in [0, 1)
+  std::map<std::pair<int, int>, std::vector<std::size_t>> bins_;
+};
+
+}  // namespace
+
+std::string geometry_fault(const Packing& packing) {
+  std::string fault;
+  double period = packing.box.norm();  // shortest way to an image
+  double largest = 0.0;
+  for (const Eigen::Vector2d& steps :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
+    period = std::min(period, (packing.box * steps).norm());
+  for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+  if (2.0 * largest - period > kMostOverlapToStart * largest)
+    return fmt::format("a grain of radius {:.3g} m has no room in a box of period {:.3g} m", largest, period);
+  bool some_touch = 2.0 * largest > period;  // its own image
+  Bins(packing).for_near_pairs([&](std::size_t i, std::size_t j, double distance) {
+    const Grain& first = packing.grains[i];
+    const Grain& second = packing.grains[j];
+    const double overlap = (first.radius + second.radius - distance) / std::min(first.radius, second.radius);
+    some_touch = some_touch || overlap > 0.0;
+    if (overlap <= kMostOverlapToStart) return true;
+    fault = fmt::format(
+        "the grains {} and {} overlap by {:.0f} % of the smaller radius, as if they were in one place: the "
+        "packing is damaged, or its lengths are not in m",
+        first.id, second.id, 100.0 * overlap);
+    return false;
+  });
+  if (fault.empty() && !some_touch)
+    fault = "the packing carries no pressure at rest: its grains do not touch";
+  return fault;
+}
+
 std::string packing_fault(const PackingAtRest& packing, double unrest, const std::string& script) {
   const double allowed = std::max(kMostUnrest, 10.0 * unrest);
   const Equilibrium& rest = packing.equilibrium;
   std::string fault;
   if (!(packing.pressure > 0.0))
     fault = "the packing carries no pressure at rest: its grains do not touch";
+  else if (!(packing.stiffness_level <= kMostStiffnessLevel))
+    fault = "the packing carries no pressure to speak of: its grains touch without overlap";
+  else if (!packing.turns)
+    fault = "the rotations are to be controlled, but no grain has two contacts";
   else if (packing.recorded > 0.0 &&
            !(std::abs(packing.pressure / packing.recorded - 1.0) <= kPressureTolerance))
     fault = fmt::format("the packing was recorded under {:.5g} kPa and carries {:.5g} kPa",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/packing.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
@@ -39,6 +40,17 @@ bool too_large(const Overlaps& overlaps);
 /// Both with their limits, for messages.
 std::string description(const Overlaps& overlaps);
 
+/// Overlap of two grains over the smaller radius beyond which no engine is asked: the centre of one is nearly
+/// in the other, as no script can want it.
+inline constexpr double kMostOverlapToStart = 0.75;
+/// k_n / (p t) beyond which a packing carries no pressure to speak of: grains that touch and no more. Sand
+/// under 1 kPa has 1e7.
+inline constexpr double kMostStiffnessLevel = 1e10;
+
+/// Why the places of the grains are no packing, whatever the script: grains in one place, or none that touch.
+/// Nothing when they are one. For before the first force: the engine itself does not survive all of these.
+std::string geometry_fault(const Packing& packing);
+
 /// What a packing is under a script before the first step.
 struct PackingAtRest {
   double pressure = 0.0;         ///< mean normal stress, compression positive, Pa
@@ -46,6 +58,7 @@ struct PackingAtRest {
   double stiffness_level = 0.0;  ///< mean k_n / (pressure * thickness)
   Equilibrium equilibrium;
   Overlaps overlaps;
+  bool turns = true;  ///< some grain has two contacts or more: there is a mean rotation to control
 };
 
 /// Why a packing does not fit its script, with the numbers and what to do; nothing when it does.

@@ -166,20 +166,6 @@ LawSettings law_settings(const SpokenSettings& spoken, const DiscCombination& ma
 
 }  // namespace
 
-int DiscCombination::code() const {
-  const int laws = static_cast<int>(normal) + 4 * (static_cast<int>(tangential) + 4 * static_cast<int>(rolling));
-  return laws * 4 + (settings.rolling_force ? 2 : 0) + (settings.symmetric ? 1 : 0);
-}
-
-std::string DiscCombination::name() const {
-  constexpr std::array<std::string_view, 3> kNormal{"hooke/radii", "hooke/stiffness", "hertz"};
-  constexpr std::array<std::string_view, 2> kTangential{"history", "li_chu"};
-  constexpr std::array<std::string_view, 3> kRolling{"off", "epsd2", "li_chu"};
-  return fmt::format("{}, {}, {}", kNormal[static_cast<std::size_t>(normal)],
-                     kTangential[static_cast<std::size_t>(tangential)],
-                     kRolling[static_cast<std::size_t>(rolling)]);
-}
-
 DiscSelection disc_combination(LAMMPS& lammps) {
   if (std::string why = foreign_scene(lammps); !why.empty()) return {std::nullopt, std::move(why)};
   return disc_models(lammps);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/discs/disc_box.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -18,12 +16,6 @@ namespace {
 /// Gap up to which two discs are candidates, over the mean radius: at strains of 1e-3 a list lasts an
 /// increment and holds few pairs that do not touch.
 constexpr double kSkin = 0.05;
-
-/// Bounds of what a state may say: area of the box over that of the discs, sides over each other, rotations,
-/// rad.
-constexpr double kLeastArea = 0.3;
-constexpr double kMostArea = 1e3;
-constexpr double kMostTurns = 1e6;
 
 /// Steps between two calls of `progress`.
 constexpr int kProgressChunk = 200;
@@ -100,30 +92,13 @@ void DiscBox::restore(const DiscSnapshot& snapshot) {
 }
 
 void DiscBox::check(const DiscSnapshot& snapshot) const {
-  // Numbers that no evaluation leaves behind would make lists without end, not answers.
   double area = 0.0;
   for (const double radius : definition_.radii) area += std::numbers::pi * radius * radius;
-  const Box& box = snapshot.box;
-  const bool box_is_sound = box.area() > kLeastArea * area && box.area() < kMostArea * area &&
-                            std::abs(box.tilt) <= 0.6 * box.length_x &&
-                            box.length_x < kMostArea * box.length_y &&
-                            box.length_y < kMostArea * box.length_x && std::abs(box.rotation) < kMostTurns;
-  if (!box_is_sound)
-    throw RunError(fmt::format("this state of a cell is damaged: its box has sides of {:.3g} and {:.3g} m, a tilt of "
-                               "{:.3g} m and is turned by {:.3g} rad",
-                               box.length_x, box.length_y, box.tilt, box.rotation));
-  const double step = definition_.time_step;
+  if (const std::string fault = box_fault(snapshot.box, area); !fault.empty()) throw RunError(fault);
   for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
-    const DiscSnapshot::Motion& disc = snapshot.discs[k];
-    const double radius = definition_.radii[k];
-    const bool sound = disc.y >= -radius && disc.y <= box.length_y + radius &&
-                       std::abs(disc.x) <= 2.0 * box.length_x + radius && std::abs(disc.vx) * step < radius &&
-                       std::abs(disc.vy) * step < radius && std::abs(disc.spin) * step < 1.0 &&
-                       std::abs(disc.turned) < kMostTurns;
-    if (!sound)
-      throw RunError(fmt::format("this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}) m and moves at "
-                                 "({:.3g}, {:.3g}) m/s and {:.3g} rad/s, turned by {:.3g} rad",
-                                 k, disc.x, disc.y, disc.vx, disc.vy, disc.spin, disc.turned));
+    const std::string fault =
+        motion_fault(snapshot.box, k, snapshot.discs[k], definition_.radii[k], definition_.time_step);
+    if (!fault.empty()) throw RunError(fault);
   }
 }
 
@@ -165,6 +140,7 @@ StatePointer DiscBox::save() {
            {old.p - old.q * fold + away.p - copies[i].p, old.q + away.q - copies[i].q}});
       snapshot.values.insert(snapshot.values.end(), values, values + list_.springs);
     }
+  check(snapshot);  // what nobody could go on from is no answer
   return encode(snapshot);
 }
 

@@ -91,6 +91,8 @@ DiscSnapshot decode_discs(const State& state) {
   const std::byte* place = take(state.bytes().data(), &header, 1);
   if (header.springs < 0 || header.springs > kMostSprings)
     throw RunError("this state of a cell is damaged");
+  if (header.contacts > most_state_contacts(header.discs))
+    throw RunError("this state of a cell is damaged: it has more contacts than its grains can have");
   const std::size_t values = std::size_t{header.contacts} * static_cast<std::size_t>(header.springs);
   if (state.bytes().size() != sizeof(Header) + std::size_t{header.discs} * sizeof(DiscSnapshot::Motion) +
                                   std::size_t{header.contacts} * sizeof(DiscSnapshot::Springs) +

@@ -5,6 +5,7 @@
 
 #include "common/state.hpp"
 #include "dem/cell/box.hpp"
+#include "dem/cell/state_bounds.hpp"
 #include "dem/discs/disc.hpp"
 
 namespace polargrain::dem {
@@ -12,12 +13,7 @@ namespace polargrain::dem {
 /// What changes in a box of discs from one step to the next, and nothing else: radii, masses and laws are those
 /// of the packing and the script. Discs are counted as in the packing.
 struct DiscSnapshot {
-  struct Motion {
-    double x = 0.0, y = 0.0;    ///< m, in the frame of the box, inside it
-    double vx = 0.0, vy = 0.0;  ///< m/s
-    double spin = 0.0;          ///< rad/s
-    double turned = 0.0;        ///< rotation since the packing, rad
-  };
+  using Motion = GrainMotion;
   /// A contact with springs that are not zero.
   struct Springs {
     std::int32_t first = 0;

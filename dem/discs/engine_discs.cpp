@@ -2,6 +2,8 @@
 // From an engine that has read a script and a packing to a box of discs.
 #include <bit>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <tuple>
 
 #include "common/error.hpp"
@@ -152,7 +154,16 @@ void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, co
   if (snapshot.discs.size() != static_cast<std::size_t>(atom.nlocal) || snapshot.code != combination.code() ||
       snapshot.springs != spring_count(combination.rolling) || history == nullptr)
     throw RunError("this state belongs to a cell of another packing or another input script");
+  double area = 0.0;
+  for (int k = 0; k < atom.nlocal; ++k) area += std::numbers::pi * atom.radius[k] * atom.radius[k];
+  if (const std::string fault = box_fault(snapshot.box, area); !fault.empty()) throw RunError(fault);
   history->pre_exchange();
+  for (int k = 0; k < atom.nlocal; ++k) {
+    const std::string fault =
+        motion_fault(snapshot.box, static_cast<std::size_t>(k), snapshot.discs[static_cast<std::size_t>(k)],
+                     atom.radius[k], lammps.update->dt);
+    if (!fault.empty()) throw RunError(fault);
+  }
   for (int k = 0; k < atom.nlocal; ++k) {
     const DiscSnapshot::Motion& disc = snapshot.discs[static_cast<std::size_t>(k)];
     atom.x[k][0] = disc.x;

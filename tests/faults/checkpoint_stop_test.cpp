@@ -51,6 +51,11 @@ class StoppedRun : public ::testing::Test {
   Scratch scratch_;
 };
 
+/// Said where the last checkpoint of a run that was stopped behind its first steps cannot be used.
+const std::string kTheOneBefore =
+    "the one before it, out/checkpoint.before.h5, is of step 0 and can be read: to go on from there, "
+    "'mv out/checkpoint.before.h5 out/checkpoint.h5' and run with --resume again\n";
+
 TEST_F(StoppedRun, SaysHowToGoOnAndGoesOnToTheSameBytes) {
   ASSERT_EQ(polargrain("run case.yaml -o whole -w 2 --quiet").status, 0);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
@@ -98,6 +103,9 @@ TEST_F(StoppedRun, ResumeWithoutACheckpointIsRefused) {
   EXPECT_EQ(stop_behind(1, SIGTERM), 3);
   std::filesystem::remove(scratch_.path() / "out/checkpoint.h5");
   EXPECT_EQ(polargrain("run case.yaml -o out --resume").errors,
+            "out/checkpoint.h5: there is no checkpoint to go on from; " + kTheOneBefore);
+  std::filesystem::remove(scratch_.path() / "out/checkpoint.before.h5");
+  EXPECT_EQ(polargrain("run case.yaml -o out --resume").errors,
             "out/checkpoint.h5: there is no checkpoint to go on from; run without --resume\n");
 }
 
@@ -133,12 +141,12 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
   EXPECT_EQ(stop_behind(1, SIGTERM), 3);
   const std::filesystem::path file = scratch_.path() / "out/checkpoint.h5";
   const std::string good = content(file);
+  std::string advice = kTheOneBefore;
   const auto expect_refused = [&](const std::string& bytes, const std::string& why) {
     write(file, bytes);
     const Outcome outcome = polargrain("run case.yaml -o out --resume");
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.errors,
-              "out/checkpoint.h5: this checkpoint cannot be used: " + why + "; run without --resume\n");
+    EXPECT_EQ(outcome.errors, "out/checkpoint.h5: this checkpoint cannot be used: " + why + "; " + advice);
   };
   const std::string cut = "it was cut short, or is none of ours: the mark at its end is missing";
   const std::string damaged = "it is damaged: its content does not match the hash at its end";
@@ -150,8 +158,17 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
     bad[place] = static_cast<char>(bad[place] ^ 4);
     expect_refused(bad, damaged);
   }
-  write(file, good);
+  const std::filesystem::path before = scratch_.path() / "out/checkpoint.before.h5";
+  const std::string good_before = content(before);
+  write(before, "damaged too");
+  advice = "run without --resume\n";
+  expect_refused("", cut);
+  // What the advice says brings the whole run.
+  write(before, good_before);
+  std::filesystem::rename(before, file);
   EXPECT_EQ(polargrain("run case.yaml -o out --resume --quiet").status, 0);
+  ASSERT_EQ(polargrain("run case.yaml -o whole --quiet").status, 0);
+  EXPECT_TRUE(results_of(scratch_.path() / "out") == results_of(scratch_.path() / "whole"));
 }
 
 TEST_F(StoppedRun, AnotherRunInTheSameDirectoryIsRefused) {

@@ -3,7 +3,7 @@
 add_executable(faulty_line faults/faulty_line.cpp)
 target_link_libraries(faulty_line PRIVATE polargrain_pool)
 add_executable(strange_worker faults/strange_worker.cpp)
-target_link_libraries(strange_worker PRIVATE polargrain_pool)
+target_link_libraries(strange_worker PRIVATE polargrain_pool polargrain_fake_engine)
 
 polargrain_test(faults_messages_test faults faults/messages_test.cpp LIBS polargrain_pool polargrain_fake_engine)
 target_compile_definitions(faults_messages_test PRIVATE
@@ -14,6 +14,11 @@ add_dependencies(faults_messages_test fake_worker faulty_line strange_worker)
 polargrain_test(faults_guests_test faults faults/guests_test.cpp LIBS polargrain_pool polargrain_fake_engine)
 target_compile_definitions(faults_guests_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>")
 add_dependencies(faults_guests_test fake_worker)
+
+polargrain_test(faults_liars_test faults faults/liars_test.cpp LIBS polargrain_pool polargrain_fake_engine)
+target_compile_definitions(faults_liars_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>"
+                                                     STRANGE_WORKER="$<TARGET_FILE:strange_worker>")
+add_dependencies(faults_liars_test fake_worker strange_worker)
 
 polargrain_test(faults_kills_test faults faults/kills_test.cpp LIBS polargrain_options Threads::Threads)
 target_compile_definitions(faults_kills_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")

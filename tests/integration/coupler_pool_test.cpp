@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -415,6 +416,46 @@ TEST_F(PoolTest, AWorkerThatSaysNothingIsReported) {
   EXPECT_EQ(
       message_of([&] { Pool pool(silent); }),
       "worker 1 did not report within 0.2 s of its start; its log " + log(1) + " ends with:\nthinking\n");
+}
+
+/// A worker command that fails for the worker whose log has this name.
+std::vector<std::string> fails_as(const std::string& log, const std::string& failure) {
+  return {
+      "/bin/sh", "-c",
+      "case $(readlink /proc/$$/fd/1) in *" + log + ") " + failure + ";; esac; exec " FAKE_WORKER " \"$@\"",
+      "worker"};
+}
+
+TEST_F(PoolTest, AWorkerThatCrashesAtItsStartLeavesTheOthersAtWork) {
+  PoolOptions partly = options(3);
+  partly.worker_command = fails_as("worker-2.log", "printf 'no room\\n'; kill -SEGV $$");
+  std::string told;
+  partly.tell = [&](const std::string& text) { told += text + '\n'; };
+  Pool pool(partly);
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> replies = pool.evaluate(random_requests(40));
+  for (const CellReply& reply : replies) EXPECT_EQ(reply.response.quality, Quality::good);
+  EXPECT_NE(told.find("worker 2 died before it reported: killed by signal 11 (Segmentation fault); its log " +
+                      log(2) + " says:\nno room\nthe others go on; it is started again"),
+            std::string::npos)
+      << told;
+  // It is tried again some times, then no more.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (told.find("it is not started again") == std::string::npos && std::chrono::steady_clock::now() < end)
+    pool.evaluate(random_requests(40));
+  EXPECT_NE(told.find("no room\nit is not started again"), std::string::npos) << told;
+}
+
+TEST_F(PoolTest, AWorkerThatNeverReportsLeavesTheOthersAtWork) {
+  PoolOptions partly = options(2);
+  partly.worker_command = fails_as("worker-1.log", "echo thinking; exec sleep 60");
+  partly.startup_seconds = 1.0;
+  std::string told;
+  partly.tell = [&](const std::string& text) { told += text + '\n'; };
+  Pool pool(partly);
+  pool.define(testing::fake_definition(""));
+  EXPECT_EQ(pool.evaluate(random_requests(1))[0].response.quality, Quality::good);
+  EXPECT_NE(told.find("worker 1 did not report within 1 s of its start"), std::string::npos) << told;
 }
 
 TEST_F(PoolTest, TheSocketsOfAKilledCoordinatorAreRemovedByTheNext) {

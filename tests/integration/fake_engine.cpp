@@ -157,6 +157,21 @@ std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition) 
   return std::make_unique<FakeEngine>(definition);
 }
 
+std::string fake_state_fault(const CellDefinition& definition, const State& state) {
+  std::istringstream script(definition.script);
+  std::size_t expected = 6 * sizeof(double);
+  for (std::string word; script >> word;)
+    if (word == "state_bytes") script >> expected;
+  if (state.size() != expected)
+    return "a state has " + std::to_string(state.size()) + " bytes instead of " + std::to_string(expected);
+  if (!state.is_here()) return {};
+  std::array<double, 6> values{};
+  std::memcpy(values.data(), state.bytes().data(), sizeof values);
+  for (const double value : values)
+    if (!std::isfinite(value)) return "a state holds a number that is not finite";
+  return {};
+}
+
 Vector7 fake_stress(const Increment& increment) {
   Vector7 stress = stiffness(kYoung) * increment.strain();
   for (int i : {k11, k22, k33}) stress[i] += kConfining;

@@ -27,6 +27,8 @@ std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition);
 
 /// The commands of its scripts.
 const std::set<std::string>& fake_commands();
+/// Its StateCheck: the size that the script says, and finite numbers.
+std::string fake_state_fault(const CellDefinition& definition, const State& state);
 
 /// Stress after an increment from the packing, for the default modulus.
 Vector7 fake_stress(const Increment& increment);

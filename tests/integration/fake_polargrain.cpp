@@ -7,7 +7,9 @@
 int main(int count, char** arguments) {
   polargrain::open_standard_streams();
   return polargrain::app::command_line(
-      count, arguments, {[] {}, polargrain::testing::make_fake_engine, polargrain::testing::fake_commands()},
+      count, arguments,
+      {[] {}, polargrain::testing::make_fake_engine, polargrain::testing::fake_commands(),
+       polargrain::testing::fake_state_fault},
       {[] {}, [](const auto& specification,
                  const auto&) { return polargrain::testing::make_fake_packing(specification); }});
 }

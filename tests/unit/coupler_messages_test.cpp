@@ -232,6 +232,54 @@ TEST(Messages, RefusesWhatIsNotFinite) {
   EXPECT_EQ(error_of(encode(reply)), "accepted");
 }
 
+/// Whether the sender of these bytes is at fault, and not the line.
+bool is_false(const std::string& bytes) {
+  try {
+    decode(view(bytes));
+  } catch (const FalseMessage&) {
+    return true;
+  } catch (const ProtocolError&) {
+  }
+  return false;
+}
+
+TEST(Messages, BlameTheSenderForNumbersThatNoCellHas) {
+  const auto with = [](const auto& change) {
+    Reply reply = some_reply();
+    change(reply.cells[1].diagnostics);
+    return encode(reply);
+  };
+  EXPECT_FALSE(is_false(with([](CellDiagnostics&) {})));
+  EXPECT_FALSE(is_false("\x93garbage"));
+  EXPECT_TRUE(is_false(with([](CellDiagnostics& d) { d.void_ratio = std::nan(""); })));
+  EXPECT_TRUE(is_false(with([](CellDiagnostics& d) { d.fabric[2] = INFINITY; })));
+  EXPECT_TRUE(is_false(with([](CellDiagnostics& d) { d.engine_seconds = INFINITY; })));
+  EXPECT_TRUE(is_false(with([](CellDiagnostics& d) { d.engine_seconds = -1.0; })));
+  EXPECT_TRUE(is_false(with([](CellDiagnostics& d) { d.dem_steps = INT64_MAX; })));
+  EXPECT_TRUE(is_false(with([](CellDiagnostics& d) { d.contacts = -1; })));
+  Reply reply = some_reply();
+  reply.cells[1].response.tangent(2, 2) = std::nan("");
+  EXPECT_TRUE(is_false(encode(reply)));
+  for (const double factor : {0.0, -1.0, 1.5, std::nan("")}) {
+    reply = some_reply();
+    reply.cells[1].response.step_factor = factor;
+    EXPECT_TRUE(is_false(encode(reply))) << factor;
+  }
+}
+
+TEST(Messages, WordsForTheUserArePlainAndShort) {
+  const std::string words = "\x1b[2J" + std::string(5'000'000, 'a');
+  const auto cleaned = [](const std::string& text) {
+    EXPECT_EQ(text.substr(0, 6), "?[2Jaa");
+    EXPECT_EQ(text.size(), 1000u);
+  };
+  cleaned(round_trip(Refusal{1, 0, words}).message);
+  cleaned(round_trip(Stop{words}).reason);
+  Reply reply = some_reply();
+  reply.cells[1].response.message = words;
+  cleaned(round_trip(reply).cells[1].response.message);
+}
+
 TEST(Messages, RefusesAStateThatIsNotWhatItsNameSays) {
   EXPECT_EQ(error_of(encode(request_with(some_state(9)->name(), some_state(10)))),
             "the bytes of a state do not have its name");

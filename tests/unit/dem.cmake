@@ -5,3 +5,11 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_condensed_tangent_test unit unit/dem_condensed_tangent_test.cpp LIBS polargrain_dem)
 endif()
 polargrain_test(packing_test unit unit/packing_test.cpp LIBS polargrain_common)
+# Spoiled states, also where there is no engine; the long test is that of a million.
+polargrain_test(fuzz_states_test unit fuzz/states_test.cpp LIBS polargrain_discs)
+foreach(loop Discs TheGeneralLoop)
+  add_test(NAME fuzz_a_million_states_${loop} COMMAND fuzz_states_test --gtest_filter=FlippedStates.Of${loop}*
+           WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(fuzz_a_million_states_${loop} PROPERTIES LABELS long TIMEOUT 7200
+                       ENVIRONMENT POLARGRAIN_FUZZ_RUNS=1000000)
+endforeach()

@@ -12,3 +12,5 @@ function(polargrain_fuzz_corpus target mutations)
 endfunction()
 
 polargrain_fuzz_corpus(messages 50000 LIBS polargrain_pool)
+add_test(NAME fuzz_a_million_messages COMMAND fuzz_messages ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/messages 1000000)
+set_tests_properties(fuzz_a_million_messages PROPERTIES LABELS long TIMEOUT 7200)

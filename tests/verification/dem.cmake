@@ -8,6 +8,8 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_limits_test verification verification/dem_limits_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_boundary_test verification verification/dem_boundary_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(disc_loop_test verification verification/disc_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(spoiled_states_test verification verification/spoiled_states_test.cpp support/engine_main.cpp
+                  LIBS polargrain_dem)
   polargrain_test(dem_masses_test verification verification/dem_masses_test.cpp support/engine_main.cpp
                   LIBS polargrain_contact_models)
   polargrain_test(dem_time_step_test verification verification/dem_time_step_test.cpp support/engine_main.cpp

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace polargrain {
+
+/// Longest text from outside (another machine's words, a line of an engine's output) that goes into messages
+/// and logs, in bytes.
+inline constexpr std::size_t kLongestWords = 1000;
+
+/// A text from outside as it may be shown: printable characters of UTF-8 only. Line ends and tabs become
+/// spaces, all other control characters (those that steer a terminal among them) and bytes that are no UTF-8
+/// become '?'. A longer text than `most_bytes` (at least 40) is cut and says how long it was. What is plain
+/// already comes back as it is.
+std::string plain_text(std::string_view text, std::size_t most_bytes = kLongestWords);
+
+}  // namespace polargrain

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/state.hpp"
+#include "dem/cell/box.hpp"
+
+namespace polargrain::dem {
+
+/// A state of the engine's general loop: the box, and each grain as the engine packs one that leaves for
+/// another process, a record of doubles (whole numbers among them by their bits) that begins with its length:
+///
+///     length | place, motion, tag, type, ... | partners and springs of its contacts | more values
+///
+/// The engine believes every length and every partner in it. What is unpacked there has to pass both checks
+/// below.
+struct PackedGrains {
+  Box box;
+  std::size_t history_values = 0;   ///< springs of a contact
+  std::vector<double> values;       ///< the records
+  std::vector<std::size_t> starts;  ///< where each record begins, and where the last ends
+  std::vector<double> rotations;    ///< rad, one a grain, or none
+
+  [[nodiscard]] std::size_t grains() const { return starts.size() - 1; }
+  [[nodiscard]] std::span<const double> record(std::size_t grain) const {
+    return std::span(values).subspan(starts[grain], starts[grain + 1] - starts[grain]);
+  }
+};
+
+/// The first bytes are not looked at: a state that is none of discs (is_disc_state).
+/// @throws RunError when lengths do not fit each other or a number is not finite
+PackedGrains decode_grains(const State& state);
+/// The opposite. `starts` is not needed.
+StatePointer encode(const PackedGrains& state, std::size_t grains);
+
+/// How an engine packs its grains, and what of them never changes.
+struct GrainLayout {
+  static constexpr std::size_t kPlace = 1;  ///< x, y, z; then the velocity; then the tag
+  static constexpr std::size_t kVelocity = 4;
+  static constexpr std::size_t kTag = 7;
+
+  std::size_t head = 0;            ///< values before the contacts, the length among them
+  std::size_t tail = 0;            ///< values behind them
+  bool has_history = true;         ///< contacts are packed
+  std::size_t history_values = 0;  ///< springs of a contact
+  std::size_t spin = 0;            ///< where the spin begins
+  std::vector<std::size_t> fixed;  ///< places in the head that hold the bits of the engine's own grain
+  std::vector<std::vector<double>> heads;  ///< of the engine's own grains, by their tags
+  std::vector<double> radii;               ///< m, by tags
+  double time_step = 0.0;                  ///< s
+};
+
+/// @throws RunError when a record is none of this engine: other grains, lengths that do not fit, partners
+/// that are no grains, a place outside of the box
+void check_records(const PackedGrains& state, const GrainLayout& layout);
+
+}  // namespace polargrain::dem

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <span>
+#include <string>
+
+#include "dem/cell/box.hpp"
+
+namespace polargrain::dem {
+
+/// What a state says of one grain, in the frame of its box.
+struct GrainMotion {
+  double x = 0.0, y = 0.0;    ///< m
+  double vx = 0.0, vy = 0.0;  ///< m/s
+  double spin = 0.0;          ///< rad/s
+  double turned = 0.0;        ///< rotation since the packing, rad
+};
+
+// Bounds of what a state may say. Numbers that no evaluation leaves behind would make lists without end, not
+// answers.
+
+/// What is wrong with the box of a state; empty when it is sound. @param grain_area of all grains, m^2
+std::string box_fault(const Box& box, double grain_area);
+
+/// What is wrong with a grain; empty when it is sound. @param grain its number, for the message
+/// @param radius m @param time_step s; 0: not known, motions need only be finite
+std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& motion, double radius,
+                         double time_step);
+
+/// Most bytes that the state of so many grains may have, and the fewest: many times what contacts of grains
+/// in a plane take, and the places and motions alone.
+std::size_t most_state_bytes(std::size_t grains);
+std::size_t least_state_bytes(std::size_t grains);
+/// Most contacts of so many grains whose springs a state may hold.
+std::size_t most_state_contacts(std::size_t grains);
+
+}  // namespace polargrain::dem

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/state_fault.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "common/error.hpp"
+#include "dem/cell/packed_grains.hpp"
+#include "dem/cell/state_bounds.hpp"
+#include "dem/discs/disc_state.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+void check_discs(const Packing& packing, double area, const State& state) {
+  const DiscSnapshot snapshot = decode_discs(state);
+  if (snapshot.discs.size() != packing.grains.size())
+    throw RunError(fmt::format("this state is of {} grains; the cell has {}", snapshot.discs.size(),
+                               packing.grains.size()));
+  if (const std::string fault = box_fault(snapshot.box, area); !fault.empty()) throw RunError(fault);
+  for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
+    const std::string fault = motion_fault(snapshot.box, k, snapshot.discs[k], packing.grains[k].radius, 0.0);
+    if (!fault.empty()) throw RunError(fault);
+  }
+}
+
+void check_grains(const Packing& packing, double area, const State& state) {
+  const PackedGrains packed = decode_grains(state);
+  if (packed.grains() != packing.grains.size())
+    throw RunError(
+        fmt::format("this state is of {} grains; the cell has {}", packed.grains(), packing.grains.size()));
+  if (const std::string fault = box_fault(packed.box, area); !fault.empty()) throw RunError(fault);
+}
+
+}  // namespace
+
+std::string state_fault(const CellDefinition& definition, const State& state) {
+  const Packing& packing = definition.packing;
+  const std::size_t grains = packing.grains.size();
+  if (state.size() < least_state_bytes(grains) || state.size() > most_state_bytes(grains))
+    return fmt::format("a state has {} bytes; one of {} grains has {} to {}", state.size(), grains,
+                       least_state_bytes(grains), most_state_bytes(grains));
+  if (!state.is_here()) return {};
+  double area = 0.0;
+  for (const Grain& grain : packing.grains) area += std::numbers::pi * grain.radius * grain.radius;
+  try {
+    is_disc_state(state) ? check_discs(packing, area, state) : check_grains(packing, area, state);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+
+#include "common/cell.hpp"
+
+namespace polargrain::dem {
+
+/// The StateCheck of this project's cells (common/state_check.hpp): what can be said of a state without an
+/// engine. Size, kind, number of grains, lengths and partners within it, finite numbers, box and places.
+std::string state_fault(const CellDefinition& definition, const State& state);
+
+}  // namespace polargrain::dem
