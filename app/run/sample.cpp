@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "app/run/sample.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <random>
@@ -59,10 +58,10 @@ void Sample::take(std::span<const coupler::PoolRequest> requests, std::span<cons
     // Reservoir sampling; a generator of its own for each answer, so that nothing has to be remembered.
     ++seen_;
     const std::uint64_t drawn = std::mt19937_64(seen_)() % seen_;
-    if (drawn >= kMost) continue;
-    const std::size_t place = std::min(static_cast<std::size_t>(drawn), answers_.size());
+    const bool is_full = answers_.size() == kMost;
+    if (is_full && drawn >= kMost) continue;
     SampledAnswer answer{requests[k], replies[k].response, replies[k].state->name()};
-    place == answers_.size() ? answers_.push_back(std::move(answer)) : void(answers_[place] = std::move(answer));
+    is_full ? void(answers_[drawn] = std::move(answer)) : answers_.push_back(std::move(answer));
   }
 }
 
