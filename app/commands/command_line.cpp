@@ -38,7 +38,7 @@ Try:
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
   polargrain pack --settle dense400.h5 soft.in -o soft400.h5    bring one to rest under another script
-  polargrain bench --quick                          speed against error of the demo, ten minutes
+  polargrain bench --quick                          speed against error of the demo, some minutes
 
 A run writes history.csv (a row a step), fields.pvd (open it in ParaView), costs.csv, summary.json and run.log.
 Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or written), 3 stopped by a signal
@@ -256,7 +256,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
           "Case whose settings are varied; further ones are compared with it [the demo, with packings]")
       ->expected(0, -1);
   bench_command->add_flag("--quick", bench_options.quick,
-                          "Fewer settings; ten minutes where no case is named");
+                          "Fewer settings; some minutes where no case is named");
   bench_command->add_flag("--resume", bench_options.resume,
                           "Go on where a bench with the same settings was broken off");
   bench_command->add_option("-o,--output", bench_options.directory, "Result directory [bench-results]")
