@@ -14,8 +14,8 @@ TEST(KilledCoordinators, OfRealGrainsLeaveRunsThatGoOnToTheSameBytes) {
   std::filesystem::copy(std::filesystem::path(POLARGRAIN_SOURCE_DIRECTORY) / "cases/biaxial",
                         scratch.path() / "biaxial");
   const std::string arguments =
-      "run biaxial/case.yaml --quiet --set mesh.rectangle.elements=[1,1] --set steps.count=5 "
-      "--set boundary.1.move.u2=-4mm";
+      "run biaxial/case.yaml --quiet --set mesh.rectangle.elements=[2,4] --set steps.count=12 "
+      "--set boundary.1.move.u2=-9.6mm";
   const auto begin = std::chrono::steady_clock::now();
   const Outcome whole = run_in(scratch.path(), POLARGRAIN " " + arguments + " -o whole -w 2");
   ASSERT_EQ(whole.status, 0) << whole.errors;
