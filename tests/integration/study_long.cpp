@@ -66,8 +66,8 @@ TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {
     EXPECT_NEAR(table.at(compared.two_scales, "ratio_1%") / at_one_percent, 1.0,
                 0.1);  // nothing localises yet
   }
-  // The band of the two scales within 6 degrees of the mean of the specimens that have one (specimen 1 fails
-  // in a wedge at a platen).
+  // The band of the two scales beside the mean of the specimens that have one (others fail in a wedge at a platen).
+  // Inclinations of ten specimens of 800 grains, of several versions: 39.9 to 64.1, standard deviation 7.1 degrees.
   double inclination = 0.0;
   int bands = 0;
   for (const std::string seed : {"1", "2", "3"}) {
@@ -80,7 +80,7 @@ TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {
   inclination /= bands;
   const double found = std::abs(table.at("informed-4x8-lc15", "inclination_degrees"));
   std::cout << "[figure] inclination: two scales " << found << ", grains " << inclination << " degrees\n";
-  EXPECT_NEAR(found, inclination, 6.0);
+  EXPECT_NEAR(found, inclination, 2.0 * 7.1 / std::sqrt(bands));  // 95 %
 }
 
 }  // namespace
