@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What carrying an answer of a cell along its tangent misses (docs/adaptivity.md, 2): the demonstration's packing
-// along a biaxial path in increments of 1e-3, and from several places on it the cell run over an offset against the
-// answer that is carried there; how the settings of the cell change that; and the scatter of its answers. Shares of
-// the confining pressure.
+// What carrying an answer of a cell along its tangent misses (docs/adaptivity.md, 2): the demonstration's
+// packing along a biaxial path in increments of 1e-3, and from several places on it the cell run over an
+// offset against the answer that is carried there; how the settings of the cell change that; and the scatter
+// of its answers. Shares of the confining pressure.
 //
-//   build/release/bench/carry_bench > carry.log      from the root of the project; the table goes to standard error
+//   build/release/bench/carry_bench > carry.log      from the root of the project; the table goes to standard
+//   error
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -47,8 +48,9 @@ bool take_increment(DrivenCell& cell) {
 
 std::string table() {
   DrivenCell cell(test::demo_cell());
-  std::string text = fmt::format("{:>10} {:>8} {:>8} {:>9} {:>9} {:>10} {:>10} {:>8}\n", "increments", "5e-4 on",
-                                 "1e-3 on", "5e-4 back", "1e-3 back", "shear 5e-4", "shear 1e-3", "zero");
+  std::string text =
+      fmt::format("{:>10} {:>8} {:>8} {:>9} {:>9} {:>10} {:>10} {:>8}\n", "increments", "5e-4 on", "1e-3 on",
+                  "5e-4 back", "1e-3 back", "shear 5e-4", "shear 1e-3", "zero");
   for (int done = 0; done <= 16; ++done) {
     if (done == 0 || done == 2 || done == 4 || done == 8 || done == 16) {
       const DrivenCell::Vector on = onward(cell);
@@ -66,16 +68,23 @@ std::string table() {
 std::string volume() {
   DrivenCell cell(test::demo_cell());
   return fmt::format("at rest, strains of norm 1e-3: compression {:.4f}, deviatoric {:.4f}, shear {:.4f}\n",
-                     missed(cell, 1e-3 * kCompression), missed(cell, 1e-3 * kDeviatoric), missed(cell, 1e-3 * kShear));
+                     missed(cell, 1e-3 * kCompression), missed(cell, 1e-3 * kDeviatoric),
+                     missed(cell, 1e-3 * kShear));
 }
 
-/// How the settings of a cell change what its tangent knows: the share of sliding contacts that it takes into account.
+/// How the settings of a cell change what its tangent knows: the share of sliding contacts that it takes into
+/// account.
 std::string settings() {
-  std::string text = fmt::format("{:>9} {:>8} {:>10} {:>8} {:>8} {:>8} {:>12}\n", "inertial", "damping", "tolerance",
-                                 "sliding", "1e-3 on", "zero", "evaluations");
-  for (const auto& [inertial_number, damping, tolerance] :
-       {std::array{2.4e-3, 0.24, 5e-3}, {6e-4, 0.5, 5e-3}, {6e-4, 0.24, 5e-3}, {6e-4, 0.12, 5e-3}, {6e-4, 0.12, 1e-3},
-        {6e-4, 0.06, 5e-3}, {2e-4, 0.12, 5e-3}, {1e-4, 0.12, 1e-4}}) {
+  std::string text = fmt::format("{:>9} {:>8} {:>10} {:>8} {:>8} {:>8} {:>12}\n", "inertial", "damping",
+                                 "tolerance", "sliding", "1e-3 on", "zero", "evaluations");
+  for (const auto& [inertial_number, damping, tolerance] : {std::array{2.4e-3, 0.24, 5e-3},
+                                                            {6e-4, 0.5, 5e-3},
+                                                            {6e-4, 0.24, 5e-3},
+                                                            {6e-4, 0.12, 5e-3},
+                                                            {6e-4, 0.12, 1e-3},
+                                                            {6e-4, 0.06, 5e-3},
+                                                            {2e-4, 0.12, 5e-3},
+                                                            {1e-4, 0.12, 1e-4}}) {
     CellDefinition definition = test::demo_cell();
     definition.control.inertial_number = inertial_number;
     definition.control.damping = damping;
@@ -94,14 +103,15 @@ std::string settings() {
       on += missed(cell, 1e-3 * onward(cell)) / kIncrements;
       zero += missed(cell, DrivenCell::Vector::Constant(1e-13)) / kIncrements;
     }
-    text += fmt::format("{:>9.1e} {:>8} {:>10.0e} {:>8.3f} {:>8.4f} {:>8.5f} {:>12.2f}\n", inertial_number, damping,
-                        tolerance, sliding, on, zero, static_cast<double>(evaluations) / kIncrements);
+    text +=
+        fmt::format("{:>9.1e} {:>8} {:>10.0e} {:>8.3f} {:>8.4f} {:>8.5f} {:>12.2f}\n", inertial_number,
+                    damping, tolerance, sliding, on, zero, static_cast<double>(evaluations) / kIncrements);
   }
   return text;
 }
 
-/// The scatter of a cell's answers: 30 increments from one state, which differ from 1e-3 onward by up to `spread` of
-/// that in each component, about the plane through them that fits best. Standard deviations.
+/// The scatter of a cell's answers: 30 increments from one state, which differ from 1e-3 onward by up to
+/// `spread` of that in each component, about the plane through them that fits best. Standard deviations.
 std::string scatter(double spread) {
   DrivenCell cell(test::demo_cell());
   for (int k = 0; k < 16; ++k)
@@ -113,15 +123,18 @@ std::string scatter(double spread) {
   std::mt19937 random(1);  // its numbers are the same everywhere
   const auto uniform = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
   for (int k = 0; k < kSamples; ++k) {
-    const DrivenCell::Vector strain = on + spread * kIncrement * DrivenCell::Vector(uniform(), uniform(), uniform());
+    const DrivenCell::Vector strain =
+        on + spread * kIncrement * DrivenCell::Vector(uniform(), uniform(), uniform());
     strains.row(k) << 1.0, strain.transpose() / kIncrement;
     stresses.row(k) = DrivenCell::stress(cell.answer(strain).response).transpose() / kPressure;
   }
   const Eigen::Matrix<double, 4, 3> plane = strains.colPivHouseholderQr().solve(stresses);
   const Eigen::Matrix<double, kSamples, 3> off = stresses - strains * plane;
-  const DrivenCell::Vector deviation = (off.colwise().squaredNorm() / (kSamples - 4.0)).cwiseSqrt().transpose();
-  return fmt::format("scatter of increments that differ by up to {:.0f} %: s11 {:.1e}, s22 {:.1e}, s12 {:.1e}\n",
-                     100.0 * spread, deviation(0), deviation(1), deviation(2));
+  const DrivenCell::Vector deviation =
+      (off.colwise().squaredNorm() / (kSamples - 4.0)).cwiseSqrt().transpose();
+  return fmt::format(
+      "scatter of increments that differ by up to {:.0f} %: s11 {:.1e}, s22 {:.1e}, s12 {:.1e}\n",
+      100.0 * spread, deviation(0), deviation(1), deviation(2));
 }
 
 }  // namespace

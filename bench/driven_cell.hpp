@@ -12,21 +12,23 @@
 
 namespace polargrain {
 
-/// A cell led by Newton's method with its own tangent, without finite elements. Stresses and strains in a plane are
-/// (11, 22, 12), Pa, tension positive; the shear strain is h12 = h21.
+/// A cell led by Newton's method with its own tangent, without finite elements. Stresses and strains in a
+/// plane are (11, 22, 12), Pa, tension positive; the shear strain is h12 = h21.
 class DrivenCell {
  public:
   using Vector = Eigen::Vector3d;
   using Matrix = Eigen::Matrix3d;
 
   struct Limits {
-    double tolerance = 0.0;        ///< of each given stress, Pa
+    double tolerance = 0.0;  ///< of each given stress, Pa
     int iterations = 20;
     double largest_strain = 1e-3;  ///< of a correction
   };
 
-  explicit DrivenCell(const CellDefinition& definition) : cell_(dem::make_cell_service(definition)), at_(cell_->initial()) {}
-  DrivenCell(const CellDefinition& definition, CellReply at) : cell_(dem::make_cell_service(definition)), at_(std::move(at)) {}
+  explicit DrivenCell(const CellDefinition& definition)
+      : cell_(dem::make_cell_service(definition)), at_(cell_->initial()) {}
+  DrivenCell(const CellDefinition& definition, CellReply at)
+      : cell_(dem::make_cell_service(definition)), at_(std::move(at)) {}
 
   static Vector stress(const Response& response) {
     return {response.stress(k11), response.stress(k22), 0.5 * (response.stress(k12) + response.stress(k21))};

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a cell has to be loaded where the stress falls far below that of its packing (docs/hard_cells.md): 100 discs
-// from 100 kPa to 1 kPa of all-round pressure with several settings, and what these settings miss at 16 kPa.
+// How a cell has to be loaded where the stress falls far below that of its packing (docs/hard_cells.md): 100
+// discs from 100 kPa to 1 kPa of all-round pressure with several settings, and what these settings miss at 16
+// kPa.
 //
-//   build/release/bench/soft_cell_bench > soft.log   from the root of the project; the tables go to standard error
+//   build/release/bench/soft_cell_bench > soft.log   from the root of the project; the tables go to standard
+//   error
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -31,8 +33,8 @@ CellDefinition cell_of(const Setting& setting) {
   return definition;
 }
 
-/// Brings the cell under an all-round pressure, in steps of a fifth of what it is under, cut six times at most; each
-/// is balanced to 1 % of its pressure. @returns the pressure it got to, Pa
+/// Brings the cell under an all-round pressure, in steps of a fifth of what it is under, cut six times at
+/// most; each is balanced to 1 % of its pressure. @returns the pressure it got to, Pa
 double unload(DrivenCell& cell, double pressure) {
   double now = 1e5;
   double factor = 0.8;
@@ -55,7 +57,8 @@ std::string ways_down() {
                                  "gets to, kPa", "evaluations", "DEM steps");
   for (const Setting& setting :
        {Setting{20, 0.12, 5e-3}, Setting{400, 0.12, 5e-3}, Setting{20, 0.12, 1e-3}, Setting{400, 0.12, 1e-3},
-        Setting{20, 0.12, 1e-4}, Setting{400, 0.12, 1e-4}, Setting{20, 0.06, 1e-4}, Setting{400, 0.06, 1e-4}, Setting{950, 0.06, 1e-4}}) {
+        Setting{20, 0.12, 1e-4}, Setting{400, 0.12, 1e-4}, Setting{20, 0.06, 1e-4}, Setting{400, 0.06, 1e-4},
+        Setting{950, 0.06, 1e-4}}) {
     DrivenCell cell(cell_of(setting));
     const double reached = unload(cell, 1e3);
     text += fmt::format("{:>6} {:>8} {:>10.0e} {:>14.2f} {:>12} {:>10}\n", setting.ramp, setting.damping,
@@ -74,10 +77,11 @@ std::string errors() {
   DrivenCell way(cell_of(careful));
   const double reached = unload(way, 16e3);
   const auto& contacts = way.at().diagnostics;
-  std::string text = fmt::format("at {:.2f} kPa, {:.2f} contacts a grain: errors of the change of stress and of the "
-                                 "derivative along the strain\n{:>16} {:>6} {:>8} {:>10} {:>8} {:>10} {:>10}\n",
-                                 1e-3 * reached, contacts.coordination_number, "strain", "ramp", "damping", "tolerance",
-                                 "change", "derivative", "DEM steps");
+  std::string text = fmt::format(
+      "at {:.2f} kPa, {:.2f} contacts a grain: errors of the change of stress and of the "
+      "derivative along the strain\n{:>16} {:>6} {:>8} {:>10} {:>8} {:>10} {:>10}\n",
+      1e-3 * reached, contacts.coordination_number, "strain", "ramp", "damping", "tolerance", "change",
+      "derivative", "DEM steps");
   const double half = 1.0 / std::sqrt(2.0);
   for (const Strain& strain : {Strain{"deviatoric 1e-5", 1e-5 * DrivenCell::Vector(half, -half, 0.0)},
                                Strain{"shear 1e-5", 1e-5 * DrivenCell::Vector(0.0, 0.0, half)},
@@ -87,14 +91,16 @@ std::string errors() {
     const Response truth = DrivenCell(cell_of({10000, 0.06, 1e-6}), way.at()).answer(strain.value).response;
     const DrivenCell::Vector change = DrivenCell::stress(truth) - before;
     const DrivenCell::Vector derivative = DrivenCell::tangent(truth) * strain.value;
-    for (const Setting& setting : {Setting{20, 0.12, 5e-3}, Setting{20, 0.12, 1e-4}, Setting{20, 0.12, 1e-6},
-                                   Setting{400, 0.12, 1e-4}, Setting{400, 0.06, 1e-4}, Setting{950, 0.06, 1e-4}}) {
+    for (const Setting& setting :
+         {Setting{20, 0.12, 5e-3}, Setting{20, 0.12, 1e-4}, Setting{20, 0.12, 1e-6}, Setting{400, 0.12, 1e-4},
+          Setting{400, 0.06, 1e-4}, Setting{950, 0.06, 1e-4}}) {
       const CellReply reply = DrivenCell(cell_of(setting), way.at()).answer(strain.value);
-      text += fmt::format("{:>16} {:>6} {:>8} {:>10.0e} {:>8.3f} {:>10.3f} {:>10}\n", strain.name, setting.ramp,
-                          setting.damping, setting.tolerance,
-                          (DrivenCell::stress(reply.response) - before - change).norm() / change.norm(),
-                          (DrivenCell::tangent(reply.response) * strain.value - derivative).norm() / derivative.norm(),
-                          reply.diagnostics.dem_steps);
+      text += fmt::format(
+          "{:>16} {:>6} {:>8} {:>10.0e} {:>8.3f} {:>10.3f} {:>10}\n", strain.name, setting.ramp,
+          setting.damping, setting.tolerance,
+          (DrivenCell::stress(reply.response) - before - change).norm() / change.norm(),
+          (DrivenCell::tangent(reply.response) * strain.value - derivative).norm() / derivative.norm(),
+          reply.diagnostics.dem_steps);
     }
   }
   return text;
@@ -131,6 +137,7 @@ std::string tangents() {
 
 int main() {
   polargrain::dem::start_engine_process();
-  const std::string text = polargrain::ways_down() + "\n" + polargrain::errors() + "\n" + polargrain::tangents();
+  const std::string text =
+      polargrain::ways_down() + "\n" + polargrain::errors() + "\n" + polargrain::tangents();
   std::fputs(text.c_str(), stderr);  // the engine talks on standard output
 }

@@ -66,8 +66,9 @@ TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {
     EXPECT_NEAR(table.at(compared.two_scales, "ratio_1%") / at_one_percent, 1.0,
                 0.1);  // nothing localises yet
   }
-  // The band of the two scales beside the mean of the specimens that have one (others fail in a wedge at a platen).
-  // Inclinations of ten specimens of 800 grains, of several versions: 39.9 to 64.1, standard deviation 7.1 degrees.
+  // The band of the two scales beside the mean of the specimens that have one (others fail in a wedge at a
+  // platen). Inclinations of ten specimens of 800 grains, of several versions: 39.9 to 64.1, standard
+  // deviation 7.1 degrees.
   double inclination = 0.0;
   int bands = 0;
   for (const std::string seed : {"1", "2", "3"}) {
