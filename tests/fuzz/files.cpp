@@ -22,7 +22,7 @@ class Place {
  public:
   Place() : path_("/dev/shm/polargrain_fuzz_" + std::to_string(getpid())) {
     std::filesystem::create_directories(path_);
-    std::ofstream(path_ / "fake.in") << "young 1e8\n";
+    std::ofstream(path_ / "fake.in") << "pair_coeff * *\n";
     std::ofstream(path_ / "grains.csv")
         << "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n";
   }

@@ -163,6 +163,7 @@ TEST(StateBook, OneKeeperIsEnough) {
 }
 
 using Numbers = std::vector<std::size_t>;
+const auto kAnything = [](const Task&) { return true; };
 
 TEST(TaskQueue, AWorkerTakesItsOwnFirstAndNeverNothing) {
   std::vector<Task> tasks(8);
@@ -172,12 +173,25 @@ TEST(TaskQueue, AWorkerTakesItsOwnFirstAndNeverNothing) {
   for (const std::size_t task : {3, 4}) queue.add_for(8, task);
   queue.add(5);
   const auto two = [](const Task&) { return std::size_t{2}; };
-  EXPECT_EQ(queue.take(8, two), (Numbers{3, 4}));
-  EXPECT_EQ(queue.take(8, two), Numbers{5});
-  EXPECT_EQ(queue.take(8, two), (Numbers{2, 1}));  // what its owner would come to last
-  EXPECT_EQ(queue.take(7, two), Numbers{0});
-  EXPECT_EQ(queue.take(7, two), Numbers{});
+  EXPECT_EQ(queue.take(8, kAnything, two), (Numbers{3, 4}));
+  EXPECT_EQ(queue.take(8, kAnything, two), Numbers{5});
+  EXPECT_EQ(queue.take(8, kAnything, two), (Numbers{2, 1}));  // what its owner would come to last
+  EXPECT_EQ(queue.take(7, kAnything, two), Numbers{0});
+  EXPECT_EQ(queue.take(7, kAnything, two), Numbers{});
   EXPECT_EQ(queue.size(), 0u);
+}
+
+TEST(TaskQueue, AWorkerIsGivenOnlyWhatItMayHave) {
+  std::vector<Task> tasks(2);
+  tasks[0].definition = 1;
+  TaskQueue queue;
+  queue.begin(tasks);
+  for (const std::size_t task : {0, 1}) queue.add(task);
+  const auto one = [](const Task&) { return std::size_t{1}; };
+  const auto not_the_first = [](const Task& task) { return task.definition != 1; };
+  EXPECT_EQ(queue.take(7, not_the_first, one), Numbers{1});
+  EXPECT_EQ(queue.take(7, not_the_first, one), Numbers{});
+  EXPECT_EQ(queue.take(8, kAnything, one), Numbers{0});
 }
 
 TEST(TaskQueue, OnlyTheKeeperOfAStateIsAskedForIt) {
@@ -187,7 +201,7 @@ TEST(TaskQueue, OnlyTheKeeperOfAStateIsAskedForIt) {
   queue.begin(tasks);
   for (const std::size_t task : {0, 1}) queue.add_for(7, task);
   const auto ten = [](const Task&) { return std::size_t{10}; };
-  EXPECT_EQ(queue.take(8, ten), Numbers{});
+  EXPECT_EQ(queue.take(8, kAnything, ten), Numbers{});
   EXPECT_EQ(queue.take_all_of(7), (Numbers{0, 1}));
   EXPECT_EQ(queue.size(), 0u);
 }
@@ -200,7 +214,7 @@ TEST(TaskQueue, WhatDoesNotGoTogetherGoesApart) {
   queue.begin(tasks);
   for (std::size_t task = 0; task < tasks.size(); ++task) queue.add(task);
   const auto ten = [](const Task&) { return std::size_t{10}; };
-  for (std::size_t task = 0; task < tasks.size(); ++task) EXPECT_EQ(queue.take(7, ten), Numbers{task});
+  for (std::size_t task = 0; task < tasks.size(); ++task) EXPECT_EQ(queue.take(7, kAnything, ten), Numbers{task});
 }
 
 }  // namespace
