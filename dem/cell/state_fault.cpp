@@ -43,6 +43,9 @@ std::string state_fault(const CellDefinition& definition, const State& state) {
     return fmt::format("a state has {} bytes; one of {} grains has {} to {}", state.size(), grains,
                        least_state_bytes(grains), most_state_bytes(grains));
   if (!state.is_here()) return {};
+  // Such a cell never makes one; its loop would take up, with other contacts, whatever stands in it.
+  if (definition.control.loop == CellLoop::engine && is_disc_state(state))
+    return "a state of the loop over discs, of a cell that runs in the engine's loop";
   double area = 0.0;
   for (const Grain& grain : packing.grains) area += std::numbers::pi * grain.radius * grain.radius;
   try {

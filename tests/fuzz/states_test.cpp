@@ -100,6 +100,17 @@ TEST(FlippedStates, OfDiscsAreRefusedOrGoneOnFrom) {
   EXPECT_NO_THROW(sheared(box, 3));
 }
 
+TEST(FlippedStates, OfDiscsAreNoneOfTheEnginesLoop) {
+  CellDefinition cell = test::lattice(kSide, kSide, CellRotations::free);
+  const DiscBox::Definition discs = discs_of(cell.packing);
+  DiscBox box(discs);
+  box.restore(at_rest(cell.packing, discs.combination));
+  const StatePointer state = sheared(box, 3);
+  EXPECT_EQ(state_fault(cell, *state), "");
+  cell.control.loop = CellLoop::engine;
+  EXPECT_NE(state_fault(cell, *state).find("engine's loop"), std::string::npos);
+}
+
 /// As LIGGGHTS packs a lattice of discs with li_chu rolling: four partners each, three springs a contact.
 struct Packed {
   PackedGrains state;
