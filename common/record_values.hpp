@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -22,6 +24,14 @@ struct RecordValues {
 /// Appends the values of a record. @param with_costs also the fields of FieldUse::cost
 template <Described Record>
 void append(RecordValues& values, const Record& record, bool with_costs);
+
+/// Whether no number of a record is infinite or none at all.
+template <Described Record>
+bool is_finite(const Record& record) {
+  RecordValues values;
+  append(values, record, true);
+  return std::ranges::all_of(values.numbers, [](double number) { return std::isfinite(number); });
+}
 
 /// Takes records out of values, in the order in which they were appended.
 class RecordReader {

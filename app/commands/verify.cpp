@@ -72,7 +72,8 @@ void check_cells(const coupler::Case& the_case, const std::vector<SampledAnswer>
   for (const auto& [region, material] : the_case.problem.materials)
     materials.push_back(the_case.materials.at(the_case.regions.at(region))->make(&pool));
   std::vector<coupler::PoolRequest> requests;
-  for (const SampledAnswer& answer : answers) requests.push_back(answer.request);
+  for (const SampledAnswer& answer : answers)
+    requests.push_back({static_cast<std::uint32_t>(answer.definition), answer.asked});
   const std::vector<CellReply> replies = pool.evaluate(requests);
   std::size_t same = 0;
   for (std::size_t k = 0; k < answers.size(); ++k) same += answers[k].same_answer(replies[k]) ? 1 : 0;

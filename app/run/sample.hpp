@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "coupler/checkpoint/checkpoint.hpp"
@@ -12,11 +13,22 @@ namespace polargrain::app {
 
 /// What a cell was asked and what it answered, in bits.
 struct SampledAnswer {
-  coupler::PoolRequest request;  ///< its state with bytes; null: from the packing
+  std::int64_t definition = 0;  ///< number of the cell's definition in the pool
+  CellRequest asked;            ///< its state with bytes; null: from the packing
   Response response;
-  ContentName state;  ///< name of the state that was answered
+  std::string state;  ///< name of the state that was answered, 32 hexadecimal digits
+
   [[nodiscard]] bool same_answer(const CellReply& reply) const;
 };
+
+template <RecordOf<SampledAnswer> Record, class Visit>
+void describe(Record& answer, Visit&& visit) {
+  visit(FieldNotes{"definition", "", "number of the material whose cell was asked"}, answer.definition);
+  visit(FieldNotes{"start", "", "the state it was asked from; none: the packing"}, answer.asked.state);
+  visit(FieldNotes{"increment", "", "what it was asked"}, answer.asked.increment);
+  visit(FieldNotes{"response", "", "what it answered"}, answer.response);
+  visit(FieldNotes{"state", "", "name of the state that was answered"}, answer.state);
+}
 
 /// Some of all answers of a run, so that anybody can ask again (polargrain verify): sixteen, each of all with the same
 /// chance. Which ones depends on their order alone, not on workers or time.

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "common/error.hpp"
+#include "common/record_values.hpp"
 #include "coupler/pool/connection.hpp"
 #include "coupler/pool/state_cache.hpp"
 #include "coupler/protocol/messages.hpp"
@@ -28,21 +29,14 @@ constexpr std::chrono::seconds kSilence{10};
 
 /// An answer with numbers that are none is no answer: who sent it would be taken for a liar.
 CellReply honest(CellReply reply) {
-  const CellDiagnostics& d = reply.diagnostics;
-  bool finite = reply.response.quality == Quality::failed ||
-                (reply.response.stress.allFinite() && reply.response.tangent.allFinite());
-  for (const double value :
-       {d.unbalanced_force_ratio, d.unbalanced_moment_ratio, d.void_ratio, d.coordination_number,
-        d.sliding_fraction, d.multiplier, d.rolling_fraction, d.rattlers, d.mean_rotation, d.rotation_spread,
-        d.fabric[0], d.fabric[1], d.fabric[2]})
-    finite = finite && std::isfinite(value);
+  const bool finite = is_finite(reply.diagnostics) && (reply.response.quality == Quality::failed || is_finite(reply.response));
   if (finite) return reply;
   CellReply failed;
   failed.response.quality = Quality::failed;
   failed.response.step_factor = 0.5;
   failed.response.message = "the cell's answer holds numbers that are not finite";
-  failed.diagnostics.dem_steps = d.dem_steps;
-  failed.diagnostics.engine_seconds = d.engine_seconds;
+  failed.diagnostics.dem_steps = reply.diagnostics.dem_steps;
+  failed.diagnostics.engine_seconds = reply.diagnostics.engine_seconds;
   return failed;
 }
 

@@ -14,7 +14,7 @@ namespace {
 struct KilledCase {
   std::string name;
   std::string engine;  ///< script of the fake engine
-  std::string material;
+  std::string model;  ///< and its keys
   int kills;
 };
 
@@ -27,23 +27,7 @@ class KilledCoordinators : public ::testing::TestWithParam<KilledCase> {};
 TEST_P(KilledCoordinators, LeaveRunsThatGoOnToTheSameBytes) {
   const KilledCase& killed = GetParam();
   const Scratch scratch("checkpoint_kill_" + killed.name);
-  write(scratch.path() / "fake.in", "sleep_milliseconds 1\n" + killed.engine + "\n");
-  write(scratch.path() / "grains.csv",
-        "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
-  write(scratch.path() / "case.yaml",
-        "title: A run that is killed\n"
-        "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [2, 2]}}\n"
-        "materials: {sand: {" +
-            killed.material +
-            ", script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}}\n"
-            "regions: {all: sand}\n"
-            "boundary:\n"
-            "  - {on: bottom, fix: [u1, u2]}\n"
-            "  - {on: top, fix: [u1], move: {u2: -8 mm}}\n"
-            "  - {on: [left, right], pressure: 100 kPa}\n"
-            "steps: {count: 12, tolerance: 1e-6}\n"
-            "monitors: {top_force: {on: top, reaction: u2}}\n"
-            "output: {every: 2}\n");
+  write_case(scratch.path(), {"sleep_milliseconds 1\n" + killed.engine, "[2, 2]", "count: 12, tolerance: 1e-6", killed.model, "{every: 2}"});
   const auto begin = std::chrono::steady_clock::now();
   const Outcome whole = run_in(scratch.path(), POLARGRAIN " run case.yaml -o whole -w 2 --quiet");
   ASSERT_EQ(whole.status, 0) << whole.errors;
@@ -67,10 +51,10 @@ TEST_P(KilledCoordinators, LeaveRunsThatGoOnToTheSameBytes) {
 
 // Cells with softening and cuts: the increments that the fake takes are less than half a step.
 INSTANTIATE_TEST_SUITE_P(Models, KilledCoordinators,
-                         ::testing::Values(KilledCase{"cell", "fail_beyond 4.5e-4", "model: cell", 30},
+                         ::testing::Values(KilledCase{"cell", "fail_beyond 4.5e-4", "cell", 30},
                                            KilledCase{"adaptive", "softening 0.05",
-                                                      "model: adaptive, tolerance: 1 %, audit: 20 %", 30},
-                                           KilledCase{"informed", "", "model: informed, nu: 0.25", 30}),
+                                                      "adaptive, tolerance: 1 %, audit: 20 %", 30},
+                                           KilledCase{"informed", "", "informed, nu: 0.25", 30}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

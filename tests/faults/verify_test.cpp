@@ -10,20 +10,7 @@ namespace {
 class Verify : public ::testing::Test {
  protected:
   Verify() : scratch_(std::string("verify_") + ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    write(scratch_.path() / "fake.in", "softening 0.1\n");
-    write(scratch_.path() / "grains.csv",
-          "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
-    write(scratch_.path() / "case.yaml",
-          "title: A run with a \"proof\"\n"
-          "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}}\n"
-          "materials: {sand: {model: cell, script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}}\n"
-          "regions: {all: sand}\n"
-          "boundary:\n"
-          "  - {on: bottom, fix: [u1, u2]}\n"
-          "  - {on: top, fix: [u1], move: {u2: -8 mm}}\n"
-          "  - {on: [left, right], pressure: 100 kPa}\n"
-          "steps: {count: 4, tolerance: 1e-6}\n"
-          "monitors: {top_force: {on: top, reaction: u2}}\n");
+    write_case(scratch_.path(), {"softening 0.1", "[1, 2]", "count: 4, tolerance: 1e-6"});
   }
   [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
     return run_in(scratch_.path(), POLARGRAIN " " + arguments);
