@@ -16,7 +16,9 @@ namespace polargrain {
 
 /// Which tangent a cell returns with its stress: affine motion of the grains (cheap, far too stiff once
 /// contacts slide), or the contact network condensed onto its own equilibrium (one sparse factorisation).
-enum class CellTangent { none, voigt, condensed };
+/// `cosserat`: the condensed one with the mean rotation of the grains prescribed, also where their rotations are
+/// free: what the network would answer to a skew strain and a curvature.
+enum class CellTangent { none, voigt, condensed, cosserat };
 
 /// What is prescribed of the rotations of the grains (docs/theory.md, C.6): nothing, so that the stress is
 /// symmetric (mode 1), or their mean, so that the cell also answers to the micro-rotation with a skew stress
@@ -29,7 +31,7 @@ enum class CellRotations { free, controlled };
 enum class CellLoop { automatic, engine, plain };
 
 constexpr Choices choices_of(CellTangent) {
-  return {0, 3};
+  return {0, 4};
 }
 constexpr Choices choices_of(CellRotations) {
   return {0, 2};
@@ -67,7 +69,7 @@ void describe(Record& control, Visit&& visit) {
   visit(FieldNotes{"least_steps", "1", "fewest DEM steps of a loading ramp"}, control.least_steps);
   visit(FieldNotes{"most_relaxation_steps", "1", "DEM steps after which an answer is unreliable"},
         control.most_relaxation_steps);
-  visit(FieldNotes{"tangent", "", "0 none, 1 Voigt, 2 condensed"}, control.tangent);
+  visit(FieldNotes{"tangent", "", "0 none, 1 Voigt, 2 condensed, 3 condensed with the mean rotation prescribed"}, control.tangent);
   visit(FieldNotes{"rotations", "", "0 free, 1 controlled"}, control.rotations);
   visit(FieldNotes{"loop", "", "0 automatic, 1 the engine's own, 2 plain"}, control.loop);
 }

@@ -135,6 +135,12 @@ class Reader {
 
 }  // namespace
 
+double Packing::mean_radius() const {
+  double sum = 0.0;
+  for (const Grain& grain : grains) sum += grain.radius;
+  return sum / static_cast<double>(grains.size());
+}
+
 Packing read_packing(const std::filesystem::path& file) {
   if (file.extension() == ".h5") return read_packing_file(file).packing;
   return Reader(file).read();

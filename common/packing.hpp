@@ -50,6 +50,8 @@ struct Packing {
   StatePointer state;
 
   [[nodiscard]] double volume() const { return box.determinant() * thickness; }
+  /// Mean radius of the grains, m.
+  [[nodiscard]] double mean_radius() const;
 };
 
 template <RecordOf<Packing> Record, class Visit>

@@ -157,6 +157,7 @@ class Run {
         return false;
       }
       log_notes();
+      if (!left_out_) warn_of_left_out();
       if (step == case_.steps() || is_due()) save_or_warn();
       observer_.end_step(report.time);
     }
@@ -273,6 +274,12 @@ class Run {
     }
   }
 
+  void warn_of_left_out() {
+    const std::string text = solver_->left_out();
+    left_out_ = !text.empty();
+    if (left_out_) warn(text);
+  }
+
   /// @returns what to tell the user of it
   std::string write_replay_of(const coupler::CellFailure& failure) {
     const std::filesystem::path replay = directory_ / "replay";
@@ -360,6 +367,7 @@ class Run {
   RunFiles files_;
   RunRecord record_;
   int first_step_ = 0;
+  bool left_out_ = false;             ///< it was said what small deformation leaves out
   int saved_step_ = -1;               ///< of the checkpoint on disk; -1: there is none
   std::unique_ptr<coupler::Checkpoint> last_;  ///< after the last committed step
   coupler::PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from

@@ -10,7 +10,7 @@
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/adaptivity/strain_path.hpp"
-#include "fem/material/rotation.hpp"
+#include "coupler/cells/cell_increment.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -25,8 +25,10 @@ void make_symmetric(CellReply& reply) {
 }  // namespace
 
 AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat,
-                                   const AdaptivityOptions& options)
-    : calls_(std::move(calls)), cosserat_(cosserat), options_(options) {}
+                                   const AdaptivityOptions& options, const std::string& note)
+    : calls_(std::move(calls)), cosserat_(cosserat), options_(options) {
+  if (!note.empty()) notes_.push_back(note);
+}
 
 void AdaptiveMaterial::allocate(std::size_t points) {
   Cell packing{packing_at_rest(calls_, notes_), {}};
@@ -68,8 +70,7 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
 }
 
 Eigen::Matrix2d AdaptiveMaterial::gradient_of_step(std::size_t point) const {
-  const Increment& increment = increments_[point];
-  return (about_middle_ ? fem::about_start(increment) : increment).displacement_gradient;
+  return increment_for_cell(increments_[point]).displacement_gradient;
 }
 
 double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
@@ -118,7 +119,7 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
   if (!unmoved.curvature.known()) {
     // Nothing can be said before one run has shown how the response curves: the farthest point goes ahead.
     return {*std::max_element(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-      return target_[a].squaredNorm() < target_[b].squaredNorm();
+      return size_of(target_[a]) < size_of(target_[b]);
     })};
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {

@@ -44,14 +44,15 @@ enum class Source : int {
 class AdaptiveMaterial : public fem::Material {
  public:
   /// @param calls must live as long as the material
-  AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat, const AdaptivityOptions& options);
+  /// @param note what the user is to know of the parameters; may be empty
+  AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat, const AdaptivityOptions& options,
+                   const std::string& note = {});
 
   void allocate(std::size_t points) override;
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
   /// Runs the audits of the step; tightens the tolerance worked with when they break the one asked for.
   void commit() override;
   void revert() override;
-  void use_large_rotations() override { about_middle_ = true; }
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
@@ -117,7 +118,6 @@ class AdaptiveMaterial : public fem::Material {
   CellCalls calls_;
   CosseratParameters cosserat_;
   AdaptivityOptions options_;
-  bool about_middle_ = false;  ///< increments come with gradients about the middle of the step
   double confining_ = 0.0;     ///< mean in-plane pressure of the packing, Pa
   ErrorEstimate estimate_;
   double turn_tolerance_ =

@@ -38,8 +38,9 @@ double Curvature::over(double size) const {
 }
 
 double size_of(const Eigen::Matrix2d& offset) {
-  const Eigen::Matrix2d volume = 0.5 * offset.trace() * Eigen::Matrix2d::Identity();
-  return std::sqrt((offset - volume).squaredNorm() + kVolume * kVolume * volume.squaredNorm());
+  const Eigen::Matrix2d strain = symmetric(offset);
+  const Eigen::Matrix2d volume = 0.5 * strain.trace() * Eigen::Matrix2d::Identity();
+  return std::sqrt((strain - volume).squaredNorm() + kVolume * kVolume * volume.squaredNorm());
 }
 
 double ErrorEstimate::of(const Response& answer, const Curvature& curvature,

@@ -9,22 +9,18 @@
 #include "common/error.hpp"
 #include "common/record_archive.hpp"
 #include "common/record_table.hpp"
+#include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cell_noise.hpp"
-#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
-namespace {
-
-bool is_zero(const Increment& increment) {
-  return increment.displacement_gradient.isZero(0.0) && increment.micro_rotation == 0.0 &&
-         increment.curvature.isZero(0.0);
-}
-
-}  // namespace
 
 CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
-                           const std::optional<CosseratParameters>& cosserat)
-    : calls_(calls_of(pool, definition)), cosserat_(cosserat) {}
+                           const std::optional<CosseratParameters>& cosserat, const std::string& note)
+    : calls_(calls_of(pool, definition)), cosserat_(cosserat) {
+  if (!note.empty()) notes_.push_back(note);
+  const CellDefinition& cell = pool.definition(definition);
+  if (cell.control.rotations == CellRotations::controlled) mean_radius_ = cell.packing.mean_radius();
+}
 
 void CellMaterial::allocate(std::size_t points) {
   PointState start;
@@ -39,9 +35,7 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (is_zero(increments[point])) continue;
-    const Increment& increment = increments[point];
-    requests.push_back(
-        {committed_[point].cell.state, about_middle_ ? fem::about_start(increment) : increment});
+    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
     points.push_back(point);
   }
   std::vector<CellReply> replies = calls_.evaluate(requests, points);
@@ -54,7 +48,7 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
     const PointState& state = trial_[point];
     responses[point] =
         cosserat_ ? state.cosserat.joined_to(state.cell.response, *cosserat_) : state.cell.response;
-    responses[point].noise = noise_of(trial_[point].cell);
+    responses[point].noise = noise_of(trial_[point].cell, mean_radius_);
   }
 }
 

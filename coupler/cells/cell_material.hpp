@@ -20,10 +20,9 @@ class CellMaterial : public fem::Material {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
-  CellMaterial(Pool& pool, std::uint32_t definition, const std::optional<CosseratParameters>& cosserat);
-
-  /// Increments are then about the middle of the step, and go to the cells about its start.
-  void use_large_rotations() override { about_middle_ = true; }
+  /// @param note what the user is to know of them; may be empty
+  CellMaterial(Pool& pool, std::uint32_t definition, const std::optional<CosseratParameters>& cosserat,
+               const std::string& note = {});
 
   /// Asks for the packing at rest, once; every point starts from it.
   void allocate(std::size_t points) override;
@@ -37,6 +36,7 @@ class CellMaterial : public fem::Material {
   void restore(ArchiveReader& archive) override;
 
   /// The diagnostics of the cell (docs/user_guide.md).
+  [[nodiscard]] double moment_length() const override { return 2.0 * mean_radius_; }
   [[nodiscard]] std::vector<std::string> field_names() const override;
   /// What the engine remarked on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
@@ -56,7 +56,7 @@ class CellMaterial : public fem::Material {
 
   CellCalls calls_;
   std::optional<CosseratParameters> cosserat_;
-  bool about_middle_ = false;
+  double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/cells/cosserat_part.hpp"
 
+#include "fem/material/rotation.hpp"
+
 namespace polargrain::coupler {
 
 Matrix7 symmetric_tangent(const Matrix7& cell) {
@@ -16,6 +18,8 @@ Matrix7 symmetric_tangent(const Matrix7& cell) {
 void CosseratPart::add(const Increment& increment, const CosseratParameters& cosserat) {
   const Vector7 strain = increment.strain();
   skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
+  if (increment.configuration != Configuration::fixed)
+    couple_stress = fem::rotated(couple_stress, fem::turn_of(increment));
   couple_stress += cosserat.couple_modulus() * increment.curvature;                    // A.4
 }
 

@@ -23,8 +23,8 @@ struct CosseratParameters {
 ///
 ///     s21 - s12  +=  2 Gc (eps21 - eps12)        m_i  +=  2 G lc^2 kappa_i
 ///
-/// They are not turned with the material: both are zero unless the micro-rotation differs from the rotation
-/// of the continuum or varies in space, and stay small beside the stress of the grains.
+/// In large deformation the couple stress turns with the material before the curvature adds to it; the skew stress
+/// is the same in any frame.
 struct CosseratPart {
   double skew_stress = 0.0;                                 ///< s21 - s12, Pa
   Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();  ///< N/m

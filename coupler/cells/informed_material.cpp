@@ -11,17 +11,13 @@
 #include "common/packed_values.hpp"
 #include "common/record_archive.hpp"
 #include "common/record_table.hpp"
+#include "coupler/cells/cell_increment.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
 /// A cell follows a step in at most so many parts.
 constexpr int kMostParts = 16;
-
-bool is_zero(const Increment& increment) {
-  return increment.displacement_gradient.isZero(0.0) && increment.micro_rotation == 0.0 &&
-         increment.curvature.isZero(0.0);
-}
 
 Increment part_of(Increment increment, int parts) {
   increment.displacement_gradient /= parts;
@@ -117,11 +113,19 @@ void InformedMaterial::visit_numbers(Visitor& visit, PointState& point, int wind
   visit_samples(visit, m.samples, window);
 }
 
-InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters)
+void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
+  elastic.young_modulus = 2.0 * cosserat.shear_modulus * (1.0 + elastic.poisson_ratio);
+  elastic.cosserat_shear_modulus = cosserat.cosserat_shear_modulus;
+  elastic.internal_length = cosserat.internal_length;
+}
+
+InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note)
     : calls_(std::move(calls)),
       parameters_(parameters),
       frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights), parameters.elastic.internal_length,
-             1e-3} {}
+             1e-3} {
+  if (!note.empty()) notes_.push_back(note);
+}
 
 void InformedMaterial::allocate(std::size_t points) {
   const CellReply packing = packing_at_rest(calls_, notes_);
@@ -139,24 +143,15 @@ void InformedMaterial::allocate(std::size_t points) {
 
 fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Increment& increment) const {
   fem::ElastoplasticState start = committed_[point].law;
-  if (large_rotations_) {
-    start.scaled_stress = fem::rotated(start.scaled_stress, fem::rotation_angle(increment));
-  }
+  if (increment.configuration != Configuration::fixed)
+    start.scaled_stress = fem::rotated(start.scaled_stress, fem::turn_of(increment));
   return start;
 }
 
 Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increment) const {
   const Vector7& stress = committed_[point].cell.response.stress;
-  return large_rotations_ ? fem::rotated(stress, fem::rotation_angle(increment)) : stress;
-}
-
-Increment InformedMaterial::for_cell(const Increment& increment) const {
-  if (large_rotations_) return fem::about_start(increment);
-  Increment straight = increment;
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  straight.displacement_gradient = 0.5 * (h + h.transpose());
-  straight.micro_rotation -= 0.5 * (h(1, 0) - h(0, 1));
-  return straight;
+  return increment.configuration == Configuration::fixed ? stress
+                                                          : fem::rotated(stress, fem::turn_of(increment));
 }
 
 void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
@@ -200,7 +195,7 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     if (is_zero(increments[point]) || responses[point].quality == Quality::failed) continue;
-    requests.push_back({committed_[point].cell.state, for_cell(increments[point])});
+    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
     points.push_back(point);
   }
   const std::vector<CellReply> replies = calls_.evaluate(requests, points);
@@ -253,7 +248,7 @@ void InformedMaterial::follow(std::span<const std::size_t> points) {
     for (int part = 0; part < parts && !following.empty(); ++part) {
       std::vector<CellRequest> requests;
       for (const std::size_t point : following) {
-        requests.push_back({last[point].state, part_of(for_cell(increments_[point]), parts)});
+        requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), parts)});
       }
       std::vector<CellReply> replies = calls_.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {

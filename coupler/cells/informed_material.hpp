@@ -7,6 +7,7 @@
 
 #include "common/cell.hpp"
 #include "coupler/cells/cell_calls.hpp"
+#include "coupler/cells/cosserat_part.hpp"
 #include "fem/material/elastoplastic.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/mobilisation.hpp"
@@ -24,6 +25,9 @@ struct InformedParameters {
   fem::InvariantWeights weights;
   fem::MobilisationOptions mobilisation;
   InformedUpdate update = InformedUpdate::frozen;
+
+  /// Takes over the moduli of G, Gc and lc; Poisson's ratio must be set.
+  void set_moduli(const CosseratParameters& cosserat);
 };
 
 /// The generalised elastoplastic Cosserat material (docs/theory/plasticity.md, B.9): at each point a
@@ -32,12 +36,12 @@ struct InformedParameters {
 class InformedMaterial : public fem::Material {
  public:
   /// @param calls must live as long as the material
-  InformedMaterial(CellCalls calls, const InformedParameters& parameters);
+  /// @param note what the user is to know of the parameters; may be empty
+  InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note = {});
 
   /// Every point starts from the packing at rest; where the cell has no out-of-plane stress, from the mean of
   /// the two others.
   void allocate(std::size_t points) override;
-  void use_large_rotations() override { large_rotations_ = true; }
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
   /// Frozen: the cells now follow the step. One that has no good answer follows it in halves, quarters, ...
   /// @throws RunError when it has none in sixteenths either.
@@ -76,8 +80,6 @@ class InformedMaterial : public fem::Material {
   /// Law and cell turned to the frame at the end of the increment.
   [[nodiscard]] fem::ElastoplasticState law_start(std::size_t point, const Increment& increment) const;
   [[nodiscard]] Vector7 cell_start(std::size_t point, const Increment& increment) const;
-  /// What the cell is to follow: without the rotation that small deformation leaves out of the law's stress.
-  [[nodiscard]] Increment for_cell(const Increment& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(std::span<const std::size_t> points);
   void take(const CellReply& reply, const Increment& increment, std::size_t point);
@@ -89,7 +91,6 @@ class InformedMaterial : public fem::Material {
   std::vector<std::string> notes_;
   InformedParameters parameters_;
   fem::ElastoplasticFrame frame_;
-  bool large_rotations_ = false;
   std::vector<Increment> increments_;  ///< of the last evaluation
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;

@@ -13,7 +13,7 @@ Eigen::Matrix2d average_stress(std::span<const Contact> contacts, double volume)
 
 Eigen::Vector2d average_couple_stress(std::span<const Contact> contacts, double volume) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const Contact& contact : contacts) sum += contact.moment * contact.branch;
+  for (const Contact& contact : contacts) sum += contact.couple() * contact.branch;
   return sum / volume;
 }
 

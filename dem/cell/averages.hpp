@@ -12,8 +12,9 @@ namespace polargrain::dem {
 /// index the face normal, Pa. Not symmetric while moments are unbalanced or couples act on the grains.
 Eigen::Matrix2d average_stress(std::span<const Contact> contacts, double volume);
 
-/// Average couple stress (C.2): m_i = (1/V) sum of l_i M, with M the rolling resistance moment on the first
-/// grain; N/m.
+/// Average couple stress (C.8): m_i = (1/V) sum of l_i [ M - (r_second - r_first) f_t / 2 ], with M the rolling
+/// resistance moment on the first grain, f_t the tangential force on it, and r the arms to the contact; N/m. The
+/// reference point is the middle of each branch.
 Eigen::Vector2d average_couple_stress(std::span<const Contact> contacts, double volume);
 
 /// Fabric tensor F_ij = mean of n_i n_j over the contacts: symmetric, trace 1; zero without contacts.

@@ -18,17 +18,11 @@ namespace {
 
 constexpr double kLayer = 0.6;  ///< mean diameters
 
-double mean_radius(const Packing& packing) {
-  double sum = 0.0;
-  for (const Grain& grain : packing.grains) sum += grain.radius;
-  return sum / static_cast<double>(packing.grains.size());
-}
-
 /// The packing in the middle of a box so large that no grain meets an image.
 Packing taken_out(Packing packing) {
   if (packing.box(0, 1) != 0.0 || packing.box(1, 0) != 0.0)
     throw RunError("a cell with a prescribed boundary needs a packing in a box without tilt");
-  const double margin = 4.0 * mean_radius(packing);
+  const double margin = 4.0 * packing.mean_radius();
   packing.box += 2.0 * margin * Eigen::Matrix2d::Identity();
   for (Grain& grain : packing.grains) grain.position += Eigen::Vector2d::Constant(margin);
   packing.state = nullptr;

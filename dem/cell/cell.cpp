@@ -303,15 +303,20 @@ Matrix7 Cell::tangent() {
   const std::span<const Contact> contacts = grains_->contacts();
   const Eigen::Matrix2d frame = grains_->box().frame();
   const double v = volume();
-  // Grains that have no neighbours but one each have no mean rotation that could be held.
-  const bool has_rotation = !controlled() || !grains_->weights().empty();
-  if (control_.tangent == CellTangent::condensed && has_rotation) {
-    const ContactNetwork network{contacts, driver_.grains(), frame, v, kHold};
-    const auto condensed = controlled() ? condensed_tangent_.cosserat(network, grains_->weights())
-                                        : condensed_tangent_.classical(network);
-    if (condensed) return *condensed;
+  if (control_.tangent == CellTangent::voigt) {
+    return controlled() ? voigt_cosserat_tangent(contacts, frame, v) : voigt_tangent(contacts, frame, v);
   }
-  return controlled() ? voigt_cosserat_tangent(contacts, frame, v) : voigt_tangent(contacts, frame, v);
+  const ContactNetwork network{contacts, driver_.grains(), frame, v, kHold};
+  if (!controlled() && control_.tangent == CellTangent::condensed) {
+    return condensed_tangent_.classical(network).value_or(voigt_tangent(contacts, frame, v));
+  }
+  const std::vector<double> weights =
+      controlled() ? std::vector<double>(grains_->weights().begin(), grains_->weights().end())
+                   : rotation_weights(contacts, driver_.grains());
+  std::optional<Matrix7> condensed;
+  // Grains that have no neighbours but one each have no mean rotation that could be held.
+  if (!weights.empty()) condensed = condensed_tangent_.cosserat(network, weights);
+  return condensed.value_or(voigt_cosserat_tangent(contacts, frame, v));
 }
 
 }  // namespace

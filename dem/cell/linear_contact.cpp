@@ -32,7 +32,7 @@ LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& fram
   motions(2, 2) = -1.0;
   motions(2, 5) = 1.0;
 
-  // opening_j = l_i eps_ij, rotation = l_i kappa_i (C.6).
+  // opening_j = l_i eps_ij, rotation = l_i kappa_i (C.6), and the slip of unequal radii (C.8).
   affine.setZero();
   affine(0, k11) = branch.x();
   affine(0, k21) = branch.y();
@@ -40,6 +40,8 @@ LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& fram
   affine(1, k22) = branch.y();
   affine(2, kCurvature1) = branch.x();
   affine(2, kCurvature2) = branch.y();
+  affine.block<2, 2>(0, kCurvature1) =
+      -0.5 * (contact.arm_second - contact.arm_first) * t * branch.transpose();
 }
 
 }  // namespace polargrain::dem

@@ -36,6 +36,9 @@ struct Contact {
     const Eigen::Vector2d n = normal();
     return -force.x() * n.y() + force.y() * n.x();
   }
+  /// What is conjugate to the curvature along the branch: the rolling moment, and the polar part of the
+  /// tangential force, which discs of unequal radii have (docs/theory/grains.md, C.8); N m.
+  [[nodiscard]] double couple() const { return moment - 0.5 * (arm_second - arm_first) * tangential_force(); }
   /// The tangential spring stands at its Coulomb limit. The force computation scales it exactly there, so
   /// only round-off is allowed for.
   [[nodiscard]] bool sliding() const {

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <utility>
 
+#include "dem/contact/cell_loading.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/contact/spoken_settings.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
 
-/// Any combination of contact models of the engine, with an ear: while the recorder is on, every contact is
-/// taken down after all models have had their say. Off, it costs one predictable branch a contact.
+/// Any combination of contact models of the engine between grains of a cell. It shows them the spins that the
+/// curvature of the cell makes of those of the grains, and it has an ear: while the recorder is on, every contact
+/// is taken down after all models have had their say. Without either it costs two predictable branches a contact.
 template <typename Model>
 class RecordedModel : public Model {
  public:
@@ -40,6 +42,29 @@ class RecordedModel : public Model {
     // Asked for by name, not required: a script may have no sliding friction.
     friction_ = lammps_.modify->find_fix_property("coefficientFriction", "property/global", "peratomtypepair",
                                                   0, 0, "polargrain", false);
+  }
+
+  inline void surfacesIntersect(LIGGGHTS::ContactModels::SurfacesIntersectData& data,
+                                LIGGGHTS::ContactModels::ForceData& force_i,
+                                LIGGGHTS::ContactModels::ForceData& force_j) {
+    double* const spin_i = data.omega_i;
+    double* const spin_j = data.omega_j;
+    double seen_i[3];
+    double seen_j[3];
+    if (loading_.bends()) {
+      // From the middle of the branch the micro-rotation changes by half of curvature . branch to either centre.
+      const double half =
+          0.5 * (loading_.curvature_rate[0] * data.delta[0] + loading_.curvature_rate[1] * data.delta[1]);
+      for (int axis = 0; axis < 3; ++axis) {
+        seen_i[axis] = spin_i[axis] + (axis == 2 ? half : 0.0);
+        seen_j[axis] = spin_j[axis] - (axis == 2 ? half : 0.0);
+      }
+      data.omega_i = seen_i;
+      data.omega_j = seen_j;
+    }
+    Model::surfacesIntersect(data, force_i, force_j);
+    data.omega_i = spin_i;
+    data.omega_j = spin_j;
   }
 
   inline void endSurfacesIntersect(LIGGGHTS::ContactModels::SurfacesIntersectData& data,
@@ -92,6 +117,7 @@ class RecordedModel : public Model {
   }
 
   LAMMPS_NS::LAMMPS& lammps_;
+  const CellLoading& loading_ = cell_loading();
   int64_t hash_;
   SpokenSettings spoken_;
   LAMMPS_NS::Fix* friction_ = nullptr;

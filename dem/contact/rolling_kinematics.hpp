@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 
-#include "dem/contact/cell_loading.hpp"
 #include "dem/contact/closing_factor.hpp"
 
 namespace polargrain::dem {
@@ -41,17 +40,13 @@ inline double side(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact
   return contact.delta[1] > 0.0 || (contact.delta[1] == 0.0 && contact.delta[0] > 0.0) ? 1.0 : -1.0;
 }
 
-/// Rate of the rotation of i relative to j, rad/s, the curvature of the cell included (grains only). Walls do
+/// Rate of the rotation of i relative to j, rad/s, the curvature of the cell included (RecordedModel). Walls do
 /// not spin.
-inline Vector relative_spin(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact,
-                            const CellLoading& loading) {
+inline Vector relative_spin(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact) {
   const double* const wi = contact.omega_i;
   if (contact.is_wall) return {wi[0], wi[1], wi[2]};
   const double* const wj = contact.omega_j;
-  // delta = x_i - x_j is minus the branch, and W is minus the relative rotation: the signs cancel.
-  const double eigen_rotation =
-      loading.curvature_rate[0] * contact.delta[0] + loading.curvature_rate[1] * contact.delta[1];
-  return {wi[0] - wj[0], wi[1] - wj[1], wi[2] - wj[2] + eigen_rotation};
+  return {wi[0] - wj[0], wi[1] - wj[1], wi[2] - wj[2]};
 }
 
 /// Angle by which the pair has turned as a whole about its normal in a step, rad.

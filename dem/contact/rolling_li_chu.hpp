@@ -17,7 +17,7 @@
 // `symmetricCoupling on`: see tangential model li_chu; the moment gets the term -k_r R* u_s (D.3) and the
 // limit holds for the sum.
 //
-// In a cell the curvature enters as an eigen-rotation of contacts between grains (C.6).
+// In a cell the curvature enters through the spins that a contact sees (recorded_model.hpp).
 #ifdef ROLLING_MODEL
 ROLLING_MODEL(ROLLING_LI_CHU, li_chu, 20)
 #else
@@ -93,7 +93,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
     const double stiffness = stiffness_ratio_[contact.itype][contact.jtype] * contact.kt * radius * radius;
     const double limit = friction_[contact.itype][contact.jtype] * radius * std::max(0.0, contact.Fn);
     const double damping = damped_ ? damping_constant(contact, stiffness) : 0.0;
-    const Vector spin = relative_spin(contact, loading_);
+    const Vector spin = relative_spin(contact);
 
     double* const stored = &contact.contact_history[bending_];
     double bending[3] = {stored[0], stored[1], stored[2]};
@@ -171,7 +171,6 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
   }
 
   ContactModelBase& model_;
-  const polargrain::dem::CellLoading& loading_ = polargrain::dem::cell_loading();
   double** friction_ = nullptr;
   double** stiffness_ratio_ = nullptr;
   double** damping_ratio_ = nullptr;

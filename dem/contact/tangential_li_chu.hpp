@@ -142,7 +142,7 @@ class TangentialModel<TANGENTIAL_LI_CHU> : public TangentialModelBase {
     const double time_step = update->dt;
     const double kr = stiffness_ratio_[contact.itype][contact.jtype] * contact.kt;
     const double radius = side(contact, atom->tag) * reduced_radius(contact);
-    const Vector spin = relative_spin(contact, loading_);
+    const Vector spin = relative_spin(contact);
     const Vector rate = cross(contact.en, spin.data());
     bool rolls_freely = false;
     if (symmetric_) {
@@ -184,7 +184,6 @@ class TangentialModel<TANGENTIAL_LI_CHU> : public TangentialModelBase {
   }
 
   ContactModelBase& model_;
-  const polargrain::dem::CellLoading& loading_ = polargrain::dem::cell_loading();
   double** friction_ = nullptr;
   double** rolling_friction_ = nullptr;
   double** stiffness_ratio_ = nullptr;

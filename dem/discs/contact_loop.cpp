@@ -88,10 +88,14 @@ class Loop final : public ContactLoop {
         const double vx = a.vx - b.vx - image.vx;
         const double vy = a.vy - b.vy - image.vy;
         touch.opening_rate = vx * touch.nx + vy * touch.ny;
-        touch.slip_rate =
-            vy * touch.nx - vx * touch.ny - (touch.arm_first * a.spin + touch.arm_second * b.spin);
+        // Spins seen from the middle of the branch (C.8).
+        const double bent = 0.5 * (bend_x * dx + bend_y * dy);
+        const double spin_first = a.spin + bent;
+        const double spin_second = b.spin - bent;
+        touch.slip_rate = vy * touch.nx - vx * touch.ny -
+                          (touch.arm_first * spin_first + touch.arm_second * spin_second);
         touch.spin_difference = a.spin - b.spin;
-        touch.relative_spin = touch.spin_difference + (bend_x * dx + bend_y * dy);
+        touch.relative_spin = spin_first - spin_second;
 
         const PairParameters& p = parameters[pair.kind];
         const NormalAnswer normal = normal_law<Normal>(p, settings, touch);

@@ -14,8 +14,8 @@ struct Touch {
   double nx = 0.0, ny = 0.0;     ///< unit normal
   double overlap = 0.0;          ///< m
   double opening_rate = 0.0;     ///< v_n of the first against the second along n, m/s
-  double slip_rate = 0.0;        ///< of the first surface against the second along t, m/s
-  double relative_spin = 0.0;    ///< of the first against the second, eigen-rotation included, rad/s
+  double slip_rate = 0.0;        ///< of the first surface against the second along t, with the curvature, m/s
+  double relative_spin = 0.0;    ///< of the first against the second, with the curvature, rad/s
   double spin_difference = 0.0;  ///< without it
   double radius_first = 0.0, radius_second = 0.0;                    ///< m
   double arm_first = 0.0, arm_second = 0.0;                          ///< centre to contact point, m

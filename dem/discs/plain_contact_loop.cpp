@@ -112,10 +112,12 @@ class PlainLoop final : public ContactLoop {
     touch.inverse_inertia_second = b.inverse_inertia;
     const Eigen::Vector2d velocity(a.vx - b.vx - image.vx, a.vy - b.vy - image.vy);
     touch.opening_rate = velocity.x() * touch.nx + velocity.y() * touch.ny;
+    // Half of the curvature times the branch, which points to the second: spins from its middle (C.8).
+    const double bent = -0.5 * scene.curvature_rate.dot(-delta);
     touch.slip_rate = velocity.y() * touch.nx - velocity.x() * touch.ny -
-                      (touch.arm_first * a.spin + touch.arm_second * b.spin);
+                      (touch.arm_first * (a.spin + bent) + touch.arm_second * (b.spin - bent));
     touch.spin_difference = a.spin - b.spin;
-    touch.relative_spin = touch.spin_difference + scene.curvature_rate.dot(delta);
+    touch.relative_spin = (a.spin + bent) - (b.spin - bent);
     return touch;
   }
 

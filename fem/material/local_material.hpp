@@ -82,13 +82,7 @@ class LocalMaterial final : public Material {
     }
   }
 
-  void use_large_rotations() override {
-    if constexpr (LawWithRotation<Law>) {
-      large_rotations_ = true;
-    } else {
-      throw RunError("this material cannot turn its stress, as large deformation needs");
-    }
-  }
+  [[nodiscard]] bool can_turn() const override { return LawWithRotation<Law>; }
 
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
     for (std::size_t point = 0; point < committed_.size(); ++point) {
@@ -150,14 +144,14 @@ class LocalMaterial final : public Material {
   /// The stress turns first, the strain adds to it in the frame at the end of the step.
   [[nodiscard]] typename Law::State start_of(std::size_t point, const Increment& increment) const {
     if constexpr (LawWithRotation<Law>) {
-      if (large_rotations_) return law_.rotated(committed_[point], rotation_angle(increment));
+      if (increment.configuration != Configuration::fixed)
+        return law_.rotated(committed_[point], turn_of(increment));
     }
     (void)increment;
     return committed_[point];
   }
 
   Law law_;
-  bool large_rotations_ = false;
   std::vector<typename Law::State> committed_;
   std::vector<typename Law::State> trial_;
 };

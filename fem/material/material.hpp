@@ -39,11 +39,13 @@ class Material {
     throw RunError("this material brings its own initial stress and takes none by position");
   }
 
-  /// Called once, before the first evaluate, when increments may rotate far: a stress that is kept must then
-  /// turn with the material (docs/theory.md, A.1; rotation.hpp). Does nothing where that happens by itself,
-  /// as in a cell whose box follows the whole displacement gradient.
-  /// @throws RunError when this material cannot.
-  virtual void use_large_rotations() {}
+  /// Whether it can take increments of large deformation, whose rotation turns the stress that is kept
+  /// (Increment::configuration, rotation.hpp).
+  [[nodiscard]] virtual bool can_turn() const { return true; }
+
+  /// The length over which moments of this material act, m: the mean diameter of grains that answer with couple
+  /// stresses of their own. 0: it has none, and moments are measured by the size of the elements.
+  [[nodiscard]] virtual double moment_length() const { return 0.0; }
 
   /// Answers for all points at once, so that a material may spread the work (cells over workers).
   /// @param increments one a point, from the committed state; @param responses one a point, overwritten.

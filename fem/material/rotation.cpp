@@ -13,14 +13,24 @@ double rotation_angle(const Increment& increment) {
   return 2.0 * arc_tangent(0.25 * (h(1, 0) - h(0, 1)));
 }
 
+double turn_of(const Increment& increment) {
+  return increment.configuration == Configuration::fixed ? 0.0 : rotation_angle(increment);
+}
+
 Increment about_start(const Increment& about_middle) {
   const Eigen::Matrix2d half = 0.5 * about_middle.displacement_gradient;
   Increment increment = about_middle;
   increment.displacement_gradient =
       (Eigen::Matrix2d::Identity() - half).inverse() * about_middle.displacement_gradient;
   // x_middle = x_start + u / 2
+  increment.configuration = Configuration::start;
   increment.curvature += 0.5 * increment.displacement_gradient.transpose() * about_middle.curvature;
   return increment;
+}
+
+Eigen::Vector2d rotated(const Eigen::Vector2d& vector, double angle) {
+  const auto [sine, cosine] = sine_and_cosine(angle);
+  return {cosine * vector.x() - sine * vector.y(), sine * vector.x() + cosine * vector.y()};
 }
 
 Vector7 rotated(const Vector7& stress, double angle) {

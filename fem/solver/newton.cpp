@@ -63,7 +63,7 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
       loads(problem),
       materials(problem, discretisation),
       reference_length(options.reference_length > 0.0 ? options.reference_length
-                                                      : mean_element_size(discretisation)),
+                                                      : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints),
       anderson_(options.acceleration_depth, reference_length),
       middle_(problem.mesh, problem.continuum),
@@ -73,7 +73,8 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
   state.responses.resize(discretisation.points());
   if (problem.deformation == Deformation::large) {
     discretisation.use_large_tangent(&middle_, &increments_, &state.responses);
-    materials.use_large_rotations();
+    if (!materials.can_turn())
+      throw RunError("a material cannot turn its stress, as large deformation needs");
   }
 }
 
@@ -159,8 +160,9 @@ void Newton::find_increments(const Eigen::VectorXd& displacement_increment) {
   if (!inverted_.empty()) return;
   loads.move_to(state.displacement + displacement_increment);
   increments_ = middle_.increments(displacement_increment);
-  if (problem.continuum == Continuum::cauchy) return;
   for (Increment& increment : increments_) {
+    increment.configuration = Configuration::middle;
+    if (problem.continuum == Continuum::cauchy) continue;
     // The micro-rotation is compared with the angle turned, not with the tangent of its half.
     const Eigen::Matrix2d& h = increment.displacement_gradient;
     increment.micro_rotation += 0.5 * (h(1, 0) - h(0, 1)) - rotation_angle(increment);

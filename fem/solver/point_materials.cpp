@@ -60,8 +60,15 @@ void PointMaterials::evaluate(const std::vector<Increment>& increments, std::vec
   }
 }
 
-void PointMaterials::use_large_rotations() {
-  for (Batch& batch : batches_) batch.material->use_large_rotations();
+bool PointMaterials::can_turn() const {
+  return std::ranges::all_of(batches_, [](const Batch& batch) { return batch.material->can_turn(); });
+}
+
+double PointMaterials::moment_length(double otherwise) const {
+  double least = otherwise;
+  for (const Batch& batch : batches_)
+    if (const double own = batch.material->moment_length(); own > 0.0) least = std::min(least, own);
+  return least;
 }
 
 void PointMaterials::commit() {

@@ -19,7 +19,9 @@ class PointMaterials {
 
   /// One response a point, in the order of the discretisation.
   void evaluate(const std::vector<Increment>& increments, std::vector<Response>& responses);
-  void use_large_rotations();
+  [[nodiscard]] bool can_turn() const;
+  /// The least of what the materials say (Material::moment_length); `otherwise` where none does.
+  [[nodiscard]] double moment_length(double otherwise) const;
   void commit();
   void revert();
   /// The committed states of all materials, each under a number of its own.

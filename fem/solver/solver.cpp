@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
 #include "fem/solver/jump_watch.hpp"
+#include "fem/solver/left_out.hpp"
 #include "fem/solver/newton.hpp"
 #include "fem/solver/state_archive.hpp"
 
@@ -203,6 +204,11 @@ double Solver::volume_strain() const {
     change += volume_of_point(i) * (state().strain[i](k11) + state().strain[i](k22));
   }
   return change / volume;
+}
+
+std::string Solver::left_out() const {
+  if (problem().deformation == Deformation::large) return {};
+  return left_out_by_small_deformation(implementation_->discretisation, state().displacement);
 }
 
 }  // namespace polargrain::fem

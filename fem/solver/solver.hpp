@@ -178,6 +178,9 @@ class Solver {
   [[nodiscard]] Eigen::Vector3d mean_displacement(const std::string& on) const;
   /// Mean of eps_11 + eps_22 over the volume; positive is expansion.
   [[nodiscard]] double volume_strain() const;
+  /// What small deformation leaves out of the committed state (left_out.hpp); empty where that is little, and in large
+  /// deformation.
+  [[nodiscard]] std::string left_out() const;
 
  private:
   struct Implementation;

@@ -56,6 +56,54 @@ class RunTest : public ::testing::Test {
   Scratch scratch_;
 };
 
+// Shear by 0.2 between plates: the continuum turns by 0.1 rad, which small deformation leaves out of the stresses.
+TEST_F(RunTest, SaysWhereSmallDeformationIsOutgrown) {
+  const std::string shear =
+      "title: Simple shear\n"
+      "mesh: {rectangle: {size: [0.4 m, 0.4 m], elements: [1, 1]}}\n"
+      "materials: {block: {model: elastic, E: 100 MPa, nu: 0.25, Gc: 10 MPa, lc: 20 mm}}\n"
+      "regions: {all: block}\n"
+      "boundary:\n"
+      "  - {on: bottom, fix: [u1, u2]}\n"
+      "  - {on: top, fix: [u2], move: {u1: 80 mm}}\n"
+      "steps: {count: 10, tolerance: 1e-8}\n";
+  write(directory() / "shear.yaml", shear);
+  const auto times_said = [](const std::string& text) {
+    int count = 0;
+    for (std::size_t at = text.find("small deformation leaves out"); at != std::string::npos;
+         at = text.find("small deformation leaves out", at + 1))
+      ++count;
+    return count;
+  };
+  const Outcome small = polargrain("run shear.yaml -o small");
+  ASSERT_EQ(small.status, 0) << small.errors;
+  EXPECT_EQ(times_said(small.out + small.errors), 1) << small.out << small.errors;
+  EXPECT_EQ(times_said(result("small/run.log")), 1);
+  EXPECT_EQ(times_said(polargrain("run shear.yaml -o less --set boundary.1.move.u1=20e-3").errors), 0);
+  const Outcome large = polargrain("run shear.yaml -o large --set deformation=large");
+  ASSERT_EQ(large.status, 0) << large.errors;
+  EXPECT_EQ(times_said(large.out + large.errors + result("large/run.log")), 0);
+}
+
+TEST_F(RunTest, ModuliThatNobodyGivesComeFromThePacking) {
+  write(directory() / "open.yaml",
+        case_text("{model: cell, script: fake.in, packing: grains.csv, lc: 20 mm}"));
+  const Outcome open = polargrain("run open.yaml -o open -w 1 --quiet");
+  ASSERT_EQ(open.status, 0) << open.errors;
+  // The fake is linear with E = 100 MPa, nu = 0.25: G = 40 MPa; Gc and couple modulus are fake_engine.cpp's.
+  EXPECT_NE(open.errors.find("moduli of the packing at rest: G 40 MPa, Gc 10 MPa, nu 0.25, couple modulus 3.2e+04 N "
+                             "(length 20 mm)"),
+            std::string::npos)
+      << open.errors;
+  write(directory() / "given.yaml",
+        case_text("{model: cell, script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}"));
+  const Outcome given = polargrain("run given.yaml -o given -w 1 --quiet");
+  EXPECT_EQ(given.errors.find("moduli of the packing"), std::string::npos) << given.errors;
+  EXPECT_EQ(result("open/history.csv"), result("given/history.csv"));
+  write(directory() / "no_length.yaml", case_text("{model: cell, script: fake.in, packing: grains.csv}"));
+  EXPECT_NE(polargrain("check no_length.yaml").errors.find("the key 'lc' is missing"), std::string::npos);
+}
+
 // Exact: plane strain with constant lateral stress, E = 100 MPa, nu = 0.25, 1 % of axial strain on top of 100
 // kPa: s22 = -100 kPa - E/(1-nu^2) 0.01; volume strain -0.01 (1 - nu/(1-nu)).
 TEST_F(RunTest, ABiaxialTestOfALinearCellIsExact) {

@@ -21,6 +21,8 @@ namespace {
 constexpr double kConfining = -100e3;
 constexpr double kYoung = 100e6;
 constexpr double kPoisson = 0.25;
+constexpr double kCosseratShear = 10e6;   // Pa, of the packing's network
+constexpr double kCoupleModulus = 32e3;   // N: an internal length of 20 mm
 
 Matrix7 stiffness(double young) {
   const double shear = young / (2.0 * (1.0 + kPoisson));
@@ -54,6 +56,11 @@ class FakeEngine : public CellService {
     if (settings_.count("young_of_mass") != 0)
       young = settings_["young_of_mass"] * definition.packing.grains.front().mass;
     stiffness_ = stiffness(young);
+    if (definition.control.tangent == CellTangent::cosserat) {
+      for (int i : {k12, k21}) stiffness_(i, i) += kCosseratShear;
+      stiffness_(k12, k21) = stiffness_(k21, k12) -= kCosseratShear;
+      stiffness_(kCurvature1, kCurvature1) = stiffness_(kCurvature2, kCurvature2) = kCoupleModulus;
+    }
   }
 
   CellReply initial() override { return reply({kConfining, kConfining, kConfining, 0.0, 0.0}, 0.0); }

@@ -137,9 +137,11 @@ TEST_F(InformedEngineTest, PeaksOfBothSchemesAreTheCellsOwn) {
     of_informed += informed.mean() / own.mean() / static_cast<double>(packings.size());
   }
   std::cout << "[figure] mean about the peak, over packings: cell " << of_cell << ", informed " << of_informed << '\n';
-  // Asked of the schemes at steps of 0.1 %.
+  // Asked of the scheme at steps of 0.1 %.
   EXPECT_NEAR(of_informed, 1.0, 0.05);
-  EXPECT_NEAR(of_cell, 1.0, 0.01);
+  // An element takes its cell there by other increments; from packing to packing that makes a standard deviation of
+  // 1.5 % of the mean about the peak, so 0.9 % for three.
+  EXPECT_NEAR(of_cell, 1.0, 0.02);
 }
 
 }  // namespace

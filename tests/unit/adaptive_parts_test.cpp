@@ -84,8 +84,9 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   EXPECT_NEAR(estimate.of(soft, curvature, -onward), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);
 }
 
-TEST(ErrorEstimate, AVolumeChangeCountsLess) {
-  EXPECT_DOUBLE_EQ(size_of(gradient(0.0, 3e-3, 4e-3, 0.0)), 5e-3);
+TEST(ErrorEstimate, AVolumeChangeCountsLessAndARotationNothing) {
+  EXPECT_DOUBLE_EQ(size_of(gradient(0.0, 3e-3, 4e-3, 0.0)), std::sqrt(2.0) * 3.5e-3);
+  EXPECT_EQ(size_of(gradient(0.0, -2e-2, 2e-2, 0.0)), 0.0);
   EXPECT_DOUBLE_EQ(size_of(gradient(1e-3, 0.0, 0.0, 1e-3)), 0.35 * std::sqrt(2.0) * 1e-3);
 }
 

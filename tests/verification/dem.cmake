@@ -7,6 +7,7 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_rowe_test verification verification/dem_rowe_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_limits_test verification verification/dem_limits_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_boundary_test verification verification/dem_boundary_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(dem_polar_test verification verification/dem_polar_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(disc_loop_test verification verification/disc_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(spoiled_states_test verification verification/spoiled_states_test.cpp support/engine_main.cpp
                   LIBS polargrain_dem)

@@ -57,6 +57,16 @@ TEST_P(Lattice, FreeRotationsGiveTheClassicalModuli) {
               shear(k21) / kStrain / kShear);
 }
 
+TEST_P(Lattice, ThePackingTellsItsCosseratModuliWithFreeRotationsToo) {
+  CellDefinition definition = lattice(GetParam(), GetParam(), CellRotations::free);
+  definition.control.tangent = CellTangent::cosserat;
+  const Matrix7 tangent = make_cell_service(definition)->initial().response.tangent;
+  EXPECT_NEAR(tangent(k12, k12), kShear + kCosserat, kTolerance * kShear);
+  EXPECT_NEAR(tangent(k12, k21), kShear - kCosserat, kTolerance * kShear);
+  EXPECT_NEAR(tangent(kCurvature1, kCurvature1), kCouple, kTolerance * kCouple);
+  EXPECT_NEAR(tangent(kCurvature2, kCurvature2), kCouple, kTolerance * kCouple);
+}
+
 TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
   const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
   Increment increment;

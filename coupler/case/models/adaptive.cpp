@@ -9,18 +9,19 @@ namespace {
 
 class AdaptiveRecipe : public MaterialRecipe {
  public:
-  AdaptiveRecipe(CellDefinition definition, const CosseratParameters& cosserat,
+  AdaptiveRecipe(CellDefinition definition, const CosseratChoice& cosserat,
                  const AdaptivityOptions& options)
       : definition_(std::move(definition)), cosserat_(cosserat), options_(options) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
-    return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat_,
-                                              options_);
+    std::string note;
+    const CosseratParameters cosserat = resolved(cosserat_, *pool, definition_, note);
+    return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat, options_, note);
   }
   [[nodiscard]] bool needs_workers() const override { return true; }
 
  private:
   CellDefinition definition_;
-  CosseratParameters cosserat_;
+  CosseratChoice cosserat_;
   AdaptivityOptions options_;
 };
 
@@ -38,7 +39,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  const CosseratParameters cosserat = read_cosserat_parameters(section);
+  const CosseratChoice cosserat = read_cosserat_choice(section);
   const AdaptivityOptions options = read_options(section);
   if (definition.control.tangent == CellTangent::voigt) {
     section.fault(

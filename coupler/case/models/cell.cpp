@@ -14,17 +14,20 @@ namespace {
 
 class CellRecipe : public MaterialRecipe {
  public:
-  CellRecipe(CellDefinition definition, const std::optional<CosseratParameters>& cosserat)
+  CellRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat)
       : definition_(std::move(definition)), cosserat_(cosserat) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
-    return std::make_shared<CellMaterial>(*pool, pool->define(definition_), cosserat_);
+    std::optional<CosseratParameters> cosserat;
+    std::string note;
+    if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
+    return std::make_shared<CellMaterial>(*pool, pool->define(definition_), cosserat, std::move(note));
   }
   [[nodiscard]] bool needs_workers() const override { return true; }
   [[nodiscard]] const CellDefinition* cell() const override { return &definition_; }
 
  private:
   CellDefinition definition_;
-  std::optional<CosseratParameters> cosserat_;
+  std::optional<CosseratChoice> cosserat_;
 };
 
 /// Two answers to one question would be one too many: a cell that controls its rotations has a skew
@@ -43,13 +46,13 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  std::optional<CosseratParameters> cosserat;
+  std::optional<CosseratChoice> cosserat;
   if (section.choice_or("rotations", {"free", "controlled"}, "free") == "controlled") {
     definition.control.rotations = CellRotations::controlled;
     refuse_cosserat_parameters(section);
   } else {
-    cosserat = read_cosserat_parameters(section);
-    read_informed_parameters(section, *cosserat);  // checked, and no more: see there
+    cosserat = read_cosserat_choice(section);
+    read_informed_parameters(section);  // checked, and no more: see there
   }
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat);

@@ -64,12 +64,17 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   return definition;
 }
 
-CosseratParameters read_cosserat_parameters(Section& section) {
-  CosseratParameters cosserat;
-  cosserat.shear_modulus = section.quantity("G", Dimension::pressure, Limit::positive);
-  cosserat.cosserat_shear_modulus = section.quantity("Gc", Dimension::pressure, Limit::positive);
-  cosserat.internal_length = section.quantity("lc", Dimension::length, Limit::positive);
-  return cosserat;
+CosseratChoice read_cosserat_choice(Section& section) {
+  const auto value = [&section](const char* key, Dimension dimension) -> std::optional<double> {
+    const Entry* const entry = section.find(key);
+    if (entry != nullptr && entry->text == "from packing") return {};
+    return section.quantity(key, dimension, Limit::positive);
+  };
+  CosseratChoice choice;
+  if (section.find("G") != nullptr) choice.shear_modulus = value("G", Dimension::pressure);
+  if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = value("Gc", Dimension::pressure);
+  choice.internal_length = value("lc", Dimension::length);
+  return choice;
 }
 
 }  // namespace polargrain::coupler

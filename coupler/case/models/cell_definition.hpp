@@ -5,7 +5,7 @@
 #include "common/cell.hpp"
 #include "coupler/case/cell_script.hpp"
 #include "coupler/case/section.hpp"
-#include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/network_moduli.hpp"
 
 namespace polargrain::coupler {
 
@@ -14,7 +14,7 @@ namespace polargrain::coupler {
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
                                     const CaseFiles& files);
 
-/// Reads G, Gc and lc.
-CosseratParameters read_cosserat_parameters(Section& section);
+/// Reads G, Gc (both `from packing` unless given) and lc.
+CosseratChoice read_cosserat_choice(Section& section);
 
 }  // namespace polargrain::coupler

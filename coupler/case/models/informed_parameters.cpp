@@ -6,14 +6,11 @@
 
 namespace polargrain::coupler {
 
-InformedParameters read_informed_parameters(Section& section, const CosseratParameters& cosserat) {
+InformedParameters read_informed_parameters(Section& section) {
   InformedParameters parameters;
   const double poisson = section.quantity_or("nu", Dimension::number, Limit::any, 0.2);
   if (!(poisson > -1.0 && poisson < 0.5)) section.fault("nu", "nu: must be above -1 and below 0.5");
   parameters.elastic.poisson_ratio = poisson;
-  parameters.elastic.young_modulus = 2.0 * cosserat.shear_modulus * (1.0 + poisson);
-  parameters.elastic.cosserat_shear_modulus = cosserat.cosserat_shear_modulus;
-  parameters.elastic.internal_length = cosserat.internal_length;
   parameters.update = section.choice_or("update", {"frozen", "fixed_point"}, "frozen") == "fixed_point"
                           ? InformedUpdate::fixed_point
                           : InformedUpdate::frozen;

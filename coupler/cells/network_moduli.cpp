@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/cells/network_moduli.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "common/error.hpp"
+#include "coupler/cells/cell_calls.hpp"
+#include "coupler/pool/pool.hpp"
+
+namespace polargrain::coupler {
+
+double NetworkModuli::length() const {
+  return std::sqrt(couple / (2.0 * shear));
+}
+
+std::string NetworkModuli::text() const {
+  return fmt::format("G {:.4g} MPa, Gc {:.4g} MPa, nu {:.3g}, couple modulus {:.4g} N (length {:.3g} mm)", 1e-6 * shear,
+                     1e-6 * cosserat_shear, poisson, couple, 1e3 * length());
+}
+
+NetworkModuli network_moduli(const Matrix7& c) {
+  NetworkModuli moduli;
+  const double axial = 0.25 * (c(k11, k11) + c(k22, k22));
+  const double across = 0.25 * (c(k11, k22) + c(k22, k11));
+  const double same = 0.25 * (c(k12, k12) + c(k21, k21));
+  const double other = 0.25 * (c(k12, k21) + c(k21, k12));
+  moduli.shear = 0.5 * (axial - across + same + other);
+  moduli.cosserat_shear = same - other;
+  moduli.couple = 0.5 * (c(kCurvature1, kCurvature1) + c(kCurvature2, kCurvature2));
+  const double bulk = axial + across;  // lambda + G
+  moduli.poisson = (bulk - moduli.shear) / (2.0 * bulk);
+  return moduli;
+}
+
+CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition, std::string& note) {
+  NetworkModuli packing;
+  if (!choice.shear_modulus || !choice.cosserat_shear_modulus || !choice.internal_length) {
+    definition.control.tangent = CellTangent::cosserat;
+    std::vector<std::string> remarks;  // the material's own cell makes them too
+    packing = network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
+    note = "moduli of the packing at rest: " + packing.text();
+    const auto check = [&](const char* key, bool asked, double modulus) {
+      if (asked && !(modulus > 0.0))
+        throw RunError(fmt::format("material '{}': {} cannot come from the packing, whose network has {}; give {} a value",
+                                   definition.name, key, packing.text(), key));
+    };
+    check("G", !choice.shear_modulus, packing.shear);
+    check("Gc", !choice.cosserat_shear_modulus, packing.cosserat_shear);
+    check("lc", !choice.internal_length, packing.couple);
+  }
+  CosseratParameters parameters;
+  parameters.shear_modulus = choice.shear_modulus.value_or(packing.shear);
+  parameters.cosserat_shear_modulus = choice.cosserat_shear_modulus.value_or(packing.cosserat_shear);
+  parameters.internal_length = choice.internal_length.value_or(packing.length());
+  return parameters;
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+
+#include "common/cell.hpp"
+#include "coupler/cells/cosserat_part.hpp"
+
+namespace polargrain::coupler {
+
+class Pool;
+
+/// Isotropic Cosserat moduli of a packing at rest: those of its contact network, condensed onto its own equilibrium
+/// with no contact sliding (docs/theory/grains.md, C.7).
+struct NetworkModuli {
+  double shear = 0.0;           ///< G, Pa: mean over all directions in the plane
+  double cosserat_shear = 0.0;  ///< Gc, Pa
+  double couple = 0.0;          ///< B = dm / d kappa, N
+  double poisson = 0.0;         ///< nu of plane strain: lambda / (2 (lambda + G))
+
+  [[nodiscard]] double length() const;  ///< sqrt(B / 2G), m
+  [[nodiscard]] std::string text() const;
+};
+
+/// @param tangent d stress / d strain with the mean rotation prescribed (CellTangent::cosserat)
+NetworkModuli network_moduli(const Matrix7& tangent);
+
+/// What a case says of G, Gc and lc; nothing where the packing is to tell.
+struct CosseratChoice {
+  std::optional<double> shear_modulus;           ///< Pa
+  std::optional<double> cosserat_shear_modulus;  ///< Pa
+  std::optional<double> internal_length;         ///< m
+};
+
+/// Fills in what is left to the packing by asking a worker for its network, if anything is.
+/// @param note gets one line that says what was found @throws RunError where a modulus of the packing is not positive
+CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition, std::string& note);
+
+}  // namespace polargrain::coupler
