@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "common/contact_library_file.hpp"
 #include "common/increment.hpp"
 #include "common/packing.hpp"
 #include "common/record.hpp"
@@ -81,6 +82,7 @@ struct CellDefinition {
   std::string script;       ///< text of the input script (liggghts_inputs/)
   Packing packing;
   CellControl control;
+  ContactLibraryFile contact_library = {};  ///< on every worker's machine; none: the laws of this project are enough
 };
 
 template <RecordOf<CellDefinition> Record, class Visit>
@@ -90,6 +92,7 @@ void describe(Record& definition, Visit&& visit) {
   visit(FieldNotes{"script", "", "text of the script"}, definition.script);
   visit(FieldNotes{"packing", "", "the packing that cells start from"}, definition.packing);
   visit(FieldNotes{"control", "", "how cells are loaded and read out"}, definition.control);
+  visit(FieldNotes{"contact_library", "", "contact laws of the user's own, or none"}, definition.contact_library);
 }
 
 /// One evaluation: from a state (or, when null, from the packing) along an increment.

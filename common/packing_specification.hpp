@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/contact_library_file.hpp"
 #include "common/packing.hpp"
 
 namespace polargrain {
@@ -30,6 +31,7 @@ struct PackingSpecification {
   std::string text;         ///< the user's file, kept with the packing
   std::string script_file;  ///< for messages
   std::string script;       ///< input script of a cell: contact model, time step
+  ContactLibraryFile contact_library;
   int grains = 0;
   SizeLaw sizes;
   /// Spheres instead of discs of the thickness of the box: in a single layer (dimension 2) or in space (3).

@@ -31,6 +31,13 @@ std::vector<std::string> settings_of(int grains, int seed) {
   return {fmt::format("grains={}", grains), fmt::format("seed={}", seed)};
 }
 
+/// Whether a material and a specification name libraries of contact laws with the same content, or none.
+bool same_library(const std::string& named, const std::filesystem::path& directory, const ContactLibraryFile& library) {
+  if (named.empty() || library.path.empty()) return named.empty() && library.path.empty();
+  const auto file = coupler::find_data_file(named, directory);
+  return !file || coupler::content_of(*file) == coupler::content_of(library.path);  // read_case tells what is not there
+}
+
 /// Packings at rest with one contact model are not at rest with another.
 void check_script(const BenchOptions& options, const PackingSpecification& specification) {
   const std::vector<MaterialWithCells> materials = materials_with_cells(options);
@@ -41,7 +48,12 @@ void check_script(const BenchOptions& options, const PackingSpecification& speci
   const coupler::Entry* entry = document.find("script");
   coupler::Faults faults;
   for (const MaterialWithCells& material : materials) {
-    const auto file = coupler::find_data_file(material.script, options.cases.front().parent_path());
+    const std::filesystem::path directory = options.cases.front().parent_path();
+    if (!same_library(material.contact_library, directory, specification.contact_library))
+      faults.push_back(entry->fault(fmt::format("contact_library: material '{}' in {} has another one, or only one of the "
+                                                "two has any; give both the same, in a copy of the specification",
+                                                material.name, options.cases.front().string())));
+    const auto file = coupler::find_data_file(material.script, directory);
     if (!file || coupler::text_of_script(*file) == specification.script) continue;  // read_case tells what is not there
     faults.push_back(entry->fault(
         fmt::format("script: {} has another content than {}, the script of material '{}' in {}; give both "
@@ -53,7 +65,8 @@ void check_script(const BenchOptions& options, const PackingSpecification& speci
 
 /// All that a packing depends on.
 std::string origin_of(const PackingSpecification& specification) {
-  return specification.text + "\n# the script:\n" + specification.script;
+  return specification.text + "\n# the script:\n" + specification.script + "\n# contact library " +
+         specification.contact_library.content + "\n";
 }
 
 }  // namespace

@@ -185,9 +185,12 @@ std::vector<MaterialWithCells> materials_with_cells(const BenchOptions& options)
   if (materials == nullptr) return found;
   for (const coupler::Entry::Member& member : materials->members) {
     const coupler::Entry* model = member.value.find("model");
-    const coupler::Entry* script = member.value.find("script");
+    const auto text_of = [&member](const char* key) {
+      const coupler::Entry* entry = member.value.find(key);
+      return entry == nullptr ? std::string() : entry->text;
+    };
     if (model != nullptr && member.value.find("packing") != nullptr)
-      found.push_back({member.key, model->text, script == nullptr ? "" : script->text});
+      found.push_back({member.key, model->text, text_of("script"), text_of("contact_library")});
   }
   return found;
 }

@@ -21,7 +21,8 @@ struct BenchSetting {
 struct MaterialWithCells {
   std::string name;
   std::string model;
-  std::string script;  ///< as the case names it
+  std::string script;           ///< as the case names it
+  std::string contact_library;  ///< the same; empty: none
 };
 
 /// @throws InputError when the case cannot be read

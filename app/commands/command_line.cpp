@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/case/data_files.hpp"
 #include "app/commands/band.hpp"
 #include "app/bench/bench.hpp"
 #include "app/run/interrupt.hpp"
@@ -80,6 +81,11 @@ void forget_launcher() {
 /// Makes engines for scripts that this worker may run: whoever started it says which, not the coordinator.
 std::unique_ptr<CellService> make_checked_service(const CellDefinition& definition, const ScriptRules& rules,
                                                   const WorkerEngine& engine) {
+  if (!definition.contact_library.path.empty() && !rules.trusted) {
+    throw RunError(fmt::format("this worker loads no library of contact laws ({}), which is a program; start it with "
+                               "--trust-scripts when you trust it",
+                               definition.contact_library.path));
+  }
   const std::vector<Fault> faults = script_faults(definition.script, definition.script_file, rules);
   if (!faults.empty()) {
     throw RunError(fmt::format("this worker runs no such script ({}); start it with --trust-scripts to run any",
@@ -131,12 +137,20 @@ int check(const std::string& file, const std::vector<std::string>& settings, con
   return 0;
 }
 
+/// A case or specification as named, or, where there is none, the one of that name that the program brings along
+/// (cases/): what --help tells to try works in any folder.
+std::string brought_along(const std::string& name) {
+  if (std::filesystem::exists(name)) return name;
+  const auto file = coupler::find_data_file(name, {});
+  return file ? file->string() : name;
+}
+
 /// What bench does when no case is named: the demo with its packings; quickly, on a coarser mesh.
 void take_demo(BenchOptions& options) {
-  options.cases.emplace_back("cases/biaxial/case.yaml");
+  options.cases.emplace_back(brought_along("cases/biaxial/case.yaml"));
   if (options.quick) options.settings.insert(options.settings.begin(), "mesh.rectangle.elements=[2, 4]");
   if (!options.pack.empty()) return;
-  options.pack = "cases/packings/dense400.yaml";
+  options.pack = brought_along("cases/packings/dense400.yaml");
   options.grains =
       options.quick ? std::vector<int>{100, 400, 800} : std::vector<int>{100, 200, 400, 800, 1600};
 }
@@ -168,7 +182,8 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
 void add_trust(CLI::App& command, ScriptRules& rules, const WorkerEngine& engine) {
   rules.more_commands = engine.script_commands;
   command.add_flag("--trust-scripts", rules.trusted,
-                   "Run scripts of cells that can do more than set up a cell: start programs, read and write files");
+                   "Run scripts of cells that can do more than set up a cell (start programs, read and write files), and "
+                   "libraries of contact laws");
 }
 
 }  // namespace
@@ -184,7 +199,9 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   run_options.workers = default_workers();
   run_options.state_fault = engine.state_fault;
   CLI::App* run_command = app.add_subcommand("run", "Run a case");
-  run_command->add_option("CASE", run_options.case_file, "Case file (YAML)")->required();
+  run_command->add_option("CASE", run_options.case_file, "Case file (YAML)")
+      ->required()
+      ->transform(brought_along);
   run_command->add_option("-o,--output", run_options.directory, "Result directory [results/NAME]")
       ->type_name("DIR");
   run_command->add_option("-w,--workers", run_options.workers, "Worker processes [one a core]")
@@ -210,14 +227,18 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   std::string check_file;
   std::vector<std::string> check_settings;
   CLI::App* check_command = app.add_subcommand("check", "Report all faults of a case; run nothing");
-  check_command->add_option("CASE", check_file, "Case file (YAML)")->required();
+  check_command->add_option("CASE", check_file, "Case file (YAML)")
+      ->required()
+      ->transform(brought_along);
   add_settings(*check_command, check_settings);
   ScriptRules check_scripts;
   add_trust(*check_command, check_scripts, engine);
 
   PointOptions point_options;
   CLI::App* point_command = app.add_subcommand("point", "Take one point of a material along a path");
-  point_command->add_option("CASE", point_options.case_file, "Case file (YAML)")->required();
+  point_command->add_option("CASE", point_options.case_file, "Case file (YAML)")
+      ->required()
+      ->transform(brought_along);
   point_command->add_option("MATERIAL", point_options.material, "Name of a material of the case")->required();
   point_command
       ->add_option("PATH", point_options.path_file, "CSV: an increment a row, h11,h12,h21,h22,w,k1,k2")
@@ -235,6 +256,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   CLI::App* pack_command = app.add_subcommand("pack", "Make a packing of grains, or export one");
   CLI::Option* pack_specification = pack_command->add_option(
       "SPEC", pack_options.specification_file, "What to make (YAML), or a packing to export");
+  pack_specification->transform(brought_along);
   CLI::Option* pack_output =
       pack_command->add_option("-o,--output", pack_options.output, "Packing to write (HDF5)")
           ->type_name("FILE.h5");
@@ -286,7 +308,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->add_option(
           "CASE", bench_options.cases,
           "Case whose settings are varied; further ones are compared with it [the demo, with packings]")
-      ->expected(0, -1);
+      ->expected(0, -1)
+      ->transform(brought_along);
   bench_command->add_flag("--quick", bench_options.quick,
                           "Fewer settings; some minutes where no case is named");
   bench_command->add_flag("--resume", bench_options.resume,

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "coupler/case/cell_script.hpp"
+#include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/case/section.hpp"
@@ -118,9 +119,11 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   specification.void_ratio_tolerance = top.quantity_or("void_ratio_tolerance", coupler::Dimension::number,
                                                        coupler::Limit::positive, specification.void_ratio_tolerance);
   read_control(top, specification);
-  coupler::CellScript script = read_cell_script("script", top, faults, {file.parent_path(), scripts});
+  const coupler::CaseFiles files{file.parent_path(), scripts};
+  coupler::CellScript script = read_cell_script("script", top, faults, files);
   specification.script_file = std::move(script.file);
   specification.script = std::move(script.text);
+  specification.contact_library = coupler::read_contact_library(top, files);
   top.finish();
   if (!faults.empty()) throw InputError(faults);
   return specification;
@@ -141,6 +144,7 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   else
     specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
   read_control(top, specification);
+  specification.contact_library = coupler::read_contact_library(top, {std::filesystem::current_path(), scripts});
   top.finish();
   const auto file = coupler::find_data_file(script.string(), std::filesystem::current_path());
   if (!file)

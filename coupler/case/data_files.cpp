@@ -14,7 +14,6 @@ std::vector<std::filesystem::path> data_places(const std::filesystem::path& case
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) places.push_back(program.parent_path().parent_path() / "share" / "polargrain");
-  places.emplace_back(POLARGRAIN_SOURCE_DIRECTORY);
   return places;
 }
 

@@ -8,8 +8,7 @@
 namespace polargrain::coupler {
 
 /// Where a file named in a case may lie, in the order of trial: beside the case; then, for what the program
-/// brings along (liggghts_inputs/), in $POLARGRAIN_DATA, in ../share/polargrain of the program, and in the
-/// source tree the program was built from.
+/// brings along (liggghts_inputs/, cases/), in $POLARGRAIN_DATA and in ../share/polargrain of the program.
 std::vector<std::filesystem::path> data_places(const std::filesystem::path& case_directory);
 
 /// The first existing file; a name such as cells/hooke_radii.in is also tried below liggghts_inputs/.

@@ -12,7 +12,7 @@
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 7;
+inline constexpr std::uint32_t kProtocolVersion = 8;
 
 /// A request asks for no more cells or states.
 inline constexpr std::size_t kMostInRequest = 64;

@@ -77,16 +77,23 @@ std::string increment_commands(const Increment& increment, std::size_t number) {
       number, words_of(increment));
 }
 
+/// How a replay is started, in its folder.
+std::string command_of(const CellDefinition& definition) {
+  return definition.contact_library.path.empty()
+             ? "polargrain-liggghts -in in.replay"
+             : fmt::format("polargrain-liggghts -contact {} -in in.replay", definition.contact_library.path);
+}
+
 std::string driver(const CellDefinition& definition, const Replay& replay) {
   const CellControl& control = definition.control;
   std::string text = fmt::format(
       "# Replays a cell of the material '{}' as a coupled run evaluates it.\n"
-      "#   polargrain-liggghts -in in.replay\n"
+      "#   {}\n"
       "# The README beside this file says what it is and what to expect. Add dumps and thermo output as you\n"
       "# like, behind the fix; they change nothing.\n\n"
       "variable        packing index {}\n"
       "include         {}\n\n",
-      definition.name, kPacking, kScript);
+      definition.name, command_of(definition), kPacking, kScript);
   const bool controlled = definition.control.rotations == CellRotations::controlled;
   text += fmt::format(
       "fix             cell all cell/load inertial_number {:.17g} damping {:.17g} least_steps {} &\n"
@@ -113,12 +120,12 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
 std::string readme(const CellDefinition& definition, const Replay& replay) {
   std::string text = fmt::format(
       "Replay of a cell of the material '{}' (script {}).\n\n{}\n\n"
-      "Run it in this folder:\n\n    polargrain-liggghts -in in.replay\n\n"
+      "Run it in this folder:\n\n    {}\n\n"
       "| file | what |\n|---|---|\n"
       "| {} | the packing, a LIGGGHTS data file |\n"
       "| {} | the input script of the material |\n"
       "| in.replay | drives the cell along the increments |\n",
-      definition.name, definition.script_file, replay.reason, kPacking, kScript);
+      definition.name, definition.script_file, replay.reason, command_of(definition), kPacking, kScript);
   if (definition.packing.state)
     text += fmt::format("| {} | velocities and contact histories of the packing |\n", kPackingState);
   if (replay.start)

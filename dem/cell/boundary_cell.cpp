@@ -52,7 +52,7 @@ class BoundaryCell final : public CellService {
 BoundaryCell::BoundaryCell(const CellDefinition& definition)
     : control_(definition.control),
       packing_(taken_out(definition.packing)),
-      driver_(packing_, definition.script, definition.script_file) {
+      driver_(packing_, definition.script, definition.script_file, definition.contact_library) {
   find_boundary();
   driver_.strain().hold(held_);
   driver_.set_up();

@@ -80,7 +80,7 @@ const CellDefinition& sound(const CellDefinition& definition) {
 Cell::Cell(const CellDefinition& definition)
     : control_(definition.control),
       thickness_(definition.packing.thickness),
-      driver_(sound(definition).packing, definition.script, definition.script_file) {
+      driver_(sound(definition).packing, definition.script, definition.script_file, definition.contact_library) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   if (controlled()) check_rolling_model();
   const Packing& packing = definition.packing;

@@ -21,11 +21,11 @@ constexpr int kProgressChunk = 100;
 }  // namespace
 
 Driver::Driver(const Packing& packing, const std::string& script, const std::string& script_file,
-               const std::function<void(Engine&)>& after_script)
+               const ContactLibraryFile& contact_library, const std::function<void(Engine&)>& after_script)
     : grains_(static_cast<int>(packing.grains.size())),
       thickness_(packing.thickness),
       script_file_(script_file),
-      engine_(true) {
+      engine_(true, contact_library) {
   for (const Grain& grain : packing.grains) {
     mean_radius_ += grain.radius / grains_;
     mean_mass_ += grain.mass / grains_;

@@ -22,9 +22,10 @@ class Driver {
   /// Reads the packing through the user's script and starts the engine; the box is the packing's, at rest. No
   /// forces are computed yet.
   /// @param script_file for messages only
+  /// @param contact_library as Engine's
   /// @param after_script called before the contact models read their parameters
   Driver(const Packing& packing, const std::string& script, const std::string& script_file,
-         const std::function<void(Engine&)>& after_script = {});
+         const ContactLibraryFile& contact_library = {}, const std::function<void(Engine&)>& after_script = {});
 
   Engine& engine() { return engine_; }
   LAMMPS_NS::LAMMPS& lammps() { return engine_.lammps(); }

@@ -2,10 +2,11 @@
 #include "dem/contact/registration.hpp"
 
 #include <cstdint>
-#include <iostream>
 
 #include "dem/contact/cell_loading.hpp"
+#include "dem/contact/combinations.hpp"
 #include "dem/contact/compiled_combination.hpp"
+#include "dem/contact/quiet_errors.hpp"
 
 namespace polargrain::dem {
 
@@ -24,57 +25,31 @@ CellLoading& cell_loading() {
 
 namespace {
 
-/// Any combination, put together at run time through virtual calls.
-using AnyCombination = ContactModel<GranStyle<>>;
-
+/// Whatever the lists of models name is known by that name.
 void add_names() {
   Factory& factory = Factory::instance();
-  factory.addNormalModel("hooke/radii", HOOKE_RADII);
-  factory.addTangentialModel("li_chu", TANGENTIAL_LI_CHU);
-  factory.addRollingModel("li_chu", ROLLING_LI_CHU);
+#define NORMAL_MODEL(identifier, name, number) factory.addNormalModel(model_name(#name), number);
+#include "style_normal_model.h"
+#undef NORMAL_MODEL
+#define TANGENTIAL_MODEL(identifier, name, number) factory.addTangentialModel(model_name(#name), number);
+#include "style_tangential_model.h"
+#undef TANGENTIAL_MODEL
+#define ROLLING_MODEL(identifier, name, number) factory.addRollingModel(model_name(#name), number);
+#include "style_rolling_model.h"
+#undef ROLLING_MODEL
 }
-
-/// Identifiers are small: the engine packs five of them into one number of six bits each.
-constexpr int kIdentifiers = 1 << 6;
 
 void add_any_combination(bool record_all) {
   const int64_t fall_back = GranStyle<>::HASHCODE;
   PairStyles::Factory::instance().addStyle("gran", fall_back, &create_pair<AnyCombination>);
   Walls::Factory::instance().addStyle("gran", fall_back, &create_wall<AnyCombination>);
-  if (!record_all) return;
-  // Stock combinations are found by their number before the fall-back is; take each number the stock may use.
-  for (int normal = 0; normal < 13; ++normal)
-    for (int tangential = 0; tangential < 5; ++tangential)
-      for (int cohesion = 0; cohesion < 9; ++cohesion)
-        for (int rolling = 0; rolling < 7; ++rolling)
-          for (const int surface : {SURFACE_DEFAULT, SURFACE_MULTICONTACT}) {
-            const int64_t hash =
-                normal | (tangential << 6) | (cohesion << 12) | (rolling << 18) | (surface << 24);
-            PairStyles::Factory::instance().addStyle("gran", static_cast<int>(hash),
-                                                     &create_pair<AnyCombination>);
-          }
+  // Stock combinations are found by their number before the fall-back is.
+  if (record_all) add_combinations([](int, int, int, int) { return true; }, false);
 }
-
-/// The engine warns of every number that is registered twice, which is what replacing means.
-class QuietErrors {
- public:
-  QuietErrors() : buffer_(std::cerr.rdbuf(nullptr)) {}
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-  ~QuietErrors() {
-    std::cerr.rdbuf(buffer_);
-    std::cerr.clear();
-  }
-
- private:
-  std::streambuf* buffer_;
-};
 
 }  // namespace
 
 void register_contact_models(bool record_all) {
-  static_assert(HOOKE_RADII < kIdentifiers && TANGENTIAL_LI_CHU < kIdentifiers &&
-                ROLLING_LI_CHU < kIdentifiers);
   const QuietErrors quiet;
   add_names();
   add_any_combination(record_all);

@@ -8,6 +8,7 @@
 
 #include "common/script.hpp"
 #include "dem/cell/fix_cell_strain.hpp"
+#include "dem/contact/contact_library.hpp"
 #include "dem/contact/registration.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/engine/private_access.hpp"
@@ -65,8 +66,9 @@ void equip(LAMMPS_NS::LAMMPS& lammps, bool record_all) {
 
 }  // namespace
 
-Engine::Engine(bool record_all) : lammps_(create()) {
+Engine::Engine(bool record_all, const ContactLibraryFile& contact_library) : lammps_(create()) {
   equip(*lammps_, record_all);
+  if (!contact_library.path.empty()) add_contact_library(contact_library);
 }
 
 Engine::Engine(bool record_all, int argc, char** argv) : lammps_(create(argc, argv)) {

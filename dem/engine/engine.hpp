@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "common/contact_library_file.hpp"
+
 namespace LAMMPS_NS {
 class LAMMPS;
 }
@@ -19,7 +21,8 @@ void start_engine_process();
 class Engine {
  public:
   /// @param record_all see register_contact_models
-  explicit Engine(bool record_all);
+  /// @param contact_library of contact laws of the user's own, or none @throws RunError as add_contact_library
+  explicit Engine(bool record_all, const ContactLibraryFile& contact_library = {});
   /// The same with LIGGGHTS's own command line.
   Engine(bool record_all, int argc, char** argv);
   Engine(const Engine&) = delete;

@@ -17,16 +17,18 @@ class PlaneBox final : public PressedBox {
  public:
   PlaneBox(const PackingSpecification& specification, const Packing& packing, std::optional<double> friction)
       : packing_(packing),
-        driver_(packing, specification.script, specification.script_file, [friction](Engine& engine) {
-          if (friction) set_friction(engine, *friction);
-        }) {
+        driver_(packing, specification.script, specification.script_file, specification.contact_library,
+                [friction](Engine& engine) {
+                  if (friction) set_friction(engine, *friction);
+                }) {
     if (packing.state && state_fits(driver_.lammps(), *packing.state))
       restore_state(driver_.lammps(), *packing.state);
     driver_.set_up();
     radii_ = inertia_of(driver_.lammps()).radii;
     stiffest_.see(driver_.contacts());
     if (driver_.contacts().empty() && !driver_.script_sets_time_step()) {
-      Driver probe(pressed_together(packing), specification.script, specification.script_file);
+      Driver probe(pressed_together(packing), specification.script, specification.script_file,
+                   specification.contact_library);
       probe.set_up();
       stiffest_.see(probe.contacts());
       driver_.set_up();  // the recorder is one for all

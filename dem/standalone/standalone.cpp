@@ -8,7 +8,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "common/contact_library_file.hpp"
+#include "common/error.hpp"
+#include "dem/contact/contact_library.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/standalone/fix_cell_load.hpp"
@@ -62,26 +67,52 @@ void tell_position() {
                lines_read(file), command.c_str());
 }
 
+/// Takes `-contact FILE` out of the words of the command line, which the engine does not know. @returns the files
+std::vector<std::string> take_contact_libraries(std::vector<char*>& words) {
+  std::vector<std::string> files;
+  for (std::size_t k = 1; k < words.size();) {
+    if (std::string_view(words[k]) != "-contact") {
+      ++k;
+      continue;
+    }
+    if (k + 1 == words.size()) throw RunError("-contact: the name of a library of contact laws must follow");
+    files.emplace_back(words[k + 1]);
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(k), words.begin() + static_cast<std::ptrdiff_t>(k + 2));
+  }
+  return files;
+}
+
+void run_script(std::vector<char*> words, const std::function<void()>& add_models) {
+  const std::vector<std::string> libraries = take_contact_libraries(words);
+  Engine engine(true, static_cast<int>(words.size()), words.data());
+  register_standalone_fixes(*engine.lammps().modify);
+  if (add_models) add_models();
+  for (const std::string& library : libraries) add_contact_library({library, {}});
+  running_engine = &engine.lammps();
+  // Errors that all processes see end in exit(), others in MPI_Abort().
+  on_exit(
+      [](int status, void*) {
+        if (status != 0) tell_position();
+      },
+      nullptr);
+  engine.lammps().input->file();
+  running_engine = nullptr;
+}
+
 }  // namespace
 
 int run_liggghts(int argc, char** argv, const std::function<void()>& add_models) {
+  constexpr int kInputWrong = 2;
   MPI_Init(&argc, &argv);
-  {
-    Engine engine(true, argc, argv);
-    register_standalone_fixes(*engine.lammps().modify);
-    if (add_models) add_models();
-    running_engine = &engine.lammps();
-    // Errors that all processes see end in exit(), others in MPI_Abort().
-    on_exit(
-        [](int status, void*) {
-          if (status != 0) tell_position();
-        },
-        nullptr);
-    engine.lammps().input->file();
-    running_engine = nullptr;
+  int status = 0;
+  try {
+    run_script({argv, argv + argc}, add_models);
+  } catch (const RunError& error) {
+    std::fprintf(stderr, "polargrain-liggghts: %s\n", error.what());
+    status = kInputWrong;
   }
   MPI_Finalize();
-  return 0;
+  return status;
 }
 
 }  // namespace polargrain::dem

@@ -243,7 +243,6 @@ std::vector<std::filesystem::path> gmsh_module_places() {
     places.push_back(program.parent_path());
     places.push_back(program.parent_path().parent_path() / "lib" / "polargrain");
   }
-  places.emplace_back(POLARGRAIN_MODULE_DIRECTORY);
   return places;
 }
 

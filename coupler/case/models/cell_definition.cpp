@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
 
 namespace polargrain::coupler {
@@ -50,6 +51,7 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   definition.script_file = script.file;
   definition.script = script.text;
   const auto packing = packing_file(section, files.directory);
+  definition.contact_library = read_contact_library(section, files);
   definition.control = read_control(section);
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# What `cmake --install` adds to the programs: documentation, and the CMake package with which a contact law of the
+# user's own is built (docs/own_contact_law). Such a law needs headers only: the program that loads it has the rest.
+include(CMakePackageConfigHelpers)
+
+set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/polargrain)
+set(header_directory ${CMAKE_INSTALL_INCLUDEDIR}/polargrain)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.py" EXCLUDE)
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+if(POLARGRAIN_ENGINE)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/dem/contact ${PROJECT_SOURCE_DIR}/dem/engine DESTINATION ${header_directory}/dem
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+  configure_package_config_file(cmake/polargrainConfig.cmake.in ${PROJECT_BINARY_DIR}/polargrainConfig.cmake
+                                INSTALL_DESTINATION ${package_directory} PATH_VARS header_directory)
+  # A library of contact laws fits the version that it was compiled for alone.
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/polargrainConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/polargrainConfig.cmake ${PROJECT_BINARY_DIR}/polargrainConfigVersion.cmake
+                cmake/polargrain_contact_laws.cmake DESTINATION ${package_directory})
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME polargrain)
+set(CPACK_PACKAGE_CONTACT "polargrain developers <polargrain@localhost>")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, libliggghts-dev, libopenmpi-dev, libeigen3-dev")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+include(CPack)

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# What tools say of the code. Ends with status 77 (skipped) where the tool is not installed.
+#
+#   tests/style.sh format [--fix]     clang-format, all files
+#   tests/style.sh tidy BUILD [all]   clang-tidy with the compile commands of a build: common/ (a minute), or all (long)
+#   tests/style.sh pages              doxygen: comments without warnings; pages in build/doxygen/html
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+need() { command -v "$1" >/dev/null || { echo "skipped: there is no $1"; exit 77; }; }
+sources() { find app band bench common coupler dem fem tests \( -name '*.cpp' -o -name '*.hpp' \) | sort; }
+
+case "${1:-}" in
+  format)
+    need clang-format
+    if [[ ${2:-} == --fix ]]; then
+      sources | xargs clang-format -i
+    else
+      sources | xargs clang-format --dry-run -Werror
+    fi
+    ;;
+  tidy)
+    need clang-tidy
+    # Precompiled headers are g++'s: clang reads the headers themselves.
+    commands=$(mktemp -d)
+    trap 'rm -rf "$commands"' EXIT
+    sed 's/ -Winvalid-pch//g; s/ -include [^ ]*cmake_pch\.hxx//g' "$2/compile_commands.json" >"$commands/compile_commands.json"
+    if [[ ${3:-} == all ]]; then
+      files=$(find app band common coupler dem fem -name '*.cpp' | sort)
+    else
+      files=$(find common -name '*.cpp' | sort)
+    fi
+    # Warnings that g++ knows and clang does not are switched off in the compile commands.
+    echo "$files" | xargs -P 2 -n 1 clang-tidy -p "$commands" --quiet --warnings-as-errors='*' \
+      --extra-arg=-Wno-unknown-warning-option
+    ;;
+  pages)
+    need doxygen
+    mkdir -p build
+    doxygen docs/Doxyfile
+    ;;
+  *)
+    sed -n '3,8s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+    ;;
+esac
