@@ -5,12 +5,16 @@ include(CMakePackageConfigHelpers)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/polargrain)
 set(header_directory ${CMAKE_INSTALL_INCLUDEDIR}/polargrain)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.py" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        PATTERN "*.py" EXCLUDE PATTERN Doxyfile EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(POLARGRAIN_ENGINE)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/dem/contact ${PROJECT_SOURCE_DIR}/dem/engine DESTINATION ${header_directory}/dem
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h"
+          # Of the program alone.
+          PATTERN contact_pair.hpp EXCLUDE PATTERN registration.hpp EXCLUDE
+          PATTERN engine.hpp EXCLUDE PATTERN private_access.hpp EXCLUDE)
   configure_package_config_file(cmake/polargrainConfig.cmake.in ${PROJECT_BINARY_DIR}/polargrainConfig.cmake
                                 INSTALL_DESTINATION ${package_directory} PATH_VARS header_directory)
   # A library of contact laws fits the version that it was compiled for alone.
@@ -21,11 +25,12 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME polargrain)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3")  # studies and specimen.py
 set(CPACK_PACKAGE_CONTACT "polargrain developers <polargrain@localhost>")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, libliggghts-dev, libopenmpi-dev, libeigen3-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, ninja-build, libliggghts-dev, libopenmpi-dev, libeigen3-dev")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 include(CPack)

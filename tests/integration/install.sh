@@ -63,7 +63,7 @@ cp -r ../prefix/share/doc/polargrain/docs/own_contact_law law
 # A second one beside it, that takes the name of another law.
 cp -r law taken
 sed -i 's|hooke/stiffening, 40|hooke/radii, 40|' taken/normal_hooke_stiffening.hpp
-build_law() { cmake -S $1 -B $1/build -DCMAKE_BUILD_TYPE=$2 -DCMAKE_PREFIX_PATH="$work/prefix" && cmake --build $1/build; }
+build_law() { cmake -G Ninja -S $1 -B $1/build -DCMAKE_BUILD_TYPE=$2 -DCMAKE_PREFIX_PATH="$work/prefix" && cmake --build $1/build; }
 build_law taken Debug >taken.said 2>&1 &
 build_law law Release >law.said 2>&1 || { cat law.said; fail "the law is not built"; }
 wait $! || { cat taken.said; fail "the law with the name of another one is not built"; }
