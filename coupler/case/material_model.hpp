@@ -26,8 +26,8 @@ class MaterialRecipe {
   [[nodiscard]] virtual bool holds_micro_rotations() const { return true; }
 };
 
-/// A material model a case can name. To add one: a file in models/ that defines a function like those below,
-/// and its line in material_models.cpp.
+/// A material model a case can name. To add one: a file in models/ that defines a function which returns it
+/// (elastic.cpp is the shortest), and its line in material_models.cpp.
 struct MaterialModel {
   std::string name;     ///< what `model:` says
   std::string summary;  ///< one line for the help
@@ -40,11 +40,5 @@ struct MaterialModel {
 
 /// All models, in the order of the help.
 const std::vector<MaterialModel>& material_models();
-
-MaterialModel elastic_model();
-MaterialModel elastoplastic_model();
-MaterialModel cell_model();
-MaterialModel informed_model();
-MaterialModel adaptive_model();
 
 }  // namespace polargrain::coupler

@@ -3,6 +3,13 @@
 
 namespace polargrain::coupler {
 
+// A new material model: its file in models/, and its name here and in the list below.
+MaterialModel adaptive_model();
+MaterialModel cell_model();
+MaterialModel elastic_model();
+MaterialModel elastoplastic_model();
+MaterialModel informed_model();
+
 const std::vector<MaterialModel>& material_models() {
   static const std::vector<MaterialModel> models{elastic_model(), elastoplastic_model(), cell_model(),
                                                  informed_model(), adaptive_model()};

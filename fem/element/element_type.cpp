@@ -11,7 +11,7 @@
 namespace polargrain::fem {
 namespace {
 
-/// A new element: add its file and a line here.
+/// A new element: add its file, declare its function above, and name it here.
 const std::vector<ElementType>& element_types() {
   static const std::vector<ElementType> types{quadrilateral8_reduced(), quadrilateral8(), quadrilateral4(),
                                               triangle6()};
