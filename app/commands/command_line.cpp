@@ -2,11 +2,9 @@
 #include "app/commands/command_line.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <thread>
 
 #include "common/error.hpp"
@@ -19,8 +17,9 @@
 #include "app/commands/pack.hpp"
 #include "app/commands/point.hpp"
 #include "app/commands/verify.hpp"
+#include "app/commands/worker.hpp"
 #include "app/run/run.hpp"
-#include "coupler/pool/worker.hpp"
+#include "coupler/pool/keys.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -52,71 +51,6 @@ The case file is described in docs/user_guide.md.
 
 int default_workers() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
-struct WorkerOptions {
-  std::string url;
-  std::string log;
-  std::string key;
-  double patience_seconds = coupler::ServeOptions{}.patience_seconds;
-  ScriptRules scripts = {};
-};
-
-/// Makes a worker that srun or mpirun has started forget it: every worker is an MPI world of its own, or its
-/// engine would try to share its grains with the other workers. Open MPI would start a daemon beside each
-/// such world (0.15 s, 20 MB, and no start at all where there is no ssh); a world that never spawns others
-/// needs none.
-void forget_launcher() {
-  std::vector<std::string> names;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string text = *variable;
-    for (const char* prefix : {"SLURM_", "PMI_", "PMIX_", "PMI2_", "OMPI_", "ORTE_", "HYDRA_"}) {
-      if (text.rfind(prefix, 0) == 0) names.push_back(text.substr(0, text.find('=')));
-    }
-  }
-  for (const std::string& name : names) unsetenv(name.c_str());
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
-}
-
-/// Makes engines for scripts that this worker may run: whoever started it says which, not the coordinator.
-std::unique_ptr<CellService> make_checked_service(const CellDefinition& definition, const ScriptRules& rules,
-                                                  const WorkerEngine& engine) {
-  if (!definition.contact_library.path.empty() && !rules.trusted) {
-    throw RunError(fmt::format("this worker loads no library of contact laws ({}), which is a program; start it with "
-                               "--trust-scripts when you trust it",
-                               definition.contact_library.path));
-  }
-  const std::vector<Fault> faults = script_faults(definition.script, definition.script_file, rules);
-  if (!faults.empty()) {
-    throw RunError(fmt::format("this worker runs no such script ({}); start it with --trust-scripts to run any",
-                               faults.front().text()));
-  }
-  return engine.make_service(definition);
-}
-
-int work(const WorkerOptions& options, const WorkerEngine& engine) {
-  for (std::FILE* stream : {stdout, stderr}) {
-    if (!options.log.empty() && std::freopen(options.log.c_str(), "a", stream) == nullptr) {
-      throw RunError(fmt::format("the log {} cannot be written", options.log));
-    }
-  }
-  try {
-    coupler::ServeOptions serve_options;
-    serve_options.patience_seconds = options.patience_seconds;
-    if (!options.key.empty()) serve_options.key = coupler::read_worker_key(options.key);
-    forget_launcher();
-    engine.start_process();
-    const CellServiceFactory make_service = [&](const CellDefinition& definition) {
-      return make_checked_service(definition, options.scripts, engine);
-    };
-    serve(options.url, make_service, serve_options);
-  } catch (const InputError& error) {
-    throw;  // what the user gave is wrong; told like everywhere else
-  } catch (const std::exception& error) {
-    tell(stderr, "ERROR: {}\n", error.what());
-    return kRunFailed;
-  }
-  return 0;
 }
 
 int keys(const std::string& directory, const std::string& worker) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <functional>
+#include <set>
+#include <string>
+
+#include "common/cell.hpp"
+#include "common/script.hpp"
+#include "common/state_check.hpp"
+#include "coupler/pool/worker.hpp"
+
+namespace polargrain::app {
+
+/// What a worker runs; given by the program, so that the coupler knows no engine.
+struct WorkerEngine {
+  /// Called once, before anything else, in a process that becomes a worker.
+  std::function<void()> start_process;
+  CellServiceFactory make_service;
+  /// Commands of scripts that it understands beside LIGGGHTS's own and that can do no harm.
+  std::set<std::string> script_commands = {};
+  /// Judges the states that workers send; may be empty.
+  StateCheck state_fault = {};
+};
+
+struct WorkerOptions {
+  std::string url;  ///< of the coordinator
+  std::string log;  ///< file for all output; empty: none
+  std::string key;  ///< file of the key, for tcp://; empty: none
+  double patience_seconds = coupler::ServeOptions{}.patience_seconds;  ///< without a coordinator
+  ScriptRules scripts = {};  ///< which scripts it runs, whatever its coordinator says
+};
+
+/// Works for a coordinator until that ends or is gone for too long. @returns the exit status, 0 or 1
+/// @throws InputError when the key or the log cannot be used
+int work(const WorkerOptions& options, const WorkerEngine& engine);
+
+}  // namespace polargrain::app
