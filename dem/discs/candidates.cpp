@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/error.hpp"
+
 namespace polargrain::dem {
 
 namespace {
@@ -23,6 +25,15 @@ struct Place {
   int row = 0;
   LatticeVector copy;
 };
+
+/// @throws RunError when a disc is so far away, or nowhere, that no copy of the box can be told
+std::int32_t copy_of(double boxes) {
+  constexpr double kMostBoxes = 1e6;
+  if (std::abs(boxes) < kMostBoxes) return static_cast<std::int32_t>(std::floor(boxes));
+  throw RunError(
+      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed into "
+      "each other");
+}
 
 /// Bins of a periodic box that is divided evenly along its base vectors, none narrower than it must be where
 /// the box allows.
@@ -44,7 +55,7 @@ class Bins {
       const double s = inverse(0, 0) * discs[k].x + inverse(0, 1) * discs[k].y;
       const double t = inverse(1, 0) * discs[k].x + inverse(1, 1) * discs[k].y;
       Place& place = places[k];
-      place.copy = {static_cast<std::int32_t>(std::floor(s)), static_cast<std::int32_t>(std::floor(t))};
+      place.copy = {copy_of(s), copy_of(t)};
       place.column = std::min(columns_ - 1, static_cast<int>((s - place.copy.p) * columns_));
       place.row = std::min(rows_ - 1, static_cast<int>((t - place.copy.q) * rows_));
       ++starts_[bin(place) + 1];
@@ -106,6 +117,10 @@ bool counts(std::int32_t first, std::int32_t second, const LatticeVector& image)
 }
 
 }  // namespace
+
+LatticeVector copy_at(const Eigen::Matrix2d& inverse, double x, double y) {
+  return {copy_of(inverse(0, 0) * x + inverse(0, 1) * y), copy_of(inverse(1, 0) * x + inverse(1, 1) * y)};
+}
 
 void CandidateList::find(std::span<const Disc> discs, std::span<const int> types, int kinds,
                          const Eigen::Matrix2d& base, double skin) {

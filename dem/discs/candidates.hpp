@@ -18,6 +18,10 @@ struct Candidate {
   double harmonic = 0.0;    ///< r_1 r_2 / (r_1 + r_2), m
 };
 
+/// Which copy of the box a place lies in. @param inverse of the base vectors, 1/m
+/// @throws RunError when it is so far away, or nowhere, that this cannot be told: the grains are lost
+LatticeVector copy_at(const Eigen::Matrix2d& inverse, double x, double y);
+
 /// Pairs of discs of a periodic box whose surfaces are nearer than a skin, each pair once, by rows of the disc
 /// with the lower number. The order depends on the positions alone.
 struct CandidateList {
@@ -30,6 +34,7 @@ struct CandidateList {
   /// Finds the pairs.
   /// @param types of the discs, from 0; @param kinds types there are
   /// @param base columns are the base vectors of the box, m; @param skin largest gap taken, m
+  /// @throws RunError as copy_at
   void find(std::span<const Disc> discs, std::span<const int> types, int kinds, const Eigen::Matrix2d& base,
             double skin);
   /// Takes over the springs of the pairs that another list has too.

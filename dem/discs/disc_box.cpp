@@ -117,8 +117,7 @@ StatePointer DiscBox::save() {
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const Disc& disc = discs_[k];
     LatticeVector& copy = copies[k];
-    copy.p = static_cast<std::int32_t>(std::floor(inverse(0, 0) * disc.x + inverse(0, 1) * disc.y));
-    copy.q = static_cast<std::int32_t>(std::floor(inverse(1, 0) * disc.x + inverse(1, 1) * disc.y));
+    copy = copy_at(inverse, disc.x, disc.y);
     snapshot.discs[k] = {disc.x - (base(0, 0) * copy.p + base(0, 1) * copy.q),
                          disc.y - (base(1, 0) * copy.p + base(1, 1) * copy.q),
                          disc.vx,

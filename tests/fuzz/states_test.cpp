@@ -100,6 +100,24 @@ TEST(FlippedStates, OfDiscsAreRefusedOrGoneOnFrom) {
   EXPECT_NO_THROW(sheared(box, 3));
 }
 
+// What is flung away has no place in a list of neighbours: that is said, and no memory is written where none is.
+TEST(FlippedStates, OfDiscsThatFlingGrainsAwayEndInWords) {
+  const CellDefinition cell = test::lattice(kSide, kSide, CellRotations::free);
+  const DiscBox::Definition discs = discs_of(cell.packing);
+  DiscBox box(discs);
+  box.restore(at_rest(cell.packing, discs.combination));
+  DiscSnapshot snapshot = decode_discs(*sheared(box, 40));
+  snapshot.discs[1].x = snapshot.discs[0].x;  // at one point: no direction to push them apart in
+  snapshot.discs[1].y = snapshot.discs[0].y;
+  try {
+    box.restore(snapshot);
+    sheared(box, 40);
+    FAIL();
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()).find("Lost grains"), 0u) << error.what();
+  }
+}
+
 TEST(FlippedStates, OfDiscsAreNoneOfTheEnginesLoop) {
   CellDefinition cell = test::lattice(kSide, kSide, CellRotations::free);
   const DiscBox::Definition discs = discs_of(cell.packing);
