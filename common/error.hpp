@@ -33,4 +33,10 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a run has used of a worker's answers may be false: there is nothing to go on from.
+class FalseResults : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 }  // namespace polargrain

@@ -68,6 +68,9 @@ int check(const std::string& file, const std::vector<std::string>& settings, con
   tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", file,
              the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
              the_case.needs_workers() ? "needs workers" : "needs no workers");
+  if (the_case.check_share > 0.0 && the_case.needs_workers())
+    tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker none can be\n",
+         100.0 * the_case.check_share);
   return 0;
 }
 

@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
+#include "coupler/pool/confinement.hpp"
 #include "coupler/pool/keys.hpp"
 
 namespace polargrain::app {
@@ -30,6 +32,7 @@ void forget_launcher() {
   }
   for (const std::string& name : names) unsetenv(name.c_str());
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+  setenv("OMPI_MCA_btl", "self", 1);  // it speaks to nobody: no sockets, no shared memory
 }
 
 /// Makes engines for scripts that this worker may run: whoever started it says which, not the coordinator.
@@ -63,7 +66,14 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     serve_options.patience_seconds = options.patience_seconds;
     if (!options.key.empty()) serve_options.key = coupler::read_worker_key(options.key);
     forget_launcher();
+    // Trusted scripts may do what the user may.
+    std::optional<coupler::Confinement> confinement;
+    if (!options.scripts.trusted) confinement.emplace(options.url);
     engine.start_process();
+    if (confinement) {
+      confinement->close();
+      serve_options.unconfined = confinement->missing();
+    }
     const CellServiceFactory make_service = [&](const CellDefinition& definition) {
       return make_checked_service(definition, options.scripts, engine);
     };

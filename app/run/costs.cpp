@@ -42,7 +42,8 @@ namespace {
 constexpr std::array kWhole{&coupler::PoolCounts::evaluations,    &coupler::PoolCounts::dem_steps,
                             &coupler::PoolCounts::states_sent,    &coupler::PoolCounts::bytes_sent,
                             &coupler::PoolCounts::bytes_received, &coupler::PoolCounts::workers_lost,
-                            &coupler::PoolCounts::states_fetched, &coupler::PoolCounts::evaluations_again};
+                            &coupler::PoolCounts::states_fetched, &coupler::PoolCounts::evaluations_again,
+                            &coupler::PoolCounts::evaluations_checked};
 constexpr std::array kSeconds{&coupler::PoolCounts::engine_seconds, &coupler::PoolCounts::busy_seconds,
                               &coupler::PoolCounts::wall_seconds, &coupler::PoolCounts::member_seconds};
 constexpr std::array kCosts{&Costs::total,   &Costs::grains,          &Costs::messages,

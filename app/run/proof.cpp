@@ -2,7 +2,6 @@
 #include "app/run/proof.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <span>
 
 #include "common/state.hpp"
@@ -43,15 +42,6 @@ std::map<std::string, std::string> names_of_results(const fs::path& directory) {
   std::error_code error;
   if (fs::is_directory(directory / "fields", error)) names["fields"] = name_of_folder(directory / "fields");
   return names;
-}
-
-std::string processor_model() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
 }
 
 }  // namespace polargrain::app

@@ -18,7 +18,4 @@ std::map<std::string, std::string> names_of_results(const std::filesystem::path&
 /// The name of a file's content; empty when it cannot be read.
 std::string name_of_file(const std::filesystem::path& file);
 
-/// The model of this machine's processor, as the system calls it.
-std::string processor_model();
-
 }  // namespace polargrain::app

@@ -68,6 +68,10 @@ class Run {
     } catch (const Interrupted& error) {
       end_badly("stopped", error.what());
       throw Interrupted(record_.message);
+    } catch (const FalseResults& error) {
+      forget_what_may_be_false();
+      end_badly("failed", error.what());
+      throw RunError(record_.message);
     } catch (const std::exception& error) {
       end_badly("failed", error.what());
       throw RunError(record_.message);
@@ -105,9 +109,12 @@ class Run {
         observer_.warn(text);
       };
       options.patience = case_.patience;
+      options.check_share = case_.check_share;
       options.trust_scripts = options_.scripts.trusted;
       options.listening = std::move(listening_);
       options.state_fault = state_fault_;
+      if (case_.check_share > 0.0 && options.workers == 1 && !options.listening)
+        options.tell("workers: check: with one worker no evaluation can be checked by another one");
       pool_.emplace(options);
       note_interrupts();  // what the messages are sent with may have changed what signals do
       pool_->on_answers([this](auto requests, auto replies) { sample_.take(requests, replies); });
@@ -291,6 +298,16 @@ class Run {
     return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
   }
 
+  /// No checkpoint of this run is to be gone on from by mistake. One that it has itself begun from is what it was.
+  void forget_what_may_be_false() {
+    last_.reset();
+    if (saved_step_ < first_step_) return;
+    std::error_code error;
+    std::filesystem::rename(directory_ / kCheckpointFile, directory_ / "checkpoint.doubtful.h5", error);
+    saved_step_ = -1;
+    warn("the checkpoint of this run may hold false answers: it is checkpoint.doubtful.h5 now");
+  }
+
   /// When the directory has gone, what can be saved goes where it is now, or to a new one.
   void follow_directory() {
     const auto displaced = lock_.displacement();
@@ -343,7 +360,7 @@ class Run {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
     }
-    if (pool_) record_.evaluations_by_worker = pool_->evaluations_by_worker();
+    if (pool_) record_.worker_records = pool_->worker_records();
     log_.info("{}", record_.status);
     save_sample();
     record_.settings = options_.settings;

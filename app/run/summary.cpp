@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/processor.hpp"
 #include "app/run/proof.hpp"
 #include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
@@ -89,6 +90,7 @@ std::string cell_figures(const coupler::PoolCounts& pool) {
       .whole("states_sent", pool.states_sent)
       .whole("states_fetched", pool.states_fetched)
       .whole("evaluations_again", pool.evaluations_again)
+      .whole("evaluations_checked", pool.evaluations_checked)
       .whole("bytes_sent", pool.bytes_sent)
       .whole("bytes_received", pool.bytes_received)
       .finish("  ");
@@ -113,7 +115,12 @@ std::string names_figure(const std::map<std::string, std::string>& names) {
 /// What the result was made from, by whom, and what it is.
 std::string proof_figures(const coupler::Case& the_case, const RunRecord& record) {
   JsonObject workers;
-  for (const auto& [worker, count] : record.evaluations_by_worker) workers.whole(worker, count);
+  for (const auto& [worker, done] : record.worker_records) {
+    workers.raw(worker, JsonObject()
+                            .whole("evaluations", done.evaluations)
+                            .text("processor", done.processor)
+                            .finish("      "));
+  }
   std::vector<std::string> settings;
   for (const std::string& setting : record.settings) settings.push_back(quoted(setting));
   return JsonObject()
@@ -122,7 +129,7 @@ std::string proof_figures(const coupler::Case& the_case, const RunRecord& record
       .raw("settings", fmt::format("[{}]", fmt::join(settings, ", ")))
       .raw("files", names_figure(the_case.identity.files))
       .raw("results", names_figure(record.results))
-      .raw("evaluations_by_worker", workers.finish("    "))
+      .raw("workers", workers.finish("    "))
       .finish("  ");
 }
 
@@ -210,6 +217,9 @@ std::string costs_text(const RunRecord& record) {
     text += fmt::format("cells: {} evaluations on {} workers, {:.4f} s and {:.0f} DEM steps each\n",
                         record.pool.evaluations, record.workers, record.pool.engine_seconds / evaluations,
                         static_cast<double>(record.pool.dem_steps) / evaluations);
+    if (record.pool.evaluations_checked > 0)
+      text += fmt::format("       {} of them were made by two workers, with the same bits\n",
+                          record.pool.evaluations_checked);
   }
   return text;
 }

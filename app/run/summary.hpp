@@ -35,7 +35,7 @@ struct RunRecord {
   std::map<std::string, std::vector<fem::Figure>> figures;
   std::vector<std::string> settings;                        ///< of --set
   std::map<std::string, std::string> results;               ///< names of contents, see names_of_results
-  std::map<std::string, std::int64_t> evaluations_by_worker;  ///< since the run was started, or resumed, last
+  std::map<std::string, coupler::WorkerRecord> worker_records;  ///< since the run was started, or resumed, last
 };
 
 /// Writes summary.json: status, figures of cost and error, last values of the monitors.

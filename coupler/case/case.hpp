@@ -57,6 +57,7 @@ struct Case {
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
   PatienceLimits patience;         ///< with workers
+  double check_share = 0.0;        ///< of the evaluations: made by two workers, 0 to 1
 
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }

@@ -202,6 +202,9 @@ class CaseReader {
         workers.quantity_or("silence", Dimension::duration, Limit::positive, patience.silence_seconds);
     patience.cell_seconds =
         workers.quantity_or("cell_time", Dimension::duration, Limit::positive, patience.cell_seconds);
+    case_.check_share = workers.quantity_or("check", Dimension::number, Limit::not_negative, case_.check_share);
+    if (case_.check_share > 1.0)
+      workers.fault("check", "check: is a share of the evaluations, at most 1 (100 %)");
     workers.finish();
   }
 

@@ -7,10 +7,11 @@
 namespace polargrain::coupler {
 
 int Attempts::news_of(const Candidate& worker) const {
-  int news = 2;
+  int news = worker.party.empty() ? 3 : 2;
   for (const Attempt& attempt : list_) {
     if (attempt.worker == worker.worker) return 0;
-    if (attempt.party == worker.party) news = 1;
+    // Who was killed by somebody else has said nothing for its party.
+    if (attempt.party == worker.party && attempt.end != Attempt::End::from_outside) news = 1;
   }
   return news;
 }
@@ -40,7 +41,7 @@ bool Attempts::are_enough(const std::vector<Candidate>& present) const {
   if (by_work < kMostByWork) return false;
   int most_news = 0;
   for (const Candidate& worker : present) most_news = std::max(most_news, news_of(worker));
-  if (most_news == 2 && parties.size() < 2) return false;
+  if (most_news == 3 || (most_news == 2 && parties.size() < 2)) return false;
   return most_news == 0 || workers.size() >= 2;
 }
 

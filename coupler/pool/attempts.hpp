@@ -24,6 +24,7 @@ struct Attempt {
 struct Candidate {
   std::uint64_t worker = 0;
   std::string party;
+  std::string name = {};  ///< Member::name: that of a process of our own stays with the one that takes its place
 };
 
 /// The attempts at a task that came to nothing, and what they say: that the task is at fault only when
@@ -40,8 +41,9 @@ class Attempts {
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] const std::vector<Attempt>& list() const { return list_; }
 
-  /// How much a worker would tell by trying: 2 nobody of its party has tried, 1 another one of its party has,
-  /// 0 it has tried itself.
+  /// How much a worker would tell by trying: 3 it is one of our own and none of these has tried, 2 nobody of its party
+  /// has, 1 another one of its party has, 0 it has tried itself. What guests alone could not do proves nothing while
+  /// one of our own is there.
   [[nodiscard]] int news_of(const Candidate& worker) const;
   /// Whether nobody there would tell more than this one.
   [[nodiscard]] bool may_try(const Candidate& worker, const std::vector<Candidate>& present) const;

@@ -21,7 +21,7 @@ constexpr int kStopMilliseconds = 500;
 constexpr int kMostFruitless = 100;
 constexpr int kFruitlessEnd = 20;
 
-/// Guests of one key that may be sent away until the key is shut out.
+/// Guests of one key that may be sent away until the key is shut out, and processes of one place until it stays empty.
 constexpr int kMostOffences = 3;
 
 /// Messages in a row that make no sense, after which a worker is given up.
@@ -90,7 +90,7 @@ void Crew::fill(Seat& seat) {
   seat.log_start = std::filesystem::exists(seat.log, none) ? std::filesystem::file_size(seat.log, none) : 0;
   seat.started = Clock::now();
   seat.address = {};
-  seat.process.emplace(command, seat.log);
+  seat.process.emplace(command, seat.log, options_.network);
   switchboard_.watch(seat.process->end_descriptor());
 }
 
@@ -212,6 +212,11 @@ void Crew::send_away(Member& member, const std::string& cause) {
                       kMostOffences, member.party));
     }
   }
+  for (Seat& seat : seats_) {
+    if (member.address.id.empty() || seat.address != member.address || ++seat.offences < kMostOffences) continue;
+    seat.fruitless = kMostFruitless;
+    say(fmt::format("{} was sent away {} times: it is not started again", member.name, kMostOffences));
+  }
   give_up(member, cause);
 }
 
@@ -296,14 +301,22 @@ void Crew::greet(const Address& from, const Hello& hello) {
     name = fmt::format("worker {}", seat->number);
   }
   Member& member =
-      members_.emplace_back(Member{name, from, ++last_member_, from.key, StateCache(options_.cache_bytes)});
+      members_.emplace_back(Member{name, from, hello.processor, ++last_member_, from.key, StateCache(options_.cache_bytes)});
   places_[from] = std::prev(members_.end());
+  if (!hello.unconfined.empty() && said_unconfined_.insert(hello.unconfined).second)
+    say(fmt::format("{} runs with more rights than it needs; its system does not allow: {}", name, hello.unconfined));
   send(member, Welcome{options_.heartbeat_seconds});
   events_.joined(member);
 }
 
 void Crew::say(const std::string& text) const {
   if (options_.tell) options_.tell(text);
+}
+
+bool Crew::is_filling() const {
+  return std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) {
+    return seat.address.id.empty() && (seat.process || seat.fruitless < kMostFruitless);
+  });
 }
 
 Member* Crew::member_at(const Address& address) {

@@ -24,6 +24,7 @@ struct CrewOptions {
   int workers = 1;                          ///< local ones
   std::filesystem::path directory;          ///< gets logs/worker-K.log
   std::vector<std::string> worker_command;  ///< the crew adds `--connect URL`
+  Process::Network network = Process::Network::none;  ///< of local workers
   double startup_seconds = 10.0;
   std::size_t cache_bytes = 0;         ///< what a worker is taken to keep
   double heartbeat_seconds = 1.0;      ///< asked of working workers
@@ -46,6 +47,7 @@ struct Job {
 struct Member {
   std::string name;  ///< "worker 3", "worker 12 on node7"
   Address address;
+  std::string processor = {};            ///< its kind, as the worker says
   std::uint64_t number = 0;              ///< never given twice
   std::string party;                     ///< whose it is: the key of a guest; empty for our own processes
   StateCache known;                      ///< names of the states it was sent and should still have
@@ -53,6 +55,9 @@ struct Member {
   std::deque<Job> jobs = {};             ///< the first is being worked on, the others lie ready with it
   bool has_answered = false;
   int unreadable = 0;  ///< messages in a row that made no sense
+
+  /// What its answers are held against: a guest may come again under another name, but not with another key.
+  [[nodiscard]] const std::string& standing() const { return address.remote ? party : name; }
 };
 
 /// How a worker was lost.
@@ -96,12 +101,14 @@ class Crew {
   /// Does without a member: kills it if it is ours (another is started), forgets it otherwise.
   void give_up(Member& member, const std::string& cause);
   /// The same with a member that was found to say what is false. A guest is told, is not let in again by this
-  /// connection, and its key is shut out of the run when that happens too often.
+  /// connection, and its key is shut out of the run when that happens too often; so is the place of one of ours.
   void send_away(Member& member, const std::string& cause);
   /// Local workers that have answered get their number of restarts back.
   static void praise(Member& member) { member.has_answered = true; }
 
   [[nodiscard]] std::list<Member>& members() { return members_; }
+  /// Whether a process of our own is on its way, or about to be started.
+  [[nodiscard]] bool is_filling() const;
   [[nodiscard]] const Switchboard& switchboard() const { return switchboard_; }
   [[nodiscard]] std::int64_t bytes_sent() const { return bytes_sent_; }
   [[nodiscard]] std::int64_t bytes_received() const { return bytes_received_; }
@@ -119,6 +126,7 @@ class Crew {
     Clock::time_point started = {};
     Clock::time_point due = {};  ///< when an empty seat is to be filled
     int fruitless = 0;           ///< counts ends without a job since it last answered
+    int offences = 0;            ///< times that it was sent away
     bool has_reported = false;   ///< one of its processes has
     std::string false_start = {};  ///< how its last process ended that did not report; empty: none did
   };
@@ -152,6 +160,7 @@ class Crew {
   std::set<Address> sent_away_;
   std::map<std::string, int> offences_;  ///< by party
   int guests_ = 0;
+  std::set<std::string> said_unconfined_;  ///< Hello::unconfined
   std::uint64_t last_member_ = 0;
   Clock::time_point pinged_ = Clock::now();
   std::int64_t bytes_sent_ = 0;

@@ -11,6 +11,7 @@ namespace polargrain::coupler {
 struct Evidence {
   ContentName answer = {};  ///< of the numbers; see name_of_answer
   std::string who = {};     ///< name of the worker
+  bool confirmed = false;   ///< another worker has come to the same numbers and the same state
 };
 
 /// Of all that counts as result in an answer: equal for equal bits.

@@ -45,6 +45,7 @@ CrewOptions crew_options(const PoolOptions& options) {
   crew.worker_command = options.worker_command;
   if (crew.worker_command.empty()) crew.worker_command = {own_program(), "worker"};
   if (options.trust_scripts) crew.worker_command.emplace_back("--trust-scripts");
+  crew.network = options.trust_scripts ? Process::Network::shared : Process::Network::none;
   crew.startup_seconds = options.startup_seconds;
   crew.cache_bytes = options.cache_bytes;
   crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;
@@ -78,6 +79,7 @@ void Foreman::work(std::vector<Task>& tasks) {
   const Clock::time_point start = Clock::now();
   tasks_ = &tasks;
   done_ = 0;
+  waiting_.clear();
   queue_.begin(tasks);
   for (std::size_t number = 0; number < tasks.size(); ++number) enqueue(number);
   give_all();
@@ -90,8 +92,10 @@ void Foreman::work(std::vector<Task>& tasks) {
     forgive(now - last - tick_);
     last = now;
     if (now - checked_ >= tick_ / 2) check_clocks();
+    settle_what_waits();
     if (progress && tasks.front().kind == Task::Kind::evaluate) progress(done_, tasks.size());
   }
+  note_returned();
   tasks_ = nullptr;
   counts.bytes_sent = crew_.bytes_sent();
   counts.bytes_received = crew_.bytes_received();
@@ -179,7 +183,7 @@ void Foreman::give_all() {
 }
 
 void Foreman::give_next(Member& member, std::size_t jobs) {
-  while (member.jobs.size() < jobs) {
+  while (member.jobs.size() < jobs && !blamed_.contains(member.number)) {
     const bool is_free = member.jobs.empty();
     // The last ones go to whoever is free first.
     if (!is_free && (queue_.size() <= crew_.members().size() || first_of(member.jobs.front()).alone)) return;
@@ -198,7 +202,7 @@ std::size_t Foreman::most_at_once(const Task& first) {
     return std::clamp<std::size_t>(kMostStateBytes / (first.wanted->size() + 1), 1, kMostStates);
   }
   const Definition& definition = definitions_[first.definition];
-  if (first.alone || !first.attempts.empty() || definition.answers == 0) return 1;
+  if (first.alone || !first.attempts.empty() || !first.opinions.empty() || definition.answers == 0) return 1;
   const double mean = definition.seconds / static_cast<double>(definition.answers);
   const double in_time = std::min(kSecondsInRequest / mean, static_cast<double>(kMostCells));
   const std::size_t share = queue_.size() / (2 * crew_.members().size());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -33,10 +34,11 @@ class Foreman final : private CrewEvents {
   StateBook& book() { return book_; }
   [[nodiscard]] const Switchboard& switchboard() const { return crew_.switchboard(); }
   [[nodiscard]] int workers() const { return options_.workers; }
+  [[nodiscard]] double check_share() const { return options_.check_share; }
 
   std::function<void(std::size_t, std::size_t)> progress;  ///< see Pool::on_progress
   PoolCounts counts;
-  std::map<std::string, std::int64_t> evaluations_by_worker;
+  std::map<std::string, WorkerRecord> records;  ///< by the names of workers
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -73,10 +75,23 @@ class Foreman final : private CrewEvents {
   void blame_others(const Member& member, const Task& done);
   void send_away_the_blamed();
   void take_refusal(Member& member, const Refusal& refusal);
+  void accept(const Member& member, Task& done, const CellReply& reply);
   void supply(Member& member, const Missing& missing);
   /// Takes a job off its worker, with the time it took.
   Job finished(Member& member, std::uint64_t request);
   void complete(Task& task);
+
+  // Answers that two workers must agree on.
+  void take_opinion(const Member& member, Task& task, const CellReply& reply);
+  /// @returns whether enough agree
+  bool decide(Task& task);
+  /// Ends what waits for an opinion that nobody can give.
+  void settle_what_waits();
+  void settle(Task& task);
+  /// One opinion is false: takes back all that its worker has answered in this call.
+  void find_false(const Opinion& opinion, const std::string& words);
+  /// What is returned now has nobody's word but its own: noted, should its worker be found to answer falsely later.
+  void note_returned();
 
   // What cannot be carried to its end.
   void put_back(const Job& job);
@@ -104,6 +119,8 @@ class Foreman final : private CrewEvents {
   std::map<std::uint64_t, std::string> blamed_;  ///< of them: who is to be sent away, and why
   Crew crew_;
 
+  std::map<std::string, std::int64_t> returned_;  ///< by standing: answers used that nobody else has confirmed
+  std::set<std::size_t> waiting_;  ///< tasks at work that have an opinion and need another one
   // The tasks at work. Request numbers run on, so that no late answer fits a new request.
   std::vector<Task>* tasks_ = nullptr;
   TaskQueue queue_;

@@ -54,7 +54,9 @@ void Foreman::take_replies(Member& member, const Reply& reply) {
 
 void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
   ++counts.evaluations;
-  ++evaluations_by_worker[member.name];
+  WorkerRecord& record = records[member.name];
+  record.processor = member.processor;
+  ++record.evaluations;
   counts.dem_steps += reply.diagnostics.dem_steps;
   counts.engine_seconds += reply.diagnostics.engine_seconds;
   if (done.kind == Task::Kind::again) {
@@ -65,6 +67,11 @@ void Foreman::take_reply(Member& member, Task& done, const CellReply& reply) {
     }
   }
   blame_others(member, done);
+  done.checked ? take_opinion(member, done, reply) : accept(member, done, reply);
+}
+
+void Foreman::accept(const Member& member, Task& done, const CellReply& reply) {
+  done.answerer = member.standing();
   done.reply = reply;
   if (reply.state) {
     done.reply.state = done.kind == Task::Kind::again
@@ -84,6 +91,12 @@ void Foreman::take_other_state(Member& member, Task& done, const CellReply& repl
       "another state",
       member.name, place_of(done), first);
   Attempt attempt{Attempt::End::other_state, member.number, member.party, text};
+  if (done.evidence.confirmed) {  // two have said what is true: this one is wrong
+    done.attempts.add(std::move(attempt));
+    queue_.add_first(static_cast<std::size_t>(&done - tasks_->data()));
+    const Candidate worker{member.number, member.party, member.name};
+    return find_false({worker, member.name, member.standing(), reply, {}}, text + ", though two agreed on the first");
+  }
   if (!reply.state) return end_attempt(done, std::move(attempt));
   const ContentName name = reply.state->name();
   if (std::find(done.others.begin(), done.others.end(), name) == done.others.end()) {
@@ -231,13 +244,15 @@ void Foreman::put_back(const Job& job) {
 void Foreman::end_attempt(Task& ended, Attempt attempt) {
   const std::string text = attempt.words;
   ended.attempts.add(std::move(attempt));
-  if (!ended.attempts.are_enough(present())) {
+  // Two that end at a cell outweigh the one that has answered it.
+  if (!ended.attempts.are_enough(ended.opinions.others(present()))) {
     say_again(text, 1);
     queue_.add_first(static_cast<std::size_t>(&ended - tasks_->data()));
     return;
   }
   if (ended.kind != Task::Kind::evaluate) throw RunError(text);
   tell(text + "\nno worker can answer it: the cell counts as failed");
+  waiting_.erase(static_cast<std::size_t>(&ended - tasks_->data()));
   ended.reply.response.quality = Quality::failed;
   ended.reply.response.step_factor = 0.5;
   ended.reply.response.message = text;
@@ -246,12 +261,18 @@ void Foreman::end_attempt(Task& ended, Attempt attempt) {
 
 /// A task that somebody has tried in vain goes to who differs most from those.
 bool Foreman::may_take(const Member& member, const Task& next) {
-  return next.attempts.empty() || next.attempts.may_try({member.number, member.party}, present());
+  const Candidate worker{member.number, member.party, member.name};
+  const std::vector<Candidate> others = next.opinions.others(present());
+  if (next.attempts.empty()) return next.opinions.may_answer(worker, others);
+  return next.attempts.may_try(worker, others) &&
+         std::ranges::any_of(others, [&](const Candidate& other) { return other.worker == worker.worker; });
 }
 
 std::vector<Candidate> Foreman::present() {
   std::vector<Candidate> workers;
-  for (const Member& member : crew_.members()) workers.push_back({member.number, member.party});
+  for (const Member& member : crew_.members())
+    if (!blamed_.contains(member.number)) workers.push_back({member.number, member.party, member.name});
+  if (crew_.is_filling()) workers.push_back({0, "", "a process of ours that is on its way"});
   return workers;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <random>
 #include <unordered_map>
 
 #include "common/error.hpp"
@@ -79,6 +80,7 @@ class Pool::Implementation {
                        {starts[r], request.cell.increment},
                        request.point,
                        nullptr});
+      tasks.back().checked = is_drawn();
     }
     foreman.work(tasks);
     note_failure(tasks);
@@ -118,6 +120,7 @@ class Pool::Implementation {
   CellReply initial(std::uint32_t definition) {
     static_cast<void>(foreman.definition(definition));
     std::vector<Task> tasks{{Task::Kind::rest, definition}};
+    tasks.front().checked = foreman.check_share() > 0.0;  // all that follows starts from it
     foreman.work(tasks);
     return std::move(tasks.front().reply);
   }
@@ -127,6 +130,9 @@ class Pool::Implementation {
   std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> on_answers;
 
  private:
+  /// Whether the next evaluation is checked: by its place in the order of all, whoever takes it and when.
+  bool is_drawn() { return static_cast<double>(draws_() >> 11) * 0x1p-53 < foreman.check_share(); }
+
   /// The first in the order of the requests, whoever was faster.
   void note_failure(const std::vector<Task>& tasks) {
     failure.reset();
@@ -136,6 +142,8 @@ class Pool::Implementation {
     if (failed == tasks.end()) return;
     failure = CellFailure{failed->definition, failed->cell, failed->point, failed->reply.response.message};
   }
+
+  std::mt19937_64 draws_{20261122};
 };
 
 Pool::Pool(PoolOptions options) : implementation_(std::make_unique<Implementation>(std::move(options))) {}
@@ -165,8 +173,8 @@ void Pool::on_progress(std::function<void(std::size_t, std::size_t)> call) {
 void Pool::on_answers(std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> call) {
   implementation_->on_answers = std::move(call);
 }
-const std::map<std::string, std::int64_t>& Pool::evaluations_by_worker() const {
-  return implementation_->foreman.evaluations_by_worker;
+const std::map<std::string, WorkerRecord>& Pool::worker_records() const {
+  return implementation_->foreman.records;
 }
 const PoolCounts& Pool::counts() const {
   return implementation_->foreman.counts;

@@ -36,6 +36,8 @@ struct PoolOptions {
   std::optional<Listening> listening;
   /// Judges each state that a worker sends, before anybody uses it; empty: only names are checked.
   StateCheck state_fault;
+  /// Share of the evaluations that two workers must agree on, 0 to 1; see foreman_checks.cpp.
+  double check_share = 0.0;
   /// Gets a sentence about everything the user should know that ends nothing: a worker lost, a guest refused.
   std::function<void(const std::string&)> tell;
 };
@@ -63,6 +65,7 @@ struct PoolCounts {
   std::int64_t states_fetched =
       0;  ///< states on trial whose bytes were fetched from the worker that made them
   std::int64_t evaluations_again = 0;  ///< for states on trial that were lost with their worker
+  std::int64_t evaluations_checked = 0;  ///< answers that another worker agreed with
   std::int64_t bytes_sent = 0;
   std::int64_t bytes_received = 0;
   std::int64_t workers_lost = 0;
@@ -70,6 +73,12 @@ struct PoolCounts {
   double busy_seconds = 0.0;    ///< from sending a request to its reply, summed over workers
   double wall_seconds = 0.0;    ///< spent by the coordinator in evaluate, initial and collect
   double member_seconds = 0.0;  ///< the same, times the workers there were
+};
+
+/// Who has answered.
+struct WorkerRecord {
+  std::int64_t evaluations = 0;
+  std::string processor = {};  ///< its kind, as the worker says
 };
 
 /// The coordinator's side of its workers: spreads cells over them as they become free, notices their death at
@@ -88,7 +97,12 @@ struct PoolCounts {
 /// Order of calls: construct (starts the workers), define each material's cell, then any number of initial,
 /// evaluate and collect. After an exception the pool can only be destroyed. One thread.
 ///
-/// @throws RunError when a program cannot be started as a worker, when a definition ends every worker that
+/// A share of the evaluations, drawn by their order from a fixed seed, is done by two workers, who must come to
+/// the same bits; a third decides. The one found alone is sent away, and what it has answered besides in the same
+/// call is done again.
+///
+/// @throws FalseResults when answers that were returned before come from such a worker. @throws RunError when a
+/// program cannot be started as a worker, when a definition ends every worker that
 /// takes it (with the engine's own words and the name of the log), when no worker is left, when a state that
 /// was lost cannot be made again.
 class Pool {
@@ -118,8 +132,8 @@ class Pool {
   /// Called behind each evaluate with its requests, their states with bytes, and its replies.
   void on_answers(std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> call);
   [[nodiscard]] const PoolCounts& counts() const;
-  /// Evaluations that each worker has answered, by its name.
-  [[nodiscard]] const std::map<std::string, std::int64_t>& evaluations_by_worker() const;
+  /// The workers that have answered, by their names.
+  [[nodiscard]] const std::map<std::string, WorkerRecord>& worker_records() const;
   /// Where workers of other machines may join; empty when nowhere.
   [[nodiscard]] std::string listening_url() const;
   /// Connections that were refused so far.

@@ -3,10 +3,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <net/if.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,8 +31,39 @@ std::string described(int status) {
   return fmt::format("exit status {}", WEXITSTATUS(status));
 }
 
+void write_text(const char* file, const std::string& text) {
+  const int descriptor = open(file, O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  [[maybe_unused]] const ssize_t written = write(descriptor, text.data(), text.size());
+  close(descriptor);
+}
+
+/// Lines of /proc/self/uid_map and gid_map that keep user and group what they are.
+struct IdMaps {
+  std::string user = fmt::format("{0} {0} 1", geteuid());
+  std::string group = fmt::format("{0} {0} 1", getegid());
+};
+
+/// A network namespace with nothing in it; the user namespace around it is what lets every user make one. Where the
+/// system does not allow that, the worker finds out and says so.
+void leave_network(const IdMaps& maps) {
+  if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return;
+  prctl(PR_SET_DUMPABLE, 1);  // or the files below would be root's
+  write_text("/proc/self/setgroups", "deny");
+  write_text("/proc/self/uid_map", maps.user);
+  write_text("/proc/self/gid_map", maps.group);
+  // The loopback of the namespace: Open MPI wants to see some interface.
+  const int any = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ifreq loopback{};
+  strcpy(loopback.ifr_name, "lo");
+  loopback.ifr_flags = IFF_UP;
+  ioctl(any, SIOCSIFFLAGS, &loopback);
+  close(any);
+}
+
 /// What the child does between fork and exec; only calls that are safe there.
-[[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, int log, pid_t parent, const IdMaps* maps) {
+  if (maps != nullptr) leave_network(*maps);  // first: it takes the signal of the parent's end away
   // A group of its own: Ctrl-C at the terminal goes to the coordinator alone, which ends its workers in
   // order.
   setpgid(0, 0);
@@ -53,7 +88,8 @@ std::string described(int status) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& log, Network network) {
+  const IdMaps maps;
   const int log_descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (log_descriptor < 0) {
     throw RunError(
@@ -64,7 +100,7 @@ Process::Process(const std::vector<std::string>& arguments, const std::filesyste
   raw.push_back(nullptr);
   const pid_t parent = getpid();
   id_ = fork();
-  if (id_ == 0) become(raw.data(), log_descriptor, parent);
+  if (id_ == 0) become(raw.data(), log_descriptor, parent, network == Network::none ? &maps : nullptr);
   const int fork_error = errno;
   close(log_descriptor);
   if (id_ < 0) throw RunError(fmt::format("cannot start a worker: {}", std::strerror(fork_error)));

@@ -13,10 +13,14 @@ namespace polargrain::coupler {
 /// by the kernel when we are killed (PR_SET_PDEATHSIG).
 class Process {
  public:
+  /// Whether the child sees the machine's network. It always reaches sockets that are files.
+  enum class Network { shared, none };
   /// @param arguments program first; @param log appended to, takes standard output and error.
+  /// @param network `none` where the system allows
   /// @throws RunError when the log cannot be opened or no process made. A program that cannot be executed
   /// shows as a process that ends with status 127 and says so in its log.
-  Process(const std::vector<std::string>& arguments, const std::filesystem::path& log);
+  Process(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+          Network network = Network::shared);
   ~Process();
   Process(Process&& other) noexcept;
   Process(const Process&) = delete;

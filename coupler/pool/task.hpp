@@ -7,6 +7,7 @@
 #include "common/cell.hpp"
 #include "coupler/pool/attempts.hpp"
 #include "coupler/pool/evidence.hpp"
+#include "coupler/pool/opinions.hpp"
 
 namespace polargrain::coupler {
 
@@ -30,6 +31,11 @@ struct Task {
   bool alone = false;  ///< was with a worker that was lost, beside others: the next worker has nothing else
   Attempts attempts = {};  ///< that came to nothing
 
+  // rest, evaluate: who answered, where that can be checked
+  bool checked = false;     ///< two workers must agree on the answer
+  Opinions opinions = {};   ///< of a checked one that is not done yet
+  std::string answerer = {};  ///< standing of the worker whose answer was taken with no second one beside it
+
   // fetch, again: of the evaluation that made the state
   Evidence evidence = {};
   std::vector<ContentName> others = {};  ///< what evaluations again have come to instead
@@ -38,7 +44,7 @@ struct Task {
 /// Whether two tasks may go in one message.
 inline bool go_together(const Task& a, const Task& b) {
   const auto travels_alone = [](const Task& task) {
-    return task.kind == Task::Kind::rest || task.alone || !task.attempts.empty();
+    return task.kind == Task::Kind::rest || task.alone || !task.attempts.empty() || !task.opinions.empty();
   };
   return a.kind == b.kind && a.definition == b.definition && !travels_alone(a) && !travels_alone(b);
 }

@@ -27,6 +27,8 @@ class TaskQueue {
   /// @param most how many, given the first of them; 0 when that one is not for this worker now
   std::vector<std::size_t> take(std::uint64_t worker, const std::function<bool(const Task&)>& may,
                                 const std::function<std::size_t(const Task&)>& most);
+  /// Takes back a task that everybody may do; nothing when it is not there.
+  void remove(std::size_t task) { size_ -= std::erase(common_, task); }
   /// All that was put aside for a worker.
   std::vector<std::size_t> take_all_of(std::uint64_t worker);
 

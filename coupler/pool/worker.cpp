@@ -11,6 +11,7 @@
 #include <map>
 
 #include "common/error.hpp"
+#include "common/processor.hpp"
 #include "common/record_values.hpp"
 #include "coupler/pool/connection.hpp"
 #include "coupler/pool/state_cache.hpp"
@@ -198,7 +199,10 @@ class Worker {
   }
 
  private:
-  void send_hello() { connection_.send(encode(Hello{kProtocolVersion, getpid(), host_name()})); }
+  void send_hello() {
+    connection_.send(
+        encode(Hello{kProtocolVersion, getpid(), host_name(), processor_model(), options_.unconfined}));
+  }
 
   [[noreturn]] void give_up() const {
     throw RunError(

@@ -5,6 +5,7 @@
 
 #include <msgpack.hpp>
 
+#include "common/plain_text.hpp"
 #include "coupler/protocol/parts.hpp"
 
 namespace polargrain::coupler {
@@ -19,7 +20,7 @@ constexpr std::size_t kDeepest = 5;
 // ---- writing: the members of each message between its kind and its session
 
 void write(ArrayWriter& writer, const Hello& m) {
-  writer.whole(m.version).whole_signed(m.process).text(m.host);
+  writer.whole(m.version).whole_signed(m.process).text(m.host).text(m.processor).text(m.unconfined);
 }
 void write(ArrayWriter& writer, const Stop& m) {
   writer.text(m.reason);
@@ -240,6 +241,8 @@ Envelope decode(std::span<const std::byte> bytes) {
     if (hello.version != kProtocolVersion) return {0, hello};
     hello.process = reader.whole_signed();
     hello.host = read_host(reader);
+    hello.processor = plain_text(reader.text());
+    hello.unconfined = plain_text(reader.text());
     envelope.message = hello;
   } else {
     envelope.message = read_message(reader, kind);

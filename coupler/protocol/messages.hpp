@@ -38,6 +38,8 @@ struct Hello {
   std::uint32_t version = kProtocolVersion;
   std::int64_t process = 0;  ///< process id of the worker on its machine
   std::string host = {};     ///< name of that machine, for messages to the user
+  std::string processor = {};   ///< kind of its processor, for the proof of a result
+  std::string unconfined = {};  ///< what it could not give up (Confinement), for messages to the user
 };
 
 /// Coordinator to worker: end, and why when it is not the end of the run.

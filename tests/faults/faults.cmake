@@ -36,3 +36,28 @@ if(TARGET polargrain)
            ${PROJECT_SOURCE_DIR}/cases/biaxial/case.yaml --set steps.count=1 --set mesh.rectangle.elements=[1,2])
   set_tests_properties(slurm PROPERTIES LABELS faults SKIP_RETURN_CODE 77 TIMEOUT 300)
 endif()
+
+polargrain_test(faults_checks_test faults faults/checks_test.cpp LIBS polargrain_pool polargrain_fake_engine)
+target_compile_definitions(faults_checks_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>"
+                                                      FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+add_dependencies(faults_checks_test fake_worker fake_polargrain)
+
+polargrain_test(faults_confinement_test faults faults/confinement_test.cpp LIBS polargrain_options)
+target_compile_definitions(faults_confinement_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
+add_dependencies(faults_confinement_test fake_polargrain)
+
+# Faults of machines and networks; all of them on request.
+add_library(rename_killer MODULE faults/rename_killer.cpp)
+target_link_libraries(rename_killer PRIVATE ${CMAKE_DL_LIBS})
+foreach(size "" _reduced)
+  string(REPLACE "_" "" argument "${size}")
+  add_test(NAME fault_bed${size} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/faults/bed.sh $<TARGET_FILE:fake_polargrain>
+           $<TARGET_FILE:strange_worker> $<TARGET_FILE:rename_killer> ${argument})
+endforeach()
+set_tests_properties(fault_bed PROPERTIES LABELS long TIMEOUT 600)
+set_tests_properties(fault_bed_reduced PROPERTIES LABELS faults TIMEOUT 300)
+
+polargrain_test(faults_soak_test long faults/soak_test.cpp LIBS polargrain_options Threads::Threads)
+target_compile_definitions(faults_soak_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"
+                                                    STRANGE_WORKER="$<TARGET_FILE:strange_worker>")
+add_dependencies(faults_soak_test fake_polargrain strange_worker)

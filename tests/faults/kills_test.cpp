@@ -6,54 +6,20 @@
 #include <algorithm>
 #include <iostream>
 
+#include "tests/faults/fake_case.hpp"
 #include "tests/faults/killer.hpp"
-#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 namespace {
 
-constexpr const char* kCase =
-    "title: Compression of a fake\n"
-    "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}}\n"
-    "materials:\n"
-    "  sand: {model: cell, script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}\n"
-    "regions: {all: sand}\n"
-    "boundary:\n"
-    "  - {on: bottom, fix: [u2]}\n"
-    "  - {on: bottom_left, fix: [u1, w]}\n"
-    "  - {on: top, move: {u2: -8 mm}}\n"
-    "  - {on: [left, right], pressure: 100 kPa}\n"
-    "steps: {count: 30, tolerance: 1e-10}\n"
-    "workers: {silence: 2 s}\n"
-    "monitors: {top_force: {on: top, reaction: u2}}\n";
-
-class KillsTest : public ::testing::Test {
+class KillsTest : public FakeCaseTest {
  protected:
-  KillsTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    write(scratch_.path() / "grains.csv",
-          "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
-    write(scratch_.path() / "case.yaml", kCase);
-    write(scratch_.path() / "fake.in", "\n");
-  }
-
-  /// Runs the case undisturbed. @returns the command that runs it slowly, to be disturbed
-  [[nodiscard]] std::string prepare(int steps, const std::string& settings = "") {
-    const std::string command =
-        FAKE_POLARGRAIN " run case.yaml --quiet --set steps.count=" + std::to_string(steps) + settings;
-    const Outcome quiet = run_in(scratch_.path(), command + " -o quiet -w 1");
-    EXPECT_EQ(quiet.status, 0) << quiet.errors;
-    write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be killed in
-    return "env -C '" + scratch_.path().string() + "' " + command + " -o disturbed -w 3";
-  }
   /// Waits until the workers of the disturbed run have reported.
   void await_workers(Beside& run) const {
     while (run.running() && result("disturbed/run.log").find("workers started") == std::string::npos) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
-  [[nodiscard]] std::string result(const std::string& file) const { return content(scratch_.path() / file); }
-
-  Scratch scratch_;
 };
 
 int count_of(const std::string& word, const std::string& text) {

@@ -4,6 +4,7 @@
 //     version      speaks another version
 //     garbage      answers with bytes that are no message
 //     nothing      never answers
+//     works        says for ever that it works
 //
 // The others answer like the fake engine, but for one thing:
 //
@@ -155,6 +156,15 @@ int main(int count, char** arguments) {
     }
     if (way == "garbage" && std::holds_alternative<EvaluateRequest>(envelope.message))
       socket.send(zmq::str_buffer("\x93garbage"));
+    if (const auto* request = std::get_if<EvaluateRequest>(&envelope.message); way == "works" && request != nullptr) {
+      for (;; usleep(50000)) {
+        zmq::message_t word;
+        if (socket.recv(word, zmq::recv_flags::dontwait) &&
+            std::holds_alternative<Stop>(decode({static_cast<const std::byte*>(word.data()), word.size()}).message))
+          return 1;
+        socket.send(zmq::buffer(encode(Working{request->request}, envelope.session)), zmq::send_flags::dontwait);
+      }
+    }
     if (way == "garbage" || way == "nothing") continue;
     if (const auto answer = stranger.answer(envelope.message))
       socket.send(zmq::buffer(encode(*answer, envelope.session)));

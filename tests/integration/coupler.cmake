@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-add_library(polargrain_fake_engine STATIC integration/fake_engine.cpp)
+add_library(polargrain_fake_engine STATIC integration/fake_engine.cpp integration/tries.cpp)
 target_link_libraries(polargrain_fake_engine PUBLIC polargrain_common)
 
 add_executable(fake_worker integration/fake_worker.cpp)

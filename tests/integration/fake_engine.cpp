@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/integration/fake_engine.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,6 +15,7 @@
 
 #include "common/error.hpp"
 #include "common/script.hpp"
+#include "tests/integration/tries.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -40,6 +42,14 @@ Matrix7 stiffness(double young) {
   std::_Exit(1);
 }
 
+/// FAKE_ENGINE_FORGES=1: it does; a path: the first process that makes this directory does, and no other.
+bool this_process_forges() {
+  const char* const who = std::getenv("FAKE_ENGINE_FORGES");
+  if (who == nullptr) return false;
+  static const bool is_first = *who != '/' || mkdir(who, 0700) == 0;
+  return is_first;
+}
+
 class FakeEngine : public CellService {
  public:
   explicit FakeEngine(const CellDefinition& definition) {
@@ -52,6 +62,7 @@ class FakeEngine : public CellService {
         words >> settings_[command];
       }
     }
+    if (settings_.count("tries") != 0) try_what_no_engine_should();
     double young = settings_.count("young") != 0 ? settings_["young"] : kYoung;
     if (settings_.count("young_of_mass") != 0)
       young = settings_["young_of_mass"] * definition.packing.grains.front().mass;
@@ -97,7 +108,7 @@ class FakeEngine : public CellService {
       for (int i = 0; i < 5; ++i) stress[i] += change[i];
     }
     // Another engine than the one of the run, for tests of `verify`: the last digits of its answers differ.
-    if (std::getenv("FAKE_ENGINE_FORGES") != nullptr) stress[k11] *= 1.0 + 1e-15;
+    if (forges_) stress[k11] *= 1.0 + 1e-15;
     CellReply made = reply(stress, start[5] + 1.0);
     made.response.tangent = softened(stress[k11] - stress[k22]);
     return made;
@@ -149,6 +160,7 @@ class FakeEngine : public CellService {
 
   std::map<std::string, double> settings_;
   Matrix7 stiffness_;
+  const bool forges_ = this_process_forges();
 };
 
 }  // namespace
@@ -156,7 +168,8 @@ class FakeEngine : public CellService {
 const std::set<std::string>& fake_commands() {
   static const std::set<std::string> commands{"young",         "softening",     "fail_beyond",
                                               "die_beyond",    "refuse_beyond", "hang_beyond",
-                                              "young_of_mass", "state_bytes",   "sleep_milliseconds"};
+                                              "young_of_mass", "state_bytes",   "sleep_milliseconds",
+                                              "tries"};
   return commands;
 }
 

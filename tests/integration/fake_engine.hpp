@@ -17,6 +17,7 @@ namespace polargrain::testing {
 ///     young_of_mass E        the same times the mass of the first grain of the packing
 ///     sleep_milliseconds n   takes so long for an evaluation, with signs of life
 ///     softening f          divides the stiffness by 1 + f |s11 - s22| / 100 kPa of the stress reached
+///     tries 1                does what no engine should, and prints what it was refused (see tries.cpp)
 ///     state_bytes n          makes states of so many bytes instead of 48
 ///     fail_beyond e          answers Quality::failed with step factor 0.5 when an entry of the increment
 ///     exceeds e die_beyond e           then prints what LIGGGHTS prints when grains are lost, and ends the

@@ -3,6 +3,7 @@
 // played by the switches of the system's libraries: OpenBLAS takes the kernels of a named core, the C library
 // leaves its versions of the elementary functions with fused multiply-add aside.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -100,6 +101,34 @@ TEST_F(ProcessorsTest, finite_elements_have_the_same_bits) {
 
 TEST_F(ProcessorsTest, cells_have_the_same_bits) {
   expect_same_bits(cell_case(), 2);
+}
+
+/// Three machines in one run: each worker believes to run on another processor. Who takes which cell is chance.
+TEST_F(ProcessorsTest, workers_of_three_kinds_agree_on_every_bit) {
+  write(scratch_.path() / "case.yaml", cell_case());
+  const std::string here = history("", 2);
+  ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " keys keys").status, 0);
+  const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
+  std::string guests;
+  for (const char* kind : {"Haswell", "Nehalem", "Prescott"})
+    guests += "env " + kProcessors.at(kind) + " " POLARGRAIN " worker --patience 5 --key keys/worker.key --connect " + url + " & ";
+  const Outcome outcome =
+      run_in(scratch_.path(), "{ " + guests + POLARGRAIN " run case.yaml --quiet -o result -w 0 --keys keys "
+                       "--set workers.check=1 --listen " + url + "; status=$?; wait; exit $status; }");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(content(scratch_.path() / "result/history.csv"), here);
+  const std::string summary = content(scratch_.path() / "result/summary.json");
+  // Every evaluation was made by two of them, with the same bits; each says what it runs on.
+  EXPECT_EQ(summary.find("\"evaluations_checked\": 0,"), std::string::npos);
+  const std::size_t workers = summary.find("\"workers\": {");
+  ASSERT_NE(workers, std::string::npos);
+  for (const char* guest : {"guest 1", "guest 2"}) {
+    const std::size_t at = summary.find(guest, workers);
+    ASSERT_NE(at, std::string::npos) << guest;
+    const std::size_t kind = summary.find("\"processor\": \"", at);
+    ASSERT_NE(kind, std::string::npos);
+    EXPECT_NE(summary[kind + 14], '"') << summary.substr(at, 200);
+  }
 }
 
 }  // namespace

@@ -191,6 +191,8 @@ TEST(Messages, ADefinitionTravelsWhole) {
 
 TEST(Messages, TheSmallOnesTravelToo) {
   EXPECT_EQ(round_trip(Hello{kProtocolVersion, 4711}).process, 4711);
+  EXPECT_EQ(round_trip(Hello{kProtocolVersion, 1, "node7", "a\x1b kind", "x"}).processor, "a? kind");
+  EXPECT_EQ(round_trip(Hello{kProtocolVersion, 1, "node7", "", "no filter"}).unconfined, "no filter");
   EXPECT_EQ(round_trip(InitialRequest{9, 2}).definition, 2u);
   EXPECT_EQ(round_trip(Missing{9, true, {}}).definition, true);
   EXPECT_EQ(round_trip(Missing{9, false, {some_state(3)->name()}}).bases.at(0), some_state(3)->name());

@@ -4,6 +4,7 @@
 
 #include "common/plain_text.hpp"
 #include "coupler/pool/attempts.hpp"
+#include "coupler/pool/opinions.hpp"
 
 namespace polargrain {
 namespace {
@@ -64,6 +65,18 @@ TEST(Attempts, OfAGuestThatComesAgainUnderAnotherNumberProveNothing) {
   EXPECT_TRUE(attempts.are_enough({{5, "key"}}));
 }
 
+TEST(Attempts, OfGuestsAloneProveNothingBesideAProcessOfOurOwn) {
+  const Attempts attempts = attempts_of({{kWork, 3, "key a"}, {kRefused, 4, "key b"}, {kWork, 5, "key c"}});
+  EXPECT_FALSE(attempts.are_enough({{6, "key d"}, {1, ""}}));
+  EXPECT_FALSE(attempts.may_try({6, "key d"}, {{6, "key d"}, {1, ""}}));
+  EXPECT_TRUE(attempts.may_try({1, ""}, {{6, "key d"}, {1, ""}}));
+  EXPECT_TRUE(attempts.are_enough({{6, "key d"}}));
+  // One of ours that was killed from outside has not tried.
+  const Attempts with_a_kill = attempts_of({{Attempt::End::from_outside, 1, ""}, {kWork, 3, "key a"}, {kWork, 4, "key b"}});
+  EXPECT_FALSE(with_a_kill.are_enough({{2, ""}}));
+  EXPECT_TRUE(with_a_kill.may_try({2, ""}, {{6, "key d"}, {2, ""}}));
+}
+
 TEST(Attempts, OfTwoProcessesOfOursAreEnough) {
   EXPECT_FALSE(attempts_of({{kWork, 1, ""}}).are_enough({{2, ""}}));
   EXPECT_TRUE(attempts_of({{kWork, 1, ""}, {kWork, 2, ""}}).are_enough({{3, ""}}));
@@ -78,6 +91,66 @@ TEST(Attempts, EndedFromOutsideCountToTen) {
   }
   attempts.add({Attempt::End::from_outside, 10, ""});
   EXPECT_TRUE(attempts.are_enough({{99, ""}}));
+}
+
+using coupler::Opinion;
+using coupler::Opinions;
+
+const Candidate kWorker1{1, "", "worker 1"};
+const Candidate kWorker2{2, "", "worker 2"};
+const Candidate kGuestA{3, "key a", "guest 1"};
+const Candidate kGuestB{4, "key b", "guest 2"};
+
+Opinion opinion_of(const Candidate& who, double stress) {
+  CellReply reply;
+  reply.response.stress[0] = stress;
+  return {who, who.name, who.party.empty() ? who.name : who.party, reply, coupler::name_of_answer(reply)};
+}
+
+TEST(Opinions, TwoWithTheSameBitsAreAnAnswer) {
+  Opinions opinions;
+  opinions.add(opinion_of(kWorker1, 0.0));
+  EXPECT_FALSE(opinions.agreed());
+  opinions.add(opinion_of(kWorker2, -0.0));  // equal, but not in bits
+  EXPECT_FALSE(opinions.agreed());
+  opinions.add(opinion_of(kGuestA, -0.0));
+  EXPECT_EQ(opinions.agreed(), 1u);
+}
+
+TEST(Opinions, GuestsAloneDoNotOutvoteOneOfOurOwn) {
+  Opinions opinions;
+  opinions.add(opinion_of(kGuestA, 2.0));
+  opinions.add(opinion_of(kWorker1, 1.0));
+  opinions.add(opinion_of(kGuestB, 2.0));
+  EXPECT_FALSE(opinions.agreed());
+  opinions.add(opinion_of(kWorker2, 1.0));
+  EXPECT_EQ(opinions.agreed(), 1u);
+  Opinions guests;
+  guests.add(opinion_of(kGuestA, 2.0));
+  guests.add(opinion_of(kGuestB, 2.0));
+  EXPECT_EQ(guests.agreed(), 0u);
+}
+
+TEST(Opinions, AreAskedOfWhoDiffersMost) {
+  const std::vector<Candidate> all{kWorker1, kWorker2, kGuestA, kGuestB};
+  Opinions opinions;
+  opinions.add(opinion_of(kGuestA, 2.0));
+  const std::vector<Candidate> others = opinions.others(all);
+  EXPECT_EQ(others.size(), 3u);
+  EXPECT_TRUE(opinions.may_answer(kWorker1, others));
+  EXPECT_FALSE(opinions.may_answer(kGuestB, others));  // one of ours is there
+  EXPECT_FALSE(opinions.may_answer(kGuestA, others));
+  EXPECT_TRUE(opinions.may_answer(kGuestB, opinions.others({kGuestA, kGuestB})));
+  // A process that took the place of one that has answered is no other witness.
+  Opinions ours;
+  ours.add(opinion_of(kWorker1, 1.0));
+  EXPECT_TRUE(ours.others({{9, "", "worker 1"}}).empty());
+  // Where two differ one of our own decides.
+  ours.add(opinion_of(kGuestA, 2.0));
+  EXPECT_TRUE(ours.may_answer(kWorker2, ours.others(all)));
+  EXPECT_FALSE(ours.may_answer(kGuestB, ours.others(all)));
+  ours.remove("key a");
+  EXPECT_EQ(ours.list().size(), 1u);
 }
 
 }  // namespace
