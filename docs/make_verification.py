@@ -37,6 +37,8 @@ SECTIONS = [
     ("Newton's method", "fem_solver_test", "Work balance, quadratic rate, steps that are cut."),
     ("Noise, untrue tangents, absurd corrections", "fem_noise_test",
      "What the solver makes of them, and that it says so."),
+    ("Cell: lattices of two radii (C.8)", "dem_polar_test",
+     "Couple modulus against lattices that are bent, row by row; cells of grains in all three loops."),
     ("Cell: hexagonal lattice (E.7 a)", "dem_lattice_test", "Exact moduli at any size, rotation and flip of the box."),
     ("Cell: Rowe's packing (E.7 c)", "dem_rowe_test", "Stress ratio of sliding rows, closed form."),
     ("Cell: limits and identities (C.2 to C.6)", "dem_limits_test", "Skew and couple stress, work, covariance."),
