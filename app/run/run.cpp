@@ -312,6 +312,8 @@ class Run {
   void follow_directory() {
     const auto displaced = lock_.displacement();
     if (!displaced) return;
+    // A file that could not be written meanwhile is what comes of it.
+    if (record_.message != displaced->text) record_.message = fmt::format("{} ({})", displaced->text, record_.message);
     if (displaced->now.empty()) saved_step_ = -1;  // the checkpoint went with it
     try {
       directory_ = displaced->now.empty() ? make_rescue_directory(directory_) : displaced->now;
