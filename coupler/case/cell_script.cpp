@@ -52,7 +52,7 @@ fs::path included(const std::string& line, const fs::path& from) {
   return fs::is_regular_file(file, error) ? file : fs::path();
 }
 
-/// Puts together a script and what it includes; `files` gets all of them.
+/// Adds a script and what it includes to `text`; `files` gets all of them.
 void collect(const fs::path& file, std::string& text, std::vector<fs::path>& files) {
   files.push_back(file);
   std::istringstream lines(content_of(file));
@@ -69,13 +69,18 @@ void collect(const fs::path& file, std::string& text, std::vector<fs::path>& fil
   }
 }
 
+/// A script with all that it includes in it; one that includes nothing as it is, to the byte.
+std::string put_together(const fs::path& file, std::vector<fs::path>& files) {
+  std::string text;
+  collect(file, text, files);
+  return files.size() == 1 ? content_of(file) : text;
+}
+
 }  // namespace
 
 std::string text_of_script(const fs::path& file) {
-  std::string text;
   std::vector<fs::path> files;
-  collect(file, text, files);
-  return files.size() == 1 ? content_of(file) : text;
+  return put_together(file, files);
 }
 
 CellScript read_cell_script(const std::string& key, Section& section, Faults& faults, const CaseFiles& files) {
@@ -88,10 +93,8 @@ CellScript read_cell_script(const std::string& key, Section& section, Faults& fa
                                    key, name));
     return {};
   }
-  std::string text;
   std::vector<fs::path> parts;
-  collect(*file, text, parts);
-  if (parts.size() == 1) text = content_of(*file);
+  const std::string text = put_together(*file, parts);
   const Entry* const entry = section.find(key);
   const bool named_by_the_user = entry != nullptr && entry->line == 0;  // with --set
   for (const fs::path& part : parts) {

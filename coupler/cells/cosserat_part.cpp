@@ -19,7 +19,7 @@ void CosseratPart::add(const Increment& increment, const CosseratParameters& cos
   const Vector7 strain = increment.strain();
   skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
   if (increment.configuration != Configuration::fixed)
-    couple_stress = fem::rotated(couple_stress, fem::turn_of(increment));
+    couple_stress = fem::rotated(couple_stress, fem::rotation_angle(increment));
   couple_stress += cosserat.couple_modulus() * increment.curvature;                    // A.4
 }
 

@@ -144,14 +144,14 @@ void InformedMaterial::allocate(std::size_t points) {
 fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Increment& increment) const {
   fem::ElastoplasticState start = committed_[point].law;
   if (increment.configuration != Configuration::fixed)
-    start.scaled_stress = fem::rotated(start.scaled_stress, fem::turn_of(increment));
+    start.scaled_stress = fem::rotated(start.scaled_stress, fem::rotation_angle(increment));
   return start;
 }
 
 Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increment) const {
   const Vector7& stress = committed_[point].cell.response.stress;
   return increment.configuration == Configuration::fixed ? stress
-                                                          : fem::rotated(stress, fem::turn_of(increment));
+                                                          : fem::rotated(stress, fem::rotation_angle(increment));
 }
 
 void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {

@@ -145,7 +145,7 @@ class LocalMaterial final : public Material {
   [[nodiscard]] typename Law::State start_of(std::size_t point, const Increment& increment) const {
     if constexpr (LawWithRotation<Law>) {
       if (increment.configuration != Configuration::fixed)
-        return law_.rotated(committed_[point], turn_of(increment));
+        return law_.rotated(committed_[point], rotation_angle(increment));
     }
     (void)increment;
     return committed_[point];

@@ -13,10 +13,6 @@ double rotation_angle(const Increment& increment) {
   return 2.0 * arc_tangent(0.25 * (h(1, 0) - h(0, 1)));
 }
 
-double turn_of(const Increment& increment) {
-  return increment.configuration == Configuration::fixed ? 0.0 : rotation_angle(increment);
-}
-
 Increment about_start(const Increment& about_middle) {
   const Eigen::Matrix2d half = 0.5 * about_middle.displacement_gradient;
   Increment increment = about_middle;

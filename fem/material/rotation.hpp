@@ -9,10 +9,6 @@ namespace polargrain::fem {
 /// 1980).
 double rotation_angle(const Increment& increment);
 
-/// The angle (rad) by which a stress that is kept has to turn before the strain of an increment adds to it: none in
-/// small deformation.
-double turn_of(const Increment& increment);
-
 /// The same increment with its gradients about the start of the step instead of the middle:
 /// I + h_start = (I - h/2)^-1 (I + h/2), which turns rigidly when the middle sees a rigid rotation.
 Increment about_start(const Increment& about_middle);

@@ -17,6 +17,7 @@ namespace polargrain::coupler {
 namespace {
 
 using testing::random_requests;
+using testing::step;
 using testing::Scratch;
 
 constexpr std::size_t kCells = 60;
@@ -52,16 +53,6 @@ class ChecksTest : public ::testing::Test {
   std::string told_;
 };
 
-/// What an honest worker alone answers, step by step.
-std::vector<CellReply> step(Pool& pool, const std::vector<CellReply>& from) {
-  std::vector<CellReply> replies = pool.evaluate(random_requests(kCells, from));
-  std::vector<StatePointer> states;
-  for (const CellReply& reply : replies) states.push_back(reply.state);
-  states = pool.collect(states);
-  for (std::size_t r = 0; r < replies.size(); ++r) replies[r].state = states[r];
-  return replies;
-}
-
 /// Whether these are the answers of the closed form, to the bit.
 bool are_true(const std::vector<CellReply>& replies) {
   const std::vector<PoolRequest> requests = random_requests(replies.size());
@@ -74,9 +65,9 @@ TEST_F(ChecksTest, OneForgerOfThreeIsFoundAndItsAnswersAreMadeAgain) {
   let_one_forge();
   Pool pool(options(3, 1.0));
   pool.define(testing::fake_definition(kScript));
-  const std::vector<CellReply> first = step(pool, {});
+  const std::vector<CellReply> first = step(pool, kCells, {});
   EXPECT_TRUE(are_true(first));
-  const std::vector<CellReply> second = step(pool, first);
+  const std::vector<CellReply> second = step(pool, kCells, first);
   for (const CellReply& reply : second) EXPECT_TRUE(reply.state->is_here());
   EXPECT_EQ(pool.counts().workers_lost, 1) << told_;
   EXPECT_EQ(pool.counts().evaluations_checked, 2 * static_cast<int>(kCells)) << told_;
@@ -97,13 +88,13 @@ TEST_F(ChecksTest, ASampleFindsTheForgerOrNothingFalseIsReturnedInSilence) {
     bool was_false = false;
     try {
       for (int s = 0; s < 40 && !is_known; ++s) {
-        const std::vector<CellReply> replies = step(pool, {});
+        const std::vector<CellReply> replies = step(pool, kCells, {});
         is_known = pool.counts().workers_lost > 0;
         was_false = was_false || !are_true(replies);
       }
       EXPECT_TRUE(is_known) << share << '\n' << told_;
       EXPECT_FALSE(was_false) << share << '\n' << told_;
-      EXPECT_TRUE(are_true(step(pool, {}))) << share;
+      EXPECT_TRUE(are_true(step(pool, kCells, {}))) << share;
       ++mended;
     } catch (const FalseResults& error) {
       EXPECT_NE(std::string(error.what()).find("that nobody has checked were used before"), std::string::npos)
@@ -122,7 +113,7 @@ TEST_F(ChecksTest, FalseAnswersThatWereUsedEndTheRun) {
   pool.define(testing::fake_definition("sleep_milliseconds 1"));
   int steps = 0;
   try {
-    for (; steps < 300; ++steps) step(pool, {});
+    for (; steps < 300; ++steps) step(pool, kCells, {});
     FAIL() << told_;
   } catch (const FalseResults& error) {
     const std::string words = error.what();
@@ -136,7 +127,7 @@ TEST_F(ChecksTest, TwoThatDisagreeEndTheRun) {
   Pool pool(options(2, 1.0));
   pool.define(testing::fake_definition(kScript));
   try {
-    step(pool, {});
+    step(pool, kCells, {});
     // A forger that is stopped is replaced by an honest one: that would be the third.
     FAIL() << told_;
   } catch (const FalseResults& error) {
@@ -152,7 +143,7 @@ TEST_F(ChecksTest, AGuestIsCheckedByAProcessOfOurOwn) {
   pool.define(testing::fake_definition(kScript));
   Process liar(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
   Process honest(guest(pool.listening_url(), false), scratch_.path() / "honest.log");
-  for (int s = 0; s < 20 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, {}))) << s;
+  for (int s = 0; s < 20 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
   EXPECT_EQ(liar.end().value_or("still there"), "exit status 1") << told_;
   EXPECT_NE(testing::content(scratch_.path() / "guest.log").find("it has sent what is false"), std::string::npos)
       << testing::content(scratch_.path() / "guest.log");
@@ -168,7 +159,7 @@ TEST_F(ChecksTest, GuestsThatAgreeOnWhatIsFalseDoNotOutvoteOneOfOurOwn) {
     pool.define(testing::fake_definition(kScript));
     Process one(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
     Process two(guest(pool.listening_url(), true, "second.key"), scratch_.path() / "guest.log");
-    for (int s = 0; s < 40 && !(one.end() && two.end()); ++s) EXPECT_TRUE(are_true(step(pool, {}))) << s;
+    for (int s = 0; s < 40 && !(one.end() && two.end()); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
     EXPECT_TRUE(one.end() && two.end()) << told_;
     EXPECT_EQ(pool.counts().workers_lost, 2) << told_;
   }
@@ -179,7 +170,7 @@ TEST_F(ChecksTest, AGuestAgainstOneOfOurOwnIsNotBelieved) {
   Pool pool(options(1, 1.0));
   pool.define(testing::fake_definition(kScript));
   Process liar(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
-  for (int s = 0; s < 40 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, {}))) << s;
+  for (int s = 0; s < 40 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
   EXPECT_EQ(liar.end().value_or("still there"), "exit status 1") << told_;
   EXPECT_NE(told_.find("otherwise than worker 1, a process of this machine"), std::string::npos) << told_;
 }
@@ -189,7 +180,7 @@ TEST_F(ChecksTest, OneWorkerChecksNothing) {
   alone.listening.reset();
   Pool pool(alone);
   pool.define(testing::fake_definition(""));
-  EXPECT_TRUE(are_true(step(pool, {})));
+  EXPECT_TRUE(are_true(step(pool, kCells, {})));
   EXPECT_EQ(pool.counts().evaluations_checked, 0);
   EXPECT_EQ(pool.counts().evaluations, static_cast<int>(kCells));
 }

@@ -17,6 +17,7 @@ namespace polargrain::coupler {
 namespace {
 
 using testing::random_requests;
+using testing::step;
 using testing::Scratch;
 
 constexpr std::size_t kCells = 30;
@@ -47,16 +48,6 @@ class LiarsTest : public ::testing::TestWithParam<const char*> {
   std::string told_;
 };
 
-/// A step: an evaluation from the states of the last, and its commit.
-std::vector<CellReply> step(Pool& pool, const std::vector<CellReply>& from) {
-  std::vector<CellReply> replies = pool.evaluate(random_requests(kCells, from));
-  std::vector<StatePointer> states;
-  for (const CellReply& reply : replies) states.push_back(reply.state);
-  states = pool.collect(states);
-  for (std::size_t r = 0; r < replies.size(); ++r) replies[r].state = states[r];
-  return replies;
-}
-
 /// What the guest is told and the user reads.
 const std::map<std::string, std::string>& causes() {
   static const std::map<std::string, std::string> kCauses{
@@ -79,8 +70,8 @@ TEST_P(LiarsTest, AreSentAwayAndChangeNoByte) {
   Process guest(liar(pool.listening_url()), log());
   std::vector<std::vector<CellReply>> steps{{}};
   // Steps until it has been found out, and one more.
-  while (!guest.end() && steps.size() < 60) steps.push_back(step(pool, steps.back()));
-  steps.push_back(step(pool, steps.back()));
+  while (!guest.end() && steps.size() < 60) steps.push_back(step(pool, kCells, steps.back()));
+  steps.push_back(step(pool, kCells, steps.back()));
   ASSERT_EQ(guest.end().value_or("still there"), "exit status 1") << told_;
 
   const std::string& cause = causes().at(GetParam());
@@ -98,7 +89,7 @@ TEST_P(LiarsTest, AreSentAwayAndChangeNoByte) {
   undisturbed.define(testing::fake_definition(kScript));
   std::vector<CellReply> expected;
   for (std::size_t s = 1; s < steps.size(); ++s) {
-    expected = step(undisturbed, expected);
+    expected = step(undisturbed, kCells, expected);
     for (std::size_t r = 0; r < kCells; ++r) {
       ASSERT_EQ(steps[s][r].response.quality, Quality::good) << steps[s][r].response.message;
       EXPECT_EQ(steps[s][r].response.stress, expected[r].response.stress);
@@ -112,7 +103,7 @@ class FalseNamesTest : public LiarsTest {
   /// Steps until the guest has gone with what it named. @returns the replies of the last
   std::vector<CellReply> until_it_is_gone(Pool& pool, Process& guest) {
     std::vector<CellReply> replies;
-    for (int s = 0; s < 60 && !guest.end(); ++s) replies = step(pool, {});
+    for (int s = 0; s < 60 && !guest.end(); ++s) replies = step(pool, kCells, {});
     return replies;
   }
 };
@@ -142,7 +133,7 @@ TEST_P(FalseNamesTest, TrueNumbersAreUsedAndFalseOnesEndTheRun) {
   alone.listening.reset();
   Pool undisturbed(alone);
   undisturbed.define(testing::fake_definition(kScript));
-  const std::vector<CellReply> expected = step(undisturbed, {});
+  const std::vector<CellReply> expected = step(undisturbed, kCells, {});
   for (std::size_t r = 0; r < kCells; ++r) {
     EXPECT_EQ(replies[r].response.stress, expected[r].response.stress);
     EXPECT_EQ(replies[r].state->name(), expected[r].state->name());

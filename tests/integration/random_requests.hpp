@@ -23,4 +23,14 @@ inline std::vector<coupler::PoolRequest> random_requests(std::size_t count,
   return requests;
 }
 
+/// A step of such cells: an evaluation from the states of the last, and its commit.
+inline std::vector<CellReply> step(coupler::Pool& pool, std::size_t count, const std::vector<CellReply>& from) {
+  std::vector<CellReply> replies = pool.evaluate(random_requests(count, from));
+  std::vector<StatePointer> states;
+  for (const CellReply& reply : replies) states.push_back(reply.state);
+  states = pool.collect(states);
+  for (std::size_t r = 0; r < replies.size(); ++r) replies[r].state = states[r];
+  return replies;
+}
+
 }  // namespace polargrain::testing
