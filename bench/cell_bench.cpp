@@ -19,9 +19,9 @@
 namespace polargrain {
 namespace {
 
-constexpr int kBeforePeak = 10;   ///< increments of 1e-3
-constexpr int kSoftening = 50;    ///< to 5 %
-constexpr int kMorePackings = 7;  ///< beside the demonstration's
+constexpr int kBeforePeak = 10;     ///< increments of 1e-3
+constexpr int kSoftening = 50;      ///< to 5 %
+constexpr int kMorePackings = 7;    ///< beside the demonstration's
 constexpr double kStudent = 2.365;  ///< 95 %, eight samples
 
 double processor_seconds() {
@@ -92,8 +92,8 @@ Run isochoric(CellDefinition definition, const Settings& asked, int increments) 
     run.milliseconds += 1e3 * (processor_seconds() - start) / increments;
     if (reply.response.quality != Quality::good)
       fmt::print(stderr, "inertial number {:.1e}, damping {}, tolerance {:.0e}, increment {}: {}\n",
-                 asked.control.inertial_number, asked.control.damping, asked.control.unbalanced_force_ratio, k,
-                 reply.response.message);
+                 asked.control.inertial_number, asked.control.damping, asked.control.unbalanced_force_ratio,
+                 k, reply.response.message);
     run.stresses.push_back(reply.response.stress);
     run.dem_steps += static_cast<double>(reply.diagnostics.dem_steps) / increments;
     request.state = reply.state;
@@ -143,8 +143,8 @@ std::string row(const Settings& asked, const std::vector<CellDefinition>& defini
     tangent.control.tangent = CellTangent::condensed;
     with_tangent += isochoric(definitions[d], tangent, kBeforePeak).milliseconds / count;
   }
-  return fmt::format("{:>10} {:>9.1e} {:>8.2f} {:>10.0e} {:>7.0f} {:>8.2f} {:>8.2f} {:>16} {:>16}\n", asked.name,
-                     asked.control.inertial_number, asked.control.damping,
+  return fmt::format("{:>10} {:>9.1e} {:>8.2f} {:>10.0e} {:>7.0f} {:>8.2f} {:>8.2f} {:>16} {:>16}\n",
+                     asked.name, asked.control.inertial_number, asked.control.damping,
                      asked.control.unbalanced_force_ratio, steps, milliseconds, with_tangent,
                      Mean(early).text(), Mean(late).text());
 }
@@ -193,8 +193,9 @@ std::string softening(const std::vector<CellDefinition>& definitions) {
   std::string table = fmt::format("{:>9} {:>8} {:>10} {:>18} {:>22}\n", "inertial", "damping", "tolerance",
                                   "peak (% off)", "4 to 5 % (% off)");
   for (const Settings& asked :
-       {settings(3e-4, 0.12, 1e-3), settings(3e-4, 0.12, 5e-3), settings(6e-4, 0.12, 1e-3), settings(6e-4, 0.12, 5e-3),
-        settings(6e-4, 0.12, 2e-2), settings(1.2e-3, 0.12, 5e-3), settings(1.2e-3, 0.12, 2e-2), settings(2.4e-3, 0.24, 5e-3)}) {
+       {settings(3e-4, 0.12, 1e-3), settings(3e-4, 0.12, 5e-3), settings(6e-4, 0.12, 1e-3),
+        settings(6e-4, 0.12, 5e-3), settings(6e-4, 0.12, 2e-2), settings(1.2e-3, 0.12, 5e-3),
+        settings(1.2e-3, 0.12, 2e-2), settings(2.4e-3, 0.24, 5e-3)}) {
     std::vector<double> peaks;
     std::vector<double> softened;
     for (std::size_t d = 0; d < definitions.size(); ++d) {

@@ -62,7 +62,8 @@ int main(int count, char** arguments) {
 
   const std::filesystem::path file = directory / "checkpoint_bench.h5";
   coupler::Checkpoint checkpoint;
-  const double keeping = seconds_of([&] { write_records(checkpoint.state, "cells", std::span<const CellReply>(committed)); });
+  const double keeping =
+      seconds_of([&] { write_records(checkpoint.state, "cells", std::span<const CellReply>(committed)); });
   const double writing = seconds_of([&] { coupler::write_checkpoint(file, checkpoint); });
   const auto size = static_cast<double>(std::filesystem::file_size(file));
   std::vector<CellReply> read;

@@ -66,11 +66,14 @@ void describe(Record& control, Visit&& visit) {
   visit(FieldNotes{"inertial_number", "1", "mean loading rate"}, control.inertial_number);
   visit(FieldNotes{"unbalanced_force_ratio", "1", "at read-out"}, control.unbalanced_force_ratio);
   visit(FieldNotes{"unbalanced_moment_ratio", "1", "at read-out"}, control.unbalanced_moment_ratio);
-  visit(FieldNotes{"damping", "1", "share of the critical damping of a mean grain on one mean contact"}, control.damping);
+  visit(FieldNotes{"damping", "1", "share of the critical damping of a mean grain on one mean contact"},
+        control.damping);
   visit(FieldNotes{"least_steps", "1", "fewest DEM steps of a loading ramp"}, control.least_steps);
   visit(FieldNotes{"most_relaxation_steps", "1", "DEM steps after which an answer is unreliable"},
         control.most_relaxation_steps);
-  visit(FieldNotes{"tangent", "", "0 none, 1 Voigt, 2 condensed, 3 condensed with the mean rotation prescribed"}, control.tangent);
+  visit(FieldNotes{"tangent", "",
+                   "0 none, 1 Voigt, 2 condensed, 3 condensed with the mean rotation prescribed"},
+        control.tangent);
   visit(FieldNotes{"rotations", "", "0 free, 1 controlled"}, control.rotations);
   visit(FieldNotes{"loop", "", "0 automatic, 1 the engine's own, 2 plain"}, control.loop);
 }
@@ -82,7 +85,8 @@ struct CellDefinition {
   std::string script;       ///< text of the input script (liggghts_inputs/)
   Packing packing;
   CellControl control;
-  ContactLibraryFile contact_library = {};  ///< on every worker's machine; none: the laws of this project are enough
+  ContactLibraryFile contact_library =
+      {};  ///< on every worker's machine; none: the laws of this project are enough
 };
 
 template <RecordOf<CellDefinition> Record, class Visit>
@@ -92,7 +96,8 @@ void describe(Record& definition, Visit&& visit) {
   visit(FieldNotes{"script", "", "text of the script"}, definition.script);
   visit(FieldNotes{"packing", "", "the packing that cells start from"}, definition.packing);
   visit(FieldNotes{"control", "", "how cells are loaded and read out"}, definition.control);
-  visit(FieldNotes{"contact_library", "", "contact laws of the user's own, or none"}, definition.contact_library);
+  visit(FieldNotes{"contact_library", "", "contact laws of the user's own, or none"},
+        definition.contact_library);
 }
 
 /// One evaluation: from a state (or, when null, from the packing) along an increment.
@@ -125,19 +130,26 @@ void describe(Record& d, Visit&& visit) {
   visit(FieldNotes{"coordination_number", "1", "2 contacts / grains"}, d.coordination_number);
   visit(FieldNotes{"unbalanced_force_ratio", "1", "mean unbalanced force / mean contact force"},
         d.unbalanced_force_ratio);
-  visit(FieldNotes{"unbalanced_moment_ratio", "1", "mean unbalanced moment / (mean contact force times mean radius)"},
+  visit(FieldNotes{"unbalanced_moment_ratio", "1",
+                   "mean unbalanced moment / (mean contact force times mean radius)"},
         d.unbalanced_moment_ratio);
   visit(FieldNotes{"sliding_fraction", "1", "contacts at the sliding limit / contacts"}, d.sliding_fraction);
-  visit(FieldNotes{"rolling_fraction", "1", "contacts at the rolling limit / contacts (models `li_chu`, `epsd2`)"},
+  visit(FieldNotes{"rolling_fraction", "1",
+                   "contacts at the rolling limit / contacts (models `li_chu`, `epsd2`)"},
         d.rolling_fraction);
   visit(FieldNotes{"rattlers", "1", "grains without a contact / grains"}, d.rattlers);
-  visit(FieldNotes{"multiplier", "Pa", "s21 - s12 that holds the mean rotation; 0 with free rotations"}, d.multiplier);
+  visit(FieldNotes{"multiplier", "Pa", "s21 - s12 that holds the mean rotation; 0 with free rotations"},
+        d.multiplier);
   visit(FieldNotes{"mean_rotation", "rad", "mean rotation of the grains since the packing"}, d.mean_rotation);
-  visit(FieldNotes{"rotation_spread", "rad", "standard deviation of the rotations of the grains"}, d.rotation_spread);
-  visit(FieldNotes{"fabric", "1", "mean of n_i n_j over the contacts in the laboratory, trace 1", "_11 _22 _12"}, d.fabric);
+  visit(FieldNotes{"rotation_spread", "rad", "standard deviation of the rotations of the grains"},
+        d.rotation_spread);
+  visit(FieldNotes{"fabric", "1", "mean of n_i n_j over the contacts in the laboratory, trace 1",
+                   "_11 _22 _12"},
+        d.fabric);
   visit(FieldNotes{"contacts", "1", "contacts in the cell"}, d.contacts);
   visit(FieldNotes{"dem_steps", "1", "DEM steps of the last evaluation"}, d.dem_steps);
-  visit(FieldNotes{"engine_seconds", "s", "wall time inside the engine", {}, FieldUse::cost}, d.engine_seconds);
+  visit(FieldNotes{"engine_seconds", "s", "wall time inside the engine", {}, FieldUse::cost},
+        d.engine_seconds);
 }
 
 /// Answer of a cell. Stress and tangent are the cell's own (laboratory frame); Response::tangent is with

@@ -46,7 +46,8 @@ template <RecordOf<Increment> Record, class Visit>
 void describe(Record& increment, Visit&& visit) {
   visit(FieldNotes{"h", "1", "displacement gradient, h_ij = d u_i / d x_j", "11 12 21 22"},
         increment.displacement_gradient);
-  visit(FieldNotes{"w", "rad", "micro-rotation about e_3, counter-clockwise positive"}, increment.micro_rotation);
+  visit(FieldNotes{"w", "rad", "micro-rotation about e_3, counter-clockwise positive"},
+        increment.micro_rotation);
   visit(FieldNotes{"k", "rad/m", "curvature, k_i = d w / d x_i", "1 2"}, increment.curvature);
 }
 

@@ -56,14 +56,18 @@ struct Packing {
 
 template <RecordOf<Packing> Record, class Visit>
 void describe(Record& packing, Visit&& visit) {
-  visit(FieldNotes{"dimension", "", "2: plane; 3: spheres in a box that is periodic in x3 too"}, packing.dimension);
-  visit(FieldNotes{"box", "m", "base vectors of the periodic box as columns", "_11 _12 _21 _22"}, packing.box);
+  visit(FieldNotes{"dimension", "", "2: plane; 3: spheres in a box that is periodic in x3 too"},
+        packing.dimension);
+  visit(FieldNotes{"box", "m", "base vectors of the periodic box as columns", "_11 _12 _21 _22"},
+        packing.box);
   visit(FieldNotes{"thickness", "m", "out of plane; stresses are per this thickness"}, packing.thickness);
   visit(FieldNotes{"lean", "m", "in-plane components of the third base vector", "_1 _2"}, packing.lean);
   visit(FieldNotes{"grains", "", "the grains"}, packing.grains);
-  visit(FieldNotes{"pressure", "Pa", "mean normal stress at rest when it was made, compression positive; 0: not recorded"},
+  visit(FieldNotes{"pressure", "Pa",
+                   "mean normal stress at rest when it was made, compression positive; 0: not recorded"},
         packing.pressure);
-  visit(FieldNotes{"state", "", "velocities and contact histories of a packing made with friction"}, packing.state);
+  visit(FieldNotes{"state", "", "velocities and contact histories of a packing made with friction"},
+        packing.state);
 }
 
 /// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first

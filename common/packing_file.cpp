@@ -98,7 +98,8 @@ PreparedPacking packing_of(const Content& content) {
   require(content.box.size() == kValues || leans, "the box is no box");
   require(!content.id.empty() && content.grains.size() == kValues * content.id.size(),
           "the grains are incomplete");
-  require(content.reached.size() == names_of_columns<PackingReached>().size(), "what was reached is incomplete");
+  require(content.reached.size() == names_of_columns<PackingReached>().size(),
+          "what was reached is incomplete");
   require(content.heights.size() == (content.version == kSpace ? content.id.size() : 0),
           "the heights of the grains are incomplete");
   for (const auto* array : {&content.box, &content.grains, &content.reached, &content.heights})

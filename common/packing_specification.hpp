@@ -79,7 +79,8 @@ void describe(Record& reached, Visit&& visit) {
   visit(FieldNotes{"shear", "1", "(s12 + s21) / (s11 + s22)"}, reached.shear);
   visit(FieldNotes{"unbalanced_force_ratio", "1", "mean unbalanced force / mean contact force"},
         reached.unbalanced_force_ratio);
-  visit(FieldNotes{"unbalanced_moment_ratio", "1", "mean unbalanced moment / (mean contact force times mean radius)"},
+  visit(FieldNotes{"unbalanced_moment_ratio", "1",
+                   "mean unbalanced moment / (mean contact force times mean radius)"},
         reached.unbalanced_moment_ratio);
   visit(FieldNotes{"friction", "1", "sliding friction while it was made"}, reached.friction);
   visit(FieldNotes{"dem_steps", "1", "of the last compression"}, reached.dem_steps);

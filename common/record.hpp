@@ -70,7 +70,9 @@ inline constexpr bool is_array<std::array<double, count>> = true;
 }  // namespace record
 
 template <class T>
-concept Described = requires(T& value, record::NoVisit visit) { describe(value, visit); };
+concept Described = requires(T& value, record::NoVisit visit) {
+  describe(value, visit);
+};
 
 template <class T>
 concept FixedMatrix = std::derived_from<T, Eigen::MatrixBase<T>> && T::SizeAtCompileTime != Eigen::Dynamic;

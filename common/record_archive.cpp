@@ -26,7 +26,8 @@ RecordValues read_values(ArchiveReader& archive, const std::string& name) {
     const auto length = static_cast<std::size_t>(texts[place++]);
     if (length > texts.size() - place) throw RunError("a text of '" + name + "' is cut short");
     std::string& text = values.texts.emplace_back();
-    for (std::size_t end = place + length; place < end; ++place) text.push_back(static_cast<char>(texts[place]));
+    for (std::size_t end = place + length; place < end; ++place)
+      text.push_back(static_cast<char>(texts[place]));
   }
   return values;
 }

@@ -8,7 +8,8 @@ namespace polargrain {
 std::int64_t RecordReader::next_integer(std::string_view name, std::int64_t least, std::int64_t most) {
   const std::int64_t value = next(values_.integers, integer_, name);
   if (value < least || value > most) {
-    throw RunError(fmt::format("the field '{}' of {} is {}; expected {} to {}", name, what_, value, least, most));
+    throw RunError(
+        fmt::format("the field '{}' of {} is {}; expected {} to {}", name, what_, value, least, most));
   }
   return value;
 }

@@ -89,7 +89,8 @@ void append_member(RecordValues& values, const Member& member, bool with_costs) 
   } else if constexpr (Described<const Member>) {
     append(values, member, with_costs);
   } else {
-    static_assert(std::integral<Member> || std::is_enum_v<Member>, "no kind of member that a record may have");
+    static_assert(std::integral<Member> || std::is_enum_v<Member>,
+                  "no kind of member that a record may have");
     values.integers.push_back(static_cast<std::int64_t>(member));
   }
 }

@@ -29,7 +29,8 @@ struct StressNoise {
 
 template <RecordOf<StressNoise> Record, class Visit>
 void describe(Record& noise, Visit&& visit) {
-  visit(FieldNotes{"symmetric", "Pa", "standard deviation of the errors of s11, of s22 and of the mean of s12 and s21"},
+  visit(FieldNotes{"symmetric", "Pa",
+                   "standard deviation of the errors of s11, of s22 and of the mean of s12 and s21"},
         noise.symmetric);
   visit(FieldNotes{"skew", "Pa", "standard deviation of the error of s21 - s12"}, noise.skew);
   visit(FieldNotes{"couple", "N/m", "standard deviation of the errors of m1 and m2"}, noise.couple);
@@ -51,9 +52,10 @@ struct Response {
 
 template <RecordOf<Response> Record, class Visit>
 void describe(Record& response, Visit&& visit) {
-  visit(FieldNotes{"", "Pa, N/m", "stress s_ij (i: normal of the face, tension positive) and couple stress m_i",
-                   "s11 s22 s33 s12 s21 m1 m2"},
-        response.stress);
+  visit(
+      FieldNotes{"", "Pa, N/m", "stress s_ij (i: normal of the face, tension positive) and couple stress m_i",
+                 "s11 s22 s33 s12 s21 m1 m2"},
+      response.stress);
   visit(FieldNotes{"tangent", "Pa, N", "d stress / d strain, both in the order of the stress",
                    "_11 _12 _13 _14 _15 _16 _17 _21 _22 _23 _24 _25 _26 _27 _31 _32 _33 _34 _35 _36 _37 "
                    "_41 _42 _43 _44 _45 _46 _47 _51 _52 _53 _54 _55 _56 _57 _61 _62 _63 _64 _65 _66 _67 "
@@ -62,8 +64,9 @@ void describe(Record& response, Visit&& visit) {
   visit(FieldNotes{"noise", "Pa, N/m", "how well the stress is known"}, response.noise);
   visit(FieldNotes{"quality", "", "-1 failed, 0 unreliable, 1 good"}, response.quality);
   visit(FieldNotes{"message", "", "why the answer is not good"}, response.message);
-  visit(FieldNotes{"step_factor", "1", "fraction of the increment to try instead, when the answer is not good"},
-        response.step_factor);
+  visit(
+      FieldNotes{"step_factor", "1", "fraction of the increment to try instead, when the answer is not good"},
+      response.step_factor);
 }
 
 }  // namespace polargrain

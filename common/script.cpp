@@ -15,28 +15,72 @@ namespace {
 using Words = std::set<std::string>;
 
 /// What a cell needs and what can do nothing else. Those whose words decide what happens are looked at below.
-const Words kAllowed{"atom_modify",  "atom_style",    "boundary",       "communicate",   "dimension",   "echo",
-                     "fix",          "group",         "hard_particles", "if",            "mass",        "neigh_modify",
-                     "neighbor",     "newton",        "pair_coeff",     "pair_modify",   "pair_style",  "print",
-                     "read_data",    "region",        "set",            "soft_particles", "special_bonds", "thermo",
-                     "thermo_modify", "thermo_style", "timestep",       "unfix",         "units",       "variable",
-                     "velocity"};
+const Words kAllowed{
+    "atom_modify",    "atom_style",     "boundary",   "communicate",   "dimension",    "echo",     "fix",
+    "group",          "hard_particles", "if",         "mass",          "neigh_modify", "neighbor", "newton",
+    "pair_coeff",     "pair_modify",    "pair_style", "print",         "read_data",    "region",   "set",
+    "soft_particles", "special_bonds",  "thermo",     "thermo_modify", "thermo_style", "timestep", "unfix",
+    "units",          "variable",       "velocity"};
 
 /// The engine's other commands: known, so that messages can name them.
-const Words kKnown{"box",          "change_box",     "clear",        "compute",        "compute_modify", "create_atoms",
-                   "create_box",   "delete_atoms",   "delete_bonds", "dielectric",     "displace_atoms", "dump",
-                   "dump_modify",  "fix_modify",     "force_dt_reset", "include",      "info",           "jump",
-                   "kspace_modify", "kspace_style",  "label",        "lattice",        "log",            "min_modify",
-                   "min_style",    "minimize",       "modify_timing", "next",          "package",        "partition",
-                   "pair_write",   "processors",     "quit",         "read_dump",      "read_restart",   "replicate",
-                   "reset_timestep", "restart",      "rotate",       "run",            "run_style",      "run_time",
-                   "shell",        "suffix",         "thermo_log",   "uncompute",      "undump",         "write_data",
-                   "write_dump",   "write_restart",  "write_restart_on_signal"};
+const Words kKnown{"box",
+                   "change_box",
+                   "clear",
+                   "compute",
+                   "compute_modify",
+                   "create_atoms",
+                   "create_box",
+                   "delete_atoms",
+                   "delete_bonds",
+                   "dielectric",
+                   "displace_atoms",
+                   "dump",
+                   "dump_modify",
+                   "fix_modify",
+                   "force_dt_reset",
+                   "include",
+                   "info",
+                   "jump",
+                   "kspace_modify",
+                   "kspace_style",
+                   "label",
+                   "lattice",
+                   "log",
+                   "min_modify",
+                   "min_style",
+                   "minimize",
+                   "modify_timing",
+                   "next",
+                   "package",
+                   "partition",
+                   "pair_write",
+                   "processors",
+                   "quit",
+                   "read_dump",
+                   "read_restart",
+                   "replicate",
+                   "reset_timestep",
+                   "restart",
+                   "rotate",
+                   "run",
+                   "run_style",
+                   "run_time",
+                   "shell",
+                   "suffix",
+                   "thermo_log",
+                   "uncompute",
+                   "undump",
+                   "write_data",
+                   "write_dump",
+                   "write_restart",
+                   "write_restart_on_signal"};
 
-const Words kFixes{"property/global", "property/atom", "nve/sphere", "nve",   "enforce2d", "viscous",
-                   "gravity",         "freeze",        "setforce",   "addforce", "momentum",  "wall/gran",
+const Words kFixes{"property/global",    "property/atom", "nve/sphere", "nve",
+                   "enforce2d",          "viscous",       "gravity",    "freeze",
+                   "setforce",           "addforce",      "momentum",   "wall/gran",
                    "check/timestep/gran"};
-const Words kRegions{"block", "cone", "cylinder", "plane", "prism", "sphere", "wedge", "union", "intersect", "delete"};
+const Words kRegions{"block",  "cone",  "cylinder", "plane",     "prism",
+                     "sphere", "wedge", "union",    "intersect", "delete"};
 const Words kVariables{"index", "loop", "string", "equal", "atom", "delete"};
 
 constexpr const char* kAdvice = "; remove it, or say --trust-scripts when you know what this script does";
@@ -85,7 +129,8 @@ std::optional<std::vector<Word>> words_of(const std::string& text) {
 
 /// Whether one of the first so many words, which decide what a command does, is left to a variable.
 bool any_varies(const std::vector<Word>& words, std::size_t count) {
-  return std::any_of(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(std::min(count, words.size())),
+  return std::any_of(words.begin(),
+                     words.begin() + static_cast<std::ptrdiff_t>(std::min(count, words.size())),
                      [](const Word& word) { return word.varies(); });
 }
 
@@ -103,8 +148,8 @@ class Judge {
     const std::string& command = words->front().text;
     if (rules_.more_commands.contains(command)) return {};
     if (words->front().varies()) {
-      return fmt::format("a variable stands in the place of a command, which nobody can judge before it runs{}",
-                         kAdvice);
+      return fmt::format(
+          "a variable stands in the place of a command, which nobody can judge before it runs{}", kAdvice);
     }
     if (kKnown.contains(command)) {
       return fmt::format("the command '{}' is not among those that set up a cell{}", command, kAdvice);
@@ -134,7 +179,8 @@ class Judge {
     if (any_varies(words, place + 1)) {
       return fmt::format("{}: a variable stands where the style is chosen{}", command, kAdvice);
     }
-    if (words.size() <= place || styles.contains(words[place].text)) return {};  // too short: the engine says so
+    if (words.size() <= place || styles.contains(words[place].text))
+      return {};  // too short: the engine says so
     return fmt::format("{}: this style is not among those that set up a cell{}", command, kAdvice);
   }
 

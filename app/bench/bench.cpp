@@ -8,15 +8,15 @@
 #include <cstdio>
 #include <numeric>
 
-#include "common/error.hpp"
-#include "common/standard_streams.hpp"
-#include "coupler/case/case.hpp"
 #include "app/bench/bench_band.hpp"
 #include "app/bench/bench_page.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/progress.hpp"
 #include "app/run/result_directory.hpp"
 #include "app/run/run.hpp"
+#include "common/error.hpp"
+#include "common/standard_streams.hpp"
+#include "coupler/case/case.hpp"
 #include "fem/output/write_file.hpp"
 
 namespace polargrain::app {
@@ -131,7 +131,7 @@ class Report {
     if (!reference_of_sizes_.empty())
       tell(stdout, "reference of the packings of {}: {}\n", options_.pack.string(), reference_of_sizes_);
     tell(stdout, "results: {} (bench.csv, bench.html, and a folder for each run)\n",
-               options_.directory.string());
+         options_.directory.string());
   }
 
  private:
@@ -147,8 +147,8 @@ void print_progress(const BenchSetting& setting, std::size_t done, std::size_t a
           ? ""
           : fmt::format(", about {} left",
                         duration_text(spent / static_cast<double>(done) * static_cast<double>(all - done)));
-  tell(stderr, "run {} of {}: {}{}{}{}\n", done + 1, all, setting.group,
-             setting.label.empty() ? "" : ", ", setting.label, left);
+  tell(stderr, "run {} of {}: {}{}{}{}\n", done + 1, all, setting.group, setting.label.empty() ? "" : ", ",
+       setting.label, left);
 }
 
 }  // namespace

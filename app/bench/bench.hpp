@@ -15,7 +15,7 @@ struct BenchOptions {
   std::filesystem::path directory;  ///< of the results
   int workers = 1;
   bool resume = false;  ///< runs whose checkpoint is in the directory go on from it
-  bool quick = false;  ///< fewer settings, and a reference that is less fine
+  bool quick = false;   ///< fewer settings, and a reference that is less fine
   bool quiet = false;
   std::vector<std::string> settings;  ///< of --set, for every run
   std::vector<std::string> vary;      ///< KEY=A,B,C: further values to try, one at a time

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "common/error.hpp"
 #include "app/commands/band.hpp"
+#include "common/error.hpp"
 
 namespace polargrain::app {
 namespace {

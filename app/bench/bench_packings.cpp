@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <set>
 
+#include "app/bench/bench_settings.hpp"
+#include "app/commands/pack.hpp"
+#include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/section.hpp"
-#include "app/bench/bench_settings.hpp"
-#include "app/commands/pack.hpp"
-#include "app/pack/read_specification.hpp"
 #include "fem/output/write_file.hpp"
 
 namespace polargrain::app {
@@ -32,10 +32,12 @@ std::vector<std::string> settings_of(int grains, int seed) {
 }
 
 /// Whether a material and a specification name libraries of contact laws with the same content, or none.
-bool same_library(const std::string& named, const std::filesystem::path& directory, const ContactLibraryFile& library) {
+bool same_library(const std::string& named, const std::filesystem::path& directory,
+                  const ContactLibraryFile& library) {
   if (named.empty() || library.path.empty()) return named.empty() && library.path.empty();
   const auto file = coupler::find_data_file(named, directory);
-  return !file || coupler::content_of(*file) == coupler::content_of(library.path);  // read_case tells what is not there
+  return !file || coupler::content_of(*file) ==
+                      coupler::content_of(library.path);  // read_case tells what is not there
 }
 
 /// Packings at rest with one contact model are not at rest with another.
@@ -50,11 +52,13 @@ void check_script(const BenchOptions& options, const PackingSpecification& speci
   for (const MaterialWithCells& material : materials) {
     const std::filesystem::path directory = options.cases.front().parent_path();
     if (!same_library(material.contact_library, directory, specification.contact_library))
-      faults.push_back(entry->fault(fmt::format("contact_library: material '{}' in {} has another one, or only one of the "
-                                                "two has any; give both the same, in a copy of the specification",
-                                                material.name, options.cases.front().string())));
+      faults.push_back(
+          entry->fault(fmt::format("contact_library: material '{}' in {} has another one, or only one of the "
+                                   "two has any; give both the same, in a copy of the specification",
+                                   material.name, options.cases.front().string())));
     const auto file = coupler::find_data_file(material.script, directory);
-    if (!file || coupler::text_of_script(*file) == specification.script) continue;  // read_case tells what is not there
+    if (!file || coupler::text_of_script(*file) == specification.script)
+      continue;  // read_case tells what is not there
     faults.push_back(entry->fault(
         fmt::format("script: {} has another content than {}, the script of material '{}' in {}; give both "
                     "the same, in a copy of the specification",
@@ -107,7 +111,7 @@ void make_packings(const BenchOptions& options, const std::vector<BenchPacking>&
     const bool kept = std::filesystem::exists(packing.file) && coupler::content_of(note) == origin;
     if (!options.quiet)
       tell(stderr, "packing {} of {}: {} grains, seed {}{}\n", k + 1, packings.size(), packing.grains,
-                 packing.seed, kept ? ", is there" : "");
+           packing.seed, kept ? ", is there" : "");
     if (kept) continue;
     std::filesystem::remove(note);
     pack(pack_options, tools);

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <optional>
 
+#include "app/commands/csv_file.hpp"
 #include "band/frames.hpp"
 #include "band/shear_band.hpp"
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
-#include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
 
 namespace polargrain::app {
@@ -127,25 +127,24 @@ BandMeasurement measure_band(const BandCommandOptions& options) {
 int band(const BandCommandOptions& options) {
   const BandMeasurement measured = measure_band(options);
   tell(stdout, "{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(),
-             measured.begin, measured.end, measured.places,
-             measured.of_grains ? "grains" : "integration points");
+       measured.begin, measured.end, measured.places, measured.of_grains ? "grains" : "integration points");
   if (!measured.search.band) {
     tell(stdout, "  no band: {}\n", measured.search.reason);
     return 0;
   }
   const Band& found = *measured.search.band;
   tell(stdout,
-      "  inclination   {:.1f} degrees from the horizontal\n"
-      "  thickness     {:.4g} m at half maximum (resolution {:.2g} m)\n"
-      "  shear strain  {:.4f} at its greatest, {:.4f} in the background\n"
-      "  volume strain {:.4f} inside, {:.4f} outside\n"
-      "  rotation      {:.4f} rad inside, {:.4f} rad outside\n"
-      "  onset         {}\n",
-      found.inclination / kDegree, found.thickness, found.resolution, found.peak, found.background,
-      measured.volume_strain.inside, measured.volume_strain.outside, measured.rotation.inside,
-      measured.rotation.outside,
-      measured.onset ? fmt::format("axial strain {:.4f}", *measured.onset)
-                     : "not within the increments: the last is not localised");
+       "  inclination   {:.1f} degrees from the horizontal\n"
+       "  thickness     {:.4g} m at half maximum (resolution {:.2g} m)\n"
+       "  shear strain  {:.4f} at its greatest, {:.4f} in the background\n"
+       "  volume strain {:.4f} inside, {:.4f} outside\n"
+       "  rotation      {:.4f} rad inside, {:.4f} rad outside\n"
+       "  onset         {}\n",
+       found.inclination / kDegree, found.thickness, found.resolution, found.peak, found.background,
+       measured.volume_strain.inside, measured.volume_strain.outside, measured.rotation.inside,
+       measured.rotation.outside,
+       measured.onset ? fmt::format("axial strain {:.4f}", *measured.onset)
+                      : "not within the increments: the last is not localised");
   return 0;
 }
 

@@ -7,18 +7,18 @@
 #include <cstdio>
 #include <thread>
 
-#include "common/error.hpp"
-#include "common/standard_streams.hpp"
-#include "coupler/case/case.hpp"
-#include "coupler/case/data_files.hpp"
-#include "app/commands/band.hpp"
 #include "app/bench/bench.hpp"
-#include "app/run/interrupt.hpp"
+#include "app/commands/band.hpp"
 #include "app/commands/pack.hpp"
 #include "app/commands/point.hpp"
 #include "app/commands/verify.hpp"
 #include "app/commands/worker.hpp"
+#include "app/run/interrupt.hpp"
 #include "app/run/run.hpp"
+#include "common/error.hpp"
+#include "common/standard_streams.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/case/data_files.hpp"
 #include "coupler/pool/keys.hpp"
 
 namespace polargrain::app {
@@ -56,18 +56,18 @@ int default_workers() {
 int keys(const std::string& directory, const std::string& worker) {
   coupler::make_keys(directory, worker);
   tell(stdout,
-      "{0}/{1}.key is new: copy it to where workers run, and to nowhere else.\n"
-      "  here:  polargrain run CASE.yaml --listen tcp://*:5570 --keys {0}\n"
-      "  there: polargrain worker --connect tcp://HOST:5570 --key {1}.key\n",
-      directory, worker);
+       "{0}/{1}.key is new: copy it to where workers run, and to nowhere else.\n"
+       "  here:  polargrain run CASE.yaml --listen tcp://*:5570 --keys {0}\n"
+       "  there: polargrain worker --connect tcp://HOST:5570 --key {1}.key\n",
+       directory, worker);
   return 0;
 }
 
 int check(const std::string& file, const std::vector<std::string>& settings, const ScriptRules& scripts) {
   const coupler::Case the_case = coupler::read_case(file, settings, scripts);
   tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", file,
-             the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
-             the_case.needs_workers() ? "needs workers" : "needs no workers");
+       the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
+       the_case.needs_workers() ? "needs workers" : "needs no workers");
   if (the_case.check_share > 0.0 && the_case.needs_workers())
     tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker none can be\n",
          100.0 * the_case.check_share);
@@ -118,9 +118,10 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
 /// @param rules of the command, which get what the engine understands too
 void add_trust(CLI::App& command, ScriptRules& rules, const WorkerEngine& engine) {
   rules.more_commands = engine.script_commands;
-  command.add_flag("--trust-scripts", rules.trusted,
-                   "Run scripts of cells that can do more than set up a cell (start programs, read and write files), and "
-                   "libraries of contact laws");
+  command.add_flag(
+      "--trust-scripts", rules.trusted,
+      "Run scripts of cells that can do more than set up a cell (start programs, read and write files), and "
+      "libraries of contact laws");
 }
 
 }  // namespace
@@ -164,9 +165,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   std::string check_file;
   std::vector<std::string> check_settings;
   CLI::App* check_command = app.add_subcommand("check", "Report all faults of a case; run nothing");
-  check_command->add_option("CASE", check_file, "Case file (YAML)")
-      ->required()
-      ->transform(brought_along);
+  check_command->add_option("CASE", check_file, "Case file (YAML)")->required()->transform(brought_along);
   add_settings(*check_command, check_settings);
   ScriptRules check_scripts;
   add_trust(*check_command, check_scripts, engine);
@@ -191,8 +190,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
 
   PackOptions pack_options;
   CLI::App* pack_command = app.add_subcommand("pack", "Make a packing of grains, or export one");
-  CLI::Option* pack_specification = pack_command->add_option(
-      "SPEC", pack_options.specification_file, "What to make (YAML), or a packing to export");
+  CLI::Option* pack_specification = pack_command->add_option("SPEC", pack_options.specification_file,
+                                                             "What to make (YAML), or a packing to export");
   pack_specification->transform(brought_along);
   CLI::Option* pack_output =
       pack_command->add_option("-o,--output", pack_options.output, "Packing to write (HDF5)")
@@ -202,8 +201,9 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
                                               "Write the packing SPEC as a LIGGGHTS data file instead")
                                  ->type_name("FILE.data");
   pack_command
-      ->add_option("--settle", pack_options.settle,
-                   "Bring a packing to rest under an input script, under its own pressure or --set pressure=...")
+      ->add_option(
+          "--settle", pack_options.settle,
+          "Bring a packing to rest under an input script, under its own pressure or --set pressure=...")
       ->type_name("PACKING SCRIPT")
       ->expected(2)
       ->excludes(pack_specification)
@@ -328,8 +328,8 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
       ->check(CLI::Range(1, 4096));
   add_trust(*verify_command, verify_options.scripts, engine);
 
-  for (CLI::App* command : {verify_command, run_command, band_command, check_command, point_command, pack_command,
-                            bench_command, worker_command, keys_command})
+  for (CLI::App* command : {verify_command, run_command, band_command, check_command, point_command,
+                            pack_command, bench_command, worker_command, keys_command})
     command->footer("");
 
   try {

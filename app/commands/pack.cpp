@@ -12,11 +12,11 @@
 #include <cstdio>
 #include <functional>
 
+#include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
-#include "common/standard_streams.hpp"
 #include "common/packing_data.hpp"
 #include "common/packing_file.hpp"
-#include "app/pack/read_specification.hpp"
+#include "common/standard_streams.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "fem/output/write_file.hpp"
 
@@ -85,20 +85,20 @@ bool make_in_child(const Work& make, const PackOptions& options, const PackingTo
 void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
   const PackingReached& reached = packing.reached;
   tell(stdout,
-      "{}: {} grains in {:.6g} m x {:.6g} m{}\n"
-      "  void ratio             {:.4f}\n"
-      "  coordination number    {:.3f}   (without a contact: {:.1f} % of the grains)\n"
-      "  pressure               {:.6g} kPa, anisotropy {:.1e}, shear {:.1e} of it\n"
-      "  unbalanced ratio       {:.1e} (forces), {:.1e} (moments)\n"
-      "  friction while made    {:.4g}{}\n"
-      "  DEM steps              {:.0f}\n"
-      "  seconds                {:.2f}\n",
-      file.string(), packing.packing.grains.size(), packing.packing.box(0, 0), packing.packing.box(1, 1),
-      packing.packing.dimension == 3 ? fmt::format(" x {:.6g} m", packing.packing.thickness) : "",
-      reached.void_ratio, reached.coordination_number, 100.0 * reached.rattlers, 1e-3 * reached.pressure,
-      reached.anisotropy, reached.shear, reached.unbalanced_force_ratio, reached.unbalanced_moment_ratio,
-      reached.friction, packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps,
-      seconds);
+       "{}: {} grains in {:.6g} m x {:.6g} m{}\n"
+       "  void ratio             {:.4f}\n"
+       "  coordination number    {:.3f}   (without a contact: {:.1f} % of the grains)\n"
+       "  pressure               {:.6g} kPa, anisotropy {:.1e}, shear {:.1e} of it\n"
+       "  unbalanced ratio       {:.1e} (forces), {:.1e} (moments)\n"
+       "  friction while made    {:.4g}{}\n"
+       "  DEM steps              {:.0f}\n"
+       "  seconds                {:.2f}\n",
+       file.string(), packing.packing.grains.size(), packing.packing.box(0, 0), packing.packing.box(1, 1),
+       packing.packing.dimension == 3 ? fmt::format(" x {:.6g} m", packing.packing.thickness) : "",
+       reached.void_ratio, reached.coordination_number, 100.0 * reached.rattlers, 1e-3 * reached.pressure,
+       reached.anisotropy, reached.shear, reached.unbalanced_force_ratio, reached.unbalanced_moment_ratio,
+       reached.friction, packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps,
+       seconds);
 }
 
 /// A packing with what its file records; of a CSV file that is the pressure at most.

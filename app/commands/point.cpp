@@ -12,11 +12,11 @@
 #include <optional>
 #include <sstream>
 
+#include "app/commands/csv_file.hpp"
 #include "common/error.hpp"
 #include "common/record_table.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
-#include "app/commands/csv_file.hpp"
 #include "coupler/pool/private_directory.hpp"
 #include "coupler/replay/replay.hpp"
 
@@ -48,9 +48,9 @@ std::vector<std::size_t> columns_of(const std::vector<std::string>& names, const
   for (const std::string& name : names) {
     const auto known = std::find(kPathColumns.begin(), kPathColumns.end(), name);
     if (known == kPathColumns.end()) {
-      faults.push_back(
-          {place.file, place.line,
-           fmt::format("there is no column '{}'; expected names out of {}", name, coupler::listed(kPathColumns))});
+      faults.push_back({place.file, place.line,
+                        fmt::format("there is no column '{}'; expected names out of {}", name,
+                                    coupler::listed(kPathColumns))});
     }
     columns.push_back(static_cast<std::size_t>(known - kPathColumns.begin()) % kPathColumns.size());
   }
@@ -202,8 +202,9 @@ int point(const PointOptions& options) {
   if (recipe == the_case.materials.end()) {
     std::vector<std::string> names;
     for (const auto& [name, material] : the_case.materials) names.push_back(name);
-    throw InputError({options.case_file.string(), 0,
-                      fmt::format("has no material '{}'; it has {}", options.material, coupler::listed(names))});
+    throw InputError(
+        {options.case_file.string(), 0,
+         fmt::format("has no material '{}'; it has {}", options.material, coupler::listed(names))});
   }
   const CellDefinition* const cell = recipe->second->cell();
   coupler::Replay replay{nullptr, path, {}, fmt::format("The path {}.", options.path_file.string())};

@@ -38,7 +38,8 @@ std::string text_of(const coupler::Entry& summary, const std::string& key) {
   return entry == nullptr ? std::string() : entry->text;
 }
 
-void check_results(const coupler::Entry& recorded, const std::filesystem::path& directory, Findings& findings) {
+void check_results(const coupler::Entry& recorded, const std::filesystem::path& directory,
+                   Findings& findings) {
   const std::map<std::string, std::string> now = names_of_results(directory);
   for (const coupler::Entry::Member& member : recorded.members) {
     const auto found = now.find(member.key);
@@ -59,8 +60,8 @@ void check_case(const coupler::Case& now, const coupler::Checkpoint& sample, Fin
 }
 
 /// Asks the cells of the sample once more.
-void check_cells(const coupler::Case& the_case, const std::vector<SampledAnswer>& answers, const VerifyOptions& options,
-                 Findings& findings) {
+void check_cells(const coupler::Case& the_case, const std::vector<SampledAnswer>& answers,
+                 const VerifyOptions& options, Findings& findings) {
   coupler::PrivateDirectory logs;
   coupler::PoolOptions pool_options;
   pool_options.directory = logs.path();
@@ -77,9 +78,10 @@ void check_cells(const coupler::Case& the_case, const std::vector<SampledAnswer>
   const std::vector<CellReply> replies = pool.evaluate(requests);
   std::size_t same = 0;
   for (std::size_t k = 0; k < answers.size(); ++k) same += answers[k].same_answer(replies[k]) ? 1 : 0;
-  const std::string text = fmt::format("{} of {} cells, evaluated again from their states: stress, tangent and state have "
-                                       "the same bits",
-                                       same, answers.size());
+  const std::string text = fmt::format(
+      "{} of {} cells, evaluated again from their states: stress, tangent and state have "
+      "the same bits",
+      same, answers.size());
   same == answers.size() ? findings.agrees(text) : findings.differs(text);
 }
 
@@ -91,9 +93,11 @@ int verify(const VerifyOptions& options) {
   const coupler::Entry* const proof = summary.find("proof");
   const coupler::Entry* const results = proof == nullptr ? nullptr : proof->find("results");
   if (results == nullptr) {
-    throw InputError({file.string(), 0, "holds no proof; it was written by an older version, which cannot be verified"});
+    throw InputError(
+        {file.string(), 0, "holds no proof; it was written by an older version, which cannot be verified"});
   }
-  tell(stdout, "{}: {}, {}\n", options.directory.string(), text_of(summary, "title"), text_of(summary, "status"));
+  tell(stdout, "{}: {}, {}\n", options.directory.string(), text_of(summary, "title"),
+       text_of(summary, "status"));
   Findings findings;
   check_results(*results, options.directory, findings);
   std::vector<std::string> settings;
@@ -104,7 +108,8 @@ int verify(const VerifyOptions& options) {
   const coupler::Case the_case = coupler::read_case(text_of(summary, "case"), settings, options.scripts);
   check_case(the_case, sample, findings);
   if (sample.program != POLARGRAIN_VERSION) {
-    findings.note(fmt::format("it was written by version {}; the last bits of cells may differ", sample.program));
+    findings.note(
+        fmt::format("it was written by version {}; the last bits of cells may differ", sample.program));
   }
   const std::vector<SampledAnswer> answers = answers_of(sample);
   if (answers.empty()) findings.note("no cell took part: nothing is evaluated again");

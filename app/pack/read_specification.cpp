@@ -49,12 +49,14 @@ SizeLaw read_sizes(const coupler::Entry& entry, coupler::Faults& faults) {
   } else if (name == "list") {
     law.kind = SizeLaw::Kind::list;
     radii("radius", length_of(section, "radius"));
-    law.shares = section.quantities("share", law.radii.size(), coupler::Dimension::number, coupler::Limit::positive);
+    law.shares =
+        section.quantities("share", law.radii.size(), coupler::Dimension::number, coupler::Limit::positive);
   } else if (name == "sieve") {
     law.kind = SizeLaw::Kind::sieve;
     radii("diameter", std::max<std::size_t>(2, length_of(section, "diameter")));
     for (double& size : law.radii) size *= 0.5;
-    law.shares = section.quantities("passing", law.radii.size(), coupler::Dimension::number, coupler::Limit::not_negative);
+    law.shares = section.quantities("passing", law.radii.size(), coupler::Dimension::number,
+                                    coupler::Limit::not_negative);
     require_ascending(section, "diameter", law.radii);
     if (law.shares.front() != 0.0 || law.shares.back() != 1.0 ||
         !std::is_sorted(law.shares.begin(), law.shares.end()))
@@ -114,10 +116,12 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
   specification.friction = top.quantity("friction", coupler::Dimension::number, coupler::Limit::not_negative);
   if (top.find("void_ratio") != nullptr)
-    specification.void_ratio = top.quantity("void_ratio", coupler::Dimension::number, coupler::Limit::positive);
+    specification.void_ratio =
+        top.quantity("void_ratio", coupler::Dimension::number, coupler::Limit::positive);
   specification.seed = static_cast<std::uint64_t>(top.whole("seed", 0));
-  specification.void_ratio_tolerance = top.quantity_or("void_ratio_tolerance", coupler::Dimension::number,
-                                                       coupler::Limit::positive, specification.void_ratio_tolerance);
+  specification.void_ratio_tolerance =
+      top.quantity_or("void_ratio_tolerance", coupler::Dimension::number, coupler::Limit::positive,
+                      specification.void_ratio_tolerance);
   read_control(top, specification);
   const coupler::CaseFiles files{file.parent_path(), scripts};
   coupler::CellScript script = read_cell_script("script", top, faults, files);
@@ -144,7 +148,8 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   else
     specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
   read_control(top, specification);
-  specification.contact_library = coupler::read_contact_library(top, {std::filesystem::current_path(), scripts});
+  specification.contact_library =
+      coupler::read_contact_library(top, {std::filesystem::current_path(), scripts});
   top.finish();
   const auto file = coupler::find_data_file(script.string(), std::filesystem::current_path());
   if (!file)

@@ -9,8 +9,8 @@
 
 namespace polargrain::app {
 
-Costs costs_between(const coupler::PoolCounts& before, const coupler::PoolCounts& after, int workers, double total,
-                    double finite_elements, double materials) {
+Costs costs_between(const coupler::PoolCounts& before, const coupler::PoolCounts& after, int workers,
+                    double total, double finite_elements, double materials) {
   const double cells = after.wall_seconds - before.wall_seconds;
   const double present = after.member_seconds - before.member_seconds;
   const double members = cells > 0.0 && present > 0.0 ? present / cells : workers;  // they may come and go
@@ -39,10 +39,10 @@ Costs& operator+=(Costs& sum, const Costs& more) {
 namespace {
 
 /// The members of the counts, so that nothing done with all of them forgets one.
-constexpr std::array kWhole{&coupler::PoolCounts::evaluations,    &coupler::PoolCounts::dem_steps,
-                            &coupler::PoolCounts::states_sent,    &coupler::PoolCounts::bytes_sent,
-                            &coupler::PoolCounts::bytes_received, &coupler::PoolCounts::workers_lost,
-                            &coupler::PoolCounts::states_fetched, &coupler::PoolCounts::evaluations_again,
+constexpr std::array kWhole{&coupler::PoolCounts::evaluations,        &coupler::PoolCounts::dem_steps,
+                            &coupler::PoolCounts::states_sent,        &coupler::PoolCounts::bytes_sent,
+                            &coupler::PoolCounts::bytes_received,     &coupler::PoolCounts::workers_lost,
+                            &coupler::PoolCounts::states_fetched,     &coupler::PoolCounts::evaluations_again,
                             &coupler::PoolCounts::evaluations_checked};
 constexpr std::array kSeconds{&coupler::PoolCounts::engine_seconds, &coupler::PoolCounts::busy_seconds,
                               &coupler::PoolCounts::wall_seconds, &coupler::PoolCounts::member_seconds};

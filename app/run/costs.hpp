@@ -18,8 +18,8 @@ struct Costs {
 
 /// @param before, after the pool's counts at both ends; zeroes without a pool @param finite_elements seconds
 /// of assembly and solution @param materials seconds of Material::evaluate, cells included
-Costs costs_between(const coupler::PoolCounts& before, const coupler::PoolCounts& after, int workers, double total,
-                    double finite_elements, double materials);
+Costs costs_between(const coupler::PoolCounts& before, const coupler::PoolCounts& after, int workers,
+                    double total, double finite_elements, double materials);
 
 Costs& operator+=(Costs& sum, const Costs& more);
 coupler::PoolCounts operator+(const coupler::PoolCounts& a, const coupler::PoolCounts& b);

@@ -49,8 +49,8 @@ std::optional<Displacement> DirectoryLock::displacement() const {
     return Displacement{now, fmt::format("the result directory {} was renamed to {} during the run",
                                          directory_.string(), now.string())};
   }
-  return Displacement{
-      {}, fmt::format("the result directory {} was removed during the run", directory_.string())};
+  return Displacement{{},
+                      fmt::format("the result directory {} was removed during the run", directory_.string())};
 }
 
 fs::path make_rescue_directory(const fs::path& directory) try {
@@ -69,9 +69,8 @@ void clear(const fs::path& directory) {
     fs::rename(directory / kCheckpointFile, directory / kOldCheckpointFile);
   }
   // The log last: it tells that the directory is ours, should this be interrupted.
-  for (const char* file :
-       {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "summary.json", "sample.h5", "fields", "logs",
-        "replay", "run.log"}) {
+  for (const char* file : {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "summary.json",
+                           "sample.h5", "fields", "logs", "replay", "run.log"}) {
     fs::remove_all(directory / file);
   }
 }
@@ -84,7 +83,8 @@ std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& director
     throw InputError({name, 0, "is a file, so no result directory; give another with -o DIR"});
   }
   bool is_result = false;
-  for (const char* file : {"summary.json", "run.log", kCheckpointFile, kCheckpointBeforeFile, kOldCheckpointFile}) {
+  for (const char* file :
+       {"summary.json", "run.log", kCheckpointFile, kCheckpointBeforeFile, kOldCheckpointFile}) {
     is_result = is_result || fs::exists(directory / file);
   }
   if (resume && !is_result) {

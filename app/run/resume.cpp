@@ -15,7 +15,8 @@ std::string resume_command(const RunOptions& options, const std::filesystem::pat
   return command + " --resume";
 }
 
-std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case, const std::filesystem::path& file) {
+std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case,
+                                                    const std::filesystem::path& file) {
   constexpr std::size_t kMostShown = 10;
   auto checkpoint = std::make_unique<coupler::Checkpoint>(coupler::read_checkpoint(file));
   std::vector<std::string> lines = differences(checkpoint->identity, the_case.identity);

@@ -15,6 +15,7 @@ std::string resume_command(const RunOptions& options, const std::filesystem::pat
 
 /// Reads the checkpoint that a case may go on from.
 /// @throws InputError when it cannot be used, or is of another case, with what differs
-std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case, const std::filesystem::path& file);
+std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case,
+                                                    const std::filesystem::path& file);
 
 }  // namespace polargrain::app

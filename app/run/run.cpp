@@ -8,9 +8,6 @@
 #include <chrono>
 #include <optional>
 
-#include "common/error.hpp"
-#include "common/prefixed_archive.hpp"
-#include "common/standard_streams.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/proof.hpp"
 #include "app/run/result_directory.hpp"
@@ -18,6 +15,9 @@
 #include "app/run/run_files.hpp"
 #include "app/run/run_observer.hpp"
 #include "app/run/sample.hpp"
+#include "common/error.hpp"
+#include "common/prefixed_archive.hpp"
+#include "common/standard_streams.hpp"
 #include "coupler/replay/replay.hpp"
 
 namespace polargrain::app {
@@ -313,7 +313,8 @@ class Run {
     const auto displaced = lock_.displacement();
     if (!displaced) return;
     // A file that could not be written meanwhile is what comes of it.
-    if (record_.message != displaced->text) record_.message = fmt::format("{} ({})", displaced->text, record_.message);
+    if (record_.message != displaced->text)
+      record_.message = fmt::format("{} ({})", displaced->text, record_.message);
     if (displaced->now.empty()) saved_step_ = -1;  // the checkpoint went with it
     try {
       directory_ = displaced->now.empty() ? make_rescue_directory(directory_) : displaced->now;
@@ -386,8 +387,8 @@ class Run {
   RunFiles files_;
   RunRecord record_;
   int first_step_ = 0;
-  bool left_out_ = false;             ///< it was said what small deformation leaves out
-  int saved_step_ = -1;               ///< of the checkpoint on disk; -1: there is none
+  bool left_out_ = false;                      ///< it was said what small deformation leaves out
+  int saved_step_ = -1;                        ///< of the checkpoint on disk; -1: there is none
   std::unique_ptr<coupler::Checkpoint> last_;  ///< after the last committed step
   coupler::PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
@@ -404,7 +405,8 @@ int run(const RunOptions& options) {
         {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
   }
   std::optional<coupler::Listening> listening;
-  if (!options.listen.empty()) listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
+  if (!options.listen.empty())
+    listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
   const auto lock = prepare_result_directory(directory, options.resume);
@@ -420,8 +422,8 @@ int run(const RunOptions& options) {
   const RunRecord& record = the_run.record();
   if (!options.quiet) {
     tell(stdout, "\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
-               table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
-               directory.string());
+         table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
+         directory.string());
   }
   if (!done) tell(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
   return done ? 0 : 1;

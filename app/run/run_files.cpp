@@ -42,7 +42,8 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 }  // namespace
 
-RunFiles::RunFiles(const coupler::Case& the_case, std::filesystem::path directory, const coupler::Checkpoint* from)
+RunFiles::RunFiles(const coupler::Case& the_case, std::filesystem::path directory,
+                   const coupler::Checkpoint* from)
     : case_(the_case),
       directory_(std::move(directory)),
       history_(from == nullptr ? CsvFile(directory_ / "history.csv", history_columns(the_case))

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "coupler/checkpoint/checkpoint.hpp"
-#include "app/run/costs.hpp"
 #include "app/commands/csv_file.hpp"
+#include "app/run/costs.hpp"
 #include "app/run/summary.hpp"
+#include "coupler/checkpoint/checkpoint.hpp"
 #include "fem/output/vtu.hpp"
 
 namespace polargrain::app {

@@ -19,8 +19,8 @@ void log_step(spdlog::logger& log, const fem::StepReport& report, double largest
              largest_strain);
   }
   log.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
-           report.converged ? "converged" : "NOT converged", report.iterations, report.cuts, report.evaluations,
-           report.time);
+           report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
+           report.evaluations, report.time);
 }
 
 }  // namespace polargrain::app

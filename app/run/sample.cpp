@@ -41,7 +41,8 @@ void Sample::take(std::span<const coupler::PoolRequest> requests, std::span<cons
     const std::uint64_t drawn = std::mt19937_64(seen_)() % seen_;
     const bool is_full = answers_.size() == kMost;
     if (is_full && drawn >= kMost) continue;
-    SampledAnswer answer{requests[k].definition, requests[k].cell, replies[k].response, replies[k].state->name().text()};
+    SampledAnswer answer{requests[k].definition, requests[k].cell, replies[k].response,
+                         replies[k].state->name().text()};
     is_full ? void(answers_[drawn] = std::move(answer)) : answers_.push_back(std::move(answer));
   }
 }

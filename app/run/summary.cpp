@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/commands/csv_file.hpp"
+#include "app/run/proof.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
-#include "app/run/proof.hpp"
-#include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
 
 namespace polargrain::app {
@@ -143,7 +143,8 @@ std::string last_values(const RunRecord& record) {
 
 }  // namespace
 
-void write_summary(const std::filesystem::path& file, const coupler::Case& the_case, const RunRecord& record) {
+void write_summary(const std::filesystem::path& file, const coupler::Case& the_case,
+                   const RunRecord& record) {
   const std::string text = JsonObject()
                                .text("program", "polargrain " POLARGRAIN_VERSION)
                                .text("case", the_case.file.string())

@@ -33,9 +33,10 @@ struct RunRecord {
   Costs costs;
   /// What materials tell of their cost and error, by region; only of those that do.
   std::map<std::string, std::vector<fem::Figure>> figures;
-  std::vector<std::string> settings;                        ///< of --set
-  std::map<std::string, std::string> results;               ///< names of contents, see names_of_results
-  std::map<std::string, coupler::WorkerRecord> worker_records;  ///< since the run was started, or resumed, last
+  std::vector<std::string> settings;           ///< of --set
+  std::map<std::string, std::string> results;  ///< names of contents, see names_of_results
+  std::map<std::string, coupler::WorkerRecord>
+      worker_records;  ///< since the run was started, or resumed, last
 };
 
 /// Writes summary.json: status, figures of cost and error, last values of the monitors.

@@ -118,7 +118,7 @@ class AdaptiveMaterial : public fem::Material {
   CellCalls calls_;
   CosseratParameters cosserat_;
   AdaptivityOptions options_;
-  double confining_ = 0.0;     ///< mean in-plane pressure of the packing, Pa
+  double confining_ = 0.0;  ///< mean in-plane pressure of the packing, Pa
   ErrorEstimate estimate_;
   double turn_tolerance_ =
       0.0;  ///< strain by which a path must leave a straight one to be replayed in pieces

@@ -27,7 +27,8 @@ void collect(const Entry& entry, const std::string& key, const std::filesystem::
   }
   if (entry.kind != Entry::Kind::scalar) return;
   identity.values[key] = entry.text;
-  if (const auto file = find_data_file(entry.text, directory)) identity.files[key] = name_of_content(*file, key);
+  if (const auto file = find_data_file(entry.text, directory))
+    identity.files[key] = name_of_content(*file, key);
 }
 
 bool matters(const std::string& key) {

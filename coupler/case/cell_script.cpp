@@ -83,14 +83,16 @@ std::string text_of_script(const fs::path& file) {
   return put_together(file, files);
 }
 
-CellScript read_cell_script(const std::string& key, Section& section, Faults& faults, const CaseFiles& files) {
+CellScript read_cell_script(const std::string& key, Section& section, Faults& faults,
+                            const CaseFiles& files) {
   const std::string name = section.text(key, "the path of a LIGGGHTS input script for cells");
   if (name.empty()) return {};
   const auto file = find_data_file(name, files.directory);
   if (!file) {
-    section.fault(key, fmt::format("{}: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
-                                   "correct the path or put the file there",
-                                   key, name));
+    section.fault(
+        key, fmt::format("{}: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
+                         "correct the path or put the file there",
+                         key, name));
     return {};
   }
   std::vector<fs::path> parts;
@@ -100,9 +102,11 @@ CellScript read_cell_script(const std::string& key, Section& section, Faults& fa
   for (const fs::path& part : parts) {
     if (files.scripts.trusted || is_at_home(part, files.directory)) continue;
     if (named_by_the_user && part == *file) continue;
-    section.fault(key, fmt::format("{}: '{}' lies outside the folder of the case, and a script is a program; put it there, "
-                                   "or say --trust-scripts when you know what it does",
-                                   key, part.lexically_normal().string()));
+    section.fault(
+        key,
+        fmt::format("{}: '{}' lies outside the folder of the case, and a script is a program; put it there, "
+                    "or say --trust-scripts when you know what it does",
+                    key, part.lexically_normal().string()));
     return {};
   }
   const std::string found = file->lexically_normal().string();

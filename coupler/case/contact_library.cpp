@@ -15,20 +15,24 @@ ContactLibraryFile read_contact_library(Section& section, const CaseFiles& files
   const std::string name = section.text_or(key, "");
   if (name.empty()) return {};
   if (!files.scripts.trusted) {
-    section.fault(key, fmt::format("{}: '{}' is a program, and would run with your rights; say --trust-scripts when you "
-                                   "trust it, or remove the key",
-                                   key, name));
+    section.fault(
+        key,
+        fmt::format("{}: '{}' is a program, and would run with your rights; say --trust-scripts when you "
+                    "trust it, or remove the key",
+                    key, name));
     return {};
   }
   const auto file = find_data_file(name, files.directory);
   if (!file) {
-    section.fault(key, fmt::format("{}: there is no file '{}'; give the path of a library of contact laws from here, "
-                                   "built as docs/own_contact_law says",
-                                   key, name));
+    section.fault(
+        key, fmt::format("{}: there is no file '{}'; give the path of a library of contact laws from here, "
+                         "built as docs/own_contact_law says",
+                         key, name));
     return {};
   }
   const std::string content = content_of(*file);
-  if (!content.starts_with("\x7f" "ELF")) {
+  if (!content.starts_with("\x7f"
+                           "ELF")) {
     section.fault(key, fmt::format("{}: {} is no shared library; build one as docs/own_contact_law says", key,
                                    file->string()));
     return {};

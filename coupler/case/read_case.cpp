@@ -14,8 +14,12 @@ namespace {
 /// Reads one case; each function one section of it.
 class CaseReader {
  public:
-  CaseReader(const std::filesystem::path& file, const Entry& document, const ScriptRules& scripts, Faults& faults)
-      : document_(document), faults_(faults), scripts_(scripts), parts_{file.parent_path(), {}, false, faults} {
+  CaseReader(const std::filesystem::path& file, const Entry& document, const ScriptRules& scripts,
+             Faults& faults)
+      : document_(document),
+        faults_(faults),
+        scripts_(scripts),
+        parts_{file.parent_path(), {}, false, faults} {
     case_.file = file;
   }
 
@@ -60,7 +64,8 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        case_.materials[member.key] = model.read(member.key, section, faults_, CaseFiles{parts_.directory, scripts_});
+        case_.materials[member.key] =
+            model.read(member.key, section, faults_, CaseFiles{parts_.directory, scripts_});
         section.finish();
       }
     }
@@ -202,7 +207,8 @@ class CaseReader {
         workers.quantity_or("silence", Dimension::duration, Limit::positive, patience.silence_seconds);
     patience.cell_seconds =
         workers.quantity_or("cell_time", Dimension::duration, Limit::positive, patience.cell_seconds);
-    case_.check_share = workers.quantity_or("check", Dimension::number, Limit::not_negative, case_.check_share);
+    case_.check_share =
+        workers.quantity_or("check", Dimension::number, Limit::not_negative, case_.check_share);
     if (case_.check_share > 1.0)
       workers.fault("check", "check: is a share of the evaluations, at most 1 (100 %)");
     workers.finish();

@@ -32,8 +32,10 @@ constexpr double kBytesOfElement = 65e3;
 void check_number(Section& section, const fem::RectangleSpecification& specification) {
   const double count = static_cast<double>(specification.elements[0]) * specification.elements[1];
   if (count <= kMostElements) return;
-  section.fault("elements", fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken",
-                                        count, 1e-9 * kBytesOfElement * count, kMostElements));
+  section.fault(
+      "elements",
+      fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken", count,
+                  1e-9 * kBytesOfElement * count, kMostElements));
 }
 
 void read_rectangle(const Entry& entry, const std::string& element, CaseParts& parts) {

@@ -17,8 +17,9 @@ int step_count(Section& section, std::size_t before) {
   const int count = section.whole("count", 1);
   const double all = static_cast<double>(before) + count;
   if (all <= kMostSteps) return count;
-  section.fault("count", fmt::format("count: {:.0f} steps would take {:.0f} GB of memory; at most {} are taken", all,
-                                     1e-9 * kBytesOfStep * all, kMostSteps));
+  section.fault("count",
+                fmt::format("count: {:.0f} steps would take {:.0f} GB of memory; at most {} are taken", all,
+                            1e-9 * kBytesOfStep * all, kMostSteps));
   return 1;
 }
 

@@ -20,7 +20,7 @@ void CosseratPart::add(const Increment& increment, const CosseratParameters& cos
   skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
   if (increment.configuration != Configuration::fixed)
     couple_stress = fem::rotated(couple_stress, fem::rotation_angle(increment));
-  couple_stress += cosserat.couple_modulus() * increment.curvature;                    // A.4
+  couple_stress += cosserat.couple_modulus() * increment.curvature;  // A.4
 }
 
 Response CosseratPart::joined_to(const Response& cell, const CosseratParameters& cosserat) const {

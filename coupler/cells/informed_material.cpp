@@ -119,7 +119,8 @@ void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
   elastic.internal_length = cosserat.internal_length;
 }
 
-InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note)
+InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters,
+                                   const std::string& note)
     : calls_(std::move(calls)),
       parameters_(parameters),
       frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights), parameters.elastic.internal_length,
@@ -150,8 +151,9 @@ fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Inc
 
 Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increment) const {
   const Vector7& stress = committed_[point].cell.response.stress;
-  return increment.configuration == Configuration::fixed ? stress
-                                                          : fem::rotated(stress, fem::rotation_angle(increment));
+  return increment.configuration == Configuration::fixed
+             ? stress
+             : fem::rotated(stress, fem::rotation_angle(increment));
 }
 
 void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
@@ -326,18 +328,16 @@ void InformedMaterial::restore(ArchiveReader& archive) {
 }
 
 std::vector<std::string> InformedMaterial::field_names() const {
-  return joined_names({"friction", "dilatancy", "dilatancy_limited", "plastic_shear", "regime", "stress_mismatch"},
-                      names_of_columns<CellDiagnostics>());
+  return joined_names(
+      {"friction", "dilatancy", "dilatancy_limited", "plastic_shear", "regime", "stress_mismatch"},
+      names_of_columns<CellDiagnostics>());
 }
 
 void InformedMaterial::fields(std::size_t point, std::span<double> values) const {
   const PointState& p = committed_[point];
-  const std::array<double, 6> own{p.mobilisation.cone.friction,
-                                  p.mobilisation.cone.dilatancy,
-                                  p.mobilisation.limited ? 1.0 : 0.0,
-                                  p.law.gamma_p,
-                                  static_cast<double>(p.law.regime),
-                                  mismatch(p)};
+  const std::array<double, 6> own{p.mobilisation.cone.friction,       p.mobilisation.cone.dilatancy,
+                                  p.mobilisation.limited ? 1.0 : 0.0, p.law.gamma_p,
+                                  static_cast<double>(p.law.regime),  mismatch(p)};
   std::ranges::copy(own, values.begin());
   std::ranges::copy(values_of(p.cell.diagnostics), values.begin() + own.size());
 }

@@ -17,8 +17,8 @@ double NetworkModuli::length() const {
 }
 
 std::string NetworkModuli::text() const {
-  return fmt::format("G {:.4g} MPa, Gc {:.4g} MPa, nu {:.3g}, couple modulus {:.4g} N (length {:.3g} mm)", 1e-6 * shear,
-                     1e-6 * cosserat_shear, poisson, couple, 1e3 * length());
+  return fmt::format("G {:.4g} MPa, Gc {:.4g} MPa, nu {:.3g}, couple modulus {:.4g} N (length {:.3g} mm)",
+                     1e-6 * shear, 1e-6 * cosserat_shear, poisson, couple, 1e3 * length());
 }
 
 NetworkModuli network_moduli(const Matrix7& c) {
@@ -35,17 +35,20 @@ NetworkModuli network_moduli(const Matrix7& c) {
   return moduli;
 }
 
-CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition, std::string& note) {
+CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition,
+                            std::string& note) {
   NetworkModuli packing;
   if (!choice.shear_modulus || !choice.cosserat_shear_modulus || !choice.internal_length) {
     definition.control.tangent = CellTangent::cosserat;
     std::vector<std::string> remarks;  // the material's own cell makes them too
-    packing = network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
+    packing =
+        network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
     note = "moduli of the packing at rest: " + packing.text();
     const auto check = [&](const char* key, bool asked, double modulus) {
       if (asked && !(modulus > 0.0))
-        throw RunError(fmt::format("material '{}': {} cannot come from the packing, whose network has {}; give {} a value",
-                                   definition.name, key, packing.text(), key));
+        throw RunError(fmt::format(
+            "material '{}': {} cannot come from the packing, whose network has {}; give {} a value",
+            definition.name, key, packing.text(), key));
     };
     check("G", !choice.shear_modulus, packing.shear);
     check("Gc", !choice.cosserat_shear_modulus, packing.cosserat_shear);

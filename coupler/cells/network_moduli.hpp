@@ -34,6 +34,7 @@ struct CosseratChoice {
 
 /// Fills in what is left to the packing by asking a worker for its network, if anything is.
 /// @param note gets one line that says what was found @throws RunError where a modulus of the packing is not positive
-CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition, std::string& note);
+CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition,
+                            std::string& note);
 
 }  // namespace polargrain::coupler

@@ -217,9 +217,10 @@ Checkpoint read_whole(const std::filesystem::path& file) {
 std::string advice(const std::filesystem::path& file) {
   const std::filesystem::path before = checkpoint_before(file);
   try {
-    return fmt::format("the one before it, {}, is of step {} and can be read: to go on from there, "
-                       "'mv {} {}' and run with --resume again",
-                       before.string(), read_whole(before).step, before.string(), file.string());
+    return fmt::format(
+        "the one before it, {}, is of step {} and can be read: to go on from there, "
+        "'mv {} {}' and run with --resume again",
+        before.string(), read_whole(before).step, before.string(), file.string());
   } catch (const RunError&) {  // there is none, or it is no better
     return "run without --resume";
   }

@@ -24,7 +24,8 @@ struct Attempt {
 struct Candidate {
   std::uint64_t worker = 0;
   std::string party;
-  std::string name = {};  ///< Member::name: that of a process of our own stays with the one that takes its place
+  std::string name =
+      {};  ///< Member::name: that of a process of our own stays with the one that takes its place
 };
 
 /// The attempts at a task that came to nothing, and what they say: that the task is at fault only when

@@ -27,11 +27,13 @@ constexpr std::array kRefused{
     SYS_pidfd_send_signal, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_tkill,
     // the file system and namespaces
     SYS_mount, SYS_umount2, SYS_pivot_root, SYS_chroot, SYS_unshare, SYS_setns, SYS_move_mount, SYS_open_tree,
-    SYS_truncate, SYS_chmod, SYS_fchmodat, SYS_chown, SYS_lchown, SYS_fchownat, SYS_fsopen, SYS_fsconfig, SYS_fsmount, SYS_mount_setattr, SYS_open_by_handle_at, SYS_quotactl,
+    SYS_truncate, SYS_chmod, SYS_fchmodat, SYS_chown, SYS_lchown, SYS_fchownat, SYS_fsopen, SYS_fsconfig,
+    SYS_fsmount, SYS_mount_setattr, SYS_open_by_handle_at, SYS_quotactl,
     // the kernel and the machine
-    SYS_init_module, SYS_finit_module, SYS_delete_module, SYS_kexec_load, SYS_kexec_file_load, SYS_bpf, SYS_reboot,
-    SYS_swapon, SYS_swapoff, SYS_sethostname, SYS_setdomainname, SYS_settimeofday, SYS_clock_settime, SYS_adjtimex,
-    SYS_clock_adjtime, SYS_acct, SYS_iopl, SYS_ioperm, SYS_add_key, SYS_keyctl, SYS_request_key, SYS_userfaultfd,
+    SYS_init_module, SYS_finit_module, SYS_delete_module, SYS_kexec_load, SYS_kexec_file_load, SYS_bpf,
+    SYS_reboot, SYS_swapon, SYS_swapoff, SYS_sethostname, SYS_setdomainname, SYS_settimeofday,
+    SYS_clock_settime, SYS_adjtimex, SYS_clock_adjtime, SYS_acct, SYS_iopl, SYS_ioperm, SYS_add_key,
+    SYS_keyctl, SYS_request_key, SYS_userfaultfd,
     // which does what is refused here by another way
     SYS_io_uring_setup};
 
@@ -47,7 +49,8 @@ sock_filter end_with(std::uint32_t action) {
 
 constexpr std::uint32_t kRefuse = SECCOMP_RET_ERRNO | EPERM;
 constexpr std::size_t kNumber = offsetof(seccomp_data, nr);
-constexpr std::size_t kFirstArgument = offsetof(seccomp_data, args);  // its low half: these machines are little-endian
+constexpr std::size_t kFirstArgument =
+    offsetof(seccomp_data, args);  // its low half: these machines are little-endian
 
 /// A call that is allowed with one value of its first argument alone.
 void allow_only(std::vector<sock_filter>& program, long call, std::int64_t argument) {
@@ -69,10 +72,9 @@ bool install_call_filter(bool may_use_network) {
   // Namespaces come with clone too. The flags of clone3 are out of a filter's sight: the C library does without it.
   program.insert(program.end(), {if_equal(SYS_clone3, 0, 1), end_with(SECCOMP_RET_ERRNO | ENOSYS)});
   constexpr std::uint32_t kNamespaces = 0x7e020000;  // CLONE_NEWNS, CGROUP, UTS, IPC, USER, PID, NET
-  program.insert(program.end(),
-                 {if_equal(SYS_clone, 0, 4), load(kFirstArgument),
-                  BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, kNamespaces, 0, 1), end_with(kRefuse),
-                  end_with(SECCOMP_RET_ALLOW)});
+  program.insert(program.end(), {if_equal(SYS_clone, 0, 4), load(kFirstArgument),
+                                 BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, kNamespaces, 0, 1), end_with(kRefuse),
+                                 end_with(SECCOMP_RET_ALLOW)});
   allow_only(program, SYS_kill, getpid());
   allow_only(program, SYS_tgkill, getpid());
   if (!may_use_network) allow_only(program, SYS_socket, AF_UNIX);

@@ -42,11 +42,11 @@ bool has_network() {
 }
 
 /// All that changes files; later kernels know more, which this leaves alone.
-constexpr std::uint64_t kChanges =
-    LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR | LANDLOCK_ACCESS_FS_REMOVE_FILE |
-    LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
-    LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
-    LANDLOCK_ACCESS_FS_MAKE_SYM;
+constexpr std::uint64_t kChanges = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
+                                   LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
+                                   LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
+                                   LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO |
+                                   LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
 
 constexpr std::uint64_t kTruncate = std::uint64_t{1} << 14;  // LANDLOCK_ACCESS_FS_TRUNCATE, of version 3
 
@@ -97,12 +97,14 @@ void Confinement::keep_to_folder() {
   landlock_ruleset_attr handled{};
   handled.handled_access_fs = changes;
   const long rules = syscall(SYS_landlock_create_ruleset, &handled, sizeof handled, 0);
-  const bool good = rules >= 0 && allow_changes_below(rules, folder_.c_str(), changes) &&
-                    // so that the folder itself can go in the end: directories go when they are empty only
-                    allow_changes_below(rules, folder_.parent_path().c_str(), LANDLOCK_ACCESS_FS_REMOVE_DIR) &&
-                    allow_changes_below(rules, "/dev/null", LANDLOCK_ACCESS_FS_WRITE_FILE) &&
-                    syscall(SYS_landlock_restrict_self, rules, 0) == 0;
-  if (!good) missing_.push_back(fmt::format("no writing outside of its folder (landlock: {})", std::strerror(errno)));
+  const bool good =
+      rules >= 0 && allow_changes_below(rules, folder_.c_str(), changes) &&
+      // so that the folder itself can go in the end: directories go when they are empty only
+      allow_changes_below(rules, folder_.parent_path().c_str(), LANDLOCK_ACCESS_FS_REMOVE_DIR) &&
+      allow_changes_below(rules, "/dev/null", LANDLOCK_ACCESS_FS_WRITE_FILE) &&
+      syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+  if (!good)
+    missing_.push_back(fmt::format("no writing outside of its folder (landlock: {})", std::strerror(errno)));
   if (rules >= 0) ::close(static_cast<int>(rules));
 }
 

@@ -208,12 +208,14 @@ void Crew::send_away(Member& member, const std::string& cause) {
     sent_away_.insert(member.address);
     if (++offences_[member.party] == kMostOffences) {
       switchboard_.shut_out(member.party);
-      say(fmt::format("{} guests with the key {} were sent away: nobody else comes in with it during this run",
-                      kMostOffences, member.party));
+      say(fmt::format(
+          "{} guests with the key {} were sent away: nobody else comes in with it during this run",
+          kMostOffences, member.party));
     }
   }
   for (Seat& seat : seats_) {
-    if (member.address.id.empty() || seat.address != member.address || ++seat.offences < kMostOffences) continue;
+    if (member.address.id.empty() || seat.address != member.address || ++seat.offences < kMostOffences)
+      continue;
     seat.fruitless = kMostFruitless;
     say(fmt::format("{} was sent away {} times: it is not started again", member.name, kMostOffences));
   }
@@ -300,11 +302,12 @@ void Crew::greet(const Address& from, const Hello& hello) {
     seat->has_reported = true;
     name = fmt::format("worker {}", seat->number);
   }
-  Member& member =
-      members_.emplace_back(Member{name, from, hello.processor, ++last_member_, from.key, StateCache(options_.cache_bytes)});
+  Member& member = members_.emplace_back(
+      Member{name, from, hello.processor, ++last_member_, from.key, StateCache(options_.cache_bytes)});
   places_[from] = std::prev(members_.end());
   if (!hello.unconfined.empty() && said_unconfined_.insert(hello.unconfined).second)
-    say(fmt::format("{} runs with more rights than it needs; its system does not allow: {}", name, hello.unconfined));
+    say(fmt::format("{} runs with more rights than it needs; its system does not allow: {}", name,
+                    hello.unconfined));
   send(member, Welcome{options_.heartbeat_seconds});
   events_.joined(member);
 }

@@ -21,9 +21,9 @@
 namespace polargrain::coupler {
 
 struct CrewOptions {
-  int workers = 1;                          ///< local ones
-  std::filesystem::path directory;          ///< gets logs/worker-K.log
-  std::vector<std::string> worker_command;  ///< the crew adds `--connect URL`
+  int workers = 1;                                    ///< local ones
+  std::filesystem::path directory;                    ///< gets logs/worker-K.log
+  std::vector<std::string> worker_command;            ///< the crew adds `--connect URL`
   Process::Network network = Process::Network::none;  ///< of local workers
   double startup_seconds = 10.0;
   std::size_t cache_bytes = 0;         ///< what a worker is taken to keep
@@ -124,10 +124,10 @@ class Crew {
     std::optional<Process> process = {};
     Address address = {};  ///< of its member; empty before its Hello
     Clock::time_point started = {};
-    Clock::time_point due = {};  ///< when an empty seat is to be filled
-    int fruitless = 0;           ///< counts ends without a job since it last answered
-    int offences = 0;            ///< times that it was sent away
-    bool has_reported = false;   ///< one of its processes has
+    Clock::time_point due = {};    ///< when an empty seat is to be filled
+    int fruitless = 0;             ///< counts ends without a job since it last answered
+    int offences = 0;              ///< times that it was sent away
+    bool has_reported = false;     ///< one of its processes has
     std::string false_start = {};  ///< how its last process ended that did not report; empty: none did
   };
 

@@ -151,8 +151,8 @@ void Foreman::lost(Member& member, const Loss& loss) {
   // A connection that closes before the work began says nothing about the cell.
   const bool counts_for_cell = !loss.from_outside || !member.address.remote || had.begun;
   if (had.tasks.size() == 1 && first.kind != Task::Kind::fetch && counts_for_cell) {
-    end_attempt(first, {loss.from_outside ? Attempt::End::from_outside : Attempt::End::by_work,
-                        member.number, member.party, text});
+    end_attempt(first, {loss.from_outside ? Attempt::End::from_outside : Attempt::End::by_work, member.number,
+                        member.party, text});
   } else {
     // Which of several cells it was shows when each is alone with a worker.
     for (const std::size_t number : had.tasks) task(number).alone = had.tasks.size() > 1;

@@ -115,11 +115,12 @@ class Foreman final : private CrewEvents {
   std::chrono::milliseconds tick_;
   std::vector<Definition> definitions_;
   StateBook book_;
-  std::unordered_set<std::uint64_t> present_;  ///< numbers of the workers there are
+  std::unordered_set<std::uint64_t> present_;    ///< numbers of the workers there are
   std::map<std::uint64_t, std::string> blamed_;  ///< of them: who is to be sent away, and why
   Crew crew_;
 
-  std::map<std::string, std::int64_t> returned_;  ///< by standing: answers used that nobody else has confirmed
+  std::map<std::string, std::int64_t>
+      returned_;                   ///< by standing: answers used that nobody else has confirmed
   std::set<std::size_t> waiting_;  ///< tasks at work that have an opinion and need another one
   // The tasks at work. Request numbers run on, so that no late answer fits a new request.
   std::vector<Task>* tasks_ = nullptr;

@@ -95,7 +95,8 @@ void Foreman::take_other_state(Member& member, Task& done, const CellReply& repl
     done.attempts.add(std::move(attempt));
     queue_.add_first(static_cast<std::size_t>(&done - tasks_->data()));
     const Candidate worker{member.number, member.party, member.name};
-    return find_false({worker, member.name, member.standing(), reply, {}}, text + ", though two agreed on the first");
+    return find_false({worker, member.name, member.standing(), reply, {}},
+                      text + ", though two agreed on the first");
   }
   if (!reply.state) return end_attempt(done, std::move(attempt));
   const ContentName name = reply.state->name();

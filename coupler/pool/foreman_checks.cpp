@@ -81,9 +81,10 @@ void Foreman::settle(Task& task) {
   // Our own processes are what the user runs anyway: who differs from them is not believed.
   const auto ours = std::ranges::find_if(list, &Opinion::is_ours);
   if (list.size() > 1 && std::ranges::count_if(list, &Opinion::is_ours) != 1) {
-    throw FalseResults(fmt::format("{} and {} come to different answers at {}, and there is no third worker that could "
-                                   "say who is right: run again with three workers, or with one",
-                                   list[0].who, list[1].who, place_of(task)));
+    throw FalseResults(
+        fmt::format("{} and {} come to different answers at {}, and there is no third worker that could "
+                    "say who is right: run again with three workers, or with one",
+                    list[0].who, list[1].who, place_of(task)));
   }
   const Opinion& believed = list.size() == 1 ? list.front() : *ours;
   task.answerer = believed.standing;
@@ -106,9 +107,10 @@ void Foreman::find_false(const Opinion& opinion, const std::string& words) {
     tell(words);
   }
   if (const auto used = returned_.find(opinion.standing); used != returned_.end()) {
-    throw FalseResults(fmt::format("{}. {} of its answers that nobody has checked were used before: what this run "
-                                   "has written may be false",
-                                   words, used->second));
+    throw FalseResults(
+        fmt::format("{}. {} of its answers that nobody has checked were used before: what this run "
+                    "has written may be false",
+                    words, used->second));
   }
   std::size_t again = 0;
   for (std::size_t number = 0; number < tasks_->size(); ++number) {

@@ -22,9 +22,8 @@ std::vector<Candidate> Opinions::others(const std::vector<Candidate>& present) c
 
 int Opinions::news_of(const Candidate& worker) const {
   if (list_.size() > 1 && worker.party.empty()) return 2;
-  const bool is_same_party = std::any_of(list_.begin(), list_.end(), [&](const Opinion& each) {
-    return each.worker.party == worker.party;
-  });
+  const bool is_same_party = std::any_of(
+      list_.begin(), list_.end(), [&](const Opinion& each) { return each.worker.party == worker.party; });
   if (is_same_party) return 0;
   return worker.party.empty() ? 2 : 1;
 }
@@ -47,7 +46,8 @@ bool Opinions::same(std::size_t a, std::size_t b) const {
 }
 
 std::optional<std::size_t> Opinions::agreed() const {
-  const bool guests_alone = std::none_of(list_.begin(), list_.end(), [](const Opinion& each) { return each.is_ours(); });
+  const bool guests_alone =
+      std::none_of(list_.begin(), list_.end(), [](const Opinion& each) { return each.is_ours(); });
   for (std::size_t a = 0; a < list_.size(); ++a)
     for (std::size_t b = a + 1; b < list_.size(); ++b)
       if (same(a, b) && (guests_alone || list_[a].is_ours() || list_[b].is_ours())) return a;

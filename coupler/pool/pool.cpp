@@ -43,12 +43,11 @@ std::vector<Task> tasks_to_bring(std::span<const StatePointer> states, const Sta
     if (!is_new || place->second) continue;
     const Origin* const origin = book.origin(state->name());
     if (origin == nullptr) throw RunError("the bytes of a state are with nobody any more");
-    tasks.emplace_back(book.home(state->name()),
-                       Task{.kind = Task::Kind::fetch,
-                            .definition = origin->definition,
-                            .cell = origin->request,
-                            .wanted = state,
-                            .evidence = origin->evidence});
+    tasks.emplace_back(book.home(state->name()), Task{.kind = Task::Kind::fetch,
+                                                      .definition = origin->definition,
+                                                      .cell = origin->request,
+                                                      .wanted = state,
+                                                      .evidence = origin->evidence});
   }
   std::stable_sort(tasks.begin(), tasks.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -64,7 +64,7 @@ struct PoolCounts {
   std::int64_t states_sent = 0;  ///< states whose bytes had to travel to a worker
   std::int64_t states_fetched =
       0;  ///< states on trial whose bytes were fetched from the worker that made them
-  std::int64_t evaluations_again = 0;  ///< for states on trial that were lost with their worker
+  std::int64_t evaluations_again = 0;    ///< for states on trial that were lost with their worker
   std::int64_t evaluations_checked = 0;  ///< answers that another worker agreed with
   std::int64_t bytes_sent = 0;
   std::int64_t bytes_received = 0;

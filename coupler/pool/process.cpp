@@ -88,7 +88,8 @@ void leave_network(const IdMaps& maps) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& log, Network network) {
+Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                 Network network) {
   const IdMaps maps;
   const int log_descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (log_descriptor < 0) {

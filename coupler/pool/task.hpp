@@ -32,8 +32,8 @@ struct Task {
   Attempts attempts = {};  ///< that came to nothing
 
   // rest, evaluate: who answered, where that can be checked
-  bool checked = false;     ///< two workers must agree on the answer
-  Opinions opinions = {};   ///< of a checked one that is not done yet
+  bool checked = false;       ///< two workers must agree on the answer
+  Opinions opinions = {};     ///< of a checked one that is not done yet
   std::string answerer = {};  ///< standing of the worker whose answer was taken with no second one beside it
 
   // fetch, again: of the evaluation that made the state

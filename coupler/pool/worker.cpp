@@ -30,7 +30,8 @@ constexpr std::chrono::seconds kSilence{10};
 
 /// An answer with numbers that are none is no answer: who sent it would be taken for a liar.
 CellReply honest(CellReply reply) {
-  const bool finite = is_finite(reply.diagnostics) && (reply.response.quality == Quality::failed || is_finite(reply.response));
+  const bool finite = is_finite(reply.diagnostics) &&
+                      (reply.response.quality == Quality::failed || is_finite(reply.response));
   if (finite) return reply;
   CellReply failed;
   failed.response.quality = Quality::failed;

@@ -139,9 +139,8 @@ EvaluateRequest read_evaluate(ArrayReader& reader) {
 
 Reply read_reply(ArrayReader& reader) {
   const std::uint64_t request = reader.whole();
-  return {request, read_list<CellReply>(reader.part(), "a list of answers", [](ArrayReader& cells) {
-            return read_cell_reply(cells.part());
-          })};
+  return {request, read_list<CellReply>(reader.part(), "a list of answers",
+                                        [](ArrayReader& cells) { return read_cell_reply(cells.part()); })};
 }
 
 States read_states(ArrayReader& reader) {

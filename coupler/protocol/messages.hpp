@@ -36,8 +36,8 @@ class FalseMessage : public ProtocolError {
 /// Worker to coordinator, again and again until it is welcomed, and whenever it has heard nothing for long.
 struct Hello {
   std::uint32_t version = kProtocolVersion;
-  std::int64_t process = 0;  ///< process id of the worker on its machine
-  std::string host = {};     ///< name of that machine, for messages to the user
+  std::int64_t process = 0;     ///< process id of the worker on its machine
+  std::string host = {};        ///< name of that machine, for messages to the user
   std::string processor = {};   ///< kind of its processor, for the proof of a result
   std::string unconfined = {};  ///< what it could not give up (Confinement), for messages to the user
 };

@@ -25,8 +25,7 @@ std::vector<double> numbers_of(std::span<const std::byte> bytes) {
 
 void require_finite(std::span<const double> numbers, const char* what) {
   for (const double number : numbers) {
-    if (!std::isfinite(number))
-      throw FalseMessage(fmt::format("{} holds a number that is not finite", what));
+    if (!std::isfinite(number)) throw FalseMessage(fmt::format("{} holds a number that is not finite", what));
   }
 }
 

@@ -16,7 +16,8 @@ constexpr double kMostSeconds = 1e9;
 
 void require_usable(const Packing& packing) {
   if (packing.grains.empty()) throw ProtocolError("a packing has no grains");
-  if (packing.dimension != 2 && packing.dimension != 3) throw ProtocolError("a packing has no such dimension");
+  if (packing.dimension != 2 && packing.dimension != 3)
+    throw ProtocolError("a packing has no such dimension");
   if (!(packing.volume() > 0.0) || !(packing.thickness > 0.0)) throw ProtocolError("a packing has no volume");
   if (packing.state && !packing.state->is_here()) throw ProtocolError("a packing comes without its state");
   std::unordered_set<std::int64_t> ids;

@@ -136,11 +136,12 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
       "s12 "
       "s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the face.\n";
   if (replay.answers.empty()) return text + "\nThe cell gave no answer that could be compared.\n";
-  text += definition.control.loop == CellLoop::engine
-              ? "The cell answered, and the replay prints the same digits:\n\n"
-              : "The cell answered, stepped by the loop over discs. The replay runs in LIGGGHTS's own loop and "
-                "agrees until\nround-off has grown, to eight digits and more over a thousand steps; with "
-                "`loop: engine` in the case to all:\n\n";
+  text +=
+      definition.control.loop == CellLoop::engine
+          ? "The cell answered, and the replay prints the same digits:\n\n"
+          : "The cell answered, stepped by the loop over discs. The replay runs in LIGGGHTS's own loop and "
+            "agrees until\nround-off has grown, to eight digits and more over a thousand steps; with "
+            "`loop: engine` in the case to all:\n\n";
   for (std::size_t k = 0; k < replay.answers.size(); ++k) {
     const Vector7& s = replay.answers[k].stress;
     text += fmt::format(

@@ -65,7 +65,7 @@ class Cell final : public CellService {
   double least_force_ = 0.0;    // N, see kLeastForce
   double thickness_ = 0.0;      // m
   Driver driver_;
-  Inertia inertia_;            // of the grains, as contacts count them
+  Inertia inertia_;  // of the grains, as contacts count them
   std::unique_ptr<GrainBox> grains_;
   CondensedTangent condensed_tangent_;
   CellReply initial_;
@@ -80,7 +80,8 @@ const CellDefinition& sound(const CellDefinition& definition) {
 Cell::Cell(const CellDefinition& definition)
     : control_(definition.control),
       thickness_(definition.packing.thickness),
-      driver_(sound(definition).packing, definition.script, definition.script_file, definition.contact_library) {
+      driver_(sound(definition).packing, definition.script, definition.script_file,
+              definition.contact_library) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   if (controlled()) check_rolling_model();
   const Packing& packing = definition.packing;
@@ -200,8 +201,7 @@ CellReply Cell::evaluate(const CellRequest& request) {
   }
   std::string fault = answer_fault(overlaps_of(grains_->contacts(), inertia_.radii), rest.void_ratio);
   if (fault.empty())
-    fault =
-        step_fault(grains_->contacts(), inertia_, damping_rate_, driver_.strain().time_step());
+    fault = step_fault(grains_->contacts(), inertia_, damping_rate_, driver_.strain().time_step());
   if (!fault.empty()) {
     reply.response.quality = Quality::unreliable;
     reply.response.step_factor = 0.5;

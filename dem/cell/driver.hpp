@@ -25,7 +25,8 @@ class Driver {
   /// @param contact_library as Engine's
   /// @param after_script called before the contact models read their parameters
   Driver(const Packing& packing, const std::string& script, const std::string& script_file,
-         const ContactLibraryFile& contact_library = {}, const std::function<void(Engine&)>& after_script = {});
+         const ContactLibraryFile& contact_library = {},
+         const std::function<void(Engine&)>& after_script = {});
 
   Engine& engine() { return engine_; }
   LAMMPS_NS::LAMMPS& lammps() { return engine_.lammps(); }

@@ -168,8 +168,7 @@ void FixCellStrain::sum_unbalanced_forces() {
   imbalance_.force = 0.0;
   imbalance_.grains = atom->nlocal;
   double** const f = atom->f;
-  for (int k = 0; k < atom->nlocal; ++k)
-    imbalance_.force += std::sqrt(f[k][0] * f[k][0] + f[k][1] * f[k][1]);
+  for (int k = 0; k < atom->nlocal; ++k) imbalance_.force += std::sqrt(f[k][0] * f[k][0] + f[k][1] * f[k][1]);
 }
 
 void FixCellStrain::sum_unbalanced_moments() {

@@ -49,8 +49,7 @@ std::vector<double> rotation_weights(std::span<const Contact> contacts, int grai
     ++count[contact.second];
   }
   double sum = 0.0;
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    sum += weights[k] = count[k] < 2 ? 0.0 : weights[k];
+  for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] = count[k] < 2 ? 0.0 : weights[k];
   if (!(sum > 0.0)) weights.clear();
   for (double& weight : weights) weight /= sum;
   return weights;

@@ -68,7 +68,8 @@ void add_combinations(const Wanted& wanted, bool walls) {
             PairStyles::Factory::instance().addStyle("gran", static_cast<int>(number),
                                                      &create_pair<AnyCombination>);
             if (walls)
-              Walls::Factory::instance().addStyle("gran", static_cast<int>(number), &create_wall<AnyCombination>);
+              Walls::Factory::instance().addStyle("gran", static_cast<int>(number),
+                                                  &create_wall<AnyCombination>);
           }
 }
 

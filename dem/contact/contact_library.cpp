@@ -38,8 +38,10 @@ void require_content(const std::string& file, const std::string& content) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (name_of(std::as_bytes(std::span(bytes))).text() != content)
-    fail(file, "it is another one than the coordinator found when the run began; put the same file on every machine, and "
-               "build it again only between runs");
+    fail(file,
+         "it is another one than the coordinator found when the run began; put the same file on every "
+         "machine, and "
+         "build it again only between runs");
 }
 
 const ContactLibrary& load(const std::string& file) {
@@ -49,7 +51,9 @@ const ContactLibrary& load(const std::string& file) {
   if (handle == nullptr) fail(file, fmt::format("it cannot be loaded ({}); build it again", dlerror()));
   const auto* const library = static_cast<const ContactLibrary*>(dlsym(handle, kContactLibraryName));
   if (library == nullptr)
-    fail(file, "it is no library of contact laws; build it with polargrain_contact_laws() of polargrain's CMake package");
+    fail(file,
+         "it is no library of contact laws; build it with polargrain_contact_laws() of polargrain's CMake "
+         "package");
   if (library->version != std::string(POLARGRAIN_VERSION) || library->contact_bytes != sizeof(Contact))
     fail(file, fmt::format("it was built for polargrain {}, this is {}; build it again", library->version,
                            POLARGRAIN_VERSION));

@@ -11,8 +11,8 @@ namespace polargrain::dem {
 
 /// What a library of contact laws tells the program that loads it; exported under kContactLibraryName.
 struct ContactLibrary {
-  const char* version = nullptr;   ///< of the package whose headers it was compiled with
-  std::size_t contact_bytes = 0;   ///< sizeof(Contact) in those headers
+  const char* version = nullptr;  ///< of the package whose headers it was compiled with
+  std::size_t contact_bytes = 0;  ///< sizeof(Contact) in those headers
   /// Makes its laws known to the engine of this process, by name. @returns why it cannot; empty when it did
   std::string (*add_models)() = nullptr;
 };

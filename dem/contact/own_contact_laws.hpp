@@ -45,9 +45,10 @@ constexpr bool numbers_allowed(const int (&numbers)[Count]) {
   return std::all_of(std::begin(numbers), std::end(numbers),
                      [](int number) { return number >= kLeastNumber && number <= kEnd; });
 }
-static_assert(numbers_allowed(kNormal) && numbers_allowed(kTangential) && numbers_allowed(kCohesion) &&
-                  numbers_allowed(kRolling),
-              "the number of a contact law of your own (third in NORMAL_MODEL(...) and the like) must be 40 to 63");
+static_assert(
+    numbers_allowed(kNormal) && numbers_allowed(kTangential) && numbers_allowed(kCohesion) &&
+        numbers_allowed(kRolling),
+    "the number of a contact law of your own (third in NORMAL_MODEL(...) and the like) must be 40 to 63");
 
 template <std::size_t Count>
 bool among(int number, const int (&numbers)[Count]) {
@@ -109,13 +110,14 @@ inline std::string add_models() {
 #define POLARGRAIN_JOINED(a, b) a##b
 #define POLARGRAIN_NAMED(line) POLARGRAIN_JOINED(compiled_combination_, line)
 /// A line of the library's source: a combination that is compiled as one, by the identifiers of its four models.
-#define POLARGRAIN_COMPILED(...)                                                      \
-  namespace LIGGGHTS::ContactModels {                                                 \
-  static const bool POLARGRAIN_NAMED(__LINE__) = [] {                                 \
+#define POLARGRAIN_COMPILED(...)                                                             \
+  namespace LIGGGHTS::ContactModels {                                                        \
+  static const bool POLARGRAIN_NAMED(__LINE__) = [] {                                        \
     polargrain::dem::own::compiled().push_back(&polargrain::dem::add_compiled<__VA_ARGS__>); \
-    return true;                                                                      \
-  }();                                                                                \
+    return true;                                                                             \
+  }();                                                                                       \
   }
 
-extern "C" __attribute__((visibility("default"))) const polargrain::dem::ContactLibrary polargrain_contact_library{
+extern "C" __attribute__((visibility("default")))
+const polargrain::dem::ContactLibrary polargrain_contact_library{
     POLARGRAIN_VERSION, sizeof(polargrain::dem::Contact), &polargrain::dem::own::add_models};

@@ -82,8 +82,7 @@ class RecordedModel : public Model {
   __attribute__((noinline)) void record(int i, int j, std::array<double, 3> delta,
                                         std::array<double, 3> force, double normal_stiffness,
                                         double tangential_stiffness, double arm_i, double arm_j,
-                                        double torque, double normal_viscosity,
-                                        double tangential_viscosity) {
+                                        double torque, double normal_viscosity, double tangential_viscosity) {
     const ContactRecorder::Rolling rolling = std::exchange(contact_recorder().rolling, {});
     LAMMPS_NS::Atom& atom = *lammps_.atom;
     if (j >= atom.nlocal && !lammps_.force->newton_pair) {

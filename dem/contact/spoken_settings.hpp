@@ -9,10 +9,10 @@ namespace polargrain::dem {
 /// The on/off settings that a script gave the models of its combination. The engine tells them to the models
 /// only, which keep them private; a setting may have several listeners, and this is one more.
 struct SpokenSettings {
-  bool damping = false;             ///< hooke/radii
-  bool tangential_damping = true;   ///< hooke/stiffness, hertz
-  bool absolute_damping = false;    ///< hooke/stiffness
-  bool limit_force = false;         ///< all normal models of the loop over discs
+  bool damping = false;               ///< hooke/radii
+  bool tangential_damping = true;     ///< hooke/stiffness, hertz
+  bool absolute_damping = false;      ///< hooke/stiffness
+  bool limit_force = false;           ///< all normal models of the loop over discs
   bool rolling_force = false;         ///< tangential li_chu
   bool rolling_force_damped = false;  ///< tangential li_chu
   bool symmetric = false;             ///< both li_chu
@@ -49,8 +49,7 @@ struct SpokenSettings {
     }
     if (normal == HOOKE_RADII || normal == HOOKE_STIFFNESS || normal == HERTZ)
       settings.registerOnOff("limitForce", limit_force);
-    if (model(1) == TANGENTIAL_HISTORY)
-      settings.registerOnOff("heating_tangential_history", books[5], false);
+    if (model(1) == TANGENTIAL_HISTORY) settings.registerOnOff("heating_tangential_history", books[5], false);
     if (model(1) == TANGENTIAL_LI_CHU) {
       settings.registerOnOff("rollingFrictionForce", rolling_force, false);
       settings.registerOnOff("rollingFrictionForceDamping", rolling_force_damped, false);

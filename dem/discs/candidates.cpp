@@ -31,7 +31,8 @@ std::int32_t copy_of(double boxes) {
   constexpr double kMostBoxes = 1e6;
   if (std::abs(boxes) < kMostBoxes) return static_cast<std::int32_t>(std::floor(boxes));
   throw RunError(
-      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed into "
+      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed "
+      "into "
       "each other");
 }
 

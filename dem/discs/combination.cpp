@@ -24,9 +24,7 @@ constexpr double kRootOfFiveSixths = 0.91287092917527685576161630466800355658790
 /// A table of the engine by pair of types, which counts types from 1.
 class Table {
  public:
-  Table(LAMMPS& lammps, const char* name) {
-    lammps.force->registry.connect(name, values_, "polargrain");
-  }
+  Table(LAMMPS& lammps, const char* name) { lammps.force->registry.connect(name, values_, "polargrain"); }
   [[nodiscard]] double at(int a, int b) const { return values_[a + 1][b + 1]; }
 
  private:
@@ -61,8 +59,7 @@ std::string foreign_fix(const LAMMPS& lammps) {
   for (int k = 0; k < lammps.modify->nfix; ++k) {
     const LAMMPS_NS::Fix& fix = *lammps.modify->fix[k];
     const std::string_view style = fix.style;
-    if (std::find(kKnown.begin(), kKnown.end(), style) == kKnown.end())
-      return fmt::format("fix {}", style);
+    if (std::find(kKnown.begin(), kKnown.end(), style) == kKnown.end()) return fmt::format("fix {}", style);
     if (style == "nve/sphere") {
       ++integrators;
       if (fix.igroup != 0) return "fix nve/sphere of a group";
@@ -82,7 +79,8 @@ std::string foreign_scene(const LAMMPS& lammps) {
 void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, DiscCombination& made) {
   const auto each = [&made](auto set) {
     for (int a = 0; a < made.types; ++a)
-      for (int b = 0; b < made.types; ++b) set(made.pairs[static_cast<std::size_t>(a) * made.types + b], a, b);
+      for (int b = 0; b < made.types; ++b)
+        set(made.pairs[static_cast<std::size_t>(a) * made.types + b], a, b);
   };
   if (made.normal == NormalLaw::hooke_radii) {
     const Table modulus(lammps, "contactModulus");
@@ -93,7 +91,8 @@ void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, DiscCombination& 
     });
     if (!spoken.damping) return;
     const Table damping(lammps, "contactDampingRatio");
-    each([&](PairParameters& p, int a, int b) { p.normal_damping = p.tangential_damping = damping.at(a, b); });
+    each(
+        [&](PairParameters& p, int a, int b) { p.normal_damping = p.tangential_damping = damping.at(a, b); });
   } else if (made.normal == NormalLaw::hooke_stiffness) {
     const Table kn(lammps, "k_n");
     const Table kt(lammps, "k_t");
@@ -114,8 +113,7 @@ void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, DiscCombination& 
       p.tangential = 8.0 * shear.at(a, b) / lammps.force->nktv2p;
       const double factor = -2.0 * kRootOfFiveSixths * beta.at(a, b);
       p.normal_damping = factor * std::sqrt(2.0 * young.at(a, b));
-      p.tangential_damping =
-          spoken.tangential_damping ? factor * std::sqrt(8.0 * shear.at(a, b)) : 0.0;
+      p.tangential_damping = spoken.tangential_damping ? factor * std::sqrt(8.0 * shear.at(a, b)) : 0.0;
     });
   }
 }

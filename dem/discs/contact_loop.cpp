@@ -92,8 +92,8 @@ class Loop final : public ContactLoop {
         const double bent = 0.5 * (bend_x * dx + bend_y * dy);
         const double spin_first = a.spin + bent;
         const double spin_second = b.spin - bent;
-        touch.slip_rate = vy * touch.nx - vx * touch.ny -
-                          (touch.arm_first * spin_first + touch.arm_second * spin_second);
+        touch.slip_rate =
+            vy * touch.nx - vx * touch.ny - (touch.arm_first * spin_first + touch.arm_second * spin_second);
         touch.spin_difference = a.spin - b.spin;
         touch.relative_spin = spin_first - spin_second;
 

@@ -22,10 +22,10 @@ class ContactLoop {
  public:
   struct Scene {
     std::span<const Disc> discs;
-    std::span<const MovingImage> images;  ///< of the list's images
+    std::span<const MovingImage> images;                       ///< of the list's images
     Eigen::Vector2d curvature_rate = Eigen::Vector2d::Zero();  ///< in the frame of the box, rad/(m s)
-    double step = 0.0;     ///< time step, s
-    bool advance = false;  ///< springs move by a step
+    double step = 0.0;                                         ///< time step, s
+    bool advance = false;                                      ///< springs move by a step
   };
 
   virtual ~ContactLoop() = default;

@@ -7,11 +7,11 @@ namespace polargrain::dem {
 /// One grain of a plane box as the loop over contacts wants it: everything a contact reads in one cache line.
 /// Positions count from the corner of the box, in its frame; they are not folded back while the box moves.
 struct alignas(64) Disc {
-  double x = 0.0, y = 0.0;    ///< centre, m
-  double vx = 0.0, vy = 0.0;  ///< m/s
-  double spin = 0.0;          ///< about e_3, counted from the frame of the box, rad/s
-  double radius = 0.0;        ///< m
-  double inverse_mass = 0.0;  ///< 1/kg
+  double x = 0.0, y = 0.0;       ///< centre, m
+  double vx = 0.0, vy = 0.0;     ///< m/s
+  double spin = 0.0;             ///< about e_3, counted from the frame of the box, rad/s
+  double radius = 0.0;           ///< m
+  double inverse_mass = 0.0;     ///< 1/kg
   double inverse_inertia = 0.0;  ///< 1/(kg m^2)
 };
 
@@ -24,9 +24,9 @@ struct alignas(32) DiscForce {
 
 /// What the last force pass gave a disc, damping included, and how far it has turned.
 struct alignas(32) DiscMotion {
-  double ax = 0.0, ay = 0.0;     ///< m/s^2
-  double angular = 0.0;          ///< rad/s^2
-  double turned = 0.0;           ///< rotation in the laboratory since the packing, rad
+  double ax = 0.0, ay = 0.0;  ///< m/s^2
+  double angular = 0.0;       ///< rad/s^2
+  double turned = 0.0;        ///< rotation in the laboratory since the packing, rad
 };
 
 /// A lattice vector p b_1 + q b_2 of the periodic box.

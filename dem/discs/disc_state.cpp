@@ -89,8 +89,7 @@ DiscSnapshot decode_discs(const State& state) {
   if (!is_disc_state(state)) throw RunError("this is not the state of a cell of discs");
   Header header;
   const std::byte* place = take(state.bytes().data(), &header, 1);
-  if (header.springs < 0 || header.springs > kMostSprings)
-    throw RunError("this state of a cell is damaged");
+  if (header.springs < 0 || header.springs > kMostSprings) throw RunError("this state of a cell is damaged");
   if (header.contacts > most_state_contacts(header.discs))
     throw RunError("this state of a cell is damaged: it has more contacts than its grains can have");
   const std::size_t values = std::size_t{header.contacts} * static_cast<std::size_t>(header.springs);

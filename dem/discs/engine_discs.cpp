@@ -31,7 +31,9 @@ void read_springs(const double* history, const DiscCombination& combination, con
                   double* springs) {
   const HistoryPlaces places(combination);
   const Eigen::Vector2d along(-normal.y(), normal.x());
-  const auto component = [&](int place) { return history[place] * along.x() + history[place + 1] * along.y(); };
+  const auto component = [&](int place) {
+    return history[place] * along.x() + history[place + 1] * along.y();
+  };
   if (combination.tangential == TangentialLaw::history) {
     springs[0] = history[places.tangential];
     springs[1] = history[places.tangential + 1];
@@ -139,8 +141,7 @@ DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& com
       if (j <= i || j >= atom.nlocal) continue;  // the other disc tells of it
       const Eigen::Vector2d between(atom.x[i][0] - atom.x[j][0], atom.x[i][1] - atom.x[j][1]);
       const LatticeVector image = nearest_image(between, base);
-      const Eigen::Vector2d branch =
-          between - image.p * base.col(0) - image.q * base.col(1);
+      const Eigen::Vector2d branch = between - image.p * base.col(0) - image.q * base.col(1);
       read_springs(history->contacthistory(i, n), combination, branch.normalized(), springs.data());
       snapshot.contacts.push_back({i, j, image});
       snapshot.values.insert(snapshot.values.end(), springs.begin(), springs.end());

@@ -13,10 +13,12 @@ namespace {
 
 NormalAnswer normal_answer(const DiscCombination& combination, const PairParameters& p, const Touch& touch) {
   switch (combination.normal) {
-    case NormalLaw::hooke_radii: return normal_law<NormalLaw::hooke_radii>(p, combination.settings, touch);
+    case NormalLaw::hooke_radii:
+      return normal_law<NormalLaw::hooke_radii>(p, combination.settings, touch);
     case NormalLaw::hooke_stiffness:
       return normal_law<NormalLaw::hooke_stiffness>(p, combination.settings, touch);
-    case NormalLaw::hertz: return normal_law<NormalLaw::hertz>(p, combination.settings, touch);
+    case NormalLaw::hertz:
+      return normal_law<NormalLaw::hertz>(p, combination.settings, touch);
   }
   return {};
 }
@@ -25,7 +27,8 @@ RollingAnswer rolling_answer(const DiscCombination& combination, const PairParam
                              const NormalAnswer& normal, const ContactLoop::Scene& scene, double* springs) {
   const LawSettings& on = combination.settings;
   switch (combination.rolling) {
-    case RollingLaw::off: return {};
+    case RollingLaw::off:
+      return {};
     case RollingLaw::epsd2:
       return rolling_law<RollingLaw::epsd2>(p, on, touch, normal, scene.step, scene.advance, springs);
     case RollingLaw::li_chu:
@@ -90,8 +93,8 @@ class PlainLoop final : public ContactLoop {
     other.y -= force.y();
     other.torque -= touch.arm_second * tangential - rolling.moment;
 
-    contacts.push_back(take_down(i, pair.second, delta.x(), delta.y(), touch, p, normal, force.x(), force.y(),
-                                 rolling));
+    contacts.push_back(
+        take_down(i, pair.second, delta.x(), delta.y(), touch, p, normal, force.x(), force.y(), rolling));
   }
 
   /// Kinematics of a contact (D.1).

@@ -39,7 +39,9 @@ class SpaceBox final : public PressedBox {
  public:
   SpaceBox(const PackingSpecification& specification, const Packing& packing, std::optional<double> friction,
            bool probe = false)
-      : packing_(packing), script_file_(specification.script_file), engine_(true, specification.contact_library) {
+      : packing_(packing),
+        script_file_(specification.script_file),
+        engine_(true, specification.contact_library) {
     const auto count = static_cast<double>(packing.grains.size());
     for (const Grain& grain : packing.grains) {
       mean_mass_ += grain.mass / count;

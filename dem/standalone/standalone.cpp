@@ -77,7 +77,8 @@ std::vector<std::string> take_contact_libraries(std::vector<char*>& words) {
     }
     if (k + 1 == words.size()) throw RunError("-contact: the name of a library of contact laws must follow");
     files.emplace_back(words[k + 1]);
-    words.erase(words.begin() + static_cast<std::ptrdiff_t>(k), words.begin() + static_cast<std::ptrdiff_t>(k + 2));
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(k),
+                words.begin() + static_cast<std::ptrdiff_t>(k + 2));
   }
   return files;
 }

@@ -62,8 +62,9 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
       constraints(problem.mesh, problem.continuum, problem.prescribed),
       loads(problem),
       materials(problem, discretisation),
-      reference_length(options.reference_length > 0.0 ? options.reference_length
-                                                      : materials.moment_length(mean_element_size(discretisation))),
+      reference_length(options.reference_length > 0.0
+                           ? options.reference_length
+                           : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints),
       anderson_(options.acceleration_depth, reference_length),
       middle_(problem.mesh, problem.continuum),

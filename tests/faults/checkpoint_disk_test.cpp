@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "app/commands/csv_file.hpp"
 #include "common/error.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
-#include "app/commands/csv_file.hpp"
 #include "fem/output/write_file.hpp"
 #include "tests/integration/command.hpp"
 

@@ -14,7 +14,7 @@ namespace {
 struct KilledCase {
   std::string name;
   std::string engine;  ///< script of the fake engine
-  std::string model;  ///< and its keys
+  std::string model;   ///< and its keys
   int kills;
 };
 
@@ -27,7 +27,8 @@ class KilledCoordinators : public ::testing::TestWithParam<KilledCase> {};
 TEST_P(KilledCoordinators, LeaveRunsThatGoOnToTheSameBytes) {
   const KilledCase& killed = GetParam();
   const Scratch scratch("checkpoint_kill_" + killed.name);
-  write_case(scratch.path(), {"sleep_milliseconds 1\n" + killed.engine, "[2, 2]", "count: 12, tolerance: 1e-6", killed.model, "{every: 2}"});
+  write_case(scratch.path(), {"sleep_milliseconds 1\n" + killed.engine, "[2, 2]",
+                              "count: 12, tolerance: 1e-6", killed.model, "{every: 2}"});
   const auto begin = std::chrono::steady_clock::now();
   const Outcome whole = run_in(scratch.path(), POLARGRAIN " run case.yaml -o whole -w 2 --quiet");
   ASSERT_EQ(whole.status, 0) << whole.errors;

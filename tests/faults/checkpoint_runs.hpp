@@ -44,17 +44,23 @@ inline void write_case(const std::filesystem::path& directory, const FakeCase& f
         "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
   write(directory / "case.yaml",
         "title: A \"small\" run\n"
-        "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: " + fake.elements + "}}\n"
-        "materials: {sand: {model: " + fake.model +
+        "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: " +
+            fake.elements +
+            "}}\n"
+            "materials: {sand: {model: " +
+            fake.model +
             ", script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}}\n"
             "regions: {all: sand}\n"
             "boundary:\n"
             "  - {on: bottom, fix: [u1, u2]}\n"
             "  - {on: top, fix: [u1], move: {u2: -8 mm}}\n"
             "  - {on: [left, right], pressure: 100 kPa}\n"
-            "steps: {" + fake.steps + "}\n"
+            "steps: {" +
+            fake.steps +
+            "}\n"
             "monitors: {top_force: {on: top, reaction: u2}}\n"
-            "output: " + fake.output + "\n");
+            "output: " +
+            fake.output + "\n");
 }
 
 /// All files of a result whose bytes must not depend on interruptions, one behind the other.

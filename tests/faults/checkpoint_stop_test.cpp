@@ -179,7 +179,10 @@ TEST_F(StoppedRun, ANewRunKeepsTheCheckpointOfAnUnfinishedOne) {
 
 TEST_F(StoppedRun, WritesCheckpointsAsOftenAsTheCaseSays) {
   ASSERT_EQ(polargrain("run case.yaml -o every --quiet --set output.checkpoint_minutes=0").status, 0);
-  ASSERT_EQ(polargrain("run case.yaml -o seldom --quiet --set output.checkpoint_minutes=0 --checkpoint-minutes 60").status, 0);
+  ASSERT_EQ(
+      polargrain("run case.yaml -o seldom --quiet --set output.checkpoint_minutes=0 --checkpoint-minutes 60")
+          .status,
+      0);
   const auto written = [&](const std::string& directory) {
     const std::string log = result(directory + "/run.log");
     long count = 0;

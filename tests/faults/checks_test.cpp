@@ -17,8 +17,8 @@ namespace polargrain::coupler {
 namespace {
 
 using testing::random_requests;
-using testing::step;
 using testing::Scratch;
+using testing::step;
 
 constexpr std::size_t kCells = 60;
 constexpr const char* kScript = "sleep_milliseconds 4";
@@ -36,8 +36,7 @@ class ChecksTest : public ::testing::Test {
     options.directory = scratch_.path();
     options.worker_command = {FAKE_WORKER};
     options.check_share = share;
-    options.listening =
-        Listening{"tcp://127.0.0.1:*", read_coordinator_keys(scratch_.path() / "keys")};
+    options.listening = Listening{"tcp://127.0.0.1:*", read_coordinator_keys(scratch_.path() / "keys")};
     options.tell = [this](const std::string& text) { told_ += text + '\n'; };
     return options;
   }
@@ -45,8 +44,13 @@ class ChecksTest : public ::testing::Test {
   void let_one_forge() const { setenv("FAKE_ENGINE_FORGES", (scratch_.path() / "forger").c_str(), 1); }
   [[nodiscard]] std::vector<std::string> guest(const std::string& url, bool forges,
                                                const std::string& key = "worker.key") const {
-    return {"/usr/bin/env", forges ? "FAKE_ENGINE_FORGES=1" : "-uFAKE_ENGINE_FORGES", FAKE_WORKER, "--key",
-            (scratch_.path() / "keys" / key).string(), "--connect", url};
+    return {"/usr/bin/env",
+            forges ? "FAKE_ENGINE_FORGES=1" : "-uFAKE_ENGINE_FORGES",
+            FAKE_WORKER,
+            "--key",
+            (scratch_.path() / "keys" / key).string(),
+            "--connect",
+            url};
   }
 
   Scratch scratch_;
@@ -102,8 +106,8 @@ TEST_F(ChecksTest, ASampleFindsTheForgerOrNothingFalseIsReturnedInSilence) {
       ++ended;
     }
   }
-  std::cout << "[figure] a forger was found before its answers were used " << mended << " times, later " << ended
-            << " times\n";
+  std::cout << "[figure] a forger was found before its answers were used " << mended << " times, later "
+            << ended << " times\n";
 }
 
 // By the time that an evaluation is drawn, answers of the forger have been returned.
@@ -117,7 +121,8 @@ TEST_F(ChecksTest, FalseAnswersThatWereUsedEndTheRun) {
     FAIL() << told_;
   } catch (const FalseResults& error) {
     const std::string words = error.what();
-    EXPECT_NE(words.find("of its answers that nobody has checked were used before"), std::string::npos) << words;
+    EXPECT_NE(words.find("of its answers that nobody has checked were used before"), std::string::npos)
+        << words;
   }
   EXPECT_GT(steps, 0);
 }
@@ -145,7 +150,8 @@ TEST_F(ChecksTest, AGuestIsCheckedByAProcessOfOurOwn) {
   Process honest(guest(pool.listening_url(), false), scratch_.path() / "honest.log");
   for (int s = 0; s < 20 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
   EXPECT_EQ(liar.end().value_or("still there"), "exit status 1") << told_;
-  EXPECT_NE(testing::content(scratch_.path() / "guest.log").find("it has sent what is false"), std::string::npos)
+  EXPECT_NE(testing::content(scratch_.path() / "guest.log").find("it has sent what is false"),
+            std::string::npos)
       << testing::content(scratch_.path() / "guest.log");
   EXPECT_FALSE(honest.end());
 }
@@ -159,7 +165,8 @@ TEST_F(ChecksTest, GuestsThatAgreeOnWhatIsFalseDoNotOutvoteOneOfOurOwn) {
     pool.define(testing::fake_definition(kScript));
     Process one(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
     Process two(guest(pool.listening_url(), true, "second.key"), scratch_.path() / "guest.log");
-    for (int s = 0; s < 40 && !(one.end() && two.end()); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
+    for (int s = 0; s < 40 && !(one.end() && two.end()); ++s)
+      EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
     EXPECT_TRUE(one.end() && two.end()) << told_;
     EXPECT_EQ(pool.counts().workers_lost, 2) << told_;
   }
@@ -221,7 +228,8 @@ TEST_F(CheckedRunsTest, TheShareAndTheWorkersChangeNoByte) {
 TEST_F(CheckedRunsTest, AForgerIsSentAwayAndTheHistoryIsThatOfAnHonestRun) {
   const std::string disturbed = prepare(5);
   const testing::Outcome outcome = testing::run_in(
-      scratch_.path(), "FAKE_ENGINE_FORGES=$PWD/forger " + command(5, " --set workers.check=1 --trust-scripts -o disturbed -w 3"));
+      scratch_.path(), "FAKE_ENGINE_FORGES=$PWD/forger " +
+                           command(5, " --set workers.check=1 --trust-scripts -o disturbed -w 3"));
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));
   EXPECT_NE(result("disturbed/run.log").find("who agree to the bit"), std::string::npos);
@@ -230,10 +238,12 @@ TEST_F(CheckedRunsTest, AForgerIsSentAwayAndTheHistoryIsThatOfAnHonestRun) {
 // Found late: nothing is left that could be gone on from by mistake.
 TEST_F(CheckedRunsTest, AForgerThatIsFoundLateLeavesNoCheckpointToGoOnFrom) {
   const testing::Outcome outcome = testing::run_in(
-      scratch_.path(), "FAKE_ENGINE_FORGES=$PWD/forger " +
-                           command(100, " --set workers.check=0.002 --trust-scripts --checkpoint-minutes 0 -o out -w 3"));
+      scratch_.path(),
+      "FAKE_ENGINE_FORGES=$PWD/forger " +
+          command(100, " --set workers.check=0.002 --trust-scripts --checkpoint-minutes 0 -o out -w 3"));
   EXPECT_EQ(outcome.status, 1) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("what this run has written may be false"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("what this run has written may be false"), std::string::npos)
+      << outcome.errors;
   EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "out" / "checkpoint.h5"));
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "out" / "checkpoint.doubtful.h5"));
   EXPECT_EQ(outcome.errors.find("to go on:"), std::string::npos) << outcome.errors;

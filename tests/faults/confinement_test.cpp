@@ -46,8 +46,8 @@ TEST_F(ConfinementTest, AWorkerComputesAndDoesNothingElse) {
 
 TEST_F(ConfinementTest, TrustedScriptsMayDoWhatTheUserMay) {
   run("--trust-scripts");
-  for (const char* attempt : {"to start a program", "a socket of the network", "to write elsewhere",
-                              "to signal its coordinator"})
+  for (const char* attempt :
+       {"to start a program", "a socket of the network", "to write elsewhere", "to signal its coordinator"})
     EXPECT_EQ(outcome_of(attempt), "allowed") << attempt;
   EXPECT_TRUE(has("more rights than it needs"));
 }

@@ -17,8 +17,8 @@ namespace polargrain::coupler {
 namespace {
 
 using testing::random_requests;
-using testing::step;
 using testing::Scratch;
+using testing::step;
 
 constexpr std::size_t kCells = 30;
 constexpr const char* kScript = "sleep_milliseconds 4";

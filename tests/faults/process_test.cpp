@@ -120,7 +120,8 @@ TEST_F(ProcessFaults, WorkersGainNoRightsAndLeaveNoCore) {
   const std::filesystem::path of_worker = "/proc/" + std::to_string(workers.front());
   EXPECT_NE(content(of_worker / "status").find("NoNewPrivs:\t1"), std::string::npos);
   const std::string limits = content(of_worker / "limits");
-  EXPECT_EQ(limits.compare(limits.find("Max core file size"), 28, "Max core file size        0 "), 0) << limits;
+  EXPECT_EQ(limits.compare(limits.find("Max core file size"), 28, "Max core file size        0 "), 0)
+      << limits;
 }
 
 TEST_F(ProcessFaults, SecondsAgreeWithTheirPartsAndWithTheCells) {
@@ -130,8 +131,9 @@ TEST_F(ProcessFaults, SecondsAgreeWithTheirPartsAndWithTheCells) {
       return std::strtod(summary.c_str() + summary.find('"' + key + "\": ") + key.size() + 4, nullptr);
     };
     const double total = value("total");
-    EXPECT_NEAR(value("grains") + value("messages") + value("waiting") + value("finite_elements") + value("rest"), total,
-                1e-9 * total);
+    EXPECT_NEAR(
+        value("grains") + value("messages") + value("waiting") + value("finite_elements") + value("rest"),
+        total, 1e-9 * total);
     // One worker: what its engine took is what grains took. It is missing for moments while it starts.
     EXPECT_GT(value("engine_seconds"), 0.0);
     EXPECT_NEAR(value("grains") / value("engine_seconds"), 1.0, 2e-3);
@@ -148,7 +150,10 @@ TEST_F(ProcessFaults, SecondsAgreeWithTheirPartsAndWithTheCells) {
 TEST_F(ProcessFaults, WhatNoMachineHoldsIsRefusedWithTheMemoryItWouldTake) {
   const Outcome elements = shell("$P check case.yaml --set 'mesh.rectangle.elements=[100000, 100000]'");
   EXPECT_EQ(elements.status, 2);
-  EXPECT_NE(elements.errors.find("elements: 10000000000 of them would take 650000 GB of memory; at most 1000000 are taken"), std::string::npos) << elements.errors;
+  EXPECT_NE(elements.errors.find(
+                "elements: 10000000000 of them would take 650000 GB of memory; at most 1000000 are taken"),
+            std::string::npos)
+      << elements.errors;
   const Outcome steps = shell("$P check case.yaml --set steps.count=2000000000");
   EXPECT_EQ(steps.status, 2);
   EXPECT_NE(steps.errors.find("count: 2000000000 steps would take 2000 GB of memory"), std::string::npos)

@@ -9,7 +9,8 @@ namespace {
 
 class ScriptTrust : public ::testing::Test {
  protected:
-  ScriptTrust() : scratch_(std::string("trust_") + ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+  ScriptTrust()
+      : scratch_(std::string("trust_") + ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
     folder_ = scratch_.path() / "case";
     std::filesystem::create_directories(folder_);
     write(folder_ / "good.in", "young 1e8\n");
@@ -25,13 +26,15 @@ class ScriptTrust : public ::testing::Test {
           "mesh: {rectangle: {size: [0.4 m, 0.8 m], elements: [1, 1]}}\n"
           "materials:\n"
           "  sand: {model: cell, packing: ../grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm,\n"
-          "         script: " + script + "}\n"
-          "regions: {all: sand}\n"
-          "boundary:\n"
-          "  - {on: bottom, fix: [u1, u2]}\n"
-          "  - {on: top, fix: [u1], move: {u2: -8 mm}}\n"
-          "  - {on: [left, right], pressure: 100 kPa}\n"
-          "steps: {count: 1, tolerance: 1e-8}\n");
+          "         script: " +
+              script +
+              "}\n"
+              "regions: {all: sand}\n"
+              "boundary:\n"
+              "  - {on: bottom, fix: [u1, u2]}\n"
+              "  - {on: top, fix: [u1], move: {u2: -8 mm}}\n"
+              "  - {on: [left, right], pressure: 100 kPa}\n"
+              "steps: {count: 1, tolerance: 1e-8}\n");
   }
   [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
     return run_in(folder_, POLARGRAIN " " + arguments);
@@ -48,7 +51,8 @@ TEST_F(ScriptTrust, CheckFindsWithFileAndLineWhatARunWouldDo) {
     const Outcome outcome = polargrain(command);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.errors,
-              "bad.in:2: the command 'shell' is not among those that set up a cell; remove it, or say --trust-scripts when "
+              "bad.in:2: the command 'shell' is not among those that set up a cell; remove it, or say "
+              "--trust-scripts when "
               "you know what this script does\n");
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
@@ -63,7 +67,8 @@ TEST_F(ScriptTrust, IncludedFilesCountAndHaveTheirOwnLines) {
   set_script("top.in");
   const Outcome outcome = polargrain("check case.yaml");
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.errors.find("parts/inner.in:1: the command 'shell'"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("parts/inner.in:1: the command 'shell'"), std::string::npos)
+      << outcome.errors;
   EXPECT_NE(outcome.errors.find("top.in:3: the command 'log'"), std::string::npos) << outcome.errors;
   // What is included is run, and belongs to the case: a change of it is another case.
   write(folder_ / "top.in", "include parts/part.in\n");
@@ -72,7 +77,8 @@ TEST_F(ScriptTrust, IncludedFilesCountAndHaveTheirOwnLines) {
   write(folder_ / "parts/inner.in", "young 2e8\n");
   const Outcome resumed = polargrain("run case.yaml -o out -w 1 --quiet --resume");
   EXPECT_EQ(resumed.status, 2);
-  EXPECT_NE(resumed.errors.find("materials.sand.script: the file 'top.in' has another content"), std::string::npos)
+  EXPECT_NE(resumed.errors.find("materials.sand.script: the file 'top.in' has another content"),
+            std::string::npos)
       << resumed.errors;
   // One that includes itself ends somewhere.
   write(folder_ / "parts/inner.in", "include inner.in\n");
@@ -85,7 +91,8 @@ TEST_F(ScriptTrust, ScriptsFromOutsideTheFolderNeedTheWord) {
     set_script(script);
     const Outcome outcome = polargrain("check case.yaml");
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.errors.find("lies outside the folder of the case, and a script is a program"), std::string::npos)
+    EXPECT_NE(outcome.errors.find("lies outside the folder of the case, and a script is a program"),
+              std::string::npos)
         << outcome.errors;
     EXPECT_EQ(polargrain("check case.yaml --trust-scripts").status, 0);
   }
@@ -110,7 +117,8 @@ TEST_F(ScriptTrust, WhatIsNoScriptIsNotRepeated) {
 
 TEST_F(ScriptTrust, SpecificationsOfPackingsAreHeldToTheSame) {
   const std::string head =
-      "grains: 4\nsizes: {law: uniform, radius: [1 mm, 2 mm]}\ndensity: 2500\nthickness: 0.1 m\npressure: 100 kPa\n"
+      "grains: 4\nsizes: {law: uniform, radius: [1 mm, 2 mm]}\ndensity: 2500\nthickness: 0.1 m\npressure: "
+      "100 kPa\n"
       "friction: 0\nseed: 1\nscript: ";
   write(folder_ / "pack.yaml", head + "bad.in\n");
   const Outcome outcome = polargrain("pack pack.yaml -o packing.h5");
@@ -132,9 +140,11 @@ TEST_F(ScriptTrust, AGuestRefusesOnItsOwn) {
                " --key keys/worker.key >/dev/null 2>&1");
   Beside second("env -C '" + folder_.string() + "' " POLARGRAIN " worker --connect " + url +
                 " --key keys/worker.key >/dev/null 2>&1");
-  const Outcome outcome = polargrain("run case.yaml -o out -w 0 --quiet --trust-scripts --listen " + url + " --keys keys");
+  const Outcome outcome =
+      polargrain("run case.yaml -o out -w 0 --quiet --trust-scripts --listen " + url + " --keys keys");
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.errors.find("this worker runs no such script (bad.in:2: the command 'shell'"), std::string::npos)
+  EXPECT_NE(outcome.errors.find("this worker runs no such script (bad.in:2: the command 'shell'"),
+            std::string::npos)
       << outcome.errors;
   EXPECT_NE(outcome.errors.find("start it with --trust-scripts"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "was_here"));

@@ -22,7 +22,8 @@ class SoakTest : public FakeCaseTest {
   [[nodiscard]] int port() const { return 20000 + static_cast<int>(getpid()) % 20000; }
   /// A key for every few guests: one that is shut out ends nothing but its own.
   static constexpr int kKeys = 60;
-  [[nodiscard]] std::string guest(const std::string& program, const std::string& way, std::uint64_t which) const {
+  [[nodiscard]] std::string guest(const std::string& program, const std::string& way,
+                                  std::uint64_t which) const {
     const std::string key = 'g' + std::to_string(which / 64 % kKeys) + ".key";
     const std::string log = (scratch_.path() / "guests.log").string();
     return program + ' ' + way + " --key '" + (scratch_.path() / "keys" / key).string() +
@@ -51,7 +52,8 @@ int whole_after(const std::string& text, const std::string& key) {
 
 TEST_F(SoakTest, FaultsAtRandomChangeNoByteAndTakeNoMemory) {
   const char* const asked = std::getenv("POLARGRAIN_SOAK_STEPS");
-  const std::string settings = " --set output.every=1000000 --set workers.check=1 --set workers.silence='1 s'";
+  const std::string settings =
+      " --set output.every=1000000 --set workers.check=1 --set workers.silence='1 s'";
   const int steps = asked != nullptr ? std::atoi(asked) : 1600;
   const Outcome quiet = run_in(scratch_.path(), command(steps, settings) + " -o quiet -w 1");
   ASSERT_EQ(quiet.status, 0) << quiet.errors;
@@ -64,7 +66,7 @@ TEST_F(SoakTest, FaultsAtRandomChangeNoByteAndTakeNoMemory) {
 
   std::mt19937_64 random(20261122);
   std::map<std::string, int> faults;
-  std::vector<double> megabytes;   ///< of the coordinator, a list for every one that lived long enough
+  std::vector<double> megabytes;  ///< of the coordinator, a list for every one that lived long enough
   std::vector<double> first_and_last;
   std::vector<std::unique_ptr<Beside>> guests;
   auto run = std::make_unique<Beside>(start);
@@ -101,13 +103,15 @@ TEST_F(SoakTest, FaultsAtRandomChangeNoByteAndTakeNoMemory) {
       ++faults[fault < 12 ? "workers killed" : "workers stopped"];
       kill(workers[which % workers.size()], fault < 12 ? SIGKILL : SIGSTOP);
     } else if (fault < 30) {
-      static constexpr std::array kWays{"garbage", "refuses", "misnames", "falsifies", "nan", "misses", "nothing"};
+      static constexpr std::array kWays{"garbage", "refuses", "misnames", "falsifies",
+                                        "nan",     "misses",  "nothing"};
       const std::string way = kWays[which % kWays.size()];
       ++faults["guests: " + way];
       guests.push_back(std::make_unique<Beside>(guest(STRANGE_WORKER, way, which)));
     } else if (fault < 34) {
       ++faults["guests that forge"];
-      guests.push_back(std::make_unique<Beside>(guest("env FAKE_ENGINE_FORGES=1 " FAKE_POLARGRAIN, "worker", which)));
+      guests.push_back(
+          std::make_unique<Beside>(guest("env FAKE_ENGINE_FORGES=1 " FAKE_POLARGRAIN, "worker", which)));
     } else {
       ++faults["guests that are honest"];
       guests.push_back(std::make_unique<Beside>(guest(FAKE_POLARGRAIN, "worker", which)));

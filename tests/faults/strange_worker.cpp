@@ -156,13 +156,16 @@ int main(int count, char** arguments) {
     }
     if (way == "garbage" && std::holds_alternative<EvaluateRequest>(envelope.message))
       socket.send(zmq::str_buffer("\x93garbage"));
-    if (const auto* request = std::get_if<EvaluateRequest>(&envelope.message); way == "works" && request != nullptr) {
+    if (const auto* request = std::get_if<EvaluateRequest>(&envelope.message);
+        way == "works" && request != nullptr) {
       for (;; usleep(50000)) {
         zmq::message_t word;
         if (socket.recv(word, zmq::recv_flags::dontwait) &&
-            std::holds_alternative<Stop>(decode({static_cast<const std::byte*>(word.data()), word.size()}).message))
+            std::holds_alternative<Stop>(
+                decode({static_cast<const std::byte*>(word.data()), word.size()}).message))
           return 1;
-        socket.send(zmq::buffer(encode(Working{request->request}, envelope.session)), zmq::send_flags::dontwait);
+        socket.send(zmq::buffer(encode(Working{request->request}, envelope.session)),
+                    zmq::send_flags::dontwait);
       }
     }
     if (way == "garbage" || way == "nothing") continue;

@@ -9,7 +9,8 @@ namespace {
 
 class Verify : public ::testing::Test {
  protected:
-  Verify() : scratch_(std::string("verify_") + ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+  Verify()
+      : scratch_(std::string("verify_") + ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
     write_case(scratch_.path(), {"softening 0.1", "[1, 2]", "count: 4, tolerance: 1e-6"});
   }
   [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
@@ -29,14 +30,15 @@ class Verify : public ::testing::Test {
 TEST_F(Verify, AgreesWithWhatNobodyTouched) {
   ASSERT_EQ(polargrain("run case.yaml -o out -w 2 --quiet --set steps.count=3").status, 0);
   const std::string summary = result("out/summary.json");
-  for (const char* const key : {"\"processor\": \"", "\"case_file\": \"", "\"steps.count=3\"", "\"materials.sand.script\": \"",
-                                "\"materials.sand.packing\": \"", "\"history.csv\": \"", "\"worker 1\": ",
-                                "\"worker 2\": "}) {
+  for (const char* const key :
+       {"\"processor\": \"", "\"case_file\": \"", "\"steps.count=3\"", "\"materials.sand.script\": \"",
+        "\"materials.sand.packing\": \"", "\"history.csv\": \"", "\"worker 1\": ", "\"worker 2\": "}) {
     EXPECT_NE(summary.find(key), std::string::npos) << key << '\n' << summary;
   }
   const Outcome outcome = polargrain("verify out -w 1");
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.errors;
-  EXPECT_NE(outcome.out.find("16 of 16 cells, evaluated again from their states"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("16 of 16 cells, evaluated again from their states"), std::string::npos)
+      << outcome.out;
   EXPECT_NE(outcome.out.find("\nall agrees\n"), std::string::npos);
 }
 
@@ -72,8 +74,7 @@ TEST_F(Verify, FindsWhatWasChanged) {
 // The file hashes say nothing of who computed: an engine that answers otherwise than the one of the run did.
 TEST_F(Verify, FindsAnswersThatNobodyGivesAgain) {
   ASSERT_EQ(polargrain("run case.yaml -o out -w 1 --quiet").status, 0);
-  const Outcome outcome =
-      run_in(scratch_.path(), "FAKE_ENGINE_FORGES=1 " POLARGRAIN " verify out -w 1");
+  const Outcome outcome = run_in(scratch_.path(), "FAKE_ENGINE_FORGES=1 " POLARGRAIN " verify out -w 1");
   EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.errors;
   EXPECT_NE(outcome.out.find("  DIFFERS   0 of 16 cells, evaluated again"), std::string::npos) << outcome.out;
 }

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <string>
 
+#include "app/commands/point.hpp"
+#include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
 #include "coupler/case/case.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
-#include "app/commands/point.hpp"
-#include "app/pack/read_specification.hpp"
 
 namespace polargrain::testing {
 namespace {

@@ -76,7 +76,8 @@ TEST_F(EngineTest, OneAndTwoWorkersWriteTheSameHistory) {
 }
 
 TEST_F(EngineTest, ABrokenScriptEndsTheRunInLiggghtsWords) {
-  const Outcome outcome = run_with_script(script_ + "\npear_style gran\n", "-o out -w 1 --quiet --trust-scripts");
+  const Outcome outcome =
+      run_with_script(script_ + "\npear_style gran\n", "-o out -w 1 --quiet --trust-scripts");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.errors.find("worker 1 died at work on a cell of material 'sand' (cell.in)"),
             std::string::npos)

@@ -91,8 +91,9 @@ TEST_F(RunTest, ModuliThatNobodyGivesComeFromThePacking) {
   const Outcome open = polargrain("run open.yaml -o open -w 1 --quiet");
   ASSERT_EQ(open.status, 0) << open.errors;
   // The fake is linear with E = 100 MPa, nu = 0.25: G = 40 MPa; Gc and couple modulus are fake_engine.cpp's.
-  EXPECT_NE(open.errors.find("moduli of the packing at rest: G 40 MPa, Gc 10 MPa, nu 0.25, couple modulus 3.2e+04 N "
-                             "(length 20 mm)"),
+  EXPECT_NE(open.errors.find(
+                "moduli of the packing at rest: G 40 MPa, Gc 10 MPa, nu 0.25, couple modulus 3.2e+04 N "
+                "(length 20 mm)"),
             std::string::npos)
       << open.errors;
   write(directory() / "given.yaml",

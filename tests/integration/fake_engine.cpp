@@ -23,8 +23,8 @@ namespace {
 constexpr double kConfining = -100e3;
 constexpr double kYoung = 100e6;
 constexpr double kPoisson = 0.25;
-constexpr double kCosseratShear = 10e6;   // Pa, of the packing's network
-constexpr double kCoupleModulus = 32e3;   // N: an internal length of 20 mm
+constexpr double kCosseratShear = 10e6;  // Pa, of the packing's network
+constexpr double kCoupleModulus = 32e3;  // N: an internal length of 20 mm
 
 Matrix7 stiffness(double young) {
   const double shear = young / (2.0 * (1.0 + kPoisson));
@@ -166,10 +166,9 @@ class FakeEngine : public CellService {
 }  // namespace
 
 const std::set<std::string>& fake_commands() {
-  static const std::set<std::string> commands{"young",         "softening",     "fail_beyond",
-                                              "die_beyond",    "refuse_beyond", "hang_beyond",
-                                              "young_of_mass", "state_bytes",   "sleep_milliseconds",
-                                              "tries"};
+  static const std::set<std::string> commands{
+      "young",       "softening",     "fail_beyond", "die_beyond",         "refuse_beyond",
+      "hang_beyond", "young_of_mass", "state_bytes", "sleep_milliseconds", "tries"};
   return commands;
 }
 

@@ -38,9 +38,7 @@ struct Peak {
 
 class InformedEngineTest : public ::testing::Test {
  protected:
-  InformedEngineTest() : scratch_("InformedEngine"), pool_(options()) {
-    use("cases/biaxial/packing400.csv");
-  }
+  InformedEngineTest() : scratch_("InformedEngine"), pool_(options()) { use("cases/biaxial/packing400.csv"); }
 
   void use(const std::string& packing) {
     sand_ = pool_.define({"sand", "hooke_radii.in", content(kSource / "liggghts_inputs/cells/hooke_radii.in"),
@@ -136,7 +134,8 @@ TEST_F(InformedEngineTest, PeaksOfBothSchemesAreTheCellsOwn) {
     of_cell += cell.mean() / own.mean() / static_cast<double>(packings.size());
     of_informed += informed.mean() / own.mean() / static_cast<double>(packings.size());
   }
-  std::cout << "[figure] mean about the peak, over packings: cell " << of_cell << ", informed " << of_informed << '\n';
+  std::cout << "[figure] mean about the peak, over packings: cell " << of_cell << ", informed " << of_informed
+            << '\n';
   // Asked of the scheme at steps of 0.1 %.
   EXPECT_NEAR(of_informed, 1.0, 0.05);
   // An element takes its cell there by other increments; from packing to packing that makes a standard deviation of

@@ -111,10 +111,13 @@ TEST_F(ProcessorsTest, workers_of_three_kinds_agree_on_every_bit) {
   const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
   std::string guests;
   for (const char* kind : {"Haswell", "Nehalem", "Prescott"})
-    guests += "env " + kProcessors.at(kind) + " " POLARGRAIN " worker --patience 5 --key keys/worker.key --connect " + url + " & ";
-  const Outcome outcome =
-      run_in(scratch_.path(), "{ " + guests + POLARGRAIN " run case.yaml --quiet -o result -w 0 --keys keys "
-                       "--set workers.check=1 --listen " + url + "; status=$?; wait; exit $status; }");
+    guests += "env " + kProcessors.at(kind) +
+              " " POLARGRAIN " worker --patience 5 --key keys/worker.key --connect " + url + " & ";
+  const Outcome outcome = run_in(scratch_.path(), "{ " + guests +
+                                                      POLARGRAIN
+                                                      " run case.yaml --quiet -o result -w 0 --keys keys "
+                                                      "--set workers.check=1 --listen " +
+                                                      url + "; status=$?; wait; exit $status; }");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_EQ(content(scratch_.path() / "result/history.csv"), here);
   const std::string summary = content(scratch_.path() / "result/summary.json");

@@ -24,7 +24,8 @@ inline std::vector<coupler::PoolRequest> random_requests(std::size_t count,
 }
 
 /// A step of such cells: an evaluation from the states of the last, and its commit.
-inline std::vector<CellReply> step(coupler::Pool& pool, std::size_t count, const std::vector<CellReply>& from) {
+inline std::vector<CellReply> step(coupler::Pool& pool, std::size_t count,
+                                   const std::vector<CellReply>& from) {
   std::vector<CellReply> replies = pool.evaluate(random_requests(count, from));
   std::vector<StatePointer> states;
   for (const CellReply& reply : replies) states.push_back(reply.state);

@@ -214,7 +214,8 @@ TEST(TaskQueue, WhatDoesNotGoTogetherGoesApart) {
   queue.begin(tasks);
   for (std::size_t task = 0; task < tasks.size(); ++task) queue.add(task);
   const auto ten = [](const Task&) { return std::size_t{10}; };
-  for (std::size_t task = 0; task < tasks.size(); ++task) EXPECT_EQ(queue.take(7, kAnything, ten), Numbers{task});
+  for (std::size_t task = 0; task < tasks.size(); ++task)
+    EXPECT_EQ(queue.take(7, kAnything, ten), Numbers{task});
 }
 
 }  // namespace

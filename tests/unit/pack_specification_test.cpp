@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/error.hpp"
 #include "app/pack/read_specification.hpp"
+#include "common/error.hpp"
 
 namespace polargrain::app {
 namespace {

@@ -72,7 +72,8 @@ TEST(Attempts, OfGuestsAloneProveNothingBesideAProcessOfOurOwn) {
   EXPECT_TRUE(attempts.may_try({1, ""}, {{6, "key d"}, {1, ""}}));
   EXPECT_TRUE(attempts.are_enough({{6, "key d"}}));
   // One of ours that was killed from outside has not tried.
-  const Attempts with_a_kill = attempts_of({{Attempt::End::from_outside, 1, ""}, {kWork, 3, "key a"}, {kWork, 4, "key b"}});
+  const Attempts with_a_kill =
+      attempts_of({{Attempt::End::from_outside, 1, ""}, {kWork, 3, "key a"}, {kWork, 4, "key b"}});
   EXPECT_FALSE(with_a_kill.are_enough({{2, ""}}));
   EXPECT_TRUE(with_a_kill.may_try({2, ""}, {{6, "key d"}, {2, ""}}));
 }

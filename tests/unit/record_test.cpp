@@ -114,8 +114,9 @@ TEST(Record, EveryResultIsKeptInArchives) {
 }
 
 TEST(Record, EveryNumberIsAColumn) {
-  const std::vector<std::string> expected{"number",    "whole",  "truth",  "weather",          "matrix_11", "matrix_12",
-                                          "matrix_21", "matrix_22", "list_a", "list_b", "inner_temperature"};
+  const std::vector<std::string> expected{
+      "number",    "whole",     "truth",  "weather", "matrix_11",        "matrix_12",
+      "matrix_21", "matrix_22", "list_a", "list_b",  "inner_temperature"};
   EXPECT_EQ(names_of_columns<Sample>(), expected);
   const std::vector<double> values = values_of(some_sample());
   EXPECT_EQ(values, (std::vector<double>{-0.0, -7, 1, -1, 1, 2, 3, 4, 3, 4, 281.5}));
@@ -149,7 +150,8 @@ TEST(Record, ReadsNothingThatItsFieldsCannotBe) {
 TEST(Record, DocumentationShowsEveryField) {
   std::ifstream file(POLARGRAIN_SOURCE_DIRECTORY "/docs/file_formats.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  for (const std::string& table : {markdown_table(columns_of<CellDiagnostics>()), markdown_table(columns_of<Increment>())}) {
+  for (const std::string& table :
+       {markdown_table(columns_of<CellDiagnostics>()), markdown_table(columns_of<Increment>())}) {
     EXPECT_NE(page.find(table), std::string::npos) << "docs/file_formats.md must hold this table:\n" << table;
   }
 }

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What clang-tidy and doxygen say of the code.
+# What clang-format, clang-tidy and doxygen say of the code.
 if(NOT POLARGRAIN_SANITIZE)
   set(style ${CMAKE_CURRENT_SOURCE_DIR}/style.sh)
+  add_test(NAME format COMMAND ${style} format)
   add_test(NAME pages COMMAND ${style} pages)
   add_test(NAME tidy COMMAND ${style} tidy ${PROJECT_BINARY_DIR})
-  set_tests_properties(pages tidy PROPERTIES LABELS unit SKIP_RETURN_CODE 77 TIMEOUT 600)
+  set_tests_properties(format pages tidy PROPERTIES LABELS unit SKIP_RETURN_CODE 77 TIMEOUT 600)
   set_tests_properties(tidy PROPERTIES LABELS long TIMEOUT 7200)
 endif()

@@ -84,15 +84,16 @@ TEST(CellLimits, CoupleStressIsThatOfContactsAtTheirRollingLimit) {
   double polar_limit = 0.0;
   for (const Contact& contact : contact_recorder().contacts) {
     of_moments += contact.branch.x() * contact.moment / volume(definition.packing);
-    polar_limit += std::abs(0.5 * (contact.arm_second - contact.arm_first) * contact.branch.x()) * contact.friction *
-                   contact.normal_force() / volume(definition.packing);
+    polar_limit += std::abs(0.5 * (contact.arm_second - contact.arm_first) * contact.branch.x()) *
+                   contact.friction * contact.normal_force() / volume(definition.packing);
     const double weight = contact.branch.norm() * contact.normal_force();
     sum += weight * contact.arm_first * contact.arm_second / (contact.arm_first + contact.arm_second);
     weights += weight;
   }
   const double limit = 4.0 / std::numbers::pi * kFriction * (sum / weights) * pressure_now;
   std::printf(
-      "[figure] couple stress of the moments over (4/pi) mu_th r_c p at a curvature of 6 rad/m: %.3f, %.0f %% of the "
+      "[figure] couple stress of the moments over (4/pi) mu_th r_c p at a curvature of 6 rad/m: %.3f, %.0f "
+      "%% of the "
       "contacts at the limit; polar part %.3f, %.2f of what sliding contacts could carry\n",
       of_moments / limit, 100.0 * rolling, couple_stress / limit - of_moments / limit,
       (couple_stress - of_moments) / polar_limit);

@@ -18,8 +18,8 @@ namespace polargrain::dem {
 namespace {
 
 struct TwoRadii {
-  double small = 0.0, large = 0.0;                           // m
-  double normal = 1e6, tangential = 4e5, rolling = 0.0;      // N/m, N/m, N m
+  double small = 0.0, large = 0.0;                       // m
+  double normal = 1e6, tangential = 4e5, rolling = 0.0;  // N/m, N/m, N m
 
   [[nodiscard]] double radius(int column, int row) const { return (column + row) % 2 == 0 ? small : large; }
   [[nodiscard]] double spacing() const { return small + large; }
@@ -50,8 +50,8 @@ double bending_stiffness(const TwoRadii& lattice, int rows) {
     const double second = lattice.radius(to_column, to_row);
     const int a = 3 * (column % 2 * rows + row);
     const int b = 3 * (to_column % 2 * rows + to_row);
-    const auto spring = [&](double stiffness, const Eigen::Vector2d& along, double turn_first, double turn_second,
-                            double of_bending) {
+    const auto spring = [&](double stiffness, const Eigen::Vector2d& along, double turn_first,
+                            double turn_second, double of_bending) {
       Eigen::RowVectorXd opening = Eigen::RowVectorXd::Zero(3 * discs);
       opening.segment<2>(b) += along;
       opening.segment<2>(a) -= along;
@@ -130,7 +130,8 @@ TEST_P(Polar, CellsAreAsStiffAgainstCurvatureAsLatticesThatAreBent) {
   // Either kind of disc shifts against the other, which takes a share of the slip over into normal springs.
   const double difference = GetParam().large - GetParam().small;
   const double relaxed = GetParam().normal / (GetParam().normal + GetParam().tangential);
-  EXPECT_NEAR(bent, GetParam().rolling + 0.25 * difference * difference * GetParam().tangential * relaxed, 1e-8 * scale);
+  EXPECT_NEAR(bent, GetParam().rolling + 0.25 * difference * difference * GetParam().tangential * relaxed,
+              1e-8 * scale);
   for (const int size : {2, 4, 8}) {
     const Matrix7 tangent = condensed(GetParam(), size);
     // The hold and rounding of a condition number of 1e10.
@@ -142,11 +143,12 @@ TEST_P(Polar, CellsAreAsStiffAgainstCurvatureAsLatticesThatAreBent) {
               0.25 * difference * difference * GetParam().tangential);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lattices, Polar,
-                         testing::Values(TwoRadii{5e-3, 5e-3, 1e6, 4e5, 2.0}, TwoRadii{5e-3, 5e-3, 1e6, 4e5, 0.0},
-                                         TwoRadii{3e-3, 7e-3, 1e6, 4e5, 0.0}, TwoRadii{3e-3, 7e-3, 1e6, 4e5, 2.0},
-                                         TwoRadii{2e-3, 8e-3, 1e6, 1e6, 0.0}, TwoRadii{4e-3, 5e-3, 1e6, 2e5, 0.5},
-                                         TwoRadii{1e-3, 9e-3, 1e6, 1e5, 0.0}, TwoRadii{2e-3, 3e-3, 1e5, 9e4, 0.02}));
+INSTANTIATE_TEST_SUITE_P(
+    Lattices, Polar,
+    testing::Values(TwoRadii{5e-3, 5e-3, 1e6, 4e5, 2.0}, TwoRadii{5e-3, 5e-3, 1e6, 4e5, 0.0},
+                    TwoRadii{3e-3, 7e-3, 1e6, 4e5, 0.0}, TwoRadii{3e-3, 7e-3, 1e6, 4e5, 2.0},
+                    TwoRadii{2e-3, 8e-3, 1e6, 1e6, 0.0}, TwoRadii{4e-3, 5e-3, 1e6, 2e5, 0.5},
+                    TwoRadii{1e-3, 9e-3, 1e6, 1e5, 0.0}, TwoRadii{2e-3, 3e-3, 1e5, 9e4, 0.02}));
 
 /// The same lattice as a packing, pressed together a little.
 CellDefinition packed(const TwoRadii& radii, int size, const std::string& models) {
@@ -190,8 +192,8 @@ TEST(PolarCells, TheGrainsAnswerToACurvatureAsTheLatticeDoes) {
       const CellReply reply = cell->evaluate(request);
       ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
       const double modulus = reply.response.stress(kCurvature1) / request.increment.curvature.x();
-      std::printf("[figure] %s: couple modulus %.6g of the exact one, tangent %.6g\n", models.c_str(), modulus / exact,
-                  reply.response.tangent(kCurvature1, kCurvature1) / exact);
+      std::printf("[figure] %s: couple modulus %.6g of the exact one, tangent %.6g\n", models.c_str(),
+                  modulus / exact, reply.response.tangent(kCurvature1, kCurvature1) / exact);
       // The overlap shortens branches and arms, by as much as it is.
       EXPECT_NEAR(modulus, exact, 1e-3 * exact);
       EXPECT_NEAR(reply.response.tangent(kCurvature1, kCurvature1), exact, 1e-3 * exact);

@@ -70,11 +70,13 @@ const std::vector<Models> kCombinations{
     {"radii", "hooke/radii tangential history"},
     {"radii_damped", "hooke/radii tangential history damping on"},
     {"radii_epsd2", "hooke/radii tangential history rolling_friction epsd2 damping on limitForce on"},
-    {"radii_rolling", "hooke/radii tangential history rolling_friction li_chu rollingDamping on meanRadius on"},
+    {"radii_rolling",
+     "hooke/radii tangential history rolling_friction li_chu rollingDamping on meanRadius on"},
     {"radii_li_chu", "hooke/radii tangential li_chu damping on"},
     {"radii_li_chu_epsd2", "hooke/radii tangential li_chu rolling_friction epsd2"},
-    {"radii_full", "hooke/radii tangential li_chu rolling_friction li_chu rollingFrictionForce on "
-                   "rollingFrictionForceDamping on rollingDamping on"},
+    {"radii_full",
+     "hooke/radii tangential li_chu rolling_friction li_chu rollingFrictionForce on "
+     "rollingFrictionForceDamping on rollingDamping on"},
     {"radii_symmetric",
      "hooke/radii tangential li_chu rolling_friction li_chu rollingFrictionForce on symmetricCoupling on"},
     {"stiffness", "hooke/stiffness tangential history"},

@@ -9,13 +9,13 @@ namespace {
 
 class AdaptiveRecipe : public MaterialRecipe {
  public:
-  AdaptiveRecipe(CellDefinition definition, const CosseratChoice& cosserat,
-                 const AdaptivityOptions& options)
+  AdaptiveRecipe(CellDefinition definition, const CosseratChoice& cosserat, const AdaptivityOptions& options)
       : definition_(std::move(definition)), cosserat_(cosserat), options_(options) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     std::string note;
     const CosseratParameters cosserat = resolved(cosserat_, *pool, definition_, note);
-    return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat, options_, note);
+    return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat, options_,
+                                              note);
   }
   [[nodiscard]] bool needs_workers() const override { return true; }
 

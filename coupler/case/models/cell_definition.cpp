@@ -15,10 +15,11 @@ std::filesystem::path packing_file(Section& section, const std::filesystem::path
   const std::string name = section.text("packing", "the path of a packing (CSV or HDF5)");
   if (name.empty()) return {};
   if (const auto file = find_data_file(name, directory)) return *file;
-  section.fault("packing",
-                fmt::format("packing: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
-                            "correct the path or put the file there",
-                            name));
+  section.fault(
+      "packing",
+      fmt::format("packing: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
+                  "correct the path or put the file there",
+                  name));
   return {};
 }
 

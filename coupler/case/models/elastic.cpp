@@ -22,8 +22,7 @@ class ElasticRecipe : public MaterialRecipe {
   fem::ElasticParameters parameters_;
 };
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const CaseFiles&) {
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults, const CaseFiles&) {
   const std::size_t faults_before = faults.size();
   fem::ElasticParameters parameters;
   parameters.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);

@@ -49,8 +49,7 @@ fem::PiecewiseLinear strength(Section& section, const std::string& key, Dimensio
   return fem::PiecewiseLinear::ramp(factor * ends[0], factor * ends[1], hardening_shear);
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const CaseFiles&) {
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults, const CaseFiles&) {
   const std::size_t faults_before = faults.size();
   fem::ElastoplasticParameters parameters;
   parameters.elastic.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);

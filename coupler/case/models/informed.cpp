@@ -11,7 +11,8 @@ namespace {
 
 class InformedRecipe : public MaterialRecipe {
  public:
-  InformedRecipe(CellDefinition definition, const InformedParameters& parameters, const CosseratChoice& cosserat)
+  InformedRecipe(CellDefinition definition, const InformedParameters& parameters,
+                 const CosseratChoice& cosserat)
       : definition_(std::move(definition)), parameters_(parameters), cosserat_(cosserat) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     InformedParameters parameters = parameters_;
