@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/element/kinematics.hpp"
 
+#include "fem/element/dofs.hpp"
+
 #include <Eigen/LU>
 
 namespace polargrain::fem {
@@ -54,14 +56,14 @@ Increment increment_at(const PointGeometry& point, Continuum continuum, const Ei
 
 Eigen::Matrix<double, 7, Eigen::Dynamic> strain_matrix(const PointGeometry& point, Continuum continuum) {
   const auto nodes = point.shape.size();
-  Eigen::Matrix<double, 7, Eigen::Dynamic> b(7, 3 * nodes);
+  Eigen::Matrix<double, 7, Eigen::Dynamic> b(7, entry_of(nodes));
   b.setZero();
   for (Eigen::Index a = 0; a < nodes; ++a) {
     const double d1 = point.gradient(a, 0);
     const double d2 = point.gradient(a, 1);
-    auto u1 = b.col(3 * a);
-    auto u2 = b.col(3 * a + 1);
-    auto w = b.col(3 * a + 2);
+    auto u1 = b.col(entry_of(a, Dof::u1));
+    auto u2 = b.col(entry_of(a, Dof::u2));
+    auto w = b.col(entry_of(a, Dof::w));
     u1(k11) = d1;
     u2(k22) = d2;
     if (point.dilatation_correction.size() > 0) {

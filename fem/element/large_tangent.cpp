@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/element/large_tangent.hpp"
 
+#include "fem/element/dofs.hpp"
+
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::fem {
@@ -53,14 +55,14 @@ Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& mid
   Eigen::Matrix2d turned_s;
   turned_s << turned(k11), turned(k12), turned(k21), turned(k22);
   const auto b = strain_matrix(end, continuum);
-  Eigen::MatrixXd tangent(3 * nodes, 3 * nodes);
-  for (Eigen::Index column = 0; column < 3 * nodes; ++column) {
-    const Variation change = vary(middle, increment, continuum, column / 3, column % 3);
+  Eigen::MatrixXd tangent(entry_of(nodes), entry_of(nodes));
+  for (Eigen::Index column = 0; column < tangent.cols(); ++column) {
+    const Variation change = vary(middle, increment, continuum, column / kDofsOfNode, column % kDofsOfNode);
     Eigen::Matrix2d spin;
     spin << 0.0, -change.angle, change.angle, 0.0;
     // At the end of the step gradients change by -N_a,k h_kj and the volume by tr h.
     Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
-    if (column % 3 < 2) h.row(column % 3) = end.gradient.row(column / 3);
+    if (column % kDofsOfNode < 2) h.row(column % kDofsOfNode) = end.gradient.row(column / kDofsOfNode);
     const Eigen::Matrix2d hs = h * s;
     const Eigen::Matrix2d ds = s * h.trace() - hs + spin * turned_s - turned_s * spin;
     const Eigen::Vector2d dm = m * h.trace() - h * m + spin * turned.tail<2>();
@@ -74,7 +76,7 @@ Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& mid
     if (continuum == Continuum::cosserat) {
       // s21 - s12 acts on w through N_a, not through the gradients that h s stands for.
       for (Eigen::Index a = 0; a < nodes; ++a)
-        tangent(3 * a + 2, column) += end.shape(a) * (hs(1, 0) - hs(0, 1));
+        tangent(entry_of(a, Dof::w), column) += end.shape(a) * (hs(1, 0) - hs(0, 1));
     }
   }
   return end.volume * tangent;

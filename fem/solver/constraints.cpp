@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/constraints.hpp"
 
+#include "fem/element/dofs.hpp"
+
 namespace polargrain::fem {
 
 Constraints::Constraints(const Mesh& mesh, Continuum continuum, const std::vector<PrescribedDof>& prescribed)
-    : equation_(3 * mesh.nodes.size(), 0) {
+    : equation_(entry_of(mesh.nodes.size()), 0) {
   for (const PrescribedDof& item : prescribed) {
     for (const int node : mesh.nodes_on(item.on)) {
       const auto number = static_cast<std::size_t>(node);
-      const std::size_t entry = 3 * number + static_cast<std::size_t>(item.dof);
+      const std::size_t entry = entry_of(number, item.dof);
       // What is given twice is given alike (checked by faults); the first one stands.
       if (equation_[entry] < 0) continue;
       equation_[entry] = -1;
@@ -16,7 +18,7 @@ Constraints::Constraints(const Mesh& mesh, Continuum continuum, const std::vecto
     }
   }
   if (continuum == Continuum::cauchy) {
-    for (std::size_t node = 0; node < mesh.nodes.size(); ++node) equation_[3 * node + 2] = -1;
+    for (std::size_t node = 0; node < mesh.nodes.size(); ++node) equation_[entry_of(node, Dof::w)] = -1;
   }
   for (int& equation : equation_) {
     if (equation >= 0) equation = unknowns_++;

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include "fem/element/dofs.hpp"
 #include "fem/element/large_tangent.hpp"
 
 namespace polargrain::fem {
 
 Discretisation::Discretisation(const Mesh& mesh, Continuum continuum)
-    : mesh_(mesh), continuum_(continuum), nodal_size_(3 * static_cast<Eigen::Index>(mesh.nodes.size())) {
+    : mesh_(mesh),
+      continuum_(continuum),
+      nodal_size_(entry_of(static_cast<Eigen::Index>(mesh.nodes.size()))) {
   first_point_.push_back(0);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const int number = static_cast<int>(e);
@@ -19,7 +22,7 @@ Discretisation::Discretisation(const Mesh& mesh, Continuum continuum)
     first_point_.push_back(points_.size());
     std::vector<int>& dofs = dofs_.emplace_back();
     for (const int node : mesh.elements[e].nodes) {
-      for (int component = 0; component < 3; ++component) dofs.push_back(3 * node + component);
+      for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) dofs.push_back(entry_of(node, dof));
     }
   }
 }
@@ -30,7 +33,7 @@ std::string Discretisation::move_to(const Eigen::VectorXd& nodal) {
     Eigen::MatrixX2d positions = mesh_.element_positions(number);
     for (std::size_t a = 0; a < mesh_.elements[e].nodes.size(); ++a) {
       positions.row(static_cast<Eigen::Index>(a)) +=
-          nodal.segment<2>(3 * mesh_.elements[e].nodes[a]).transpose();
+          nodal.segment<2>(entry_of(mesh_.elements[e].nodes[a])).transpose();
     }
     std::size_t i = first_point_[e];
     for (PointGeometry& point : point_geometries(*mesh_.elements[e].type, positions)) {
@@ -73,28 +76,28 @@ Eigen::VectorXd Discretisation::internal_forces(std::span<const Response> respon
   return forces;
 }
 
-Eigen::VectorXd Discretisation::linearised_forces(std::span<const Response> responses,
+Eigen::VectorXd Discretisation::linearised_forces(const Linearisation& of,
                                                   const Eigen::VectorXd& nodal) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (std::size_t e = 0; e < elements(); ++e) {
     const Eigen::VectorXd u = gather(e, nodal);
     if (u.isZero(0.0)) continue;
-    forces(dofs_[e]) += element_tangent(e, responses) * u;
+    forces(dofs_[e]) += element_tangent(e, of) * u;
   }
   return forces;
 }
 
-Eigen::MatrixXd Discretisation::element_tangent(std::size_t e, std::span<const Response> responses) const {
+Eigen::MatrixXd Discretisation::element_tangent(std::size_t e, const Linearisation& of) const {
   const auto size = static_cast<Eigen::Index>(dofs_[e].size());
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
-    if (middle_ != nullptr) {
-      tangent += large_tangent(points_[i], middle_->point(i), (*increments_)[i], continuum_, responses[i],
-                               (*start_)[i].stress);
+    if (const auto& moving = of.moving) {
+      tangent += large_tangent(points_[i], moving->middle.point(i), moving->increments[i], continuum_,
+                               of.answers[i], moving->start[i].stress);
       continue;
     }
     const auto b = strain_matrix(points_[i], continuum_);
-    const Eigen::Matrix<double, 7, Eigen::Dynamic> db = (points_[i].volume * responses[i].tangent) * b;
+    const Eigen::Matrix<double, 7, Eigen::Dynamic> db = (points_[i].volume * of.answers[i].tangent) * b;
     tangent.noalias() += b.transpose() * db;
   }
   return tangent;

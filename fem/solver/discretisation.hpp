@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,20 @@
 #include "fem/mesh/mesh.hpp"
 
 namespace polargrain::fem {
+
+class Discretisation;
+
+/// What a tangent is taken of: the answers of the points and, where the mesh moves along with the body, the
+/// configurations they belong to.
+struct Linearisation {
+  struct Moving {
+    const Discretisation& middle;              ///< the strains refer to it
+    const std::vector<Increment>& increments;  ///< that led to the answers
+    const std::vector<Response>& start;        ///< stresses at the start of the step
+  };
+  const std::vector<Response>& answers;
+  std::optional<Moving> moving = {};  ///< nothing: small deformation
+};
 
 /// The way between nodes and integration points: gathers increments, scatters stresses. Nodal vectors have 3
 /// entries a node (u1, u2, w). Loops run in the order of the elements, so sums have the same bits every time.
@@ -38,28 +53,17 @@ class Discretisation {
   /// Nodal forces of the stresses: the sum of B^T s times volume.
   [[nodiscard]] Eigen::VectorXd internal_forces(std::span<const Response> responses) const;
   /// Tangent times nodal displacements, without forming the tangent.
-  [[nodiscard]] Eigen::VectorXd linearised_forces(std::span<const Response> responses,
+  [[nodiscard]] Eigen::VectorXd linearised_forces(const Linearisation& of,
                                                   const Eigen::VectorXd& nodal) const;
-  /// The sum of B^T D B times volume over the points of element e.
-  [[nodiscard]] Eigen::MatrixXd element_tangent(std::size_t e, std::span<const Response> responses) const;
-  /// From now on tangents are those of a mesh that moves along: strains refer to `middle`, increments to the
-  /// evaluation that the responses belong to, `start` holds the stresses at the start of the step. All must
-  /// outlive this object.
-  void use_large_tangent(const Discretisation* middle, const std::vector<Increment>* increments,
-                         const std::vector<Response>* start) {
-    start_ = start;
-    middle_ = middle;
-    increments_ = increments;
-  }
+  /// The sum over the points of element e of B^T D B times volume; where the mesh moves along, of what
+  /// large_tangent.hpp says, this discretisation being the end of the step.
+  [[nodiscard]] Eigen::MatrixXd element_tangent(std::size_t e, const Linearisation& of) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd gather(std::size_t e, const Eigen::VectorXd& nodal) const;
 
   const Mesh& mesh_;
   Continuum continuum_;
-  const Discretisation* middle_ = nullptr;
-  const std::vector<Increment>* increments_ = nullptr;
-  const std::vector<Response>* start_ = nullptr;
   Eigen::Index nodal_size_;
   std::vector<PointGeometry> points_;
   std::vector<int> element_of_point_;

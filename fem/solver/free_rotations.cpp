@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/free_rotations.hpp"
 
+#include "fem/element/dofs.hpp"
+
 #include <fmt/format.h>
 
 #include <numeric>
@@ -51,7 +53,7 @@ std::string unresisted_rotation(const Mesh& mesh, const Discretisation& discreti
   }
   std::vector<char> held(mesh.nodes.size(), 0);
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    if (stiff[node] != 0 || !constraints.is_free(3 * node + 2)) held[find(node)] = 1;
+    if (stiff[node] != 0 || !constraints.is_free(entry_of(node, Dof::w))) held[find(node)] = 1;
   }
   std::size_t free = 0;
   const Eigen::Vector2d* where = nullptr;

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "fem/element/dofs.hpp"
 #include "fem/element/quadrature.hpp"
 
 namespace polargrain::fem {
@@ -23,7 +24,7 @@ void side_shape(std::size_t nodes, double x, Eigen::VectorXd& value, Eigen::Vect
 /// `normal` has the length of d s / d xi.
 template <class Traction>
 Eigen::VectorXd edge_forces(const Mesh& mesh, const std::vector<Edge>& edges, Traction traction) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()));
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of(static_cast<Eigen::Index>(mesh.nodes.size())));
   Eigen::VectorXd value;
   Eigen::VectorXd derivative;
   for (const Edge& edge : edges) {
@@ -37,7 +38,7 @@ Eigen::VectorXd edge_forces(const Mesh& mesh, const std::vector<Edge>& edges, Tr
       }
       const Eigen::Vector3d force = place.weight * traction(Eigen::Vector2d(tangent(1), -tangent(0)));
       for (std::size_t a = 0; a < numbers.size(); ++a) {
-        forces.segment<3>(3 * numbers[a]) += value(static_cast<Eigen::Index>(a)) * force;
+        forces.segment<kDofsOfNode>(entry_of(numbers[a])) += value(static_cast<Eigen::Index>(a)) * force;
       }
     }
   }
@@ -55,7 +56,7 @@ EdgeStiffness unit_pressure_stiffness(const Mesh& mesh, const Edge& edge) {
   const auto size = 2 * static_cast<Eigen::Index>(numbers.size());
   EdgeStiffness stiffness{{}, Eigen::MatrixXd::Zero(size, size)};
   for (const int number : numbers) {
-    for (const int component : {0, 1}) stiffness.entries.push_back(3 * number + component);
+    for (const Dof dof : {Dof::u1, Dof::u2}) stiffness.entries.push_back(entry_of(number, dof));
   }
   Eigen::VectorXd value;
   Eigen::VectorXd derivative;
@@ -75,7 +76,7 @@ EdgeStiffness unit_pressure_stiffness(const Mesh& mesh, const Edge& edge) {
 }  // namespace
 
 Loads::Loads(const Problem& problem)
-    : problem_(problem), size_(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size())) {
+    : problem_(problem), size_(entry_of(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
   for (const EdgeLoad& load : problem.edge_loads) add_edge_load(problem, load);
   for (const NodeLoad& load : problem.node_loads) add_node_load(problem, load);
   for (const BodyLoad& load : problem.body_loads) add_body_load(problem, load);
@@ -103,7 +104,7 @@ void Loads::add_edge_load(const Problem& problem, const EdgeLoad& load) {
 
 void Loads::add_node_load(const Problem& problem, const NodeLoad& load) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const int node : problem.mesh.nodes_on(load.on)) forces(3 * node + static_cast<int>(load.dof)) += 1.0;
+  for (const int node : problem.mesh.nodes_on(load.on)) forces(entry_of(node, load.dof)) += 1.0;
   parts_.push_back({std::move(forces), &load.value});
 }
 
@@ -118,7 +119,8 @@ void Loads::add_body_load(const Problem& problem, const BodyLoad& load) {
     for (const PointGeometry& point : point_geometries(*element.type, mesh.element_positions(e))) {
       const Eigen::Vector3d force = point.volume * load.density(point.position);
       for (std::size_t a = 0; a < element.nodes.size(); ++a) {
-        forces.segment<3>(3 * element.nodes[a]) += point.shape(static_cast<Eigen::Index>(a)) * force;
+        forces.segment<kDofsOfNode>(entry_of(element.nodes[a])) +=
+            point.shape(static_cast<Eigen::Index>(a)) * force;
       }
     }
   }
@@ -129,7 +131,7 @@ void Loads::move_to(const Eigen::VectorXd& nodal) {
   if (pressures_.empty()) return;
   Mesh moved = problem_.mesh;
   for (std::size_t node = 0; node < moved.nodes.size(); ++node) {
-    moved.nodes[node] += nodal.segment<2>(3 * static_cast<Eigen::Index>(node));
+    moved.nodes[node] += nodal.segment<2>(entry_of(static_cast<Eigen::Index>(node)));
   }
   for (const Pressure& pressure : pressures_) {
     parts_[pressure.part].forces = edge_forces(moved, moved.boundaries.at(pressure.load->on), unit_pressure);
@@ -169,7 +171,8 @@ double Loads::largest_force() const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     for (Eigen::Index entry = 0; entry < size_; ++entry) {
-      if (entry % 3 != 2) sum += std::abs(part.forces(entry)) * part.factor->largest_magnitude();
+      if (entry % kDofsOfNode != static_cast<int>(Dof::w))
+        sum += std::abs(part.forces(entry)) * part.factor->largest_magnitude();
     }
   }
   return sum;

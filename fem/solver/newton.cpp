@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "fem/material/rotation.hpp"
 #include "fem/solver/free_rotations.hpp"
 #include "fem/solver/residual_floor.hpp"
+#include "fem/solver/why_singular.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -43,16 +43,6 @@ double mean_element_size(const Discretisation& discretisation) {
   return std::sqrt(volume / static_cast<double>(discretisation.elements()));
 }
 
-/// Norm of the strain without rotations, of which a step may hold as many as it likes.
-double strain_norm(const Increment& increment, Deformation deformation) {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  const double linear = (0.5 * (h + h.transpose())).norm();
-  if (deformation == Deformation::small) return linear;
-  // Rotations come linearised from the solution and exact from the supports: either must not count.
-  const Eigen::Vector2d stretches = (Eigen::Matrix2d::Identity() + h).jacobiSvd().singularValues();
-  return std::min(linear, (stretches - Eigen::Vector2d::Ones()).norm());
-}
-
 }  // namespace
 
 Newton::Newton(Problem problem_in, const SolverOptions& options_in)
@@ -69,14 +59,11 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
       anderson_(options.acceleration_depth, reference_length),
       middle_(problem.mesh, problem.continuum),
       trial_(discretisation.points()) {
-  state.displacement = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size()));
+  state.displacement = Eigen::VectorXd::Zero(discretisation.nodal_size());
   state.strain.assign(discretisation.points(), Vector7::Zero());
   state.responses.resize(discretisation.points());
-  if (problem.deformation == Deformation::large) {
-    discretisation.use_large_tangent(&middle_, &increments_, &state.responses);
-    if (!materials.can_turn())
-      throw RunError("a material cannot turn its stress, as large deformation needs");
-  }
+  if (problem.deformation == Deformation::large && !materials.can_turn())
+    throw RunError("a material cannot turn its stress, as large deformation needs");
 }
 
 Attempt Newton::evaluate_initial_state(StepReport& report) {
@@ -121,6 +108,11 @@ Eigen::VectorXd Newton::loads_at(double time, double released) const {
   Eigen::VectorXd forces = loads.at(time);
   if (released < 1.0) forces -= (1.0 - released) * withheld_;
   return forces;
+}
+
+Linearisation Newton::linearised(const std::vector<Response>& answers) const {
+  if (problem.deformation == Deformation::small) return {answers};
+  return {answers, Linearisation::Moving{middle_, increments_, state.responses}};
 }
 
 Residual Newton::relative(const Eigen::VectorXd& forces) const {
@@ -194,7 +186,7 @@ bool Newton::factorise(const std::vector<Response>& responses, double time, Step
   const Eigen::SparseMatrix<double>* matrix = nullptr;
   {
     const Stopwatch watch(report.assembly_seconds);
-    matrix = &tangent_.assemble(responses, loads.stiffness(time));
+    matrix = &tangent_.assemble(linearised(responses), loads.stiffness(time));
   }
   const Stopwatch watch(report.solve_seconds);
   return linear_solver_.factorise(*matrix);
@@ -212,7 +204,7 @@ bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std:
     // Bordered system: the response to a unit of time, times the time that brings the measure to its goal.
     per_time = constraints.slope(iterate.time);
     const Eigen::VectorXd forces = loads.slope(iterate.time) + loads.linearised(iterate.time, per_time) -
-                                   discretisation.linearised_forces(responses, per_time);
+                                   discretisation.linearised_forces(linearised(responses), per_time);
     add_solution(forces, per_time);
   }
   const auto respond = [&](const Eigen::VectorXd& forces, double growth) {
@@ -230,63 +222,6 @@ bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std:
     anderson_.accelerate(change, [&](const Eigen::VectorXd& forces) { return respond(forces, 0.0); });
   }
   return change.displacement.allFinite() && std::isfinite(change.time);
-}
-
-double Newton::allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const {
-  const std::vector<Increment> reached = discretisation.increments(from);
-  const std::vector<Increment> added = discretisation.increments(change);
-  double share = 1.0;
-  for (std::size_t i = 0; i < added.size(); ++i) {
-    const double strain = strain_norm(added[i], problem.deformation);
-    const double room = options.largest_strain - strain_norm(reached[i], problem.deformation);
-    if (strain > room) share = std::min(share, std::max(room, 0.0) / strain);
-  }
-  return share;
-}
-
-Attempt Newton::limit_correction(Iterate& iterate, Correction& change, StepReport& report) const {
-  constexpr double kLeastShare = 0.01;
-  const double share = allowed_share(iterate.displacement, change.displacement);
-  if (share == 1.0) return {true, ""};
-  ++report.limited;
-  if (share < kLeastShare) {
-    return {false, fmt::format("the iteration asks for strains beyond {}", options.largest_strain)};
-  }
-  change.displacement *= share;
-  change.time *= share;
-  return {true, ""};
-}
-
-Attempt Newton::limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
-                                StepReport& report) const {
-  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(iterate.displacement.size());
-  const double share = allowed_share(nothing, iterate.displacement + change.displacement);
-  if (share == 1.0) return {true, ""};
-  ++report.limited;
-  const Attempt cut{
-      false,
-      fmt::format("the predictor asks for a strain of {:.3g}, more than {}: the tangent is nearly "
-                  "singular or the step too long",
-                  options.largest_strain / share, options.largest_strain),
-      share};
-  if (!goal.controls_time() || state.last_increment.size() == 0) return cut;
-  // The last step drawn on, as far as the given entries say.
-  Eigen::VectorXd drawn_on = state.last_increment;
-  double product = 0.0;
-  double square = 0.0;
-  for (Eigen::Index entry = 0; entry < drawn_on.size(); ++entry) {
-    if (constraints.is_free(static_cast<std::size_t>(entry))) continue;
-    product += iterate.displacement(entry) * drawn_on(entry);
-    square += drawn_on(entry) * drawn_on(entry);
-  }
-  if (square == 0.0) return cut;
-  drawn_on *= product / square;
-  for (Eigen::Index entry = 0; entry < drawn_on.size(); ++entry) {
-    if (!constraints.is_free(static_cast<std::size_t>(entry))) drawn_on(entry) = iterate.displacement(entry);
-  }
-  if (allowed_share(nothing, drawn_on) < 1.0) return cut;
-  change.displacement = drawn_on - iterate.displacement;
-  return {true, ""};
 }
 
 void Newton::move(Iterate& iterate, const Correction& change, double fraction, StepReport& report) {
@@ -349,27 +284,6 @@ Newton::Balance Newton::balance_of(const Iterate& iterate, bool last_chance) con
   return Balance::none;
 }
 
-std::string Newton::singular_text(const std::vector<Response>& responses) const {
-  constexpr double kNothing = 1e-9;  // of the largest stiffness there is
-  double largest = 0.0;
-  for (const Response& response : responses)
-    largest = std::max(largest, response.tangent.cwiseAbs().maxCoeff());
-  std::size_t apart = 0;
-  double stress = 0.0;
-  for (const Response& response : responses) {
-    if (response.tangent.topLeftCorner<2, 2>().cwiseAbs().maxCoeff() > kNothing * largest) continue;
-    ++apart;
-    stress = std::max(stress, response.stress.head<2>().cwiseAbs().maxCoeff());
-  }
-  const std::string text = "the tangent is singular";
-  if (apart == 0) return text;
-  return text +
-         fmt::format(
-             ": {} of {} points have come apart: they have no stiffness against strain and carry at most "
-             "{:.2g} Pa",
-             apart, responses.size(), stress);
-}
-
 std::string Newton::residual_text(const Residual& residual) const {
   std::string text = fmt::format("{:.3g} (force), {:.3g} (moment)", residual.force, residual.moment);
   const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
@@ -390,15 +304,16 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   // The consistent predictor: given increments go through the last converged tangent. Moving the boundary
   // alone would strain the elements next to it only and localise there (docs/theory.md, G.6).
   Iterate iterate = start_of(goal);
-  Eigen::VectorXd right_side = loads_at(iterate.time, iterate.released) - internal_before_ +
-                               loads.linearised(iterate.time, iterate.displacement) -
-                               discretisation.linearised_forces(state.responses, iterate.displacement);
+  Eigen::VectorXd right_side =
+      loads_at(iterate.time, iterate.released) - internal_before_ +
+      loads.linearised(iterate.time, iterate.displacement) -
+      discretisation.linearised_forces(linearised(state.responses), iterate.displacement);
   Correction change;
   StagnationWatch watch(options.stagnation_window);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
     const std::vector<Response>& known = predictor ? state.responses : trial_;
-    if (!correction(goal, iterate, known, right_side, change, report)) return {false, singular_text(known)};
+    if (!correction(goal, iterate, known, right_side, change, report)) return {false, why_singular(known)};
     const Attempt limited = predictor ? limit_predictor(goal, iterate, change, report)
                                       : limit_correction(iterate, change, report);
     if (!limited.converged) return limited;

@@ -79,6 +79,8 @@ class Newton {
   enum class Balance { none, within_tolerance, within_noise, within_rounding };
 
   [[nodiscard]] Eigen::VectorXd loads_at(double time, double released) const;
+  /// What the tangent at the last evaluation, or at the committed state, is taken of.
+  [[nodiscard]] Linearisation linearised(const std::vector<Response>& answers) const;
   [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
   void evaluate(Iterate& iterate, StepReport& report);
@@ -92,8 +94,6 @@ class Newton {
   [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
                                         StepReport& report) const;
   void remember(const Iterate& iterate);
-  /// Why a tangent that held before is singular now.
-  [[nodiscard]] std::string singular_text(const std::vector<Response>& responses) const;
   [[nodiscard]] std::string residual_text(const Residual& residual) const;
   void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);
   void line_search(Iterate& iterate, const Correction& change, double excess_before, StepReport& report);

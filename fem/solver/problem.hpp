@@ -7,15 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "fem/element/dofs.hpp"
 #include "fem/element/kinematics.hpp"
 #include "fem/material/material.hpp"
 #include "fem/mesh/mesh.hpp"
 #include "fem/solver/time_table.hpp"
 
 namespace polargrain::fem {
-
-/// Unknowns of a node, in their order.
-enum class Dof : int { u1 = 0, u2 = 1, w = 2 };
 
 /// A displacement (m) or micro-rotation (rad) that is given: a support when the table is constant zero.
 struct PrescribedDof {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/residual_floor.hpp"
 
+#include "fem/element/dofs.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,7 +35,7 @@ Eigen::VectorXd forces_of_noise(const Discretisation& discretisation, Continuum 
       for (Eigen::Index a = 0; a < point.shape.size(); ++a) {
         const double d1 = square(point.gradient(a, 0));
         const double d2 = square(point.gradient(a, 1));
-        const auto* entry = &dofs[static_cast<std::size_t>(3 * a)];
+        const auto* entry = &dofs[static_cast<std::size_t>(entry_of(a))];
         variance(entry[0]) += volume * (d1 * normal + d2 * shear);
         variance(entry[1]) += volume * (d2 * normal + d1 * shear);
         if (!cosserat) continue;

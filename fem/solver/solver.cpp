@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
+#include "fem/element/dofs.hpp"
 #include "fem/solver/jump_watch.hpp"
 #include "fem/solver/left_out.hpp"
 #include "fem/solver/newton.hpp"
@@ -113,7 +114,7 @@ StepReport Solver::advance_measure(const DisplacementMeasure& measure, double am
   Eigen::VectorXd vector = Eigen::VectorXd::Zero(state().displacement.size());
   const double sign = amount < 0.0 ? -1.0 : 1.0;
   for (const DisplacementMeasure::Term& term : measure.terms) {
-    vector(3 * term.node + static_cast<int>(term.dof)) += sign * term.weight;
+    vector(entry_of(term.node, term.dof)) += sign * term.weight;
   }
   return implementation_->march({}, [&](double, double share) {
     return StepGoal{.measure = vector, .amount = share * std::abs(amount)};
@@ -180,10 +181,10 @@ Eigen::Vector3d Solver::reaction(const std::string& on) const {
   const Eigen::VectorXd supplied = internal_forces() - external_forces();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int node : problem().mesh.nodes_on(on)) {
-    for (int component = 0; component < 3; ++component) {
-      const int entry = 3 * node + component;
+    for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
+      const int entry = entry_of(node, dof);
       if (!implementation_->constraints.is_free(static_cast<std::size_t>(entry)))
-        sum(component) += supplied(entry);
+        sum(static_cast<int>(dof)) += supplied(entry);
     }
   }
   return sum;
@@ -192,7 +193,7 @@ Eigen::Vector3d Solver::reaction(const std::string& on) const {
 Eigen::Vector3d Solver::mean_displacement(const std::string& on) const {
   const std::vector<int> nodes = problem().mesh.nodes_on(on);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int node : nodes) sum += state().displacement.segment<3>(3 * node);
+  for (const int node : nodes) sum += state().displacement.segment<kDofsOfNode>(entry_of(node));
   return sum / static_cast<double>(nodes.size());
 }
 

@@ -61,13 +61,13 @@ void TangentMatrix::find_places() {
   }
 }
 
-const Eigen::SparseMatrix<double>& TangentMatrix::assemble(std::span<const Response> responses,
+const Eigen::SparseMatrix<double>& TangentMatrix::assemble(const Linearisation& of,
                                                            const std::vector<EdgeStiffness>& loads) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   auto place = places_.begin();
   for (std::size_t e = 0; e < equations_.size(); ++e) {
-    const Eigen::MatrixXd local = discretisation_.element_tangent(e, responses);
+    const Eigen::MatrixXd local = discretisation_.element_tangent(e, of);
     const std::vector<int>& equations = equations_[e];
     for (std::size_t j = 0; j < equations.size(); ++j) {
       if (equations[j] < 0) continue;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/SparseCore>
-#include <span>
 #include <vector>
 
-#include "common/response.hpp"
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/discretisation.hpp"
 #include "fem/solver/loads.hpp"
@@ -19,7 +17,7 @@ class TangentMatrix {
   TangentMatrix(const Discretisation& discretisation, const Constraints& constraints);
 
   /// Overwrites the values by those of the tangents of the points, less those of the loads.
-  const Eigen::SparseMatrix<double>& assemble(std::span<const Response> responses,
+  const Eigen::SparseMatrix<double>& assemble(const Linearisation& of,
                                               const std::vector<EdgeStiffness>& loads);
 
  private:

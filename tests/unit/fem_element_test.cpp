@@ -89,7 +89,7 @@ TEST_P(EveryElement, has_three_zero_modes_when_distorted) {
   std::vector<Response> responses(mesh.elements[0].type->quadrature.size());
   for (Response& response : responses) response.tangent = elastic_stiffness(parameters);
   const Discretisation discretisation(mesh, Continuum::cosserat);
-  const Eigen::MatrixXd stiffness = discretisation.element_tangent(0, responses);
+  const Eigen::MatrixXd stiffness = discretisation.element_tangent(0, {responses});
   EXPECT_LT((stiffness - stiffness.transpose()).norm(), 1e-14);
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
   const double largest = values.tail<1>()(0);
