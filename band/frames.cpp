@@ -8,10 +8,12 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
 #include "band/local_strain.hpp"
+#include "common/csv_table.hpp"
 #include "common/error.hpp"
 
 namespace polargrain::band {
@@ -39,12 +41,9 @@ std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& f
   return files;
 }
 
-std::vector<std::string> split(const std::string& line, char separator) {
-  std::vector<std::string> words;
+std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line);
-  for (std::string word; std::getline(in, word, separator);)
-    if (separator == ',' || !word.empty()) words.push_back(word);
-  return words;
+  return {std::istream_iterator<std::string>(in), {}};
 }
 
 double number(const std::string& word, const std::filesystem::path& file, int line) {
@@ -58,27 +57,11 @@ double number(const std::string& word, const std::filesystem::path& file, int li
 }
 
 std::map<long, double> read_strains(const std::filesystem::path& file, const std::string& column) {
-  std::ifstream in(file);
-  std::string line;
-  if (!std::getline(in, line)) fail(file, 0, "the history of the run is missing or empty");
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  const std::vector<std::string> names = split(line, ',');
-  const auto place = [&](const std::string& name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      fail(file, 1, fmt::format("there is no column '{}'; there are {}", name, fmt::join(names, ", ")));
-    return static_cast<std::size_t>(found - names.begin());
-  };
-  const std::size_t step = place("step");
-  const std::size_t strain = place(column);
+  const CsvTable history(file);
+  const std::vector<double> steps = history.numbers("step");
+  const std::vector<double> of_rows = history.numbers(column);
   std::map<long, double> strains{{0, 0.0}};
-  for (int number_of_line = 2; std::getline(in, line); ++number_of_line) {
-    const std::vector<std::string> words = split(line, ',');
-    if (words.size() != names.size())
-      fail(file, number_of_line, "this line has not as many values as there are columns");
-    strains[std::lround(number(words[step], file, number_of_line))] =
-        number(words[strain], file, number_of_line);
-  }
+  for (std::size_t row = 0; row < steps.size(); ++row) strains[std::lround(steps[row])] = of_rows[row];
   return strains;
 }
 
@@ -93,7 +76,7 @@ Frame read_grain_dump(const std::filesystem::path& file) {
     ++number_of_line;
     if (!std::getline(in, line)) fail(file, 0, "a LIGGGHTS dump with a line 'ITEM: ATOMS ...' was expected");
   } while (line.rfind(head, 0) != 0);
-  const std::vector<std::string> names = split(line.substr(head.size()), ' ');
+  const std::vector<std::string> names = words_of(line.substr(head.size()));
   const auto place = [&](const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) fail(file, number_of_line, fmt::format("the dump has no column '{}'", name));
@@ -106,7 +89,7 @@ Frame read_grain_dump(const std::filesystem::path& file) {
   std::map<long, std::array<double, 3>> grains;
   while (std::getline(in, line)) {
     ++number_of_line;
-    const std::vector<std::string> words = split(line, ' ');
+    const std::vector<std::string> words = words_of(line);
     if (words.size() < names.size()) fail(file, number_of_line, "this line is short of columns");
     const auto value = [&](std::size_t column) { return number(words[column], file, number_of_line); };
     grains[std::lround(value(id))] = {value(x), value(y), value(turned)};

@@ -14,6 +14,7 @@
 #include "app/run/progress.hpp"
 #include "app/run/result_directory.hpp"
 #include "app/run/run.hpp"
+#include "common/csv_table.hpp"
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
@@ -52,9 +53,9 @@ void check_axes(const BenchAxes& axes, const coupler::Case& the_case) {
   }
 }
 
-double sum(const std::map<std::string, std::vector<double>>& columns, const std::string& name) {
-  const auto column = columns.find(name);
-  return column == columns.end() ? 0.0 : std::accumulate(column->second.begin(), column->second.end(), 0.0);
+double sum(const CsvTable& table, const std::string& name) {
+  const std::vector<double> values = table.numbers(name);
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 BenchResult take(const BenchSetting& setting, const std::filesystem::path& directory,
@@ -76,14 +77,13 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
   } catch (const RunError& error) {
     result.status = error.what();
   }
-  const auto history = read_columns(directory / "history.csv");
-  const auto costs = read_columns(directory / "costs.csv");
+  const CsvTable history(directory / "history.csv");
+  const CsvTable costs(directory / "costs.csv");
   result.seconds = sum(costs, "total");
   result.evaluations = sum(costs, "cell_evaluations");
   result.dem_steps = sum(costs, "dem_steps");
   for (const std::string& y : axes.y) {
-    BenchCurve curve;
-    if (history.count(axes.x) != 0) curve = {history.at(axes.x), history.at(y)};
+    BenchCurve curve{history.numbers(axes.x), history.numbers(y)};
     result.steps = std::max(0, static_cast<int>(curve.x.size()) - 1);
     result.curves.push_back(std::move(curve));
   }

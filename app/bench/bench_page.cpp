@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "app/bench/bench_plot.hpp"
+#include "app/bench/bench_charts.hpp"
+#include "app/page/page.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -12,7 +13,9 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
                          const std::vector<SizeScatter>& sizes) {
   std::string text = fmt::format(
       "<p>Reference: {}. Errors are the largest difference from its curve over {}, as a share of the curve's "
-      "range. Red: no other run is both faster and closer. White: stopped before its end.</p>\n",
+      "range. Red: no other run is both faster and closer. White: stopped before its end. Drawing a "
+      "rectangle "
+      "with the mouse enlarges it, a double click shows all again.</p>\n",
       escaped(results.front().setting.label), escaped(axes.x));
   if (sizes.empty()) return text;
   return text + fmt::format(
@@ -24,7 +27,7 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
 }
 
 std::string table_of(const BenchTable& table) {
-  std::string text = "<table>\n<tr>";
+  std::string text = "<div class='table'><table>\n<tr>";
   for (const std::string& title : titles_of(table)) text += "<th>" + escaped(title) + "</th>";
   text += "</tr>\n";
   for (const BenchRow& row : table.rows) {
@@ -32,7 +35,7 @@ std::string table_of(const BenchTable& table) {
     for (const std::string& cell : cells_of(table, row)) text += "<td>" + escaped(cell) + "</td>";
     text += "</tr>\n";
   }
-  return text + "</table>\n";
+  return text + "</table></div>\n";
 }
 
 }  // namespace
@@ -40,26 +43,22 @@ std::string table_of(const BenchTable& table) {
 std::string bench_page(const std::string& title, const BenchAxes& axes,
                        const std::vector<BenchResult>& results, const std::vector<SizeScatter>& sizes,
                        const BenchTable& table) {
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><title>{0}</title>\n"
-      "<style>body{{font-family:sans-serif;margin:2em}}table{{border-collapse:collapse}}"
-      "td,th{{border:1px solid #ccc;padding:.2em .6em;text-align:left}}tr.front{{background:#fdd}}"
-      "</style></head><body>\n<h1>{0}</h1>\n",
-      escaped("Speed against error: " + title));
-  page += introduction(axes, results, sizes);
+  std::string body = introduction(axes, results, sizes);
   for (std::size_t y = 0; y < axes.y.size(); ++y) {
-    const std::string plot = bench_plot(y, results, sizes);
-    if (!plot.empty()) page += "<h2>" + escaped(axes.y[y]) + "</h2>\n" + plot;
+    const std::string errors = error_chart(y, results, sizes);
+    const std::string curves = curve_chart(y, axes, results);
+    if (errors.empty() && curves.empty()) continue;
+    body += "<h2>" + escaped(axes.y[y]) + "</h2>\n" + errors + curves;
   }
-  page += table_of(table);
+  body += table_of(table);
   for (const BenchRow& row : table.rows) {
     const std::string name = row.what + (row.setting.empty() ? "" : ", " + row.setting);
     if (row.steps && row.status != "done")
-      page += fmt::format("<p>{}: {}</p>\n", escaped(name), escaped(row.status));
+      body += fmt::format("<p>{}: {}</p>\n", escaped(name), escaped(row.status));
     if (!row.no_band.empty())
-      page += fmt::format("<p>{}: no band: {}</p>\n", escaped(name), escaped(row.no_band));
+      body += fmt::format("<p>{}: no band: {}</p>\n", escaped(name), escaped(row.no_band));
   }
-  return page + "</body></html>\n";
+  return page("Speed against error: " + title, body);
 }
 
 }  // namespace polargrain::app

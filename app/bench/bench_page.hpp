@@ -7,8 +7,8 @@
 
 namespace polargrain::app {
 
-/// The results as one HTML page without any other file: a plot of error against seconds for each y, and the
-/// table.
+/// The results as one HTML page without any other file: for each y a chart of error against seconds and one of
+/// the curves, and the table.
 std::string bench_page(const std::string& title, const BenchAxes& axes,
                        const std::vector<BenchResult>& results, const std::vector<SizeScatter>& sizes,
                        const BenchTable& table);

@@ -5,31 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
-
-#include "common/error.hpp"
 
 namespace polargrain::app {
-
-std::map<std::string, std::vector<double>> read_columns(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  if (!std::getline(in, line)) throw RunError(fmt::format("{} cannot be read", file.string()));
-  std::vector<std::string> names;
-  std::istringstream header(line);
-  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
-  std::map<std::string, std::vector<double>> columns;
-  while (std::getline(in, line)) {
-    std::istringstream row(line);
-    std::string cell;
-    for (const std::string& name : names) {
-      if (!std::getline(row, cell, ',')) throw RunError(fmt::format("{}: a row is too short", file.string()));
-      columns[name].push_back(std::strtod(cell.c_str(), nullptr));
-    }
-  }
-  return columns;
-}
 
 double BenchCurve::at(double place) const {
   for (std::size_t k = 0; k + 1 < x.size(); ++k) {
@@ -44,6 +21,11 @@ double BenchCurve::at(double place) const {
 double peak_of(const BenchCurve& curve) {
   return *std::max_element(curve.y.begin(), curve.y.end(),
                            [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
+double peak_like(const BenchCurve& curve, double peak) {
+  const auto [least, most] = std::minmax_element(curve.y.begin(), curve.y.end());
+  return peak < 0.0 ? *least : *most;
 }
 
 BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference) {
@@ -81,7 +63,8 @@ BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
     error.largest = std::max(error.largest, std::abs(part.y[k] - expected.y[k]) / range);
   }
   const double reference_peak = peak_of(expected);
-  if (reference_peak != 0.0) error.peak = std::abs(peak_of(part) - reference_peak) / std::abs(reference_peak);
+  if (reference_peak != 0.0)
+    error.peak = std::abs(peak_like(part, reference_peak) - reference_peak) / std::abs(reference_peak);
   return error;
 }
 
@@ -94,7 +77,8 @@ void compare(std::vector<BenchResult>& results) {
     for (std::size_t k = 0; k < result.curves.size(); ++k) {
       if (result.curves[k].x.empty() || reference.curves[k].x.empty()) continue;  // stopped before its start
       result.errors.push_back(error_of(result.curves[k], reference.curves[k]));
-      result.peaks.push_back(peak_of(common_part(result.curves[k], reference.curves[k])));
+      result.peaks.push_back(
+          peak_like(common_part(result.curves[k], reference.curves[k]), peak_of(reference.curves[k])));
     }
   }
 }

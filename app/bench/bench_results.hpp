@@ -9,9 +9,6 @@
 
 namespace polargrain::app {
 
-/// Columns of a CSV file of numbers, by name. @throws RunError when it is no such file
-std::map<std::string, std::vector<double>> read_columns(const std::filesystem::path& file);
-
 /// One monitor against another, step by step.
 struct BenchCurve {
   std::vector<double> x;
@@ -24,6 +21,9 @@ struct BenchCurve {
 
 /// The value of largest magnitude. @param curve not empty
 double peak_of(const BenchCurve& curve);
+/// The value farthest to the side that a peak of another curve is on: where two curves go both ways, peaks on the same
+/// side are compared. @param curve not empty
+double peak_like(const BenchCurve& curve, double peak);
 
 /// What of a curve lies in the range of x of a reference, up to the edge itself.
 BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference);
@@ -31,7 +31,8 @@ BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference);
 /// How far a curve is from a reference: at the curve's own places, as far as both go, and where that ends.
 struct BenchError {
   double largest = 0.0;  ///< of the difference, over the range of the reference
-  double peak = 0.0;     ///< difference of the largest magnitudes, over that of the reference
+  double peak =
+      0.0;  ///< difference of the peaks on the reference's side (peak_like), over that of the reference
 };
 BenchError error_of(const BenchCurve& curve, const BenchCurve& reference);
 
@@ -54,7 +55,7 @@ struct BenchResult {
   std::vector<BenchCurve> curves;  ///< one for each y
   BenchBand band;
   std::vector<BenchError> errors;  ///< one for each y; empty while there is nothing to compare with
-  std::vector<double> peaks;       ///< of each y, as far as the reference goes; empty as `errors`
+  std::vector<double> peaks;       ///< of each y on the side of that of the reference; empty as `errors`
   bool on_front = false;           ///< no other finished run is both faster and closer
 
   [[nodiscard]] bool done() const { return status == "done"; }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/commands/csv_file.hpp"
+#include "app/run/json_text.hpp"
 #include "band/frames.hpp"
 #include "band/shear_band.hpp"
 #include "common/error.hpp"
@@ -70,26 +71,24 @@ void write_samples(const std::filesystem::path& file, const Samples& samples) {
 }
 
 void write_summary(const std::filesystem::path& file, const BandMeasurement& measured) {
-  std::string text =
-      fmt::format("{{\n  \"from\": {:.17g},\n  \"to\": {:.17g},\n", measured.begin, measured.end);
-  if (!measured.search.band) {
-    text += fmt::format("  \"found\": false,\n  \"reason\": \"{}\"\n}}\n", measured.search.reason);
+  nlohmann::ordered_json summary{
+      {"from", measured.begin}, {"to", measured.end}, {"found", measured.search.band.has_value()}};
+  if (const std::optional<Band>& found = measured.search.band) {
+    summary["inclination_degrees"] = found->inclination / kDegree;
+    summary["thickness"] = found->thickness;
+    summary["resolution"] = found->resolution;
+    summary["centre"] = {found->centre.x(), found->centre.y()};
+    summary["peak_shear"] = found->peak;
+    summary["background_shear"] = found->background;
+    summary["rotation_inside"] = measured.rotation.inside;
+    summary["rotation_outside"] = measured.rotation.outside;
+    summary["volume_strain_inside"] = measured.volume_strain.inside;
+    summary["volume_strain_outside"] = measured.volume_strain.outside;
+    summary["onset_strain"] = measured.onset ? nlohmann::ordered_json(*measured.onset) : nullptr;
   } else {
-    const Band& found = *measured.search.band;
-    text += fmt::format(
-        "  \"found\": true,\n"
-        "  \"inclination_degrees\": {:.17g},\n  \"thickness\": {:.17g},\n"
-        "  \"resolution\": {:.17g},\n  \"centre\": [{:.17g}, {:.17g}],\n"
-        "  \"peak_shear\": {:.17g},\n  \"background_shear\": {:.17g},\n"
-        "  \"rotation_inside\": {:.17g},\n  \"rotation_outside\": {:.17g},\n"
-        "  \"volume_strain_inside\": {:.17g},\n  \"volume_strain_outside\": {:.17g},\n"
-        "  \"onset_strain\": {}\n}}\n",
-        found.inclination / kDegree, found.thickness, found.resolution, found.centre.x(), found.centre.y(),
-        found.peak, found.background, measured.rotation.inside, measured.rotation.outside,
-        measured.volume_strain.inside, measured.volume_strain.outside,
-        measured.onset ? exact(*measured.onset) : "null");
+    summary["reason"] = measured.search.reason;
   }
-  fem::write_file(file, text);
+  fem::write_file(file, json_text(summary));
 }
 
 }  // namespace

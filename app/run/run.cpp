@@ -12,6 +12,7 @@
 #include "app/run/proof.hpp"
 #include "app/run/result_directory.hpp"
 #include "app/run/resume.hpp"
+#include "app/run/run_checkpoints.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/run_observer.hpp"
 #include "app/run/sample.hpp"
@@ -44,7 +45,8 @@ class Run {
         directory_(std::move(directory)),
         from_(std::move(from)),
         resume_command_(resume_command(options, directory_)),
-        checkpoint_seconds_(60.0 * options.checkpoint_minutes.value_or(case_.checkpoint_minutes)),
+        checkpoints_(directory_, case_.steps(),
+                     60.0 * options.checkpoint_minutes.value_or(case_.checkpoint_minutes)),
         log_("run",
              std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), !from_)),
         observer_(Progress::style_for(stderr, options.quiet), case_.steps(), log_),
@@ -69,7 +71,8 @@ class Run {
       end_badly("stopped", error.what());
       throw Interrupted(record_.message);
     } catch (const FalseResults& error) {
-      forget_what_may_be_false();
+      if (checkpoints_.forget())
+        warn("the checkpoint of this run may hold false answers: it is checkpoint.doubtful.h5 now");
       end_badly("failed", error.what());
       throw RunError(record_.message);
     } catch (const std::exception& error) {
@@ -87,8 +90,8 @@ class Run {
   /// Takes over what the checkpoint says about the steps taken.
   void go_on() {
     first_step_ = from_->step + 1;
-    saved_step_ = from_->step;
-    for (CommittedStep& step : steps_of_history(from_->history, case_)) count(std::move(step));
+    checkpoints_.begin_from(from_->step);
+    for (CommittedStep& step : steps_of_history(from_->history, case_)) record_.add(std::move(step));
     PrefixedReader totals(from_->state, "run/");
     restore(totals, record_.costs, counts_before_);
     record_.pool = counts_before_;
@@ -132,7 +135,7 @@ class Run {
     PrefixedReader state(from_->state, "solver/");
     solver_->restore(state);
     observer_.go_on(solver_->state().time);
-    last_ = std::move(from_);
+    checkpoints_.keep(std::move(from_));
     if (!record_.steps.empty()) files_.write(record_.steps.back(), *solver_);
   }
 
@@ -157,7 +160,7 @@ class Run {
       if (const auto displaced = lock_.displacement()) throw RunError(displaced->text);
       if (report.converged || partly) files_.write(committed, *solver_);
       files_.write_rows();
-      count(std::move(committed));
+      record_.add(std::move(committed));
       if (!report.converged) {
         end_badly("failed",
                   fmt::format("step {} of {} did not converge: {}", step, case_.steps(), report.message));
@@ -165,7 +168,7 @@ class Run {
       }
       log_notes();
       if (!left_out_) warn_of_left_out();
-      if (step == case_.steps() || is_due()) save_or_warn();
+      if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
       observer_.end_step(report.time);
     }
     return true;
@@ -181,16 +184,6 @@ class Run {
         break;
     }
     return solver_->advance(target.amount);
-  }
-
-  void count(CommittedStep step) {
-    record_.iterations += step.report.iterations;
-    record_.cuts += step.report.cuts;
-    record_.evaluations += step.report.evaluations;
-    record_.within_noise += step.report.within_noise;
-    record_.within_rounding += step.report.within_rounding;
-    record_.limited += step.report.limited;
-    if (!step.values.empty()) record_.steps.push_back(std::move(step));
   }
 
   /// What the cells have cost since the start of the run, before the checkpoint included.
@@ -232,7 +225,7 @@ class Run {
     try {
       // Nothing will follow the last step.
       if (step < case_.steps()) solver_->save(state);
-      last_ = std::move(checkpoint);
+      checkpoints_.keep(std::move(checkpoint));
     } catch (const RunError& error) {
       if (step == 0) warn(fmt::format("this run cannot be interrupted without loss: {}", error.what()));
     }
@@ -243,17 +236,9 @@ class Run {
     observer_.warn(text);
   }
 
-  [[nodiscard]] bool is_due() const {
-    return saved_step_ < 0 || seconds_since(saved_) >= checkpoint_seconds_;
-  }
-
   void save_last() {
-    if (!last_ || last_->step == saved_step_) return;
-    const Clock::time_point begin = Clock::now();
-    write_checkpoint(directory_ / kCheckpointFile, *last_);
-    saved_ = Clock::now();
-    saved_step_ = last_->step;
-    log_.info("  checkpoint of step {} written in {:.3f} s", saved_step_, seconds_since(begin));
+    if (const auto seconds = checkpoints_.save())
+      log_.info("  checkpoint of step {} written in {:.3f} s", checkpoints_.saved_step(), *seconds);
   }
 
   /// A run that computes is worth more than a checkpoint that fails: it goes on and tries again later.
@@ -261,14 +246,9 @@ class Run {
     try {
       save_last();
     } catch (const RunError& error) {
-      saved_ = Clock::now();
-      warn(fmt::format("{}; {}; the run goes on", error.what(), text_of_saved()));
+      checkpoints_.postpone();
+      warn(fmt::format("{}; {}; the run goes on", error.what(), checkpoints_.text()));
     }
-  }
-
-  [[nodiscard]] std::string text_of_saved() const {
-    return saved_step_ < 0 ? "there is none yet"
-                           : fmt::format("the last one is of step {} of {}", saved_step_, case_.steps());
   }
 
   void log_notes() {
@@ -298,16 +278,6 @@ class Run {
     return fmt::format("\nthe cell that failed can be run alone: see {}", (replay / "README.md").string());
   }
 
-  /// No checkpoint of this run is to be gone on from by mistake. One that it has itself begun from is what it was.
-  void forget_what_may_be_false() {
-    last_.reset();
-    if (saved_step_ < first_step_) return;
-    std::error_code error;
-    std::filesystem::rename(directory_ / kCheckpointFile, directory_ / "checkpoint.doubtful.h5", error);
-    saved_step_ = -1;
-    warn("the checkpoint of this run may hold false answers: it is checkpoint.doubtful.h5 now");
-  }
-
   /// When the directory has gone, what can be saved goes where it is now, or to a new one.
   void follow_directory() {
     const auto displaced = lock_.displacement();
@@ -315,12 +285,12 @@ class Run {
     // A file that could not be written meanwhile is what comes of it.
     if (record_.message != displaced->text)
       record_.message = fmt::format("{} ({})", displaced->text, record_.message);
-    if (displaced->now.empty()) saved_step_ = -1;  // the checkpoint went with it
     try {
       directory_ = displaced->now.empty() ? make_rescue_directory(directory_) : displaced->now;
     } catch (const RunError& error) {
       record_.message += fmt::format("; {}", error.what());
     }
+    checkpoints_.follow(directory_, !displaced->now.empty());
     resume_command_ = resume_command(options_, directory_);
   }
 
@@ -338,8 +308,8 @@ class Run {
     } catch (const std::exception& error) {
       record_.message += fmt::format("\n{}", error.what());
     }
-    record_.message += fmt::format("\ncheckpoint: {}", text_of_saved());
-    if (saved_step_ >= 0) record_.message += fmt::format("; to go on:\n  {}", resume_command_);
+    record_.message += fmt::format("\ncheckpoint: {}", checkpoints_.text());
+    if (checkpoints_.saved_step() >= 0) record_.message += fmt::format("; to go on:\n  {}", resume_command_);
     log_.error("{}", record_.message);
     try {
       finish();
@@ -373,24 +343,21 @@ class Run {
 
   const RunOptions& options_;
   const DirectoryLock& lock_;
-  Clock::time_point lap_ = Clock::now();    ///< end of the step before
-  Clock::time_point saved_ = Clock::now();  ///< when the last checkpoint was written
+  Clock::time_point lap_ = Clock::now();  ///< end of the step before
   coupler::Case case_;
   std::optional<coupler::Listening> listening_;
   StateCheck state_fault_;
   std::filesystem::path directory_;
   std::unique_ptr<coupler::Checkpoint> from_;
   std::string resume_command_;
-  double checkpoint_seconds_;
+  RunCheckpoints checkpoints_;
   spdlog::logger log_;
   RunObserver observer_;
   RunFiles files_;
   RunRecord record_;
   int first_step_ = 0;
-  bool left_out_ = false;                      ///< it was said what small deformation leaves out
-  int saved_step_ = -1;                        ///< of the checkpoint on disk; -1: there is none
-  std::unique_ptr<coupler::Checkpoint> last_;  ///< after the last committed step
-  coupler::PoolCounts counts_before_;          ///< before the checkpoint this run has gone on from
+  bool left_out_ = false;              ///< it was said what small deformation leaves out
+  coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
   std::optional<fem::Solver> solver_;
   Sample sample_;

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "app/commands/csv_file.hpp"
+#include "app/run/json_text.hpp"
 #include "app/run/proof.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
@@ -15,159 +14,108 @@
 namespace polargrain::app {
 namespace {
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
+/// An object whose members stay in the order in which they are written.
+using Json = nlohmann::ordered_json;
 
-/// JSON knows no infinity and no NaN.
-std::string number(double value) {
-  return std::isfinite(value) ? exact(value) : "null";
-}
-
-/// Lines of `"key": value`, joined into an object.
-class JsonObject {
- public:
-  JsonObject& raw(const std::string& key, const std::string& value) {
-    lines_.push_back(quoted(key) + ": " + value);
-    return *this;
-  }
-  JsonObject& text(const std::string& key, const std::string& value) { return raw(key, quoted(value)); }
-  JsonObject& real(const std::string& key, double value) { return raw(key, number(value)); }
-  JsonObject& whole(const std::string& key, std::int64_t value) { return raw(key, std::to_string(value)); }
-  [[nodiscard]] std::string finish(const std::string& indent) const {
-    return fmt::format("{{\n{}  {}\n{}}}", indent, fmt::join(lines_, ",\n" + indent + "  "), indent);
-  }
-
- private:
-  std::vector<std::string> lines_;
-};
-
-std::string error_figures(const RunRecord& record) {
+Json error_figures(const RunRecord& record) {
   double force = 0.0;
   double moment = 0.0;
   for (const CommittedStep& step : record.steps) {
     force = std::max(force, step.report.force_residual);
     moment = std::max(moment, step.report.moment_residual);
   }
-  JsonObject errors;
-  errors.real("largest_force_residual", force).real("largest_moment_residual", moment);
+  Json errors{{"largest_force_residual", force}, {"largest_moment_residual", moment}};
   if (!record.steps.empty()) {
     const MonitorValues& last = record.steps.back().values;
-    errors.real("external_minus_internal_work",
-                value_of(last, "external_work") - value_of(last, "internal_work"));
+    errors["external_minus_internal_work"] =
+        value_of(last, "external_work") - value_of(last, "internal_work");
   }
-  return errors.finish("  ");
+  return errors;
 }
 
-std::string cost_figures(const RunRecord& record) {
-  const Costs& c = record.costs;
-  return JsonObject()
-      .real("total", c.total)
-      .real("grains", c.grains)
-      .real("messages", c.messages)
-      .real("waiting", c.waiting)
-      .real("finite_elements", c.finite_elements)
-      .real("rest", c.rest)
-      .finish("  ");
+Json cost_figures(const Costs& c) {
+  return {{"total", c.total},
+          {"grains", c.grains},
+          {"messages", c.messages},
+          {"waiting", c.waiting},
+          {"finite_elements", c.finite_elements},
+          {"rest", c.rest}};
 }
 
-std::string cell_figures(const coupler::PoolCounts& pool) {
-  return JsonObject()
-      .whole("evaluations", pool.evaluations)
-      .whole("dem_steps", pool.dem_steps)
-      .real("engine_seconds", pool.engine_seconds)
-      .whole("states_sent", pool.states_sent)
-      .whole("states_fetched", pool.states_fetched)
-      .whole("evaluations_again", pool.evaluations_again)
-      .whole("evaluations_checked", pool.evaluations_checked)
-      .whole("bytes_sent", pool.bytes_sent)
-      .whole("bytes_received", pool.bytes_received)
-      .finish("  ");
+Json cell_figures(const coupler::PoolCounts& pool) {
+  return {{"evaluations", pool.evaluations},
+          {"dem_steps", pool.dem_steps},
+          {"engine_seconds", pool.engine_seconds},
+          {"states_sent", pool.states_sent},
+          {"states_fetched", pool.states_fetched},
+          {"evaluations_again", pool.evaluations_again},
+          {"evaluations_checked", pool.evaluations_checked},
+          {"bytes_sent", pool.bytes_sent},
+          {"bytes_received", pool.bytes_received}};
 }
 
-std::string material_figures(const RunRecord& record) {
-  JsonObject regions;
+Json material_figures(const RunRecord& record) {
+  Json regions = Json::object();
   for (const auto& [region, figures] : record.figures) {
-    JsonObject material;
-    for (const fem::Figure& figure : figures) material.real(figure.name, figure.value);
-    regions.raw(region, material.finish("    "));
+    Json& material = regions[region] = Json::object();
+    for (const fem::Figure& figure : figures) material[figure.name] = figure.value;
   }
-  return regions.finish("  ");
-}
-
-std::string names_figure(const std::map<std::string, std::string>& names) {
-  JsonObject object;
-  for (const auto& [key, name] : names) object.text(key, name);
-  return object.finish("    ");
+  return regions;
 }
 
 /// What the result was made from, by whom, and what it is.
-std::string proof_figures(const coupler::Case& the_case, const RunRecord& record) {
-  JsonObject workers;
-  for (const auto& [worker, done] : record.worker_records) {
-    workers.raw(worker, JsonObject()
-                            .whole("evaluations", done.evaluations)
-                            .text("processor", done.processor)
-                            .finish("      "));
-  }
-  std::vector<std::string> settings;
-  for (const std::string& setting : record.settings) settings.push_back(quoted(setting));
-  return JsonObject()
-      .text("processor", processor_model())
-      .text("case_file", name_of_file(the_case.file))
-      .raw("settings", fmt::format("[{}]", fmt::join(settings, ", ")))
-      .raw("files", names_figure(the_case.identity.files))
-      .raw("results", names_figure(record.results))
-      .raw("workers", workers.finish("    "))
-      .finish("  ");
+Json proof_figures(const coupler::Case& the_case, const RunRecord& record) {
+  Json workers = Json::object();
+  for (const auto& [worker, done] : record.worker_records)
+    workers[worker] = {{"evaluations", done.evaluations}, {"processor", done.processor}};
+  return {{"processor", processor_model()}, {"case_file", name_of_file(the_case.file)},
+          {"settings", record.settings},    {"files", the_case.identity.files},
+          {"results", record.results},      {"workers", workers}};
 }
 
-std::string last_values(const RunRecord& record) {
-  JsonObject values;
+Json last_values(const RunRecord& record) {
+  Json values = Json::object();
   if (!record.steps.empty()) {
-    for (const auto& [name, value] : record.steps.back().values) values.real(name, value);
+    for (const auto& [name, value] : record.steps.back().values) values[name] = value;
   }
-  return values.finish("  ");
+  return values;
 }
 
 }  // namespace
 
+void RunRecord::add(CommittedStep step) {
+  iterations += step.report.iterations;
+  cuts += step.report.cuts;
+  evaluations += step.report.evaluations;
+  within_noise += step.report.within_noise;
+  within_rounding += step.report.within_rounding;
+  limited += step.report.limited;
+  if (!step.values.empty()) steps.push_back(std::move(step));
+}
+
 void write_summary(const std::filesystem::path& file, const coupler::Case& the_case,
                    const RunRecord& record) {
-  const std::string text = JsonObject()
-                               .text("program", "polargrain " POLARGRAIN_VERSION)
-                               .text("case", the_case.file.string())
-                               .text("title", the_case.title)
-                               .text("status", record.status)
-                               .text("message", record.message)
-                               .whole("steps_asked", the_case.steps())
-                               .whole("steps_committed", record.steps.empty() ? 0 : record.steps.back().step)
-                               .whole("iterations", record.iterations)
-                               .whole("cuts", record.cuts)
-                               .whole("substeps_within_noise", record.within_noise)
-                               .whole("substeps_within_rounding", record.within_rounding)
-                               .whole("corrections_limited", record.limited)
-                               .whole("point_evaluations", record.evaluations)
-                               .whole("workers", record.workers)
-                               .raw("values", last_values(record))
-                               .raw("errors", error_figures(record))
-                               .raw("seconds", cost_figures(record))
-                               .raw("cells", cell_figures(record.pool))
-                               .raw("materials", material_figures(record))
-                               .raw("proof", proof_figures(the_case, record))
-                               .finish("");
-  fem::write_file(file, text + '\n');
+  const Json summary{{"program", "polargrain " POLARGRAIN_VERSION},
+                     {"case", the_case.file.string()},
+                     {"title", the_case.title},
+                     {"status", record.status},
+                     {"message", record.message},
+                     {"steps_asked", the_case.steps()},
+                     {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},
+                     {"iterations", record.iterations},
+                     {"cuts", record.cuts},
+                     {"substeps_within_noise", record.within_noise},
+                     {"substeps_within_rounding", record.within_rounding},
+                     {"corrections_limited", record.limited},
+                     {"point_evaluations", record.evaluations},
+                     {"workers", record.workers},
+                     {"values", last_values(record)},
+                     {"errors", error_figures(record)},
+                     {"seconds", cost_figures(record.costs)},
+                     {"cells", cell_figures(record.pool)},
+                     {"materials", material_figures(record)},
+                     {"proof", proof_figures(the_case, record)}};
+  fem::write_file(file, json_text(summary));
 }
 
 std::string table_text(const coupler::Case& the_case, const RunRecord& record) {

@@ -37,6 +37,9 @@ struct RunRecord {
   std::map<std::string, std::string> results;  ///< names of contents, see names_of_results
   std::map<std::string, coupler::WorkerRecord>
       worker_records;  ///< since the run was started, or resumed, last
+
+  /// Counts a step; one without values, which was not reached at all, is counted only.
+  void add(CommittedStep step);
 };
 
 /// Writes summary.json: status, figures of cost and error, last values of the monitors.

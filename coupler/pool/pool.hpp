@@ -12,8 +12,8 @@
 
 #include "common/cell.hpp"
 #include "common/state_check.hpp"
+#include "coupler/pool/listening.hpp"
 #include "coupler/pool/patience.hpp"
-#include "coupler/pool/switchboard.hpp"
 #include "coupler/pool/worker.hpp"
 
 namespace polargrain::coupler {

@@ -10,15 +10,9 @@
 #include <vector>
 #include <zmq.hpp>
 
-#include "coupler/pool/keys.hpp"
+#include "coupler/pool/listening.hpp"
 
 namespace polargrain::coupler {
-
-/// Where workers of other machines may come to.
-struct Listening {
-  std::string url;  ///< tcp://HOST:PORT, tcp://*:PORT for all interfaces
-  CoordinatorKeys keys;
-};
 
 /// Who a message comes from or goes to.
 struct Address {

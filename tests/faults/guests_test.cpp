@@ -16,6 +16,7 @@
 #include <iostream>
 #include <random>
 #include <thread>
+#include <zmq.hpp>
 
 #include "common/error.hpp"
 #include "coupler/pool/pool.hpp"

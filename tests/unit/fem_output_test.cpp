@@ -13,6 +13,7 @@
 #include "fem/material/local_material.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/output/base64.hpp"
+#include "fem/output/read_vtu.hpp"
 #include "fem/output/vtu.hpp"
 
 using namespace polargrain;
@@ -83,6 +84,15 @@ TEST_P(Output, is_read_back_by_vtk) {
   const std::filesystem::path file = folder_ / "fields_0001.vtu";
   write_vtu(file, solver.problem().mesh, collect_fields(solver));
 
+  const FieldFile again = read_vtu(file);
+  EXPECT_EQ(again.mesh.nodes, solver.problem().mesh.nodes);
+  ASSERT_EQ(again.mesh.elements.size(), solver.problem().mesh.elements.size());
+  for (std::size_t e = 0; e < again.mesh.elements.size(); ++e)
+    EXPECT_EQ(again.mesh.elements[e].nodes, solver.problem().mesh.elements[e].nodes);
+  ASSERT_NE(find_field(again.fields.cells, "stress"), nullptr);
+  for (const Field& field : collect_fields(solver).cells)
+    EXPECT_EQ(find_field(again.fields.cells, field.name)->values, field.values) << field.name;
+
   auto lines = run("/usr/bin/python3 " VTK_READER " " + file.string());
   const Mesh& mesh = solver.problem().mesh;
   EXPECT_EQ(lines["grid"],
@@ -118,6 +128,34 @@ TEST(pvd, lists_its_files) {
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_NE(text.find("<DataSet timestep=\"0.5\" file=\"fields_0001.vtu\"/>"), std::string::npos) << text;
   EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+  std::filesystem::remove(file);
+}
+
+TEST(read_vtu, refuses_what_does_not_fit_together) {
+  const auto file = std::filesystem::temp_directory_path() / "fem_output_refused.vtu";
+  const Mesh mesh = rectangle({{1.0, 1.0}, {1, 1}});
+  write_vtu(file, mesh, {{{"displacement", 3, std::vector<double>(3 * mesh.nodes.size(), 0.0)}}, {}});
+  std::ifstream stream(file);
+  const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+  const auto fault = [&](const std::string& found, const std::string& instead) {
+    std::string text = whole;
+    text.replace(text.find(found), found.size(), instead);
+    std::ofstream(file) << text;
+    try {
+      (void)read_vtu(file);
+    } catch (const InputError& error) {
+      return error.faults().front().message.substr(error.faults().front().message.find(": ") + 2);
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(fault("UnstructuredGrid", "UnstructuredGrid"), "none");
+  EXPECT_EQ(fault("<UnstructuredGrid>", "<Grid>"), "Start-end tags mismatch");
+  EXPECT_EQ(fault("Name=\"types\"", "Name=\"kinds\""), "there is no array 'types'");
+  EXPECT_EQ(fault("Components=\"3\"", "Components=\"2\""),
+            "the array 'displacement' has not a value for each of 8 entities");
+  EXPECT_EQ(
+      fault("Name=\"types\" NumberOfComponents=\"1\" format=\"binary\">\nA", "Name=\"types\" x=\"\">\nB"),
+      "the array 'types' is cut or of another kind");
   std::filesystem::remove(file);
 }
 

@@ -52,10 +52,11 @@ TEST_F(PackingFile, FaultsNameTheLineAndWhatIsExpected) {
             ":1: the base vectors span no area (or are left-handed)");
   EXPECT_EQ(fault("# cell xx=0.2 xy=0 yx=0 yy=0.2 z=0.1\nx,y\n"),
             ":2: expected the column names 'id,x,y,r,mass,Izz'");
-  EXPECT_EQ(fault(kHeader), ":3: the packing has no grains");
-  EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0.02\n"), ":3: expected 6 values 'id,x,y,r,mass,Izz'");
-  EXPECT_EQ(fault(kHeader + "0,0.01,0.02,five,0.02,1e-7\n"), ":3: 'five' is not a number");
-  EXPECT_EQ(fault(kHeader + "0,0.01,nan,0.005,0.02,1e-7\n"), ":3: 'nan' is not a number");
+  EXPECT_EQ(fault(kHeader), ":2: the packing has no grains");
+  EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0.02\n"),
+            ":3: there are 6 columns ('id,x,y,r,mass,Izz') and 5 values here");
+  EXPECT_EQ(fault(kHeader + "0,0.01,0.02,five,0.02,1e-7\n"), ":3: 'five' in column 'r' is not a number");
+  EXPECT_EQ(fault(kHeader + "0,0.01,nan,0.005,0.02,1e-7\n"), ":3: 'nan' in column 'y' is not a number");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,-0.005,0.02,1e-7\n"), ":3: the radius must be positive");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0,1e-7\n"), ":3: the mass must be positive");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0.02,1e-7\n0,0.05,0.02,0.005,0.02,1e-7\n"),

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string_view>
+
+namespace polargrain::app {
+
+/// What pages carry with them: built into the program by CMake from the files of this folder and from Chart.js.
+std::string_view style_sheet();
+std::string_view chart_library();
+std::string_view chart_script();
+
+}  // namespace polargrain::app

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Draws the charts of a page from the JSON beside each canvas (app/page/page.hpp) with Chart.js.
+"use strict";
+
+const palette = ["#3a7ca5", "#d1603d", "#4f9d69", "#8e5ea2", "#b8902e", "#5b6770", "#c2477f", "#2a9d8f"];
+
+function colourOf(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+function short(value) {
+  return Number(value.toPrecision(4)).toString();
+}
+
+function axisOf(axis) {
+  const shown = (value) => (axis.percent ? short(100 * value) + " %" : short(value));
+  return {
+    type: axis.logarithmic ? "logarithmic" : "linear",
+    grace: axis.logarithmic ? 0 : "3%",
+    title: { display: true, text: axis.title, color: colourOf("--text") },
+    grid: { color: colourOf("--faint") },
+    ticks: {
+      color: colourOf("--text"),
+      callback: (value) => {
+        // A logarithmic axis marks 1, 2 and 5 of each decade.
+        if (axis.logarithmic && ![1, 2, 5].includes(Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9))))
+          return null;
+        return shown(value);
+      },
+    },
+    shown,
+  };
+}
+
+function datasetOf(series, number) {
+  const colour = series.colour || palette[number % palette.length];
+  return {
+    label: series.name,
+    data: series.points.map(([x, y]) => ({ x, y })),
+    showLine: series.line,
+    borderColor: series.line ? colour : colourOf("--text"),
+    backgroundColor: colour,
+    borderWidth: series.line ? 2 : 1,
+    borderDash: series.dashed ? [6, 4] : [],
+    pointStyle: series.line ? "line" : series.square ? "rect" : "circle",
+    pointRadius: series.line ? 0 : series.size,
+    pointHitRadius: 6,
+    named: series.named,
+  };
+}
+
+// Names beside points, each where it covers no other: below and above in turns, ever farther.
+const names = {
+  id: "names",
+  afterDatasetsDraw(chart) {
+    const context = chart.ctx;
+    const taken = [];
+    context.save();
+    context.font = "12px sans-serif";
+    context.fillStyle = colourOf("--text");
+    chart.data.datasets.forEach((dataset, number) => {
+      const point = chart.getDatasetMeta(number).data[0];
+      if (!dataset.named || !point || !chart.isDatasetVisible(number)) return;
+      const area = chart.chartArea;
+      if (point.x < area.left - 1 || point.x > area.right + 1 || point.y < area.top - 1 || point.y > area.bottom + 1)
+        return;
+      const width = context.measureText(dataset.label).width;
+      const gap = (dataset.pointRadius || 0) + 4;
+      const left = point.x + gap + width > chart.width ? point.x - gap - width : point.x + gap;
+      let y = point.y + 4;
+      for (let k = 0; k < 12; ++k) {
+        y = point.y + 4 + 13 * (k % 2 === 0 ? k / 2 : -(k + 1) / 2);
+        if (!taken.some((other) => left < other.right && left + width > other.left && Math.abs(y - other.y) < 12)) break;
+      }
+      taken.push({ left, right: left + width, y });
+      context.fillText(dataset.label, left, y);
+    });
+    context.restore();
+  },
+};
+
+// A rectangle drawn with the mouse is enlarged; a double click shows all again.
+function makeZoomable(chart) {
+  const canvas = chart.canvas;
+  const frame = document.createElement("div");
+  frame.style.cssText = "position:absolute;border:1px dashed currentColor;pointer-events:none;display:none";
+  canvas.parentNode.appendChild(frame);
+  let start = null;
+  const place = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+  canvas.addEventListener("pointerdown", (event) => (start = place(event)));
+  canvas.addEventListener("pointermove", (event) => {
+    if (!start) return;
+    const now = place(event);
+    frame.style.display = "block";
+    frame.style.left = Math.min(start.x, now.x) + "px";
+    frame.style.top = Math.min(start.y, now.y) + "px";
+    frame.style.width = Math.abs(now.x - start.x) + "px";
+    frame.style.height = Math.abs(now.y - start.y) + "px";
+  });
+  window.addEventListener("pointerup", (event) => {
+    if (!start) return;
+    const now = place(event);
+    for (const key of ["x", "y"]) {
+      if (Math.abs(now.x - start.x) < 8 || Math.abs(now.y - start.y) < 8) break;
+      const scale = chart.scales[key];
+      const ends = [scale.getValueForPixel(start[key]), scale.getValueForPixel(now[key])];
+      chart.options.scales[key].min = Math.min(...ends);
+      chart.options.scales[key].max = Math.max(...ends);
+    }
+    start = null;
+    frame.style.display = "none";
+    chart.update("none");
+  });
+  canvas.addEventListener("dblclick", () => {
+    for (const key of ["x", "y"]) {
+      delete chart.options.scales[key].min;
+      delete chart.options.scales[key].max;
+    }
+    chart.update("none");
+  });
+}
+
+for (const figure of document.querySelectorAll("figure.chart")) {
+  const content = JSON.parse(figure.querySelector("script").textContent);
+  const scales = { x: axisOf(content.x), y: axisOf(content.y) };
+  const chart = new Chart(figure.querySelector("canvas"), {
+    type: "scatter",
+    data: { datasets: content.series.map(datasetOf) },
+    plugins: [names],
+    options: {
+      animation: false,
+      maintainAspectRatio: false,
+      scales,
+      plugins: {
+        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true } },
+        tooltip: {
+          callbacks: {
+            label: (item) =>
+              `${item.dataset.label}: ${scales.x.shown(item.parsed.x)}, ${scales.y.shown(item.parsed.y)}`,
+          },
+        },
+      },
+    },
+  });
+  makeZoomable(chart);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "coupler/checkpoint/checkpoint.hpp"
+
+namespace polargrain::app {
+
+/// What a run can be gone on from: its last committed step in memory, and the one that is on the disk.
+class RunCheckpoints {
+ public:
+  /// @param steps of the whole run @param seconds_between two that are written
+  RunCheckpoints(std::filesystem::path directory, int steps, double seconds_between)
+      : directory_(std::move(directory)), steps_(steps), seconds_between_(seconds_between) {}
+
+  /// The run itself goes on from the one on the disk, which is of that step.
+  void begin_from(int step);
+  /// Takes the last committed step, so that it can be written whenever the run has to stop.
+  void keep(std::unique_ptr<coupler::Checkpoint> last) { last_ = std::move(last); }
+  /// Whether it is time to write one.
+  [[nodiscard]] bool is_due() const;
+  /// Writes what was kept last. @returns how many seconds it took; nothing when it is there already
+  /// @throws RunError when it cannot be written; the one before stands
+  std::optional<double> save();
+  /// The next one is due after the usual time only.
+  void postpone();
+  /// Nobody is to go on by mistake from what this run has kept and written. The one it has itself begun from is what
+  /// it was. @returns whether there was one, which is checkpoint.doubtful.h5 now
+  bool forget();
+  /// The directory of the run is elsewhere now. @param with_its_files or is a new, empty one
+  void follow(const std::filesystem::path& directory, bool with_its_files);
+  /// Of the one on the disk; -1: there is none.
+  [[nodiscard]] int saved_step() const { return saved_step_; }
+  /// The same in words.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::filesystem::path directory_;
+  int steps_;
+  double seconds_between_;
+  Clock::time_point saved_ = Clock::now();
+  int saved_step_ = -1;
+  int begun_from_ = -1;
+  std::unique_ptr<coupler::Checkpoint> last_;
+};
+
+}  // namespace polargrain::app

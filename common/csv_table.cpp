@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "common/csv_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include "common/error.hpp"
+
+namespace polargrain {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace
+
+CsvTable::CsvTable(const std::filesystem::path& file) : file_(file) {
+  std::ifstream stream(file);
+  if (!stream) fail(0, "cannot be read: no such file, or no permission");
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (trimmed(line).empty()) continue;
+    if (names_.empty() && line.front() == '#') {
+      comments_.push_back(line);
+    } else if (names_.empty()) {
+      names_ = cells_of(line, number);
+      line_of_names_ = number;
+    } else {
+      rows_.push_back({number, cells_of(line, number)});
+      if (const std::size_t count = rows_.back().cells.size(); count != names_.size())
+        fail(number, fmt::format("there are {} columns ('{}') and {} values here", names_.size(),
+                                 fmt::join(names_, ","), count));
+    }
+  }
+  if (names_.empty()) fail(0, "is empty; a line with the names of the columns was expected");
+}
+
+std::vector<std::string> CsvTable::cells_of(const std::string& line, int number) const {
+  std::vector<std::string> cells;
+  for (std::string_view rest = trimmed(line);;) {
+    std::string cell;
+    rest = trimmed(rest);
+    const bool is_quoted = !rest.empty() && rest.front() == '"';
+    if (is_quoted) {
+      rest.remove_prefix(1);
+      for (;; rest.remove_prefix(1)) {
+        if (rest.empty()) fail(number, "a quotation mark opens a value and none closes it");
+        if (rest.front() == '"') {
+          rest.remove_prefix(1);
+          if (rest.empty() || rest.front() != '"') break;  // two stand for one
+        }
+        cell += rest.front();
+      }
+    }
+    const std::size_t comma = rest.find(',');
+    const std::string_view plain = trimmed(rest.substr(0, comma));
+    if (is_quoted && !plain.empty()) fail(number, "a comma was expected behind a quoted value");
+    cells.push_back(is_quoted ? cell : std::string(plain));
+    if (comma == std::string_view::npos) return cells;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+bool CsvTable::has(const std::string& name) const {
+  return std::ranges::find(names_, name) != names_.end();
+}
+
+std::size_t CsvTable::column(const std::string& name) const {
+  const auto found = std::ranges::find(names_, name);
+  if (found == names_.end())
+    fail(line_of_names_, fmt::format("there is no column '{}'; there are {}", name, fmt::join(names_, ", ")));
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+const std::string& CsvTable::cell(std::size_t row, std::size_t column) const {
+  return rows_.at(row).cells.at(column);
+}
+
+double CsvTable::number(std::size_t row, std::size_t column) const {
+  const std::string& text = cell(row, column);
+  const char* const end = text.data() + text.size();
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0.0;
+  const auto [place, error] = std::from_chars(begin, end, value);
+  if (error != std::errc{} || place != end || !std::isfinite(value))
+    fail(line_of(row), fmt::format("'{}' in column '{}' is not a number", text, names_[column]));
+  return value;
+}
+
+std::vector<double> CsvTable::numbers(const std::string& name) const {
+  const std::size_t place = column(name);
+  std::vector<double> values;
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row) values.push_back(number(row, place));
+  return values;
+}
+
+void CsvTable::fail(int line, const std::string& message) const {
+  throw InputError({file_.string(), line, message});
+}
+
+}  // namespace polargrain

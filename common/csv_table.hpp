@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace polargrain {
+
+/// A CSV file: lines of comments that begin with '#', then the names of the columns, then rows with a cell for each.
+/// Cells may be quoted as RFC 4180 says, but hold no line ends. Spaces around cells do not count, nor do empty lines.
+class CsvTable {
+ public:
+  /// @throws InputError naming file and line when it cannot be read, or a row has not a cell for each column
+  explicit CsvTable(const std::filesystem::path& file);
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  /// Lines before the names of the columns.
+  [[nodiscard]] const std::vector<std::string>& comments() const { return comments_; }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  [[nodiscard]] std::size_t rows() const { return rows_.size(); }
+  /// The line of the file that a row stands in, for messages.
+  [[nodiscard]] int line_of(std::size_t row) const { return rows_[row].line; }
+  /// The line of the names of the columns.
+  [[nodiscard]] int line_of_names() const { return line_of_names_; }
+  [[nodiscard]] bool has(const std::string& name) const;
+  /// @throws InputError naming the columns there are when this is none
+  [[nodiscard]] std::size_t column(const std::string& name) const;
+  [[nodiscard]] const std::string& cell(std::size_t row, std::size_t column) const;
+  [[nodiscard]] const std::string& cell(std::size_t row, const std::string& name) const {
+    return cell(row, column(name));
+  }
+  /// @throws InputError naming file and line when the cell is no (finite) number
+  [[nodiscard]] double number(std::size_t row, std::size_t column) const;
+  /// A whole column. @throws InputError as above
+  [[nodiscard]] std::vector<double> numbers(const std::string& name) const;
+  [[noreturn]] void fail(int line, const std::string& message) const;
+
+ private:
+  struct Row {
+    int line;
+    std::vector<std::string> cells;
+  };
+  [[nodiscard]] std::vector<std::string> cells_of(const std::string& line, int number) const;
+
+  std::filesystem::path file_;
+  std::vector<std::string> comments_;
+  std::vector<std::string> names_;
+  std::vector<Row> rows_;
+  int line_of_names_ = 0;
+};
+
+}  // namespace polargrain

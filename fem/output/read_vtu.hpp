@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+
+#include "fem/mesh/mesh.hpp"
+#include "fem/output/vtu.hpp"
+
+namespace polargrain::fem {
+
+/// What a field file holds: a mesh without named parts, and its fields.
+struct FieldFile {
+  Mesh mesh;
+  Fields fields;
+};
+
+/// Reads what write_vtu wrote. Elements are of the first type that element_names() has for their VTK type.
+/// @throws InputError naming the file when it is another kind of file, or its arrays do not fit together
+FieldFile read_vtu(const std::filesystem::path& file);
+
+/// The field of that name, or null.
+const Field* find_field(const std::vector<Field>& fields, const std::string& name);
+
+}  // namespace polargrain::fem

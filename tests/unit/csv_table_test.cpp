@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "common/csv_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+
+namespace polargrain {
+namespace {
+
+class CsvTableTest : public ::testing::Test {
+ protected:
+  CsvTableTest()
+      : file_(std::filesystem::path(::testing::TempDir()) /
+              (std::string("table_") + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {}
+  ~CsvTableTest() override { std::filesystem::remove(file_); }
+  CsvTable table(const std::string& text) {
+    std::ofstream(file_) << text;
+    return CsvTable(file_);
+  }
+  /// Line and message of the fault that reading `text` and taking column b as numbers has.
+  std::string fault(const std::string& text) {
+    try {
+      (void)table(text).numbers("b");
+    } catch (const InputError& error) {
+      return std::to_string(error.faults().front().line) + ": " + error.faults().front().message;
+    }
+    return "none";
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(CsvTableTest, KeepsCommentsNamesAndTheLinesOfRows) {
+  const CsvTable read = table("# first\n# second\r\na, b ,c\r\n\n1,-2.5e-3, x y \r\n+4,5,\"6, \"\"7\"\"\"\n");
+  EXPECT_EQ(read.comments().size(), 2U);
+  EXPECT_EQ(read.names(), (std::vector<std::string>{"a", "b", "c"}));
+  ASSERT_EQ(read.rows(), 2U);
+  EXPECT_EQ(read.line_of(0), 5);
+  EXPECT_EQ(read.numbers("a"), (std::vector<double>{1.0, 4.0}));
+  EXPECT_EQ(read.number(0, 1), -2.5e-3);
+  EXPECT_EQ(read.cell(0, "c"), "x y");
+  EXPECT_EQ(read.cell(1, "c"), "6, \"7\"");
+}
+
+TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
+  EXPECT_EQ(fault("a,b\n1,2\n"), "none");
+  EXPECT_EQ(fault("a,b\n1,2\n3\n"), "3: there are 2 columns ('a,b') and 1 values here");
+  EXPECT_EQ(fault("a,b\n1,2,3\n"), "2: there are 2 columns ('a,b') and 3 values here");
+  EXPECT_EQ(fault("a,b\n1,two\n"), "2: 'two' in column 'b' is not a number");
+  EXPECT_EQ(fault("a,b\n1,\n"), "2: '' in column 'b' is not a number");
+  EXPECT_EQ(fault("a,b\n1,nan\n"), "2: 'nan' in column 'b' is not a number");
+  EXPECT_EQ(fault("a,b\n1,1e999\n"), "2: '1e999' in column 'b' is not a number");
+  EXPECT_EQ(fault("# of what\na,c\n1,2\n"), "2: there is no column 'b'; there are a, c");
+  EXPECT_EQ(fault("a,b\n1,\"2\n"), "2: a quotation mark opens a value and none closes it");
+  EXPECT_EQ(fault("a,b\n1,\"2\"3\n"), "2: a comma was expected behind a quoted value");
+  EXPECT_EQ(fault("# nothing\n"), "0: is empty; a line with the names of the columns was expected");
+  EXPECT_THROW(CsvTable("/nowhere/table.csv"), InputError);
+}
+
+}  // namespace
+}  // namespace polargrain
