@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 
 namespace polargrain {
 namespace {
@@ -106,7 +107,7 @@ std::vector<double> CsvTable::numbers(const std::string& name) const {
 }
 
 void CsvTable::fail(int line, const std::string& message) const {
-  throw InputError({file_.string(), line, message});
+  throw InputError({file_.string(), line, plain_text(message)});
 }
 
 }  // namespace polargrain

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <pugixml.hpp>
+#include <type_traits>
 
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 #include "fem/output/base64.hpp"
 
 namespace polargrain::fem {
@@ -48,6 +51,10 @@ class Reader {
     throw InputError({file_.string(), 0, "a field file of `polargrain run` was expected: " + what});
   }
 
+  static std::string name_of(const pugi::xml_node& array) {
+    return plain_text(array.attribute("Name").value());
+  }
+
   /// The values of an array; a 64-bit number of bytes stands before them.
   template <class Value>
   std::vector<Value> values_of(const pugi::xml_node& array) const {
@@ -55,9 +62,13 @@ class Reader {
     std::uint64_t size = 0;
     if (bytes.size() >= sizeof(size)) std::memcpy(&size, bytes.data(), sizeof(size));
     if (bytes.size() < sizeof(size) || bytes.size() - sizeof(size) != size || size % sizeof(Value) != 0)
-      fail(fmt::format("the array '{}' is cut or of another kind", array.attribute("Name").value()));
+      fail(fmt::format("the array '{}' is cut or of another kind", name_of(array)));
     std::vector<Value> values(size / sizeof(Value));
     if (size > 0) std::memcpy(values.data(), bytes.data() + sizeof(size), size);
+    if constexpr (std::is_floating_point_v<Value>) {
+      if (!std::ranges::all_of(values, [](Value value) { return std::isfinite(value); }))
+        fail(fmt::format("the array '{}' holds a number that is not finite", name_of(array)));
+    }
     return values;
   }
   template <class Value>
@@ -99,8 +110,7 @@ class Reader {
     constexpr int kMostComponents = 1000;
     std::vector<Field> fields;
     for (const pugi::xml_node& node : piece_.child(section).children("DataArray")) {
-      Field field{node.attribute("Name").value(), node.attribute("NumberOfComponents").as_int(1),
-                  values_of<double>(node)};
+      Field field{name_of(node), node.attribute("NumberOfComponents").as_int(1), values_of<double>(node)};
       if (field.components < 1 || field.components > kMostComponents ||
           field.values.size() != entities * static_cast<std::size_t>(field.components))
         fail(fmt::format("the array '{}' has not a value for each of {} entities", field.name, entities));

@@ -2,7 +2,7 @@
 if(TARGET polargrain)
   foreach(size test long)
     add_executable(study_${size} integration/study_${size}.cpp)
-    target_link_libraries(study_${size} PRIVATE polargrain_options fmt::fmt GTest::gtest GTest::gtest_main)
+    target_link_libraries(study_${size} PRIVATE polargrain_common polargrain_options fmt::fmt GTest::gtest GTest::gtest_main)
     target_compile_definitions(study_${size} PRIVATE
       POLARGRAIN="$<TARGET_FILE:polargrain>" POLARGRAIN_LIGGGHTS="$<TARGET_FILE:polargrain-liggghts>"
       STUDY="${PROJECT_SOURCE_DIR}/cases/studies/biaxial.py")
