@@ -47,7 +47,7 @@ CellCalls calls() {
 /// Strains of a field that varies over the points by `spread` around a mean step of 3e-4.
 void measure(const char* what, std::size_t points, double spread) {
   constexpr int kSteps = 10;
-  AdaptiveMaterial sand(calls(), {16e6, 14e6, 0.02}, {0.02, 0.0, 1});
+  AdaptiveMaterial sand(calls(), CosseratParameters{16e6, 14e6, 0.02}, {0.02, 0.0, 1});
   sand.allocate(points);
   std::vector<Increment> increments(points);
   std::vector<Response> responses(points);

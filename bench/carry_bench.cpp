@@ -16,6 +16,7 @@
 #include <string>
 
 #include "bench/driven_cell.hpp"
+#include "coupler/adaptivity/grain_measure.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "tests/support/cell_fixture.hpp"
 
@@ -27,8 +28,9 @@ constexpr double kIncrement = 1e-3;
 
 /// @returns the error of the carried answer, a share of the pressure
 double missed(DrivenCell& cell, const DrivenCell::Vector& offset) {
-  const Vector7 carried = coupler::linearised_stress(cell.at().response, DrivenCell::gradient(offset));
-  return coupler::in_plane_norm(cell.answer(offset).response.stress - carried) / kPressure;
+  const Vector7 carried =
+      coupler::linearised_stress(cell.at().response, coupler::increment_of(DrivenCell::gradient(offset)));
+  return coupler::GrainMeasure().stress(cell.answer(offset).response.stress - carried) / kPressure;
 }
 
 const DrivenCell::Vector kShear(0.0, 0.0, 1.0 / std::sqrt(2.0));  // of norm 1, as those that follow

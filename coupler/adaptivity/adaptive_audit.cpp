@@ -7,6 +7,7 @@
 #include "common/record_table.hpp"
 #include "coupler/adaptivity/adaptive_material.hpp"
 #include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/cell_increment.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -47,10 +48,10 @@ void AdaptiveMaterial::audit_offsets() {
   std::vector<Vector7> given;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
-    if (point.offset.isZero(0.0)) continue;
+    if (is_zero(point.offset)) continue;
     if (hashed_share(options_.seed, p, static_cast<std::uint64_t>(step_)) >= options_.audit) continue;
     const CellReply& answer = cells_[point.cell].answer;
-    requests.push_back({answer.state, increment_of(point.offset)});
+    requests.push_back({answer.state, point.offset});
     points.push_back(p);
     given.push_back(linearised_stress(answer.response, point.offset));
   }
@@ -59,7 +60,7 @@ void AdaptiveMaterial::audit_offsets() {
   audits_ += static_cast<std::int64_t>(requests.size());
   for (std::size_t k = 0; k < replies.size(); ++k) {
     if (replies[k].response.quality != Quality::good) continue;
-    offset_errors_.add(in_plane_norm(replies[k].response.stress - given[k]) / confining_);
+    offset_errors_.add(share_of(replies[k].response.stress - given[k]));
   }
 }
 
@@ -67,12 +68,11 @@ void AdaptiveMaterial::audit_histories() {
   std::vector<CellRequest> requests;
   std::vector<std::size_t> points;
   for (const Followed& followed : followed_) {
-    requests.push_back({followed.state, increment_of(gradient_of_step(followed.point))});
+    requests.push_back({followed.state, increment_of_step(followed.point)});
     points.push_back(followed.point);
   }
-  if (std::all_of(requests.begin(), requests.end(), [](const CellRequest& request) {
-        return request.increment.displacement_gradient.isZero(0.0);
-      })) {
+  if (std::all_of(requests.begin(), requests.end(),
+                  [](const CellRequest& request) { return is_zero(request.increment); })) {
     return;
   }
   const std::vector<CellReply> replies = run(requests, points);
@@ -83,7 +83,7 @@ void AdaptiveMaterial::audit_histories() {
     if (replies[k].response.quality != Quality::good) continue;
     const Point& point = points_[followed_[k].point];
     const Vector7 given = linearised_stress(cells_[point.cell].answer.response, point.offset);
-    history_errors_.add(in_plane_norm(replies[k].response.stress - given) / confining_);
+    history_errors_.add(share_of(replies[k].response.stress - given));
     going_on.push_back({followed_[k].point, replies[k].state});
   }
   std::vector<StatePointer*> states;

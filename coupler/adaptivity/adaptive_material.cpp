@@ -24,15 +24,17 @@ void make_symmetric(CellReply& reply) {
 
 }  // namespace
 
-AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat,
+AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const std::optional<CosseratParameters>& cosserat,
                                    const AdaptivityOptions& options, const std::string& note)
-    : calls_(std::move(calls)), cosserat_(cosserat), options_(options) {
+    : calls_(std::move(calls)), cosserat_(cosserat), options_(options), measure_(options.mean_diameter) {
+  if (cosserat_.has_value() == measure_.controlled())
+    throw RunError("an adaptive material takes either a Cosserat part or the diameter of controlled grains");
   if (!note.empty()) notes_.push_back(note);
 }
 
 void AdaptiveMaterial::allocate(std::size_t points) {
   Cell packing{packing_at_rest(calls_, notes_), {}};
-  make_symmetric(packing.answer);
+  if (!measure_.controlled()) make_symmetric(packing.answer);
   const Vector7& stress = packing.answer.response.stress;
   confining_ = -0.5 * (stress[k11] + stress[k22]);
   if (!(confining_ > 0.0)) {
@@ -41,7 +43,7 @@ void AdaptiveMaterial::allocate(std::size_t points) {
   const Matrix7& elastic = packing.answer.response.tangent;
   // Strain whose elastic stress is the tolerance.
   turn_tolerance_ = options_.tolerance * confining_ / elastic.topLeftCorner<2, 2>().norm();
-  estimate_ = ErrorEstimate(elastic, turn_tolerance_);
+  estimate_ = ErrorEstimate(measure_, elastic, turn_tolerance_);
   cells_.assign(1, packing);
   points_.assign(points, Point{});
   choose_followed();
@@ -51,7 +53,7 @@ void AdaptiveMaterial::begin_step() {
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
     Branch unmoved{cell};
     unmoved.answer = cells_[cell].answer;
-    unmoved.curvature = cells_[cell].curvature;
+    unmoved.departure = cells_[cell].departure;
     branches_.push_back(unmoved);
     branches_of_cell_.push_back({cell});
   }
@@ -63,18 +65,20 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
   if (branches_.empty()) begin_step();
   increments_.assign(increments.begin(), increments.end());
   for (std::size_t point = 0; point < points_.size(); ++point) {
-    target_[point] = followed_by(points_[point].offset, gradient_of_step(point));
+    target_[point] = followed_by(points_[point].offset, increment_of_step(point));
   }
   settle();
   for (std::size_t point = 0; point < points_.size(); ++point) responses[point] = response_of(point);
 }
 
-Eigen::Matrix2d AdaptiveMaterial::gradient_of_step(std::size_t point) const {
-  return increment_for_cell(increments_[point]).displacement_gradient;
+Increment AdaptiveMaterial::increment_of_step(std::size_t point) const {
+  const Increment whole = increment_for_cell(increments_[point]);
+  // Grains whose rotations are free feel no micro-rotation and no curvature.
+  return measure_.controlled() ? whole : increment_of(whole.displacement_gradient);
 }
 
 double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
-  return estimate_.of(branch.answer.response, branch.curvature, offset_between(branch.place, target_[point]));
+  return estimate_.of(branch.answer.response, branch.departure, offset_between(branch.place, target_[point]));
 }
 
 std::size_t AdaptiveMaterial::best_branch(std::size_t point) const {
@@ -116,15 +120,16 @@ bool AdaptiveMaterial::settle() {
 std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
                                                        const std::vector<std::size_t>& points) const {
   const Branch& unmoved = branches_[cell];
-  if (!unmoved.curvature.known()) {
-    // Nothing can be said before one run has shown how the response curves: the farthest point goes ahead.
+  if (!unmoved.departure.known()) {
+    // Nothing can be said before one run has shown how the response departs from its tangent: the farthest point
+    // goes ahead.
     return {*std::max_element(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-      return size_of(target_[a]) < size_of(target_[b]);
+      return measure_.size(target_[a]) < measure_.size(target_[b]);
     })};
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
-    Curvature expected = unmoved.curvature;
-    const Eigen::Matrix2d strain = 0.5 * (target_[leader] + target_[leader].transpose());
+    Departure expected = unmoved.departure;
+    const Vector7 strain = measure_.strain(target_[leader]);
     if (strain.norm() > 0.0) expected.direction = strain / strain.norm();
     return estimate_.of(unmoved.answer.response, expected, offset_between(target_[leader], target_[other])) <=
            tolerance();
@@ -140,8 +145,7 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
   if (!replay_paths(starts)) return false;
   std::vector<CellRequest> requests;
   for (const Branch& start : starts) {
-    requests.push_back(
-        {start.answer.state, increment_of(offset_between(start.place, target_[start.leader]))});
+    requests.push_back({start.answer.state, offset_between(start.place, target_[start.leader])});
   }
   std::vector<CellReply> replies = run(requests, leaders);
   runs_ += static_cast<std::int64_t>(requests.size());
@@ -156,10 +160,10 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
     if (moved.answer.response.quality == Quality::failed) {
       all_good = false;
     } else {
-      Curvature replayed = starts[k].curvature;
-      Curvature& at_start = starts[k].place.isZero(0.0) ? branches_[moved.cell].curvature : replayed;
-      moved.curvature = estimate_.learn(starts[k].answer.response, moved.answer.response,
-                                        requests[k].increment.displacement_gradient, at_start);
+      Departure replayed = starts[k].departure;
+      Departure& at_start = is_zero(starts[k].place) ? branches_[moved.cell].departure : replayed;
+      moved.departure =
+          estimate_.learn(starts[k].answer.response, moved.answer.response, requests[k].increment, at_start);
       branches_of_cell_[moved.cell].push_back(branches_.size());
     }
     branches_.push_back(std::move(moved));
@@ -173,12 +177,12 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
 }
 
 bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
-  std::vector<std::vector<Eigen::Matrix2d>> turns;
+  std::vector<std::vector<Increment>> turns;
   std::size_t longest = 0;
   for (const Branch& start : starts) {
-    std::vector<Eigen::Matrix2d> path = points_[start.leader].path;
+    std::vector<Increment> path = points_[start.leader].path;
     path.push_back(target_[start.leader]);
-    turns.push_back(turning_points(path, turn_tolerance_));
+    turns.push_back(turning_points(path, measure_, turn_tolerance_));
     turns.back().pop_back();  // the target itself
     longest = std::max(longest, turns.back().size());
   }
@@ -188,8 +192,7 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
     std::vector<std::size_t> leaders;
     for (std::size_t k = 0; k < starts.size(); ++k) {
       if (turn >= turns[k].size()) continue;
-      requests.push_back(
-          {starts[k].answer.state, increment_of(offset_between(starts[k].place, turns[k][turn]))});
+      requests.push_back({starts[k].answer.state, offset_between(starts[k].place, turns[k][turn])});
       starts[k].place = turns[k][turn];
       moving.push_back(&starts[k]);
       leaders.push_back(starts[k].leader);
@@ -210,6 +213,7 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
 std::vector<CellReply> AdaptiveMaterial::run(std::span<const CellRequest> requests,
                                              std::span<const std::size_t> points) const {
   std::vector<CellReply> replies = calls_.evaluate(requests, points);
+  if (measure_.controlled()) return replies;
   for (CellReply& reply : replies) make_symmetric(reply);
   return replies;
 }
@@ -219,9 +223,10 @@ Response AdaptiveMaterial::response_of(std::size_t point) const {
   Response response = branch.answer.response;
   if (response.quality == Quality::failed) return response;
   response.stress = linearised_stress(response, offset_between(branch.place, target_[point]));
+  if (!cosserat_) return response;
   CosseratPart part = points_[point].cosserat;
-  part.add(increments_[point], cosserat_);
-  return part.joined_to(response, cosserat_);
+  part.add(increments_[point], *cosserat_);
+  return part.joined_to(response, *cosserat_);
 }
 
 void AdaptiveMaterial::commit() {
@@ -232,7 +237,7 @@ void AdaptiveMaterial::commit() {
   for (std::size_t b = 0; b < branches_.size(); ++b) {
     if (std::find(branch_of_point_.begin(), branch_of_point_.end(), b) == branch_of_point_.end()) continue;
     cell_of_branch[b] = kept.size();
-    kept.push_back({branches_[b].answer, branches_[b].curvature});
+    kept.push_back({branches_[b].answer, branches_[b].departure});
   }
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const std::size_t b = branch_of_point_[p];
@@ -242,11 +247,11 @@ void AdaptiveMaterial::commit() {
     point.estimate = estimate(p, branch);
     point.offset = offset_between(branch.place, target_[p]);
     if (was_run) point.path.clear();
-    if (!point.offset.isZero(0.0)) point.path.push_back(point.offset);
+    if (!is_zero(point.offset)) point.path.push_back(point.offset);
     point.source = !was_run ? Source::tangent : branch.leader == p ? Source::own : Source::neighbour;
     ++sources_[static_cast<std::size_t>(point.source)];
-    point.cosserat.add(increments_[p], cosserat_);
-    point.cell = cell_of_branch[b];
+    if (cosserat_) point.cosserat.add(increments_[p], *cosserat_);
+    point.cell = static_cast<std::uint32_t>(cell_of_branch[b]);
   }
   std::vector<StatePointer*> states;
   for (Cell& cell : kept) states.push_back(&cell.answer.state);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct AdaptivityOptions {
   /// is followed in full.
   double audit = 0.01;
   std::uint64_t seed = 1;
+  /// Of grains whose rotations are controlled, m: what makes curvatures and couple stresses comparable with strains and
+  /// stresses. 0: rotations are free.
+  double mean_diameter = 0.0;
 };
 
 /// Where the stress of a point came from in a committed step.
@@ -30,8 +34,13 @@ enum class Source : int {
   own = 2         ///< a cell was run along this point's own strain
 };
 
-/// A material whose symmetric stress comes from boxes of grains, of which no more are run than a tolerance
-/// asks for (docs/adaptivity.md). Points with like histories share a cell; each point knows its offset from
+constexpr Choices choices_of(Source) {
+  return {0, 3};
+}
+
+/// A material whose stress comes from boxes of grains, of which no more are run than a tolerance asks for
+/// (docs/adaptivity.md). Cells with free rotations give the symmetric stress, the Cosserat part is added to it; cells
+/// with controlled rotations give everything, and an increment is also a micro-rotation and a curvature. Points with like histories share a cell; each point knows its offset from
 /// where the cell was last run, and its stress is the cell's answer carried along the tangent by that offset.
 /// Because the offset is kept, and given to the grains when the cell runs next, what a point has not yet told
 /// its cell never adds up over steps. When the estimated error of an offset exceeds the tolerance, a cell is
@@ -44,9 +53,11 @@ enum class Source : int {
 class AdaptiveMaterial : public fem::Material {
  public:
   /// @param calls must live as long as the material
+  /// @param cosserat of cells with free rotations; nothing: they are controlled, and options.mean_diameter is that of
+  /// the grains
   /// @param note what the user is to know of the parameters; may be empty
-  AdaptiveMaterial(CellCalls calls, const CosseratParameters& cosserat, const AdaptivityOptions& options,
-                   const std::string& note = {});
+  AdaptiveMaterial(CellCalls calls, const std::optional<CosseratParameters>& cosserat,
+                   const AdaptivityOptions& options, const std::string& note = {});
 
   void allocate(std::size_t points) override;
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
@@ -56,6 +67,7 @@ class AdaptiveMaterial : public fem::Material {
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
+  [[nodiscard]] double moment_length() const override { return options_.mean_diameter; }
   /// source (see Source), cell (its number), error_estimate (of the confining pressure), and of the cell
   /// void_ratio, coordination_number, unbalanced_force_ratio, sliding_fraction, dem_steps.
   [[nodiscard]] std::vector<std::string> field_names() const override;
@@ -66,24 +78,40 @@ class AdaptiveMaterial : public fem::Material {
  private:
   /// A cell at the start of the step.
   struct Cell {
-    CellReply answer;  ///< stress and tangent symmetric
-    Curvature curvature;
+    CellReply answer;  ///< stress and tangent symmetric where rotations are free
+    Departure departure;
+
+    template <RecordOf<Cell> Record, class Visit>
+    friend void describe(Record& cell, Visit&& visit) {
+      visit(FieldNotes{"answer", "", "its last answer"}, cell.answer);
+      visit(FieldNotes{"departure", "", "from the tangent, as far as it is known"}, cell.departure);
+    }
   };
   struct Point {
-    std::size_t cell = 0;
-    Eigen::Matrix2d offset = Eigen::Matrix2d::Zero();  ///< displacement gradient from the cell to the point
-    std::vector<Eigen::Matrix2d> path;                 ///< its committed offsets since the cell was last run
+    std::uint32_t cell = 0;
+    Increment offset;             ///< from the cell to the point
+    std::vector<Increment> path;  ///< its committed offsets since the cell was last run
     CosseratPart cosserat;
     double estimate = 0.0;  ///< of its error, Pa
     Source source = Source::tangent;
+
+    template <RecordOf<Point> Record, class Visit>
+    friend void describe(Record& point, Visit&& visit) {
+      visit(FieldNotes{"cell", "", "its number"}, point.cell);
+      visit(FieldNotes{"offset", "", "from the cell to the point"}, point.offset);
+      visit(FieldNotes{"path", "", "offsets since the cell was last run"}, point.path);
+      visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
+      visit(FieldNotes{"estimate", "Pa", "of its error"}, point.estimate);
+      visit(FieldNotes{"source", "", "where the stress came from"}, point.source);
+    }
   };
   /// A cell during the step: where it was, or run onward to a point. The first branches are the cells.
   struct Branch {
-    std::size_t cell = 0;                             ///< it comes from
-    Eigen::Matrix2d place = Eigen::Matrix2d::Zero();  ///< displacement gradient from that cell to here
-    std::size_t leader = 0;                           ///< point it was run to
+    std::size_t cell = 0;    ///< it comes from
+    Increment place = {};    ///< from that cell to here
+    std::size_t leader = 0;  ///< point it was run to
     CellReply answer = {};
-    Curvature curvature = {};
+    Departure departure = {};
   };
   /// A point that is followed by a cell of its own along its whole history, to measure what sharing costs.
   struct Followed {
@@ -105,8 +133,10 @@ class AdaptiveMaterial : public fem::Material {
   bool replay_paths(std::vector<Branch>& starts);
   [[nodiscard]] std::vector<CellReply> run(std::span<const CellRequest> requests,
                                            std::span<const std::size_t> points) const;
-  /// The displacement gradient that takes a point through the step, about its start.
-  [[nodiscard]] Eigen::Matrix2d gradient_of_step(std::size_t point) const;
+  /// What takes the cell of a point through the step.
+  [[nodiscard]] Increment increment_of_step(std::size_t point) const;
+  /// Size of an error of a stress, as a share of the confining pressure.
+  [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / confining_; }
   [[nodiscard]] Response response_of(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * confining_; }
   void choose_followed();
@@ -116,8 +146,9 @@ class AdaptiveMaterial : public fem::Material {
   void tighten();
 
   CellCalls calls_;
-  CosseratParameters cosserat_;
+  std::optional<CosseratParameters> cosserat_;
   AdaptivityOptions options_;
+  GrainMeasure measure_;
   double confining_ = 0.0;  ///< mean in-plane pressure of the packing, Pa
   ErrorEstimate estimate_;
   double turn_tolerance_ =
@@ -131,7 +162,7 @@ class AdaptiveMaterial : public fem::Material {
   std::vector<Branch> branches_;
   std::vector<std::vector<std::size_t>> branches_of_cell_;
   std::vector<std::size_t> branch_of_point_;
-  std::vector<Eigen::Matrix2d> target_;  ///< displacement gradient from the cell's place to the point's
+  std::vector<Increment> target_;  ///< from the cell's place to the point's
   std::vector<Increment> increments_;
 
   std::vector<Followed> followed_;

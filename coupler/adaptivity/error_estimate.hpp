@@ -1,52 +1,56 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <Eigen/Core>
-
+#include "common/record.hpp"
 #include "common/response.hpp"
+#include "coupler/adaptivity/grain_measure.hpp"
 
 namespace polargrain::coupler {
 
-/// What is known of how an answer of a cell bends away from its tangent (docs/adaptivity.md, 2).
-struct Curvature {
-  /// In-plane norm of stress (Pa) by which linearisation was wrong over an offset of size `length`. Unknown
+/// What is known of how an answer of a cell departs from its tangent (docs/adaptivity.md, 2).
+struct Departure {
+  /// Stress (Pa, GrainMeasure::stress) by which linearisation was wrong over an offset of size `length`. Unknown
   /// while length is 0: nothing has been learned of this cell or of those it comes from.
   double error = 0.0;
   double length = 0.0;
-  /// Unit symmetric strain that the cell was last loaded along; zero for a packing at rest.
-  Eigen::Matrix2d direction = Eigen::Matrix2d::Zero();
+  /// Unit strain (GrainMeasure::strain) that the cell was last loaded along; zero for a packing at rest.
+  Vector7 direction = Vector7::Zero();
   [[nodiscard]] bool known() const { return length > 0.0; }
-  /// The error (Pa) that the curvature seen makes over an offset of some size: it grows with the power 3/2 up
+  /// The error (Pa) that the departure seen makes over an offset of some size: it grows with the power 3/2 up
   /// to the length it was seen over, and with the square beyond.
   [[nodiscard]] double over(double size) const;
 };
 
-/// What counts of an offset: the norm of its deviatoric strain and its rotation, and a third of its volume
-/// change, to which a packing answers with far less curvature.
-double size_of(const Eigen::Matrix2d& offset);
+template <RecordOf<Departure> Record, class Visit>
+void describe(Record& departure, Visit&& visit) {
+  visit(FieldNotes{"error", "Pa", "by which linearisation was wrong"}, departure.error);
+  visit(FieldNotes{"length", "1", "size of the offset over which it was"}, departure.length);
+  visit(FieldNotes{"direction", "1", "unit strain of the last loading", "_11 _22 _33 _12 _21 _1 _2"},
+        departure.direction);
+}
 
 /// Estimates errors of linearisation for the cells of one packing.
 class ErrorEstimate {
  public:
   ErrorEstimate() = default;
-  /// @param elastic symmetric tangent of the packing at rest
+  /// @param elastic tangent of the packing at rest; symmetric where rotations are free
   /// @param noise_length what runs shorter than this have shown is mostly noise, and any longer one replaces
   /// it
-  ErrorEstimate(const Matrix7& elastic, double noise_length)
-      : elastic_(elastic), noise_length_(noise_length) {}
+  ErrorEstimate(const GrainMeasure& measure, const Matrix7& elastic, double noise_length)
+      : measure_(measure), elastic_(elastic), noise_length_(noise_length) {}
 
-  /// Estimated error (Pa) of carrying `answer` by `offset`: what the curvature makes, and half of the stress
+  /// Estimated error (Pa) of carrying `answer` by `offset`: what the departure makes, and half of the stress
   /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
   /// the last loading. Infinite where nothing is known.
-  [[nodiscard]] double of(const Response& answer, const Curvature& curvature,
-                          const Eigen::Matrix2d& offset) const;
+  [[nodiscard]] double of(const Response& answer, const Departure& departure, const Increment& offset) const;
 
   /// What a run from `start` to `end` over `offset` has shown about both ends.
   /// @param at_start updated: the largest error seen from there
-  /// @returns the curvature of the answer at the end
-  Curvature learn(const Response& start, const Response& end, const Eigen::Matrix2d& offset,
-                  Curvature& at_start) const;
+  /// @returns the departure of the answer at the end
+  Departure learn(const Response& start, const Response& end, const Increment& offset,
+                  Departure& at_start) const;
 
  private:
+  GrainMeasure measure_;
   Matrix7 elastic_ = Matrix7::Zero();
   double noise_length_ = 0.0;
 };

@@ -7,9 +7,12 @@
 
 #include "coupler/adaptivity/audits.hpp"
 #include "coupler/adaptivity/error_estimate.hpp"
+#include "coupler/adaptivity/grain_measure.hpp"
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/adaptivity/strain_path.hpp"
+#include "coupler/cells/cell_increment.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -21,22 +24,49 @@ Eigen::Matrix2d gradient(double h11, double h12, double h21, double h22) {
 }
 
 TEST(Linearised, OffsetsLeadFromOnePlaceToTheOther) {
-  const Eigen::Matrix2d first = gradient(0.1, -0.2, 0.05, -0.3);
-  const Eigen::Matrix2d second = gradient(-0.05, 0.3, 0.1, 0.2);
-  const Eigen::Matrix2d both = followed_by(first, second);
+  Increment first = increment_of(gradient(0.1, -0.2, 0.05, -0.3));
+  Increment second = increment_of(gradient(-0.05, 0.3, 0.1, 0.2));
+  first.micro_rotation = 0.02;
+  second.micro_rotation = -0.05;
+  first.curvature << 0.3, -0.1;
+  second.curvature << -0.2, 0.4;
+  const Increment both = followed_by(first, second);
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d after_first = one + first.displacement_gradient;
   // (I + second)(I + first), computed the long way; entries of order one, so a few roundings of 1e-16.
-  EXPECT_LT(((one + second) * (one + first) - one - both).norm(), 1e-15);
-  EXPECT_LT((offset_between(first, both) - second).norm(), 1e-15);
-  EXPECT_TRUE(offset_between(both, both).isZero(0.0));
+  EXPECT_LT(((one + second.displacement_gradient) * after_first - one - both.displacement_gradient).norm(),
+            1e-15);
+  // The rotation at a place X: w = w1 + k1 . X + w2 + k2 . (I + first) X.
+  const Eigen::Vector2d place(0.7, -1.3);
+  const double rotation = first.curvature.dot(place) + second.curvature.dot(after_first * place);
+  EXPECT_NEAR(both.curvature.dot(place), rotation, 1e-15);
+  EXPECT_DOUBLE_EQ(both.micro_rotation, -0.03);
+  const Increment back = offset_between(first, both);
+  EXPECT_LT((back.displacement_gradient - second.displacement_gradient).norm(), 1e-15);
+  EXPECT_LT((back.curvature - second.curvature).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(back.micro_rotation, second.micro_rotation);
+  EXPECT_TRUE(is_zero(offset_between(both, both)));
+}
+
+TEST(Linearised, ARotationTurnsSkewAndCoupleStressToo) {
+  Response answer;
+  answer.stress << -1e5, -3e5, -2e5, 6e4, 2e4, 150.0, -40.0;
+  const double angle = 1e-4;
+  Increment turn = increment_of(gradient(0.0, -angle, angle, 0.0));
+  turn.micro_rotation = angle;  // grains and box turn alike: no strain
+  const Vector7 carried = linearised_stress(answer, turn);
+  const Vector7 exact = fem::rotated(answer.stress, angle);
+  // What is left out is of second order: angle^2 times differences of 2e5 Pa and 200 N/m.
+  EXPECT_LT((carried - exact).head<5>().norm(), 5e-3);
+  EXPECT_LT((carried - exact).tail<2>().norm(), 5e-6);
+  EXPECT_GT((exact - answer.stress).tail<2>().norm(), 1e-2) << "the test would see nothing";
 }
 
 TEST(Linearised, ARotationTurnsTheStress) {
   Response answer;
   answer.stress << -1e5, -3e5, -2e5, 4e4, 4e4, 0.0, 0.0;
   const double angle = 1e-4;
-  const Eigen::Matrix2d turn = gradient(0.0, -angle, angle, 0.0);
-  const Vector7 carried = linearised_stress(answer, turn);
+  const Vector7 carried = linearised_stress(answer, increment_of(gradient(0.0, -angle, angle, 0.0)));
   Eigen::Matrix2d stress;
   stress << -1e5, 4e4, 4e4, -3e5;
   const Eigen::Matrix2d rotation =
@@ -52,23 +82,26 @@ TEST(Linearised, ARotationTurnsTheStress) {
 TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
   Matrix7 elastic = Matrix7::Zero();
   elastic.topLeftCorner<2, 2>() << 3e7, 1e7, 1e7, 3e7;
-  const ErrorEstimate estimate(elastic, 1e-5);
+  const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
   Response start;
   start.tangent = elastic;
-  Curvature packing;
-  const Eigen::Matrix2d offset = gradient(1e-3, 0.0, 0.0, -1e-3);
-  EXPECT_EQ(estimate.of(start, packing, Eigen::Matrix2d::Zero()), 0.0);
+  Departure packing;
+  const auto times = [](double factor) {
+    return increment_of(gradient(factor * 1e-3, 0.0, 0.0, -factor * 1e-3));
+  };
+  const Increment offset = times(1.0);
+  EXPECT_EQ(estimate.of(start, packing, Increment{}), 0.0);
   EXPECT_EQ(estimate.of(start, packing, offset), HUGE_VAL);
   Response end = start;
   end.stress = linearised_stress(start, offset);
   end.stress[k11] -= 300.0;  // what the run shows and the tangent did not
   end.stress[k22] += 400.0;
-  const Curvature moved = estimate.learn(start, end, offset, packing);
+  const Departure moved = estimate.learn(start, end, offset, packing);
   EXPECT_DOUBLE_EQ(estimate.of(start, packing, offset), 500.0);
   EXPECT_DOUBLE_EQ(estimate.of(end, moved, offset), 500.0);
   // The law of growth: power 3/2 inside of what was seen, the square beyond.
-  EXPECT_NEAR(estimate.of(start, packing, 0.25 * offset), 500.0 / 8.0, 1e-9);
-  EXPECT_NEAR(estimate.of(start, packing, 2.0 * offset), 2000.0, 1e-9);
+  EXPECT_NEAR(estimate.of(start, packing, times(0.25)), 500.0 / 8.0, 1e-9);
+  EXPECT_NEAR(estimate.of(start, packing, times(2.0)), 2000.0, 1e-9);
 }
 
 TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
@@ -76,31 +109,70 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   elastic(k11, k11) = elastic(k22, k22) = 3e7;
   Response soft;
   soft.tangent = 0.1 * elastic;
-  const Eigen::Matrix2d onward = gradient(-1e-3, 0.0, 0.0, 1e-3);
-  const Curvature curvature{1.0, onward.norm(), onward / onward.norm()};
-  const ErrorEstimate estimate(elastic, 1e-5);
-  EXPECT_NEAR(estimate.of(soft, curvature, onward), 1.0, 1e-9);
+  const Increment onward = increment_of(gradient(-1e-3, 0.0, 0.0, 1e-3));
+  const Increment back = increment_of(gradient(1e-3, 0.0, 0.0, -1e-3));
+  const Departure departure{1.0, onward.strain().norm(), onward.strain().normalized()};
+  const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
+  EXPECT_NEAR(estimate.of(soft, departure, onward), 1.0, 1e-9);
   // Half of the stress between both tangents, 0.9 * 3e7 * 1e-3 Pa in two components.
-  EXPECT_NEAR(estimate.of(soft, curvature, -onward), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);
+  EXPECT_NEAR(estimate.of(soft, departure, back), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);
 }
 
-TEST(ErrorEstimate, AVolumeChangeCountsLessAndARotationNothing) {
-  EXPECT_DOUBLE_EQ(size_of(gradient(0.0, 3e-3, 4e-3, 0.0)), std::sqrt(2.0) * 3.5e-3);
-  EXPECT_EQ(size_of(gradient(0.0, -2e-2, 2e-2, 0.0)), 0.0);
-  EXPECT_DOUBLE_EQ(size_of(gradient(1e-3, 0.0, 0.0, 1e-3)), 0.35 * std::sqrt(2.0) * 1e-3);
+TEST(GrainMeasure, AVolumeChangeCountsLessAndARotationNothing) {
+  const auto size = [](double h11, double h12, double h21, double h22) {
+    return GrainMeasure().size(increment_of(gradient(h11, h12, h21, h22)));
+  };
+  EXPECT_DOUBLE_EQ(size(0.0, 3e-3, 4e-3, 0.0), std::sqrt(2.0) * 3.5e-3);
+  EXPECT_EQ(size(0.0, -2e-2, 2e-2, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(size(1e-3, 0.0, 0.0, 1e-3), 0.35 * std::sqrt(2.0) * 1e-3);
+}
+
+TEST(GrainMeasure, ControlledGrainsCountRelativeRotationAndCurvatureInDiameters) {
+  constexpr double kDiameter = 0.01;
+  const GrainMeasure measure(kDiameter);
+  Increment turned = increment_of(gradient(0.0, -2e-3, 2e-3, 0.0));
+  turned.micro_rotation = 2e-3;  // box and grains turn alike
+  EXPECT_EQ(measure.size(turned), 0.0);
+  turned.micro_rotation = 5e-3;  // skew strain: e12 = -3e-3, e21 = 3e-3
+  EXPECT_DOUBLE_EQ(measure.size(turned), std::sqrt(2.0) * 3e-3);
+  Increment bent;
+  bent.curvature << 0.3, 0.4;
+  EXPECT_DOUBLE_EQ(measure.size(bent), 0.5 * kDiameter);
+  EXPECT_DOUBLE_EQ(measure.unmeasured(measure.strain(bent))[kCurvature2], 0.4);
+  EXPECT_EQ(GrainMeasure().size(bent), 0.0) << "grains whose rotations are free feel no curvature";
+  Vector7 stress;
+  stress << 0.0, 0.0, 7.0, 2e3, 4e3, 30.0, -40.0;
+  EXPECT_DOUBLE_EQ(measure.stress(stress), std::sqrt(4e6 + 16e6 + 25e6));
+  EXPECT_DOUBLE_EQ(GrainMeasure().stress(stress), std::sqrt(18e6));
+  // What is measured does the work: stress . strain = (m / d) (kappa d).
+  Vector7 measured = stress;
+  measured.tail<2>() /= kDiameter;
+  EXPECT_DOUBLE_EQ(measured.dot(measure.strain(bent)), stress.dot(bent.strain()));
 }
 
 TEST(StrainPath, TurnsAreFoundAndStraightPiecesAreOne) {
-  std::vector<Eigen::Matrix2d> path;
-  for (int k = 1; k <= 5; ++k) path.push_back(gradient(0.0, 0.0, 0.0, -1e-3 * k));
-  EXPECT_EQ(turning_points(path, 1e-5).size(), 1u);
-  for (int k = 4; k >= -3; --k) path.push_back(gradient(0.0, 0.0, 0.0, -1e-3 * k));
-  const auto turns = turning_points(path, 1e-5);
+  const GrainMeasure free;
+  std::vector<Increment> path;
+  const auto compressed = [](int k) { return increment_of(gradient(0.0, 0.0, 0.0, -1e-3 * k)); };
+  for (int k = 1; k <= 5; ++k) path.push_back(compressed(k));
+  EXPECT_EQ(turning_points(path, free, 1e-5).size(), 1u);
+  for (int k = 4; k >= -3; --k) path.push_back(compressed(k));
+  const auto turns = turning_points(path, free, 1e-5);
   ASSERT_EQ(turns.size(), 2u);
-  EXPECT_EQ(turns[0], gradient(0.0, 0.0, 0.0, -5e-3));
-  EXPECT_EQ(turns[1], gradient(0.0, 0.0, 0.0, 3e-3));
-  EXPECT_EQ(turning_points(path, 1.0).size(), 1u);
-  EXPECT_TRUE(turning_points({}, 1e-5).empty());
+  EXPECT_EQ(turns[0].displacement_gradient, compressed(5).displacement_gradient);
+  EXPECT_EQ(turns[1].displacement_gradient, compressed(-3).displacement_gradient);
+  EXPECT_EQ(turning_points(path, free, 1.0).size(), 1u);
+  EXPECT_TRUE(turning_points({}, free, 1e-5).empty());
+}
+
+TEST(StrainPath, ABendThereAndBackIsATurn) {
+  std::vector<Increment> path(3, increment_of(gradient(0.0, 0.0, 0.0, -1e-3)));
+  for (int k = 0; k < 3; ++k) {
+    path[static_cast<std::size_t>(k)].displacement_gradient *= k + 1;
+    path[static_cast<std::size_t>(k)].curvature << (k == 1 ? 0.2 : 0.0), 0.0;
+  }
+  EXPECT_EQ(turning_points(path, GrainMeasure(0.01), 1e-3).size(), 2u);  // 0.2 rad/m are 2e-3 a diameter
+  EXPECT_EQ(turning_points(path, GrainMeasure(0.01), 3e-3).size(), 1u);
 }
 
 TEST(Leaders, EveryPointIsCoveredAndFewLead) {

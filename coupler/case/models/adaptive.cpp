@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // model: adaptive - boxes of grains, no more of them than a tolerance asks for (docs/adaptivity.md)
+#include <optional>
+
 #include "coupler/adaptivity/adaptive_material.hpp"
 #include "coupler/case/material_model.hpp"
 #include "coupler/case/models/cell_definition.hpp"
@@ -9,19 +11,21 @@ namespace {
 
 class AdaptiveRecipe : public MaterialRecipe {
  public:
-  AdaptiveRecipe(CellDefinition definition, const CosseratChoice& cosserat, const AdaptivityOptions& options)
+  AdaptiveRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat,
+                 const AdaptivityOptions& options)
       : definition_(std::move(definition)), cosserat_(cosserat), options_(options) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     std::string note;
-    const CosseratParameters cosserat = resolved(cosserat_, *pool, definition_, note);
+    std::optional<CosseratParameters> cosserat;
+    if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
     return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat, options_,
                                               note);
   }
-  [[nodiscard]] bool needs_workers() const override { return true; }
+  [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
   CellDefinition definition_;
-  CosseratChoice cosserat_;
+  std::optional<CosseratChoice> cosserat_;
   AdaptivityOptions options_;
 };
 
@@ -39,8 +43,8 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  const CosseratChoice cosserat = read_cosserat_choice(section);
-  const AdaptivityOptions options = read_options(section);
+  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition);
+  AdaptivityOptions options = read_options(section);
   if (definition.control.tangent == CellTangent::voigt) {
     section.fault(
         "tangent",
@@ -48,6 +52,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
         "derivative of the stress once contacts slide; leave the key out");
   }
   if (faults.size() != faults_before) return nullptr;
+  if (!cosserat) options.mean_diameter = 2.0 * definition.packing.mean_radius();
   return std::make_unique<AdaptiveRecipe>(std::move(definition), cosserat, options);
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // model: cell - the stress of a box of grains, run by a worker (docs/theory.md, C.6)
-#include <fmt/format.h>
-
 #include <optional>
 
 #include "coupler/case/material_model.hpp"
@@ -22,7 +20,7 @@ class CellRecipe : public MaterialRecipe {
     if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
     return std::make_shared<CellMaterial>(*pool, pool->define(definition_), cosserat, std::move(note));
   }
-  [[nodiscard]] bool needs_workers() const override { return true; }
+  [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
   [[nodiscard]] const CellDefinition* cell() const override { return &definition_; }
 
  private:
@@ -30,30 +28,12 @@ class CellRecipe : public MaterialRecipe {
   std::optional<CosseratChoice> cosserat_;
 };
 
-/// Two answers to one question would be one too many: a cell that controls its rotations has a skew
-/// stiffness, a couple modulus and limits of both.
-void refuse_cosserat_parameters(Section& section) {
-  for (const char* const key : {"G", "Gc", "lc"}) {
-    if (section.find(key) == nullptr) continue;
-    section.fault(
-        key, fmt::format("{0}: with 'rotations: controlled' the grains give the skew stress and the couple "
-                         "stresses themselves; leave {0} out, or set 'rotations: free'",
-                         key));
-  }
-}
-
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  std::optional<CosseratChoice> cosserat;
-  if (section.choice_or("rotations", {"free", "controlled"}, "free") == "controlled") {
-    definition.control.rotations = CellRotations::controlled;
-    refuse_cosserat_parameters(section);
-  } else {
-    cosserat = read_cosserat_choice(section);
-    read_informed_parameters(section);  // checked, and no more: see there
-  }
+  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition);
+  read_informed_parameters(section);  // checked, and no more: see there
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat);
 }

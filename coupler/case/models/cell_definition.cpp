@@ -42,6 +42,29 @@ CellControl read_control(Section& section) {
   return control;
 }
 
+CosseratChoice read_cosserat_choice(Section& section) {
+  const auto value = [&section](const char* key, Dimension dimension) -> std::optional<double> {
+    return section.quantity_or_word(key, dimension, Limit::positive, "from packing");
+  };
+  CosseratChoice choice;
+  if (section.find("G") != nullptr) choice.shear_modulus = value("G", Dimension::pressure);
+  if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = value("Gc", Dimension::pressure);
+  choice.internal_length = value("lc", Dimension::length);
+  return choice;
+}
+
+/// Two answers to one question would be one too many: a cell that controls its rotations has a skew
+/// stiffness, a couple modulus and limits of both.
+void refuse_cosserat_parameters(Section& section) {
+  for (const char* const key : {"G", "Gc", "lc"}) {
+    if (section.find(key) == nullptr) continue;
+    section.fault(
+        key, fmt::format("{0}: with 'rotations: controlled' the grains give the skew stress and the couple "
+                         "stresses themselves; leave {0} out, or set 'rotations: free'",
+                         key));
+  }
+}
+
 }  // namespace
 
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
@@ -67,17 +90,12 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   return definition;
 }
 
-CosseratChoice read_cosserat_choice(Section& section) {
-  const auto value = [&section](const char* key, Dimension dimension) -> std::optional<double> {
-    const Entry* const entry = section.find(key);
-    if (entry != nullptr && entry->text == "from packing") return {};
-    return section.quantity(key, dimension, Limit::positive);
-  };
-  CosseratChoice choice;
-  if (section.find("G") != nullptr) choice.shear_modulus = value("G", Dimension::pressure);
-  if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = value("Gc", Dimension::pressure);
-  choice.internal_length = value("lc", Dimension::length);
-  return choice;
+std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition) {
+  if (section.choice_or("rotations", {"free", "controlled"}, "free") == "free")
+    return read_cosserat_choice(section);
+  definition.control.rotations = CellRotations::controlled;
+  refuse_cosserat_parameters(section);
+  return {};
 }
 
 }  // namespace polargrain::coupler

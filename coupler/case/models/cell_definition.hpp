@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <optional>
 #include <string>
 
 #include "common/cell.hpp"
@@ -14,7 +15,8 @@ namespace polargrain::coupler {
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
                                     const CaseFiles& files);
 
-/// Reads G, Gc (both `from packing` unless given) and lc.
-CosseratChoice read_cosserat_choice(Section& section);
+/// Reads `rotations` into the definition. With free rotations also G, Gc (both `from packing` unless given) and lc;
+/// with controlled ones the grains answer for all of it, nothing is returned, and these keys are faults.
+std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition);
 
 }  // namespace polargrain::coupler

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/adaptivity/grain_measure.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace polargrain::coupler {
+namespace {
+
+/// Weight of a volume change; the square root of its share of the curvature of the response in shear.
+constexpr double kVolume = 0.35;
+
+}  // namespace
+
+Vector7 GrainMeasure::strain(const Increment& increment) const {
+  Vector7 strain = increment.strain();
+  if (controlled()) {
+    strain.tail<2>() *= diameter_;
+  } else {
+    strain[k12] = strain[k21] = 0.5 * (strain[k12] + strain[k21]);
+    strain.tail<2>().setZero();
+  }
+  return strain;
+}
+
+Vector7 GrainMeasure::unmeasured(const Vector7& strain) const {
+  Vector7 plain = strain;
+  if (controlled()) plain.tail<2>() /= diameter_;
+  return plain;
+}
+
+double GrainMeasure::size(const Increment& offset) const {
+  Vector7 deviator = strain(offset);
+  const double volume = 0.5 * (deviator[k11] + deviator[k22]);
+  deviator[k11] -= volume;
+  deviator[k22] -= volume;
+  return std::sqrt(deviator.squaredNorm() + 2.0 * kVolume * kVolume * volume * volume);
+}
+
+double GrainMeasure::stress(const Vector7& stress) const {
+  const double shear = 0.5 * (stress[k12] + stress[k21]);
+  double squared = stress[k11] * stress[k11] + stress[k22] * stress[k22] + 2.0 * shear * shear;
+  if (controlled()) {
+    const double skew = 0.5 * (stress[k21] - stress[k12]);
+    squared += 2.0 * skew * skew + stress.tail<2>().squaredNorm() / (diameter_ * diameter_);
+  }
+  return std::sqrt(squared);
+}
+
+Vector7 GrainMeasure::place(const Increment& increment) const {
+  const Eigen::Matrix2d& h = increment.displacement_gradient;
+  Vector7 place;
+  place << h(0, 0), h(1, 0), h(0, 1), h(1, 1), std::numbers::sqrt2 * increment.micro_rotation,
+      diameter_ * increment.curvature;
+  return place;
+}
+
+}  // namespace polargrain::coupler
