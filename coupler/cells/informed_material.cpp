@@ -12,6 +12,7 @@
 #include "common/record_archive.hpp"
 #include "common/record_table.hpp"
 #include "coupler/cells/cell_increment.hpp"
+#include "coupler/cells/cell_limits.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -24,19 +25,6 @@ Increment part_of(Increment increment, int parts) {
   increment.micro_rotation /= parts;
   increment.curvature /= parts;
   return increment;
-}
-
-/// In scaled components, which for want of couple stresses are the unscaled ones. Discs have no out-of-plane
-/// stress: they are lent that of the law, in proportion to the pressures in the plane.
-fem::ScaledVector<double> complete_cell_stress(const Vector7& cell, const fem::ScaledVector<double>& law) {
-  fem::ScaledVector<double> scaled = fem::ScaledVector<double>::Zero();
-  scaled.head<3>() = cell.head<3>();
-  scaled(k12) = scaled(k21) = 0.5 * (cell(k12) + cell(k21));
-  const double law_in_plane = law(k11) + law(k22);
-  if (cell(k33) == 0.0 && law_in_plane < 0.0) {
-    scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));
-  }
-  return scaled;
 }
 
 /// The same return with friction as a straight line through its values at both ends of the step: stress and
@@ -123,13 +111,20 @@ InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& pa
                                    const std::string& note)
     : calls_(std::move(calls)),
       parameters_(parameters),
-      frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights), parameters.elastic.internal_length,
-             1e-3} {
+      frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights.value_or(fem::InvariantWeights{})),
+             parameters.elastic.internal_length, 1e-3} {
   if (!note.empty()) notes_.push_back(note);
 }
 
 void InformedMaterial::allocate(std::size_t points) {
   const CellReply packing = packing_at_rest(calls_, notes_);
+  if (controlled() && !parameters_.weights) {
+    const CellLimits limits = limits_of(calls_, packing, parameters_.mean_diameter);
+    const fem::InvariantWeights weights = limits.weights(parameters_.elastic.internal_length);
+    frame_.moduli = fem::SubspaceModuli(parameters_.elastic, weights);
+    notes_.push_back(fmt::format("limits of the packing: {}; invariants [{:.4g}, {:.4g}, {:.4g}]",
+                                 limits.text(), weights.a1, weights.a2, weights.a3));
+  }
   PointState start;
   start.cell = packing;
   Vector7 stress = packing.response.stress;
@@ -281,17 +276,39 @@ void InformedMaterial::take(const CellReply& reply, const Increment& increment, 
   trial.cell = reply;
 }
 
-/// The strain of the cell: symmetric, without curvature.
-fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& increment) {
+fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& increment) const {
   Vector7 strain = increment.strain();
-  strain(k12) = strain(k21) = 0.5 * (strain(k12) + strain(k21));
-  strain.tail<2>().setZero();
+  if (controlled()) {
+    strain.tail<2>() *= frame_.length;
+  } else {
+    strain(k12) = strain(k21) = 0.5 * (strain(k12) + strain(k21));
+    strain.tail<2>().setZero();
+  }
   return strain;
 }
 
-double InformedMaterial::mismatch(const PointState& point) {
-  const auto in_plane = [](const fem::ScaledVector<double>& s) {
-    return std::sqrt(s(k11) * s(k11) + s(k22) * s(k22) + 0.5 * (s(k12) + s(k21)) * (s(k12) + s(k21)));
+/// Discs have no out-of-plane stress: they are lent that of the law, in proportion to the pressures in the plane.
+fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& cell,
+                                                                 const fem::ScaledVector<double>& law) const {
+  fem::ScaledVector<double> scaled = cell;
+  if (controlled()) {
+    scaled.tail<2>() /= frame_.length;
+  } else {
+    scaled(k12) = scaled(k21) = 0.5 * (cell(k12) + cell(k21));
+    scaled.tail<2>().setZero();
+  }
+  const double law_in_plane = law(k11) + law(k22);
+  if (cell(k33) == 0.0 && law_in_plane < 0.0) {
+    scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));
+  }
+  return scaled;
+}
+
+double InformedMaterial::mismatch(const PointState& point) const {
+  const auto in_plane = [this](const fem::ScaledVector<double>& s) {
+    const double shear = 0.5 * (s(k12) + s(k21)) * (s(k12) + s(k21));
+    const double skew = 0.5 * (s(k21) - s(k12)) * (s(k21) - s(k12)) + s.tail<2>().squaredNorm();
+    return std::sqrt(s(k11) * s(k11) + s(k22) * s(k22) + shear + (controlled() ? skew : 0.0));
   };
   const double size = in_plane(point.law.scaled_stress);
   const double difference = in_plane(

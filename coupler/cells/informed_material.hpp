@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,9 +23,12 @@ enum class InformedUpdate {
 
 struct InformedParameters {
   fem::ElasticParameters elastic;  ///< of the law; its initial stress is that of the packing
-  fem::InvariantWeights weights;
+  /// Of the law's invariant. Nothing: the standard ones, or, with controlled rotations, those of the cell (cell_limits.hpp).
+  std::optional<fem::InvariantWeights> weights = {};
   fem::MobilisationOptions mobilisation;
   InformedUpdate update = InformedUpdate::frozen;
+  /// Of grains whose rotations are controlled, m: their skew and couple stresses inform the law too. 0: they are free.
+  double mean_diameter = 0.0;
 
   /// Takes over the moduli of G, Gc and lc; Poisson's ratio must be set.
   void set_moduli(const CosseratParameters& cosserat);
@@ -32,14 +36,17 @@ struct InformedParameters {
 
 /// The generalised elastoplastic Cosserat material (docs/theory/plasticity.md, B.9): at each point a
 /// closed-form law carries the stress, and a cell that follows the point's strain tells it friction and
-/// dilatancy. What law and cell disagree about is shown as the field stress_mismatch.
+/// dilatancy. A cell with controlled rotations follows micro-rotation and curvature too; its limits of skew and couple
+/// stress are the law's weights, and friction is read from its whole stress. What law and cell disagree about is shown
+/// as the field stress_mismatch.
 class InformedMaterial : public fem::Material {
  public:
   /// @param calls must live as long as the material
   /// @param note what the user is to know of the parameters; may be empty
   InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note = {});
 
-  /// Every point starts from the packing at rest; where the cell has no out-of-plane stress, from the mean of
+  [[nodiscard]] double moment_length() const override { return parameters_.mean_diameter; }
+  /// Every point starts from the packing at rest, which is first taken to its limits where the weights are its own; where the cell has no out-of-plane stress, from the mean of
   /// the two others.
   void allocate(std::size_t points) override;
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
@@ -83,9 +90,15 @@ class InformedMaterial : public fem::Material {
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(std::span<const std::size_t> points);
   void take(const CellReply& reply, const Increment& increment, std::size_t point);
-  /// Norm of the difference of the in-plane stresses of law and cell, over that of the law.
-  [[nodiscard]] static double mismatch(const PointState& point);
-  [[nodiscard]] static fem::ScaledVector<double> scaled_strain(const Increment& increment);
+  /// Norm of the difference of the in-plane stresses of law and cell, over that of the law; controlled rotations: skew
+  /// stress and couple stress over lc included.
+  [[nodiscard]] double mismatch(const PointState& point) const;
+  [[nodiscard]] bool controlled() const { return parameters_.mean_diameter > 0.0; }
+  /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
+  /// plane and without curvature and couple stress where rotations are free.
+  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& increment) const;
+  [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
+                                                               const fem::ScaledVector<double>& law) const;
 
   CellCalls calls_;
   std::vector<std::string> notes_;

@@ -13,7 +13,7 @@
 namespace polargrain::coupler {
 
 double NetworkModuli::length() const {
-  return std::sqrt(couple / (2.0 * shear));
+  return couple > 0.0 && shear > 0.0 ? std::sqrt(couple / (2.0 * shear)) : 0.0;
 }
 
 std::string NetworkModuli::text() const {
@@ -35,20 +35,26 @@ NetworkModuli network_moduli(const Matrix7& c) {
   return moduli;
 }
 
-CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition,
+NetworkModuli network_moduli(Pool& pool, CellDefinition definition) {
+  definition.control.tangent = CellTangent::cosserat;
+  std::vector<std::string> remarks;  // the material's own cell makes them too
+  return network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
+}
+
+CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const CellDefinition& definition,
                             std::string& note) {
   NetworkModuli packing;
   if (!choice.shear_modulus || !choice.cosserat_shear_modulus || !choice.internal_length) {
-    definition.control.tangent = CellTangent::cosserat;
-    std::vector<std::string> remarks;  // the material's own cell makes them too
-    packing =
-        network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
+    packing = network_moduli(pool, definition);
     note = "moduli of the packing at rest: " + packing.text();
     const auto check = [&](const char* key, bool asked, double modulus) {
-      if (asked && !(modulus > 0.0))
-        throw RunError(fmt::format(
-            "material '{}': {} cannot come from the packing, whose network has {}; give {} a value",
-            definition.name, key, packing.text(), key));
+      if (!asked || modulus > 0.0) return;
+      const std::string remedy = definition.control.rotations == CellRotations::controlled
+                                     ? "'model: informed' with 'rotations: controlled' needs grains with "
+                                       "rolling resistance or of unequal radii"
+                                     : fmt::format("give {} a value", key);
+      throw RunError(fmt::format("material '{}': {} cannot come from the packing, whose network has {}; {}",
+                                 definition.name, key, packing.text(), remedy));
     };
     check("G", !choice.shear_modulus, packing.shear);
     check("Gc", !choice.cosserat_shear_modulus, packing.cosserat_shear);

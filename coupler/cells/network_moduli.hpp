@@ -18,12 +18,15 @@ struct NetworkModuli {
   double couple = 0.0;          ///< B = dm / d kappa, N
   double poisson = 0.0;         ///< nu of plane strain: lambda / (2 (lambda + G))
 
-  [[nodiscard]] double length() const;  ///< sqrt(B / 2G), m
+  [[nodiscard]] double length() const;  ///< sqrt(B / 2G), m; 0 without couple stresses
   [[nodiscard]] std::string text() const;
 };
 
 /// @param tangent d stress / d strain with the mean rotation prescribed (CellTangent::cosserat)
 NetworkModuli network_moduli(const Matrix7& tangent);
+
+/// The same of a packing under its script, as a worker finds it. @throws RunError when it cannot be brought to rest
+NetworkModuli network_moduli(Pool& pool, CellDefinition definition);
 
 /// What a case says of G, Gc and lc; nothing where the packing is to tell.
 struct CosseratChoice {
@@ -34,7 +37,7 @@ struct CosseratChoice {
 
 /// Fills in what is left to the packing by asking a worker for its network, if anything is.
 /// @param note gets one line that says what was found @throws RunError where a modulus of the packing is not positive
-CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, CellDefinition definition,
+CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const CellDefinition& definition,
                             std::string& note);
 
 }  // namespace polargrain::coupler

@@ -9,8 +9,11 @@ namespace polargrain::fem {
 namespace {
 
 bool is_loading(const MicroStep& step) {
-  const ScaledVector<double> stress = 0.5 * (step.stress_before + step.stress_after);
-  return plain_dot(Split<double>(stress).part[0], Split<double>(step.strain).part[0]) > 0.0;
+  const Split<double> stress(0.5 * (step.stress_before + step.stress_after));
+  const Split<double> strain(step.strain);
+  double work = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) work += plain_dot(stress.part[k], strain.part[k]);
+  return work > 0.0;
 }
 
 /// Least-squares slope of the plastic strain over the deformation; zero with fewer than two samples.

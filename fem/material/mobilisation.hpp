@@ -50,7 +50,7 @@ Mobilisation initial_mobilisation(const MobilisationOptions& options);
 
 /// What a point knows after one more increment of its micro scale.
 ///
-/// The window holds the increments of one loading: s : d eps > 0 with the deviators of stress and strain. In
+/// The window holds the increments of one loading: s : d eps + m . d kappa > 0 with the deviators of stress and strain. In
 /// unloading it is emptied and the cone stays. The cone also stays while the macro law is elastic, and
 /// friction does not fall when the micro scale, loaded again, is still on its way up to it: it falls only
 /// when the micro scale loses strength while it is being loaded (softening).

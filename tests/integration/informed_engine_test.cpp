@@ -2,10 +2,15 @@
 // Both schemes against the cell itself: biaxial compression of one element, grains run by LIGGGHTS (E.8).
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <iostream>
+#include <numbers>
 
+#include "coupler/cells/cell_limits.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/informed_material.hpp"
+#include "coupler/cells/network_moduli.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/solver.hpp"
 #include "tests/integration/command.hpp"
@@ -141,6 +146,93 @@ TEST_F(InformedEngineTest, PeaksOfBothSchemesAreTheCellsOwn) {
   // An element takes its cell there by other increments; from packing to packing that makes a standard deviation of
   // 1.5 % of the mean about the peak, so 0.9 % for three.
   EXPECT_NEAR(of_cell, 1.0, 0.02);
+}
+
+/// Cells of hooke_li_chu with controlled rotations.
+class ControlledInformedTest : public InformedEngineTest {
+ protected:
+  ControlledInformedTest() {
+    CellControl control;
+    control.rotations = CellRotations::controlled;
+    Packing packing = read_packing(kSource / "cases/biaxial/packing400.csv");
+    diameter_ = 2.0 * packing.mean_radius();
+    sand_ =
+        pool_.define({"sand", "hooke_li_chu.in", content(kSource / "liggghts_inputs/cells/hooke_li_chu.in"),
+                      std::move(packing), control});
+    std::string note;
+    moduli_ = coupler::resolved({}, pool_, pool_.definition(sand_), note);
+  }
+
+  coupler::InformedParameters parameters(coupler::InformedUpdate update) const {
+    coupler::InformedParameters made;
+    made.elastic.poisson_ratio = 0.2;
+    made.set_moduli(moduli_);
+    made.update = update;
+    made.mean_diameter = diameter_;
+    made.mobilisation.initial_friction = 0.09;
+    made.mobilisation.cohesion = 100.0;
+    return made;
+  }
+
+  double diameter_ = 0.0;
+  coupler::CosseratParameters moduli_;
+};
+
+TEST_F(ControlledInformedTest, LimitsAreThoseOfContactsThatSlideAndRoll) {
+  const coupler::CellCalls calls = coupler::calls_of(pool_, sand_);
+  const coupler::CellLimits limits = coupler::limits_of(calls, calls.initial(), diameter_);
+  // C.6 with mu = tan(0.5) and mu_th = 0.2; r_c is half a radius for equal discs, and the polar part of unequal ones
+  // adds up to a third (dem_limits_test).
+  const double skew = 2.0 * std::tan(0.5);
+  const double couple = 4.0 / std::numbers::pi * 0.2 * 0.25 * diameter_;
+  std::cout << "[figure] " << limits.text() << ": skew " << limits.skew / skew << ", couple "
+            << limits.couple / couple << " of the closed forms\n";
+  EXPECT_NEAR(limits.skew / skew, 1.0, 0.03);
+  EXPECT_GT(limits.couple / couple, 1.0);
+  EXPECT_LT(limits.couple / couple, 1.4);
+}
+
+TEST_F(ControlledInformedTest, APointThatIsShearedBentAndTurnedStaysNearItsCell) {
+  constexpr int kSteps = 40;
+  const auto size = [](const Vector7& stress, double length) {
+    Vector7 measured = stress;
+    measured(k33) = 0.0;
+    measured.tail<2>() /= length;
+    return measured.norm();
+  };
+  for (const coupler::InformedUpdate update :
+       {coupler::InformedUpdate::frozen, coupler::InformedUpdate::fixed_point}) {
+    coupler::InformedMaterial law(coupler::calls_of(pool_, sand_), parameters(update));
+    coupler::CellMaterial cell(pool_, sand_, std::nullopt);
+    law.allocate(3);
+    cell.allocate(3);
+    // One that is sheared, bent and turned at once; one sheared, then bent; one sheared, then turned.
+    std::array<double, 3> worst{};
+    for (int step = 1; step <= kSteps; ++step) {
+      std::vector<Increment> increments(3);
+      const bool second_half = 2 * step > kSteps;
+      for (std::size_t p = 0; p < 3; ++p) {
+        if (p == 0 || !second_half) increments[p].displacement_gradient << 4e-4, 2e-4, 2e-4, -4e-4;
+        if (p == 0 || (p == 1 && second_half)) increments[p].curvature << 6e-4 / diameter_, -3e-4 / diameter_;
+        if (p == 0 || (p == 2 && second_half)) increments[p].micro_rotation = 4e-4;
+      }
+      std::vector<Response> informed(3), direct(3);
+      law.evaluate(increments, informed);
+      law.commit();
+      cell.evaluate(increments, direct);
+      cell.commit();
+      if (10 * step <= kSteps) continue;  // friction starts from a guess
+      for (std::size_t p = 0; p < 3; ++p) {
+        ASSERT_EQ(informed[p].quality, Quality::good) << informed[p].message;
+        worst[p] = std::max(worst[p], size(informed[p].stress - direct[p].stress, moduli_.internal_length) /
+                                          size(direct[p].stress, moduli_.internal_length));
+      }
+    }
+    std::cout << "[figure] " << (update == coupler::InformedUpdate::frozen ? "frozen" : "fixed point")
+              << ": largest difference of law and cell over the stress: sheared, bent and turned " << worst[0]
+              << ", sheared then bent " << worst[1] << ", sheared then turned " << worst[2] << '\n';
+    for (const double error : worst) EXPECT_LT(error, 0.5);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // model: informed - a Cosserat cone whose friction and dilatancy come from a box of grains
 // (docs/theory/plasticity.md, B.9)
+#include <optional>
+
 #include "coupler/case/material_model.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
@@ -12,29 +14,31 @@ namespace {
 class InformedRecipe : public MaterialRecipe {
  public:
   InformedRecipe(CellDefinition definition, const InformedParameters& parameters,
-                 const CosseratChoice& cosserat)
+                 const std::optional<CosseratChoice>& cosserat)
       : definition_(std::move(definition)), parameters_(parameters), cosserat_(cosserat) {}
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     InformedParameters parameters = parameters_;
     std::string note;
-    parameters.set_moduli(resolved(cosserat_, *pool, definition_, note));
+    // Controlled rotations leave nothing to the case: stiffness and strength are the cell's.
+    parameters.set_moduli(resolved(cosserat_.value_or(CosseratChoice{}), *pool, definition_, note));
     return std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters, note);
   }
-  [[nodiscard]] bool needs_workers() const override { return true; }
+  [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
   CellDefinition definition_;
   InformedParameters parameters_;
-  CosseratChoice cosserat_;
+  std::optional<CosseratChoice> cosserat_;
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  const CosseratChoice cosserat = read_cosserat_choice(section);
-  const InformedParameters parameters = read_informed_parameters(section);
+  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition);
+  InformedParameters parameters = read_informed_parameters(section);
   if (faults.size() != faults_before) return nullptr;
+  if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
   definition.control.tangent = CellTangent::none;  // the law has one of its own
   return std::make_unique<InformedRecipe>(std::move(definition), parameters, cosserat);
 }

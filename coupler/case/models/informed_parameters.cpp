@@ -37,7 +37,7 @@ InformedParameters read_informed_parameters(Section& section) {
   reading.cohesion = section.quantity_or("cohesion", Dimension::pressure, Limit::positive, 100.0);
   if (section.find("invariants") != nullptr) {
     const std::vector<double> a = section.quantities("invariants", 3, Dimension::number, Limit::any);
-    parameters.weights = {a[0], a[1], a[2]};
+    parameters.weights = fem::InvariantWeights{a[0], a[1], a[2]};
     constexpr double kRounding = 1e-12;
     if (std::abs(a[0] + a[1] - 0.5) > kRounding || a[0] < a[1] || a[2] < 0.0) {
       section.fault("invariants", "invariants: a1 + a2 must be 0.5, a1 at least a2, a3 not negative");

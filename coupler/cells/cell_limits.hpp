@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+
+#include "coupler/cells/cell_calls.hpp"
+#include "fem/material/stress_subspaces.hpp"
+
+namespace polargrain::coupler {
+
+/// How much of each kind of stress a packing can carry, found by taking it to its limit three times from rest: sheared
+/// at constant volume, with its grains turned against the box, and bent (docs/theory/plasticity.md, B.9). All are the
+/// largest value met on the way.
+struct CellLimits {
+  double friction = 0.0;  ///< M of the cone that collapses in plane strain where the packing does (B.3)
+  double skew = 0.0;      ///< |s21 - s12| / p; 2 mu for discs of one friction
+  double couple = 0.0;    ///< |m| / p, m; (4/pi) mu_th r_c for discs with rolling resistance
+
+  /// The weights with which a cone of that friction also yields at these limits of skew stress and couple stress
+  /// (C.6): p_2 = 4 M^2 / (3 skew^2), p_3 = 2 M^2 lc^2 / (3 couple^2).
+  /// @param internal_length lc that the elastic couple modulus 2 G lc^2 has, m
+  [[nodiscard]] fem::InvariantWeights weights(double internal_length) const;
+  /// The length of the plastic couple stresses, m: lc / sqrt(2 a3) of those weights.
+  [[nodiscard]] double plastic_length() const;
+  [[nodiscard]] std::string text() const;
+};
+
+/// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
+/// @throws RunError where a path cannot be followed or a limit is none
+CellLimits limits_of(const CellCalls& calls, const CellReply& packing, double mean_diameter);
+
+}  // namespace polargrain::coupler
