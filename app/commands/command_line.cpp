@@ -9,6 +9,7 @@
 
 #include "app/bench/bench.hpp"
 #include "app/commands/band.hpp"
+#include "app/commands/moduli.hpp"
 #include "app/commands/pack.hpp"
 #include "app/commands/point.hpp"
 #include "app/commands/verify.hpp"
@@ -33,7 +34,7 @@ A Cosserat finite element model whose material, where you want it, is a box of g
 
 constexpr const char* kExamples = R"(
 Try:
-  polargrain check cases/biaxial/case.yaml          all faults of a case at once, nothing is run
+  polargrain check cases/biaxial/case.yaml          all faults of a case at once, and what its packings resist with
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
   polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
   polargrain run case.yaml --set steps.count=10     change a value for one run
@@ -71,6 +72,12 @@ int check(const std::string& file, const std::vector<std::string>& settings, con
   if (the_case.check_share > 0.0 && the_case.needs_workers())
     tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker none can be\n",
          100.0 * the_case.check_share);
+  std::vector<const CellDefinition*> cells;
+  for (const auto& [name, material] : the_case.materials)
+    if (material->needs_workers()) cells.push_back(material->grains());
+  const std::vector<std::string> lines = moduli_of(cells, scripts.trusted);
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    tell(stdout, "material '{}': {}\n", cells[k]->name, lines[k]);
   return 0;
 }
 
@@ -164,7 +171,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
 
   std::string check_file;
   std::vector<std::string> check_settings;
-  CLI::App* check_command = app.add_subcommand("check", "Report all faults of a case; run nothing");
+  CLI::App* check_command = app.add_subcommand("check", "Report all faults of a case; take no step");
   check_command->add_option("CASE", check_file, "Case file (YAML)")->required()->transform(brought_along);
   add_settings(*check_command, check_settings);
   ScriptRules check_scripts;
@@ -342,7 +349,13 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
     if (check_command->parsed()) return check(check_file, check_settings, check_scripts);
     if (point_command->parsed()) return point(point_options);
     if (band_command->parsed()) return band(band_options);
-    if (pack_command->parsed()) return pack(pack_options, packing_tools);
+    if (pack_command->parsed()) {
+      pack_options.moduli = [&](const CellDefinition& cell) {
+        const CellDefinition* const one = &cell;
+        return moduli_of({&one, 1}, pack_options.scripts.trusted).front();
+      };
+      return pack(pack_options, packing_tools);
+    }
     if (bench_command->parsed()) {
       if (bench_options.cases.empty()) take_demo(bench_options);
       return bench(bench_options, packing_tools);

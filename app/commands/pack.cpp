@@ -144,7 +144,13 @@ int pack(const PackOptions& options, const PackingTools& tools) {
                                log.string(), coupler::log_excerpt(log)));
   std::filesystem::remove(log);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!options.quiet) report(read_packing_file(options.output), seconds, options.output);
+  if (options.quiet) return 0;
+  const PreparedPacking made = read_packing_file(options.output);
+  report(made, seconds, options.output);
+  if (options.moduli && made.packing.dimension == 2)
+    tell(stdout, "  {}\n",
+         options.moduli({options.output.stem().string(), specification.script_file, specification.script,
+                         made.packing, CellControl{}, specification.contact_library}));
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/cell.hpp"
 #include "common/packing_specification.hpp"
 #include "common/script.hpp"
 
@@ -28,6 +29,8 @@ struct PackOptions {
   /// A packing and the script that it is brought to rest under, as it is; or nothing.
   std::vector<std::filesystem::path> settle = {};
   ScriptRules scripts = {};
+  /// What else is told of a plane packing at the end, as the cell that it makes under its script; empty: nothing.
+  std::function<std::string(const CellDefinition&)> moduli = {};
 };
 
 /// Makes a packing after a specification, in a process of its own (an engine error ends its process), whose

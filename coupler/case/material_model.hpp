@@ -18,8 +18,9 @@ class MaterialRecipe {
   virtual ~MaterialRecipe() = default;
   /// @param pool never null when needs_workers(); must outlive the material
   [[nodiscard]] virtual std::shared_ptr<fem::Material> make(Pool* pool) const = 0;
-  /// Whether the material asks cells, so that the run needs workers.
-  [[nodiscard]] virtual bool needs_workers() const { return false; }
+  /// The cells that the material asks; null when it asks none.
+  [[nodiscard]] virtual const CellDefinition* grains() const { return nullptr; }
+  [[nodiscard]] bool needs_workers() const { return grains() != nullptr; }
   /// The cell whose answer is the material's stress, when there is one that a path can be replayed in.
   [[nodiscard]] virtual const CellDefinition* cell() const { return nullptr; }
   /// Whether the material resists a micro-rotation relative to the continuum (Gc > 0).

@@ -93,13 +93,15 @@ std::string Section::scalar(const Entry& entry, const std::string& key, const st
   return {};
 }
 
-double Section::number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit) {
-  const std::string text = scalar(entry, key, expectation(dimension));
+double Section::number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit,
+                          const std::string& or_word) {
+  const std::string expected = expectation(dimension) + or_word;
+  const std::string text = scalar(entry, key, expected);
   if (text.empty()) return 1.0;
   const std::optional<double> value = parse_quantity(text, dimension);
   if (!value) {
-    faults_.push_back(entry.fault(
-        fmt::format("{}: {}: expected {}, found '{}'", name_, key, expectation(dimension), text)));
+    faults_.push_back(
+        entry.fault(fmt::format("{}: {}: expected {}, found '{}'", name_, key, expected, text)));
     return 1.0;
   }
   const bool fits = limit == Limit::any || *value > 0.0 || (limit == Limit::not_negative && *value == 0.0);
@@ -118,6 +120,15 @@ double Section::quantity(const std::string& key, Dimension dimension, Limit limi
 double Section::quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise) {
   const Entry* entry = find(key);
   return entry == nullptr ? otherwise : number_of(*entry, key, dimension, limit);
+}
+
+std::optional<double> Section::quantity_or_word(const std::string& key, Dimension dimension, Limit limit,
+                                                const std::string& word) {
+  const std::string or_word = fmt::format(", or '{}'", word);
+  const Entry* entry = require(key, expectation(dimension) + or_word);
+  if (entry == nullptr) return 1.0;
+  if (entry->kind == Entry::Kind::scalar && entry->text == word) return {};
+  return number_of(*entry, key, dimension, limit, or_word);
 }
 
 int Section::whole_of(const Entry& entry, const std::string& key, int least) {

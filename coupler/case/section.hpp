@@ -37,6 +37,9 @@ class Section {
 
   double quantity(const std::string& key, Dimension dimension, Limit limit);
   double quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise);
+  /// A quantity, or nothing where the value is that word.
+  std::optional<double> quantity_or_word(const std::string& key, Dimension dimension, Limit limit,
+                                         const std::string& word);
   int whole(const std::string& key, int least);
   int whole_or(const std::string& key, int least, int otherwise);
   /// A list of so many quantities, or of so many whole numbers.
@@ -66,7 +69,9 @@ class Section {
  private:
   std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
   const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
-  double number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit);
+  /// @param or_word what else may stand there, for messages; or empty
+  double number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit,
+                   const std::string& or_word = {});
   int whole_of(const Entry& entry, const std::string& key, int least);
   std::string choice_of(const Entry& entry, const std::string& key, const std::vector<std::string>& words);
 

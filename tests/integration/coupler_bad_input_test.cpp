@@ -124,11 +124,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"NoNumber", "G: 40 MPa", "G: stiff",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
                  "kPa, MPa, "
-                 "GPa, found 'stiff'"},
+                 "GPa, or 'from packing', found 'stiff'"},
         BadInput{"NotFinite", "G: 40 MPa", "G: inf",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
                  "kPa, MPa, "
-                 "GPa, found 'inf'"},
+                 "GPa, or 'from packing', found 'inf'"},
         BadInput{"ZeroModulus", "Gc: 10 MPa", "Gc: 0",
                  "case.yaml:7: material 'sand': Gc: must be greater than zero, found '0'"},
         BadInput{"FractionOfASteps", "count: 4", "count: 2.5",

@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+if(TARGET polargrain)
+  polargrain_test(cosserat_runs_test integration integration/cosserat_runs_test.cpp LIBS polargrain_options Threads::Threads)
+  target_compile_definitions(cosserat_runs_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                        POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  add_dependencies(cosserat_runs_test polargrain)
+endif()
