@@ -111,7 +111,7 @@ class InformedEngineTest : public ::testing::Test {
 };
 
 TEST_F(InformedEngineTest, PeaksOfBothSchemesAreTheCellsOwn) {
-  const std::vector<std::string> packings{"cases/biaxial/packing400.csv", "cases/studies/dense400_seed3.h5",
+  const std::vector<std::string> packings{"cases/biaxial/packing400.csv", "cases/studies/dense400_seed1.h5",
                                           "cases/studies/dense400_seed4.h5"};
   double of_cell = 0.0;
   double of_informed = 0.0;
@@ -231,7 +231,10 @@ TEST_F(ControlledInformedTest, APointThatIsShearedBentAndTurnedStaysNearItsCell)
     std::cout << "[figure] " << (update == coupler::InformedUpdate::frozen ? "frozen" : "fixed point")
               << ": largest difference of law and cell over the stress: sheared, bent and turned " << worst[0]
               << ", sheared then bent " << worst[1] << ", sheared then turned " << worst[2] << '\n';
-    for (const double error : worst) EXPECT_LT(error, 0.5);
+    // The ellipsoid between the limits is an assumption, and the network is softer while it shears than at rest.
+    EXPECT_LT(worst[0], 0.3);
+    EXPECT_LT(worst[1], 0.2);
+    EXPECT_LT(worst[2], 0.33);
   }
 }
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Not under sanitizers: HDF5 itself leaks, and asks for absurd sizes, when it refuses a damaged file.
+# The two of integration not under sanitizers: HDF5 itself leaks, and asks for absurd sizes, when it refuses a damaged file.
 polargrain_test(pack_file_test integration unit/pack_file_test.cpp LIBS polargrain_common)
 polargrain_test(pack_specification_test unit unit/pack_specification_test.cpp LIBS polargrain_app)
 if(TARGET polargrain_dem)
   polargrain_test(pack_sizes_test unit unit/pack_sizes_test.cpp LIBS polargrain_dem)
 endif()
+
+polargrain_test(study_packings_test integration unit/study_packings_test.cpp LIBS polargrain_common)
+target_compile_definitions(study_packings_test PRIVATE CASES="${PROJECT_SOURCE_DIR}/cases")

@@ -91,7 +91,7 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
 }
 
 std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition) {
-  if (section.choice_or("rotations", {"free", "controlled"}, "free") == "free")
+  if (section.choice_or("rotations", {"free", "controlled"}, "free") != "controlled")
     return read_cosserat_choice(section);
   definition.control.rotations = CellRotations::controlled;
   refuse_cosserat_parameters(section);
