@@ -11,12 +11,13 @@
 namespace polargrain::app {
 namespace {
 
-constexpr std::size_t kReportColumns = 12;  ///< of history.csv, before the values
+constexpr std::size_t kReportColumns = 14;  ///< of history.csv, before the values
 
 std::vector<std::string> history_columns(const coupler::Case& the_case) {
   std::vector<std::string> columns{"step",        "time",         "substeps",        "cuts",
                                    "iterations",  "evaluations",  "force_residual",  "moment_residual",
-                                   "force_noise", "within_noise", "within_rounding", "limited"};
+                                   "force_noise", "within_noise", "within_rounding", "limited",
+                                   "jumps",       "jump_residual"};
   for (const std::string& name : coupler::built_in_values()) {
     if (name != "time") columns.push_back(name);
   }
@@ -85,7 +86,9 @@ void RunFiles::add(const CommittedStep& step) {
                                exact(report.force_noise),
                                std::to_string(report.within_noise),
                                std::to_string(report.within_rounding),
-                               std::to_string(report.limited)};
+                               std::to_string(report.limited),
+                               std::to_string(report.jumps),
+                               exact(report.jump_residual)};
   for (const auto& [name, value] : step.values) {
     if (name != "time") row.push_back(exact(value));
   }
@@ -150,6 +153,8 @@ std::vector<CommittedStep> steps_of_history(const std::string& history, const co
     report.within_noise = static_cast<int>(whole(9));
     report.within_rounding = static_cast<int>(whole(10));
     report.limited = static_cast<int>(whole(11));
+    report.jumps = static_cast<int>(whole(12));
+    report.jump_residual = real(13);
     step.values.emplace_back("time", report.time);
     for (std::size_t c = kReportColumns; c < cells.size(); ++c) step.values.emplace_back(columns[c], real(c));
     steps.push_back(std::move(step));

@@ -18,6 +18,11 @@ void log_step(spdlog::logger& log, const fem::StepReport& report, double largest
     log.warn("  {} corrections asked for strains beyond {} and were shortened or replaced", report.limited,
              largest_strain);
   }
+  if (report.jumps > 0) {
+    log.warn(
+        "  {} jumps of the stresses were passed; the largest left a force residual of {:.3e}, let go since",
+        report.jumps, report.jump_residual);
+  }
   log.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
            report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
            report.evaluations, report.time);

@@ -90,6 +90,8 @@ void RunRecord::add(CommittedStep step) {
   within_noise += step.report.within_noise;
   within_rounding += step.report.within_rounding;
   limited += step.report.limited;
+  jumps += step.report.jumps;
+  jump_residual = std::max(jump_residual, step.report.jump_residual);
   if (!step.values.empty()) steps.push_back(std::move(step));
 }
 
@@ -107,6 +109,8 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                      {"substeps_within_noise", record.within_noise},
                      {"substeps_within_rounding", record.within_rounding},
                      {"corrections_limited", record.limited},
+                     {"jumps_passed", record.jumps},
+                     {"largest_jump_residual", record.jump_residual},
                      {"point_evaluations", record.evaluations},
                      {"workers", record.workers},
                      {"values", last_values(record)},
@@ -144,6 +148,13 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
   if (record.limited > 0) {
     text += fmt::format("{} corrections asked for too large a strain and were shortened or replaced\n",
                         record.limited);
+  }
+  if (record.jumps > 0) {
+    text += fmt::format(
+        "{} jumps of the stresses were passed; the largest left {:.3g} of the forces out of balance, let go "
+        "by the end "
+        "of its step\n",
+        record.jumps, record.jump_residual);
   }
   return text;
 }

@@ -26,9 +26,11 @@ struct RunRecord {
   long evaluations = 0;
   int iterations = 0;
   int cuts = 0;
-  int within_noise = 0;  ///< this and the next two: see fem::StepReport
+  int within_noise = 0;  ///< this and the next four: see fem::StepReport
   int within_rounding = 0;
   int limited = 0;
+  int jumps = 0;
+  double jump_residual = 0.0;
   coupler::PoolCounts pool;
   Costs costs;
   /// What materials tell of their cost and error, by region; only of those that do.

@@ -17,7 +17,9 @@ class JumpWatch {
   }
   /// A substep was committed: what comes next starts elsewhere.
   void clear() { attempts_.clear(); }
-  /// What the attempts since the last substep show, for people; empty while they show no jump.
+  /// Whether the attempts since the last substep show a jump.
+  [[nodiscard]] bool seen() const { return longer_with_as_much() != nullptr; }
+  /// The same for people; empty while they show none.
   [[nodiscard]] std::string statement() const;
 
  private:
@@ -26,6 +28,9 @@ class JumpWatch {
     double residual;
     double excess;
   };
+  /// The last attempt that was much longer than the present one, when it left hardly more; else null.
+  [[nodiscard]] const Attempt* longer_with_as_much() const;
+
   std::vector<Attempt> attempts_;
 };
 

@@ -249,7 +249,7 @@ Newton::Iterate Newton::start_of(const StepGoal& goal) const {
   Iterate iterate{goal.controls_time() ? goal.time : state.time, goal.released, state.displacement, {}, {}};
   constraints.apply(iterate.time, iterate.displacement);
   iterate.displacement -= state.displacement;
-  if (released_ < 1.0) iterate.displacement *= (goal.released - released_) / (1.0 - released_);
+  if (goal.releases_displacements) iterate.displacement *= (goal.released - released_) / (1.0 - released_);
   return iterate;
 }
 
@@ -293,10 +293,7 @@ std::string Newton::residual_text(const Residual& residual) const {
                             floor.moment);
 }
 
-Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
-  constexpr double kFast = 0.1;  // a true tangent at work: nothing to accelerate
-  report.force_residuals.clear();
-  report.moment_residuals.clear();
+Newton::Predictor Newton::predict(const StepGoal& goal) {
   move_to_committed();
   anderson_.clear();
   internal_before_ = discretisation.internal_forces(state.responses);
@@ -308,6 +305,14 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
       loads_at(iterate.time, iterate.released) - internal_before_ +
       loads.linearised(iterate.time, iterate.displacement) -
       discretisation.linearised_forces(linearised(state.responses), iterate.displacement);
+  return {std::move(iterate), std::move(right_side)};
+}
+
+Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
+  constexpr double kFast = 0.1;  // a true tangent at work: nothing to accelerate
+  report.force_residuals.clear();
+  report.moment_residuals.clear();
+  auto [iterate, right_side] = predict(goal);
   Correction change;
   StagnationWatch watch(options.stagnation_window);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {

@@ -24,6 +24,7 @@ struct StepGoal {
   /// Share, at the end of the step, of what equilibrate() lets go: displacements given at time 0 and nodal
   /// forces that are out of balance then.
   double released = 1.0;
+  bool releases_displacements = false;  ///< the given displacements too, not only the forces
 
   [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
 };
@@ -50,6 +51,9 @@ class Newton {
   void withhold_imbalance();
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
+  /// Commits a short step as its predictor has it, out of balance by a jump of the stresses, and withholds what is out
+  /// of balance then. Leaves the committed state alone when the predictor or a material fails.
+  [[nodiscard]] Attempt pass_jump(const StepGoal& goal, StepReport& report);
   /// Drops the trial states.
   void revert();
   /// Puts mesh and loads where the committed displacements have them; nothing to do in small deformation.
@@ -83,6 +87,12 @@ class Newton {
   [[nodiscard]] Linearisation linearised(const std::vector<Response>& answers) const;
   [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
+  /// Where the iteration of a step starts, and the forces that its first correction balances.
+  struct Predictor {
+    Iterate iterate;
+    Eigen::VectorXd right_side;
+  };
+  [[nodiscard]] Predictor predict(const StepGoal& goal);
   void evaluate(Iterate& iterate, StepReport& report);
   void find_increments(const Eigen::VectorXd& displacement_increment);
   [[nodiscard]] bool factorise(const std::vector<Response>& responses, double time, StepReport& report);

@@ -34,11 +34,17 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
   double done = 0.0;
   int cuts_in_a_row = 0;
   JumpWatch jumps;
+  double jumped_at = -1.0;  // share of the way; what a jump left is let go over the rest
+  const auto goal_to = [&](double end, double step) {
+    StepGoal goal = goal_at(end, step);
+    if (jumped_at >= 0.0) goal.released = (end - jumped_at) / (1.0 - jumped_at);
+    return goal;
+  };
   while (done < 1.0) {
     const bool cut = state.next_step > 0.0 && state.next_step < kNearlyAll * (1.0 - done);
     const double step = cut ? state.next_step : 1.0 - done;
     const double end = cut ? done + step : 1.0;
-    const StepGoal goal = goal_at(end, step);
+    const StepGoal goal = goal_to(end, step);
     const Attempt result = attempt(goal, cuts_in_a_row, report);
     if (result.converged) {
       ++report.substeps;
@@ -53,6 +59,18 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
       const Residual first{report.force_residuals.front(), report.moment_residuals.front()};
       jumps.failed(step, first.force, excess(first));
     }
+    if (jumps.seen() && report.jumps < options.most_jumps) {
+      // Half of the last share, so that some of the step is left in any case.
+      if (pass_jump(goal_to(done + 0.5 * step, 0.5 * step), report).converged) {
+        ++report.substeps;
+        cuts_in_a_row = 0;
+        jumps.clear();
+        jumped_at = done += 0.5 * step;
+        state.next_step = 0.5 * (1.0 - done);
+        continue;
+      }
+      revert();
+    }
     if (cuts_in_a_row == options.most_cuts) {
       report.message = fmt::format("the step was cut {} times in a row and still fails: {}{}", cuts_in_a_row,
                                    result.reason, jumps.statement());
@@ -64,7 +82,7 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
     state.next_step = step * std::clamp(result.step_factor, 0.1, 0.5);
     if (observer) {
       const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
-      observer->cut(time_of(goal), result.reason, time_of(goal_at(done + state.next_step, state.next_step)));
+      observer->cut(time_of(goal), result.reason, time_of(goal_to(done + state.next_step, state.next_step)));
     }
   }
   report.converged = true;
@@ -97,7 +115,7 @@ StepReport Solver::equilibrate() {
   if (report.converged) return report;
   self.withhold_imbalance();
   report = self.march(std::move(report), [&](double end, double) {
-    return StepGoal{.time = self.state.time, .measure = {}, .released = end};
+    return StepGoal{.time = self.state.time, .measure = {}, .released = end, .releases_displacements = true};
   });
   self.state.next_step = 0.0;
   return report;

@@ -43,6 +43,11 @@ struct SolverOptions {
   /// nearly singular) gives way to the last step drawn on, or the step is cut; StepReport::limited counts
   /// that.
   double largest_strain = 1.0;
+  /// Where stresses jump, however small the strain (jump_watch.hpp), no state near the last one is balanced. So many
+  /// jumps a step may be passed: the short substep is taken as its predictor has it, and what is then out of balance is
+  /// held by fictive forces that the rest of the step lets go, so that the step as a whole ends in balance;
+  /// StepReport::jumps counts them. 0: a jump ends the run.
+  int most_jumps = 0;
 };
 
 /// After one evaluation of all materials.
@@ -70,6 +75,8 @@ struct StepReport {
   int within_noise = 0;     ///< substeps committed with a residual above its tolerance but within the noise
   int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
   int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
+  int jumps = 0;            ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
+  double jump_residual = 0.0;           ///< the largest force residual that one of them left, let go since
   std::vector<double> force_residuals;  ///< by iteration, of the last attempt
   std::vector<double> moment_residuals;
   double material_seconds = 0.0;
@@ -117,7 +124,8 @@ struct SolverState {
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
 /// G.6), steps that are cut when something fails and grow back. A step that is not balanced is never
-/// committed; above its tolerances only within noise or rounding, flagged. Same problem, options: same bits.
+/// committed; above its tolerances only within noise or rounding, flagged; through a jump of the stresses only where
+/// SolverOptions::most_jumps allows it, flagged too. Same problem, options: same bits.
 ///
 /// Order of calls: construct, equilibrate once (evaluates the initial state), then advance to growing times.
 class Solver {

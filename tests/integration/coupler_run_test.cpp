@@ -132,7 +132,7 @@ TEST_F(RunTest, WritesWhatItPromises) {
   EXPECT_FALSE(std::filesystem::exists(directory() / "out/fields/step-00001.vtu"));
   EXPECT_EQ(result("out/history.csv").substr(0, result("out/history.csv").find('\n')),
             "step,time,substeps,cuts,iterations,evaluations,force_residual,moment_residual,force_noise,"
-            "within_noise,within_rounding,limited,volume_strain,"
+            "within_noise,within_rounding,limited,jumps,jump_residual,volume_strain,"
             "external_work,internal_work,top_force,shortening,axial_strain,stress_ratio");
   EXPECT_NE(result("out/summary.json").find("\"status\": \"done\""), std::string::npos);
   EXPECT_NE(outcome.out.find("Newton iterations"), std::string::npos);

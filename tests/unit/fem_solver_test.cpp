@@ -270,6 +270,55 @@ TEST(solver, says_that_no_cut_will_help_where_stresses_jump) {
   EXPECT_EQ(solver.state().time, 0.0);
 }
 
+/// As JumpingLaw at first; once committed on either side of its jump it stays there and is elastic again.
+struct RearrangingLaw {
+  struct State {
+    Vector7 strain = Vector7::Zero();
+    double side = 0.0;
+  };
+  Matrix7 stiffness;
+  State initial_state() const { return {}; }
+  Response integrate(const State& start, const Increment& increment, State& trial) const {
+    trial = start;
+    trial.strain += increment.strain();
+    if (start.side == 0.0 && !increment.strain().isZero(0.0))
+      trial.side = increment.strain()(k11) > 0.0 ? 1.0 : -1.0;
+    Response response;
+    response.stress = stiffness * trial.strain;
+    response.stress(k11) += 1e6 * trial.side;
+    response.tangent = stiffness;
+    return response;
+  }
+};
+
+TEST(solver, passes_a_jump_where_it_may_and_ends_the_step_in_balance) {
+  for (const int most_jumps : {0, 1}) {
+    SolverOptions options;
+    options.most_cuts = 4;
+    options.most_jumps = most_jumps;
+    Solver solver(
+        biaxial(std::make_shared<LocalMaterial<RearrangingLaw>>(RearrangingLaw{elastic_stiffness(sand())}),
+                0.0),
+        options);
+    ASSERT_TRUE(solver.equilibrate().converged);
+    const StepReport report = solver.advance(1.0);
+    EXPECT_EQ(report.converged, most_jumps == 1) << report.message;
+    EXPECT_EQ(report.jumps, most_jumps) << report.message;
+    if (most_jumps == 0) continue;
+    // The height of the jump on both free sides, less what the short substep balances of it.
+    EXPECT_NEAR(report.jump_residual, 2.0 * 1e6 * 0.08 / solver.state().reference_force, 0.2);
+    EXPECT_LE(report.force_residual, options.force_tolerance);
+    // Free sides carry nothing in the end, whatever lies behind: the jump has become a strain.
+    EXPECT_LT(std::abs(solver.state().responses[0].stress(k11)),
+              1e-2 * std::abs(solver.state().responses[0].stress(k22)));
+    // A step after it knows of no jump any more.
+    const StepReport after = solver.advance(1.5);
+    EXPECT_TRUE(after.converged) << after.message;
+    EXPECT_EQ(after.jumps, 0);
+    EXPECT_EQ(after.cuts, 0);
+  }
+}
+
 TEST(solver, says_no_jump_where_a_step_fails_for_its_length) {
   const auto material = brittle(1e-6, Quality::unreliable, 2000.0);
   SolverOptions options;
