@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# A real Slurm controller and node daemon on the loopback, all in a directory of their own, and a run whose workers
-# srun has launched: its history must be that of a run with local workers.
+# A real Slurm controller and node daemon on the loopback, all in a directory of their own. The history of a run must be
+# that of a run with local workers: with workers that srun has launched; with the tasks of a job array as workers, whose
+# node goes down in the middle and comes back.
 #
 #   tests/faults/slurm.sh POLARGRAIN CASE [--set ...]
 #
@@ -53,9 +54,10 @@ SlurmdLogFile=$base/slurmd.log
 ProctrackType=proctrack/pgid
 TaskPlugin=task/none
 SchedulerType=sched/builtin
-SelectType=select/linear
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
 MpiDefault=none
-ReturnToService=2
+ReturnToService=0
 NodeName=$(hostname) NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 EOF
@@ -85,3 +87,30 @@ wait $run
 wait $workers || { echo "the workers of srun ended badly"; exit 1; }
 cmp local/history.csv cluster/history.csv
 grep -c "" cluster/history.csv | xargs echo "the same history with workers of srun; lines:"
+
+node=$(hostname)
+await() {  # SECONDS COMMAND...: until it succeeds
+  local end=$((SECONDS + $1)); shift
+  until "$@"; do ((SECONDS < end)) || { echo "waited too long for: $*"; return 1; }; sleep 0.2; done
+}
+tasks_are() { [[ $(squeue --noheader --array --format=%T | sort -u) == "$1" ]]; }
+"$polargrain" run "$case_file" "${settings[@]}" -o array -w 0 --listen "$url" --keys keys --quiet &
+run=$!
+daemons+=($run)
+sbatch --quiet --requeue --array=1-2 --ntasks=1 --output=array-%a.log \
+  --wrap "exec '$polargrain' worker --connect $url --key keys/worker.key"
+await 30 grep -qs ^0, array/history.csv || { cat array/run.log array-*.log; exit 1; }
+# The node fails: what ran on it is gone, Slurm is told, and puts the tasks back into its queue.
+scontrol listpids | awk 'NR > 1 && $1 > 0 {print $1}' | xargs kill -KILL
+scontrol update NodeName="$node" State=DOWN Reason="a test"
+await 30 tasks_are PENDING
+kill -0 $run || { echo "the run did not outlive its workers"; exit 1; }
+scontrol update NodeName="$node" State=RESUME
+# At once, not after the minutes that Slurm waits with a task it has put back.
+squeue --noheader --format=%A | sort -u | xargs -I ID scontrol update JobId=ID StartTime=now
+wait $run || { tail array/run.log; exit 1; }
+no_task_is_left() { [[ -z $(squeue --noheader) ]]; }
+await 30 no_task_is_left
+cmp local/history.csv array/history.csv
+grep -q "guest 1 .*its connection is closed" array/run.log || { echo "nobody noticed the failure"; exit 1; }
+echo "the same history with a job array whose node went down"
