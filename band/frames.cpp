@@ -15,6 +15,7 @@
 #include "band/local_strain.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 
 namespace polargrain::band {
 namespace {
@@ -50,10 +51,10 @@ double number(const std::string& word, const std::filesystem::path& file, int li
   try {
     std::size_t end = 0;
     const double value = std::stod(word, &end);
-    if (end == word.size() || word[end] == '\r') return value;
+    if (std::isfinite(value) && (end == word.size() || word[end] == '\r')) return value;
   } catch (const std::exception&) {
   }
-  fail(file, line, fmt::format("'{}' is no number", word));
+  fail(file, line, fmt::format("'{}' is no number", plain_text(word)));
 }
 
 std::map<long, double> read_strains(const std::filesystem::path& file, const std::string& column) {
@@ -137,7 +138,7 @@ Frame Frames::read(std::size_t index) const {
 
 Samples Frames::grains(const Frame& first, const Frame& from, const Frame& to, bool current) const {
   const std::size_t count = from.positions.size();
-  if (to.positions.size() != count || first.positions.size() != count)
+  if (count == 0 || to.positions.size() != count || first.positions.size() != count)
     fail(files_.back(), 0, "the dumps do not hold the same grains");
   Eigen::Vector2d low = from.positions.front();
   Eigen::Vector2d high = low;
@@ -148,6 +149,7 @@ Samples Frames::grains(const Frame& first, const Frame& from, const Frame& to, b
     high = high.cwiseMax(from.positions[k]);
   }
   const double area = (high - low).prod() / static_cast<double>(count);
+  if (!(area > 0.0 && std::isfinite(area))) fail(files_.back(), 0, "the grains fill no area");
   const std::vector<Eigen::Matrix2d> gradients =
       displacement_gradients(from.positions, displacements, kNeighbourhood * std::sqrt(area));
   Samples samples;

@@ -2,6 +2,7 @@
 #include "band/local_strain.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -28,9 +29,10 @@ class Boxes {
 
  private:
   [[nodiscard]] std::int64_t index(double x) const {
-    return static_cast<std::int64_t>(std::floor(x / side_));
+    return static_cast<std::int64_t>(std::clamp(std::floor(x / side_), -kFarthest, kFarthest));
   }
   static std::int64_t key(std::int64_t i, std::int64_t j) { return i * 2'000'003 + j; }
+  static constexpr double kFarthest = 1e12;  ///< a key of a box farther away would have more than 64 bits
 
   double side_;
   std::unordered_map<std::int64_t, std::vector<std::size_t>> boxes_;

@@ -19,6 +19,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHalfMaximumWidth = 2.354820045;  // of a Gaussian, in standard deviations
 constexpr int kMostSteps = 200;
+/// Of a profile: more has only what lies in few places far from each other.
+constexpr double kMostValues = 1e5;
 constexpr double kSettled = 1e-6;  ///< last turn (rad) and shift (thicknesses) of the fit
 
 /// Mean shear along lines of one inclination, over their distance from the origin of the samples.
@@ -50,6 +52,7 @@ struct Scales {
   double kernel = 0.0;   ///< standard deviation of the smoothing across
   double chord = 0.0;    ///< shortest line of a valid profile value
   double mean_shear = 0.0;
+  double extent = 0.0;  ///< of all samples, corner to corner
 };
 
 Scales scales_of(const Samples& samples) {
@@ -67,6 +70,7 @@ Scales scales_of(const Samples& samples) {
   scales.spacing = std::sqrt(area / static_cast<double>(samples.size()));
   scales.kernel = 0.5 * scales.spacing;
   scales.chord = 0.5 * (high - low).minCoeff();
+  scales.extent = (high - low).norm();
   return scales;
 }
 
@@ -231,9 +235,8 @@ std::optional<double> inclination_by_least_squares(const Samples& samples, const
 }
 
 double folded(double inclination) {
-  while (inclination > 0.5 * std::numbers::pi) inclination -= std::numbers::pi;
-  while (inclination <= -0.5 * std::numbers::pi) inclination += std::numbers::pi;
-  return inclination;
+  const double angle = std::remainder(inclination, std::numbers::pi);
+  return angle > -0.5 * std::numbers::pi ? angle : angle + std::numbers::pi;
 }
 
 /// Standard error of a profile value: scatter of the samples outside over the root of their number in a
@@ -265,7 +268,11 @@ double Band::distance(const Eigen::Vector2d& position) const {
 
 BandSearch find_band(const Samples& samples, const BandOptions& options) {
   if (samples.size() < 20) return {std::nullopt, "fewer than 20 samples"};
+  for (const Sample& sample : samples)
+    if (!(sample.area > 0.0) || !std::isfinite(sample.area + sample.shear) || !sample.position.allFinite())
+      return {std::nullopt, "a sample has no area, or no strain"};
   const Scales scales = scales_of(samples);
+  if (!(scales.extent / scales.kernel < kMostValues)) return {std::nullopt, "the samples span no area"};
   BandSearch search = measure(samples, scales, starting_inclination(samples, scales));
   if (!search.band) return search;
   const std::optional<double> inclination = inclination_by_least_squares(samples, *search.band);

@@ -87,9 +87,29 @@ void write_array(hid_t file, const std::string& name, const Array& array) {
   if (array.size() > 0) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.data()), name);
 }
 
+/// Opens an array. HDF5 lets a file name other files, by links or as the place of values, and would read whatever they
+/// are: no link to another file is followed.
+inline Handle open_array(hid_t file, const std::string& name) {
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, name);
+  const H5L_elink_traverse_t refuse = [](const char*, const char*, const char*, const char*, unsigned*, hid_t,
+                                         void*) -> herr_t { return -1; };
+  check(H5Pset_elink_cb(access, refuse, nullptr), name);
+  return {H5Dopen2(file, name.c_str(), access), H5Dclose, name};
+}
+
+/// @throws RunError when the values of an array do not lie in the file itself, one behind the other, as this program
+/// writes them
+inline void check_place(hid_t set, const std::string& name) {
+  const Handle made(H5Dget_create_plist(set), H5Pclose, name);
+  const H5D_layout_t layout = H5Pget_layout(made);
+  if ((layout != H5D_CONTIGUOUS && layout != H5D_COMPACT) || H5Pget_external_count(made) != 0)
+    throw RunError(name + ": its values do not lie in the file itself");
+}
+
 /// Number of elements of an array of a file. @throws RunError when it is not of one dimension, or larger than
 /// the file, as only a damaged one can be
 inline hsize_t size_of_array(hid_t file, hid_t set, const std::string& name, std::size_t bytes_each) {
+  check_place(set, name);
   const Handle space(H5Dget_space(set), H5Sclose, name);
   const hssize_t size = H5Sget_simple_extent_npoints(space);
   hsize_t most = 0;
@@ -102,7 +122,7 @@ inline hsize_t size_of_array(hid_t file, hid_t set, const std::string& name, std
 template <class Array>
 void read_array(hid_t file, const std::string& name, Array& array) {
   using Value = typename Array::value_type;
-  const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+  const Handle set = open_array(file, name);
   array.resize(static_cast<std::size_t>(size_of_array(file, set, name, sizeof(Value))));
   if (!array.empty())
     check(H5Dread(set, native_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.data()), name);

@@ -16,6 +16,7 @@
 #include "common/record_table.hpp"
 #include "common/sealed_file.hpp"
 #include "common/state.hpp"
+#include "common/trial.hpp"
 #include "common/write_file.hpp"
 
 namespace polargrain {
@@ -133,6 +134,21 @@ PreparedPacking packing_of(const Content& content) {
   return prepared;
 }
 
+Content content_in(const std::filesystem::path& file) {
+  const Handle in(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened");
+  std::vector<int> version;
+  read_array(in, "version", version);
+  if (version != std::vector<int>{kPlane} && version != std::vector<int>{kSpace})
+    throw RunError("its version is not known to this program");
+  Content content;
+  content.version = version.front();
+  std::string hash;
+  read_array(in, "content_hash", hash);
+  content.visit([&](const char* name, auto& array) { read_array(in, name, array); });
+  if (content.name() != hash) throw RunError("its content does not match its hash");
+  return content;
+}
+
 }  // namespace
 
 void write_packing_file(const std::filesystem::path& file, const PreparedPacking& packing) {
@@ -153,20 +169,11 @@ PreparedPacking read_packing_file(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw fail("there is no such file; expected a packing (HDF5)");
-  std::vector<int> version;
   try {
     check_seal(file);
-    const Handle in(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "it cannot be opened");
-    read_array(in, "version", version);
-    Content content;
-    if (version != std::vector<int>{kPlane} && version != std::vector<int>{kSpace})
-      throw RunError("its version is not known to this program");
-    content.version = version.front();
-    std::string hash;
-    read_array(in, "content_hash", hash);
-    content.visit([&](const char* name, auto& array) { read_array(in, name, array); });
-    if (content.name() != hash) throw RunError("its content does not match its hash");
-    return packing_of(content);
+    // A forger's file has the right hash: HDF5 is not let near it before it has survived it once.
+    try_in_own_process([&file] { (void)content_in(file); });
+    return packing_of(content_in(file));
   } catch (const RunError& what) {
     throw fail(fmt::format(
         "the packing is damaged or not one of ours ({}); make it again with 'polargrain pack'", what.what()));

@@ -75,6 +75,9 @@ PrivateDirectory::~PrivateDirectory() {
     fs::remove(path_ / kLock, ignored);
   } else {
     fs::remove_all(path_, ignored);
+    // remove_all() begins with unlink(), which a guest that is confined to this directory may not: it is not tried as a
+    // directory then.
+    rmdir(path_.c_str());
   }
   if (lock_ >= 0) close(lock_);
 }

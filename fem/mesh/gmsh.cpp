@@ -6,11 +6,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <map>
 #include <numeric>
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/trial.hpp"
 #include "fem/element/kinematics.hpp"
 #include "fem/mesh/gmsh_content.hpp"
 
@@ -78,6 +81,8 @@ class Reader {
 
   void read_nodes() {
     for (const auto& [tag, position] : content_.nodes) {
+      if (!std::isfinite(position[0]) || !std::isfinite(position[1]))
+        fail(fmt::format("node {} has a coordinate that is not finite", tag));
       if (position[2] != 0.0) fail("a node leaves the plane z = 0; plane meshes are needed");
       node_of_tag_[tag] = static_cast<int>(mesh_.nodes.size());
       mesh_.nodes.emplace_back(position[0], position[1]);
@@ -106,10 +111,16 @@ class Reader {
   void for_each_element(int dimension, int entity, Visit visit) const {
     for (const GmshContent::Block& block : content_.blocks) {
       if (block.dimension != dimension || block.entity != entity) continue;
+      const std::size_t least = dimension == 1 ? 2 : 1;  // ends of a curve's piece
+      if (block.nodes_per_element < least || block.nodes.size() % block.nodes_per_element != 0)
+        fail("it has elements with nodes missing");
       for (std::size_t first = 0; first < block.nodes.size(); first += block.nodes_per_element) {
         std::vector<int> nodes;
         for (std::size_t a = 0; a < block.nodes_per_element; ++a) {
-          nodes.push_back(node_of_tag_.at(block.nodes[first + a]));
+          const auto node = node_of_tag_.find(block.nodes[first + a]);
+          if (node == node_of_tag_.end())
+            fail(fmt::format("an element has the node {}, which is not there", block.nodes[first + a]));
+          nodes.push_back(node->second);
         }
         visit(block.kind, std::move(nodes));
       }
@@ -132,7 +143,9 @@ class Reader {
       std::vector<int>& numbers = elements_of_entity[entity];
       for_each_element(2, entity, [&](int kind, std::vector<int> nodes) {
         numbers.push_back(static_cast<int>(mesh_.elements.size()));
-        mesh_.elements.push_back({&type_of(kind), std::move(nodes)});
+        const ElementType& type = type_of(kind);
+        if (nodes.size() != type.node_positions.size()) fail("it has elements with nodes missing");
+        mesh_.elements.push_back({&type, std::move(nodes)});
         turn_counter_clockwise(numbers.back());
       });
     };
@@ -233,6 +246,16 @@ class Reader {
   std::map<std::pair<int, int>, Edge> side_of_corners_;
 };
 
+/// Whether Gmsh takes the file for a mesh by its content too: what begins in another way it runs as a script, whatever
+/// its name.
+bool begins_as_a_mesh(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  std::getline(in, line);
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return line == "$MeshFormat" || line == "$Comments" || line == "$NOD";
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> gmsh_module_places() {
@@ -251,8 +274,21 @@ Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral
   if (!std::filesystem::exists(file)) throw InputError(Fault{file.string(), 0, "there is no such mesh file"});
   // Gmsh takes a text of any other name for one of its scripts, and would run it.
   if (file.extension() != ".msh") throw InputError(Fault{file.string(), 0, "expected a mesh file, NAME.msh"});
+  if (!begins_as_a_mesh(file))
+    throw InputError(
+        Fault{file.string(), 0, "this is no mesh that Gmsh has written: its first line is not $MeshFormat"});
+  const GmshReaderFunction read = reader_function(file, module_places);
   GmshContent content;
-  reader_function(file, module_places)(file.c_str(), &content);
+  try {
+    try_in_own_process([&] { read(file.c_str(), &content); });
+  } catch (const RunError& error) {
+    throw InputError(Fault{file.string(), 0, fmt::format("the mesh is damaged: {}", error.what())});
+  }
+  read(file.c_str(), &content);
+  return mesh_of(file, std::move(content), quadrilateral8);
+}
+
+Mesh mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8) {
   return Reader(file, quadrilateral8, std::move(content)).read();
 }
 

@@ -8,6 +8,8 @@
 
 namespace polargrain::fem {
 
+struct GmshContent;
+
 /// Where the module with Gmsh's library is looked for, in the order of trial: beside the program, in
 /// ../lib/polargrain of the program, and where it was built.
 std::vector<std::filesystem::path> gmsh_module_places();
@@ -22,5 +24,8 @@ std::vector<std::filesystem::path> gmsh_module_places();
 /// elements of other kinds, leaves the plane z = 0, or a curve of a physical group is no side of any element.
 Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8 = "Q8R",
                const std::vector<std::filesystem::path>& module_places = gmsh_module_places());
+
+/// The mesh of what Gmsh's library has read from the file. @throws InputError as read_gmsh
+Mesh mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8 = "Q8R");
 
 }  // namespace polargrain::fem

@@ -8,7 +8,7 @@ polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fe
 target_compile_definitions(fem_output_test
                            PRIVATE VTK_READER="${CMAKE_CURRENT_SOURCE_DIR}/unit/fem_output_read.py")
 if(TARGET polargrain_gmsh)
-  polargrain_test(fem_gmsh_test unit unit/fem_gmsh_test.cpp LIBS polargrain_fem)
+  polargrain_test(fem_gmsh_test unit unit/fem_gmsh_test.cpp support/sanitizer_defaults.cpp LIBS polargrain_fem)
   add_dependencies(fem_gmsh_test polargrain_gmsh)
 endif()
 polargrain_test(fem_geostatic_test unit unit/fem_geostatic_test.cpp LIBS polargrain_fem)

@@ -5,12 +5,19 @@
 function(polargrain_fuzz_corpus target mutations)
   cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
   add_executable(fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.cpp
-                                ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus_main.cpp)
+                                ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus_main.cpp
+                                ${PROJECT_SOURCE_DIR}/tests/support/sanitizer_defaults.cpp)
   target_link_libraries(fuzz_${target} PRIVATE ${arg_LIBS})
-  add_test(NAME fuzz_${target} COMMAND fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${target} ${mutations})
+  add_test(NAME fuzz_${target}
+           COMMAND fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${target}.inputs ${mutations})
   set_tests_properties(fuzz_${target} PROPERTIES LABELS unit TIMEOUT 300)
 endfunction()
 
 polargrain_fuzz_corpus(messages 50000 LIBS polargrain_pool)
-add_test(NAME fuzz_a_million_messages COMMAND fuzz_messages ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/messages 1000000)
+add_test(NAME fuzz_a_million_messages COMMAND fuzz_messages ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/messages.inputs 1000000)
 set_tests_properties(fuzz_a_million_messages PROPERTIES LABELS long TIMEOUT 7200)
+polargrain_fuzz_corpus(fields 1000 LIBS polargrain_band polargrain_fem)
+if(TARGET polargrain_gmsh)
+  polargrain_fuzz_corpus(meshes 1000 LIBS polargrain_fem)
+  add_dependencies(fuzz_meshes polargrain_gmsh)
+endif()

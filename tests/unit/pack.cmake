@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The two of integration not under sanitizers: HDF5 itself leaks, and asks for absurd sizes, when it refuses a damaged file.
-polargrain_test(pack_file_test integration unit/pack_file_test.cpp LIBS polargrain_common)
+find_package(HDF5 REQUIRED COMPONENTS C)
+polargrain_test(pack_file_test integration unit/pack_file_test.cpp LIBS polargrain_common ${HDF5_C_LIBRARIES})
+target_include_directories(pack_file_test SYSTEM PRIVATE ${HDF5_C_INCLUDE_DIRS})
 polargrain_test(pack_specification_test unit unit/pack_specification_test.cpp LIBS polargrain_app)
 if(TARGET polargrain_dem)
   polargrain_test(pack_sizes_test unit unit/pack_sizes_test.cpp LIBS polargrain_dem)

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Packing files keep every bit, and damage of any kind is a fault, never a crash or a wrong packing.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <random>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "common/error.hpp"
+#include "common/hdf5_file.hpp"
 #include "common/packing_file.hpp"
+#include "common/sealed_file.hpp"
+#include "common/trial.hpp"
 
 namespace polargrain {
 namespace {
@@ -111,6 +119,64 @@ TEST_F(PackingFileTest, DamageIsAFaultThatNamesTheFile) {
   }
   std::printf("[figure] damaged packing files refused: %d of %d, the others read right\n", refused, kTrials);
   EXPECT_GE(refused, kTrials / 3);  // every file cut short at least
+}
+
+// HDF5 reads from other files when a file says so: /etc/shadow as the numbers of a packing, with all hashes right.
+TEST_F(PackingFileTest, ValuesFromOtherFilesAreRefused) {
+  hdf5::silence();
+  write_packing_file(file_, some_packing());
+  const std::string sealed = bytes_of(file_);
+  const std::filesystem::path other = file_.string() + ".other.h5";
+  std::ofstream(other, std::ios::binary) << sealed;
+  const auto expect_refused = [this](const char* what) {
+    std::string bytes = bytes_of(file_);
+    seal(bytes);
+    std::ofstream(file_, std::ios::binary) << bytes;
+    try {
+      (void)read_packing_file(file_);
+      ADD_FAILURE() << what;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("grain_x_y_radius_mass_inertia"), std::string::npos)
+          << error.what();
+    }
+  };
+  const char* const name = "grain_x_y_radius_mass_inertia";
+  const auto without_grains = [&] {
+    std::ofstream(file_, std::ios::binary) << sealed;
+    auto file =
+        std::make_unique<hdf5::Handle>(H5Fopen(file_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "file");
+    hdf5::check(H5Ldelete(*file, name, H5P_DEFAULT), "link");
+    return file;
+  };
+  {
+    const auto file = without_grains();
+    hdf5::check(H5Lcreate_external(other.c_str(), name, *file, name, H5P_DEFAULT, H5P_DEFAULT), "link");
+  }
+  expect_refused("a link to another file");
+  {
+    const auto file = without_grains();
+    const hsize_t size = 25;
+    const hdf5::Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "space");
+    const hdf5::Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "properties");
+    hdf5::check(H5Pset_external(made, other.c_str(), 0, size * sizeof(double)), "external");
+    const hdf5::Handle set(H5Dcreate2(*file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, made, H5P_DEFAULT),
+                           H5Dclose, "set");
+  }
+  expect_refused("values in another file");
+  std::filesystem::remove(other);
+}
+
+TEST(Trial, EndsNoProgramAndLeavesExceptionsToIt) {
+  EXPECT_NO_THROW(try_in_own_process([] {}));
+  EXPECT_NO_THROW(try_in_own_process([] { throw RunError("said here too"); }));
+  for (const auto& [work, words] : std::vector<std::pair<void (*)(), std::string>>{
+           {[] { raise(SIGSEGV); }, "ended by signal 11"}, {[] { _exit(3); }, "ended the process"}})
+    try {
+      try_in_own_process(work);
+      ADD_FAILURE() << words;
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
 }
 
 TEST_F(PackingFileTest, ImpossibleValuesAreFaults) {
