@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What an engine that somebody has got the better of can still do: nothing but compute.
+#include <unistd.h>
+
 #include "tests/faults/fake_case.hpp"
 
 namespace polargrain::testing {
@@ -50,6 +52,22 @@ TEST_F(ConfinementTest, TrustedScriptsMayDoWhatTheUserMay) {
        {"to start a program", "a socket of the network", "to write elsewhere", "to signal its coordinator"})
     EXPECT_EQ(outcome_of(attempt), "allowed") << attempt;
   EXPECT_TRUE(has("more rights than it needs"));
+}
+
+// Confined to its directory, a guest may change nothing beside it; yet the directory itself goes.
+TEST_F(ConfinementTest, AGuestLeavesNoDirectoryBehind) {
+  write(scratch_.path() / "fake.in", "\n");
+  const std::filesystem::path place = scratch_.path() / "tmp";
+  std::filesystem::create_directories(place);
+  const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
+  ASSERT_EQ(run_in(scratch_.path(), FAKE_POLARGRAIN " keys keys").status, 0);
+  const Outcome outcome =
+      run_in(scratch_.path(), "{ TMPDIR='" + place.string() +
+                                  "' " FAKE_POLARGRAIN " worker --key keys/worker.key --connect " + url +
+                                  " >/dev/null 2>&1 & " + command(2) + " -o out -w 0 --keys keys --listen " +
+                                  url + "; status=$?; wait; exit $status; }");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_TRUE(std::filesystem::is_empty(place));
 }
 
 }  // namespace
