@@ -6,6 +6,8 @@
 //
 //   coupler_scale [CELLS [STATE_BYTES [MILLISECONDS [WORKERS ...]]]]  as coordinator: starts itself as its
 //   workers
+//   coupler_scale lasting MINUTES CELLS STATE_BYTES MILLISECONDS WORKERS   for so long, a line a step: whether memory
+//   stays and every answer is that of its question. Status 1 when one is not, or a worker was lost
 //
 // 200 workers that sleep for 30 ms ask a tenth of what so many engines at 3 ms do, and one machine can be all
 // of them.
@@ -106,7 +108,7 @@ class Cells {
       trial_.clear();
       for (std::size_t c = 0; c < requests_.size(); ++c) {
         requests_[c].cell.state = committed_[c].state;
-        requests_[c].cell.increment.displacement_gradient(0, 0) = mark_ + 1e-6 * static_cast<double>(c + 1);
+        requests_[c].cell.increment.displacement_gradient(0, 0) = mark_of(c);
       }
       trial_ = pool_.evaluate(requests_);
     }
@@ -118,7 +120,22 @@ class Cells {
     committed_ = trial_;
   }
 
+  /// How many of the committed states are not those of the last questions.
+  [[nodiscard]] std::size_t wrong() const {
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < committed_.size(); ++c) {
+      double mark = 0.0;
+      const auto bytes = committed_[c].state->bytes();
+      if (bytes.size() >= sizeof mark) std::memcpy(&mark, bytes.data(), sizeof mark);
+      count += mark == mark_of(c) - 1.0 ? 0 : 1;
+    }
+    return count;
+  }
+
  private:
+  /// Whole numbers: one less is exact.
+  [[nodiscard]] double mark_of(std::size_t cell) const { return mark_ + 1e6 * static_cast<double>(cell + 1); }
+
   Pool& pool_;
   std::vector<CellReply> committed_;
   std::vector<CellReply> trial_;
@@ -152,6 +169,31 @@ void measure(int workers, std::size_t count, const std::string& script) {
   std::filesystem::remove_all(options_for(workers).directory);
 }
 
+/// Steps for so many minutes. @returns whether everything was answered rightly, by workers that stayed
+bool last(double minutes, std::size_t count, const std::string& script, int workers) {
+  using Clock = std::chrono::steady_clock;
+  Pool pool(options_for(workers));
+  const std::uint32_t sand = pool.define(definition_with(script));
+  Cells cells(pool, count, sand);
+  const Clock::time_point begin = Clock::now();
+  const auto seconds = [&begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  std::printf("%9s %9s %13s %16s %13s %6s %6s\n", "step", "s", "evaluations", "us an evaluation",
+              "MB of memory", "wrong", "lost");
+  std::size_t wrong = 0;
+  for (int step = 1; seconds() < 60.0 * minutes; ++step) {
+    const double before = seconds();
+    cells.step();
+    wrong += cells.wrong();
+    const double evaluations = static_cast<double>(kIterations) * static_cast<double>(count);
+    std::printf("%9d %9.1f %13.0f %16.1f %13.1f %6zu %6d\n", step, seconds(), step * evaluations,
+                1e6 * (seconds() - before) / evaluations, resident_megabytes(), wrong,
+                static_cast<int>(pool.counts().workers_lost));
+    std::fflush(stdout);
+  }
+  std::filesystem::remove_all(options_for(workers).directory);
+  return wrong == 0 && pool.counts().workers_lost == 0;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -160,6 +202,10 @@ int main(int count, char** arguments) {
       return std::make_unique<SimulatedEngine>(definition.script);
     });
     return 0;
+  }
+  if (count == 7 && std::string(arguments[1]) == "lasting") {
+    const std::string script = std::string(arguments[4]) + ' ' + arguments[5];
+    return last(std::stod(arguments[2]), std::stoul(arguments[3]), script, std::stoi(arguments[6])) ? 0 : 1;
   }
   const std::size_t cells = count > 1 ? std::stoul(arguments[1]) : 10000;
   const std::string bytes = count > 2 ? arguments[2] : "55000";
