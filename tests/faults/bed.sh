@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Faults of machines and networks, made on one machine: three hosts are network namespaces joined by a bridge. Each run
 # comes to the bytes of the undisturbed one, or ends in words and goes on to them.
-#   bed.sh PROGRAM STRANGE_WORKER RENAME_KILLER [reduced]      status 77: nothing of it is allowed here
+#   bed.sh PROGRAM STRANGE_WORKER RENAME_KILLER CLOCK_STEPS [reduced]      status 77: nothing of it is allowed here
 set -u
-program=$(realpath "$1") stranger=$(realpath "$2") killer=$(realpath "$3") reduced=${4:-}
+program=$(realpath "$1") stranger=$(realpath "$2") killer=$(realpath "$3") clock=$(realpath "$4") reduced=${5:-}
 work=$(mktemp -d)
 space=pg$$
 failures=0 skipped=0 begun=$SECONDS
@@ -176,6 +176,13 @@ wait $coordinator; same connections
 [ "$connections" = 10000 ] || skip "10,000 connections" "$connections only: the limit of open files"
 
 # ---- the machine
+# Its clock set an hour back and forth: what is told is odd, what is waited for and computed is not.
+more="-w 2" run clock env LD_PRELOAD="$clock" "$program"
+wait $coordinator; same clock
+hours=$(cut -c2-14 clock/run.log | grep '^2' | sort -u | wc -l)
+[ "$hours" -ge 2 ] || { echo "FAILED   clock: it never stepped"; failures=$((failures + 1)); }
+expect clock clock/summary.json '"total": [0-9]'
+
 if mkdir full && mount -t tmpfs -o size=64k none full 2>/dev/null; then
   head -c 1M /dev/zero > full/fill 2>/dev/null
   more="-w 1" run full-tmpdir env TMPDIR="$work/full" "$program"

@@ -47,12 +47,15 @@ target_compile_definitions(faults_confinement_test PRIVATE FAKE_POLARGRAIN="$<TA
 add_dependencies(faults_confinement_test fake_polargrain)
 
 # Faults of machines and networks; all of them on request.
-add_library(rename_killer MODULE faults/rename_killer.cpp)
-target_link_libraries(rename_killer PRIVATE ${CMAKE_DL_LIBS})
+foreach(preloaded rename_killer clock_steps)
+  add_library(${preloaded} MODULE faults/${preloaded}.cpp)
+  target_link_libraries(${preloaded} PRIVATE ${CMAKE_DL_LIBS})
+endforeach()
 foreach(size "" _reduced)
   string(REPLACE "_" "" argument "${size}")
   add_test(NAME fault_bed${size} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/faults/bed.sh $<TARGET_FILE:fake_polargrain>
-           $<TARGET_FILE:strange_worker> $<TARGET_FILE:rename_killer> ${argument})
+           $<TARGET_FILE:strange_worker> $<TARGET_FILE:rename_killer>
+           $<TARGET_FILE:clock_steps> ${argument})
 endforeach()
 set_tests_properties(fault_bed PROPERTIES LABELS long TIMEOUT 600)
 set_tests_properties(fault_bed_reduced PROPERTIES LABELS faults TIMEOUT 300)

@@ -18,6 +18,6 @@ add_test(NAME fuzz_a_million_messages COMMAND fuzz_messages ${PROJECT_SOURCE_DIR
 set_tests_properties(fuzz_a_million_messages PROPERTIES LABELS long TIMEOUT 7200)
 polargrain_fuzz_corpus(fields 1000 LIBS polargrain_band polargrain_fem)
 if(TARGET polargrain_gmsh)
-  polargrain_fuzz_corpus(meshes 1000 LIBS polargrain_fem)
+  polargrain_fuzz_corpus(meshes 200 LIBS polargrain_fem)
   add_dependencies(fuzz_meshes polargrain_gmsh)
 endif()
