@@ -11,6 +11,12 @@ if(TARGET polargrain_dem)
   polargrain_test(disc_loop_test verification verification/disc_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(spoiled_states_test verification verification/spoiled_states_test.cpp support/engine_main.cpp
                   LIBS polargrain_dem)
+  foreach(kind OfTheGeneralLoopInTheGeneralLoop OfDiscsInTheGeneralLoop OfDiscsInTheirLoop)
+    add_test(NAME a_million_states_${kind} COMMAND spoiled_states_test --gtest_filter=*/${kind}
+             WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(a_million_states_${kind} PROPERTIES LABELS long TIMEOUT 14400
+                         ENVIRONMENT POLARGRAIN_FUZZ_RUNS=1000000)
+  endforeach()
   polargrain_test(dem_masses_test verification verification/dem_masses_test.cpp support/engine_main.cpp
                   LIBS polargrain_contact_models)
   polargrain_test(dem_time_step_test verification verification/dem_time_step_test.cpp support/engine_main.cpp
