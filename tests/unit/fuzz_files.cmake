@@ -9,4 +9,4 @@ if(POLARGRAIN_FUZZ)
   target_link_libraries(fuzz_files PRIVATE polargrain_app -fsanitize=fuzzer)
 endif()
 # Text packings and HDF5 ones; the corpus is that of a coverage-guided run of fuzz.sh.
-polargrain_fuzz_corpus(packings 3000 LIBS polargrain_common)
+polargrain_fuzz_corpus(packings 1500 LIBS polargrain_common)
