@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Behaviour stays: ready cases write the same bytes as when tests/data/same_bytes.csv was written.
+// Behaviour stays: ready cases give the same bits as when tests/data/same_bytes.csv was written.
 #include <gtest/gtest.h>
+
+#include <sstream>
 
 #include "common/csv_table.hpp"
 #include "common/state.hpp"
@@ -23,10 +25,14 @@ TEST_P(SameBytes, AsBefore) {
       run_in(scratch.path(), POLARGRAIN " run " + (kSource / file).string() + " --quiet -o out -w 2" +
                                  (setting.empty() ? "" : " --set '" + setting + "'"));
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const std::string history = content(scratch.path() / "out/history.csv");
-  EXPECT_EQ(name_of(std::as_bytes(std::span(history))).text(), table.cell(GetParam(), "history"))
-      << file << '\n'
-      << history;
+  // Columns that came later do not count.
+  const CsvTable history(scratch.path() / "out/history.csv");
+  std::istringstream names(table.cell(GetParam(), "columns"));
+  std::string text;
+  for (std::string name; names >> name;)
+    for (std::size_t row = 0; row < history.rows(); ++row) text += history.cell(row, name) + '\n';
+  EXPECT_EQ(name_of(std::as_bytes(std::span(text))).text(), table.cell(GetParam(), "name")) << file << '\n'
+                                                                                            << text;
 }
 
 INSTANTIATE_TEST_SUITE_P(ReadyCases, SameBytes, ::testing::Range<std::size_t>(0, 5));
