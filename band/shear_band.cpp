@@ -280,6 +280,14 @@ BandSearch find_band(const Samples& samples, const BandOptions& options) {
   search = measure(samples, scales, folded(*inclination));
   if (!search.band) return search;
   const Band& band = *search.band;
+  const auto has_sample = [&](auto is_there) {
+    return std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
+      return is_there(std::abs(band.distance(sample.position)));
+    });
+  };
+  if (!has_sample([&](double distance) { return distance <= 0.5 * band.thickness; }) ||
+      !has_sample([&](double distance) { return distance > band.thickness; }))
+    return {std::nullopt, "no sample lies on one side of the band's edge"};
   if (band.peak < options.contrast * band.background)
     return {std::nullopt, fmt::format("the shear at its greatest is only {:.2f} times the background",
                                       band.peak / band.background)};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -103,6 +104,21 @@ TEST(Band, NoiseOfGrainsMovesItLittle) {
   // of noisy values: its error (0.66 / sqrt(30) = 12 %) moves the width by about as much.
   EXPECT_LT(greatest_turn, 2.7);
   EXPECT_LT(greatest_width, 0.3);
+}
+
+// Damaged results: no number of theirs ends the search, nor makes it endless.
+TEST(Band, SaysWhatIsWrongWithItsSamples) {
+  const Samples good = samples_of(Truth{});
+  const auto reason = [&good](const auto& spoil) {
+    Samples samples = good;
+    spoil(samples);
+    return find_band(samples).reason;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(reason([](Samples& s) { s[3].area = 0.0; }), "a sample has no area, or no strain");
+  EXPECT_EQ(reason([&](Samples& s) { s[3].shear = nan; }), "a sample has no area, or no strain");
+  EXPECT_EQ(reason([&](Samples& s) { s[3].position.x() = nan; }), "a sample has no area, or no strain");
+  EXPECT_EQ(reason([](Samples& s) { s[3].position.x() = 1e9; }), "the samples span no area");
 }
 
 TEST(Band, SaysThatThereIsNone) {
