@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The fuzz targets of tests/fuzz over their corpus and some mutations of it; under the sanitizers too, being unit tests.
-#
+
+add_library(fuzz_main OBJECT ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus_main.cpp
+                             ${PROJECT_SOURCE_DIR}/tests/support/sanitizer_defaults.cpp)
+target_link_libraries(fuzz_main PRIVATE polargrain_options)
+
 # polargrain_fuzz_corpus(TARGET MUTATIONS LIBS libraries...)
 function(polargrain_fuzz_corpus target mutations)
   cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
-  add_executable(fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.cpp
-                                ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus_main.cpp
-                                ${PROJECT_SOURCE_DIR}/tests/support/sanitizer_defaults.cpp)
-  target_link_libraries(fuzz_${target} PRIVATE ${arg_LIBS})
+  add_executable(fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.cpp)
+  target_link_libraries(fuzz_${target} PRIVATE fuzz_main ${arg_LIBS})
   add_test(NAME fuzz_${target}
            COMMAND fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${target}.inputs ${mutations})
   set_tests_properties(fuzz_${target} PROPERTIES LABELS unit TIMEOUT 300)
