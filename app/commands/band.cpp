@@ -2,11 +2,13 @@
 #include "app/commands/band.hpp"
 
 #include <fmt/format.h>
+#include <memory>
 
 #include <algorithm>
 #include <numbers>
 #include <optional>
 
+#include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "app/run/json_text.hpp"
 #include "band/frames.hpp"
@@ -145,6 +147,27 @@ int band(const BandCommandOptions& options) {
        measured.onset ? fmt::format("axial strain {:.4f}", *measured.onset)
                       : "not within the increments: the last is not localised");
   return 0;
+}
+
+Command add_band(CLI::App& program, const Grains&) {
+  const auto options = std::make_shared<BandCommandOptions>();
+  CLI::App& command =
+      *program.add_subcommand("band", "Measure the shear band of a result: inclination, thickness, onset");
+  command.add_option("DIR", options->directory, "Results of run, or of a specimen made of grains")
+      ->required();
+  command.add_option("--from", options->from, "Axial strain where the increment begins [2/3 of the last]");
+  command.add_option("--to", options->to, "Axial strain where it ends [the last]");
+  command.add_option("--window", options->window, "Axial strain of the increments for the onset [0.005]")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--contrast", options->contrast, "Least shear of a band over the background [2]")
+      ->check(CLI::Range(1.0, 1e9));
+  command.add_option("--strain", options->strain_column, "Column of history.csv with the axial strain")
+      ->type_name("COLUMN")
+      ->capture_default_str();
+  command.add_flag("--current", options->current, "Measure where places are at --from, not at the start");
+  command.add_option("--fields", options->fields, "Write the samples of the increment as CSV")
+      ->type_name("FILE");
+  return {&command, [options] { return band(*options); }};
 }
 
 }  // namespace polargrain::app

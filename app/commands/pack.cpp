@@ -7,11 +7,14 @@
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <memory>
 
 #include <chrono>
 #include <cstdio>
 #include <functional>
 
+#include "app/commands/command.hpp"
+#include "app/commands/moduli.hpp"
 #include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
 #include "common/packing_data.hpp"
@@ -152,6 +155,39 @@ int pack(const PackOptions& options, const PackingTools& tools) {
          options.moduli({options.output.stem().string(), specification.script_file, specification.script,
                          made.packing, CellControl{}, specification.contact_library}));
   return 0;
+}
+
+Command add_pack(CLI::App& program, const Grains& grains) {
+  const auto options = std::make_shared<PackOptions>();
+  CLI::App& command = *program.add_subcommand("pack", "Make a packing of grains, or export one");
+  CLI::Option* specification =
+      command.add_option("SPEC", options->specification_file, "What to make (YAML), or a packing to export");
+  specification->transform(brought_along);
+  CLI::Option* output =
+      command.add_option("-o,--output", options->output, "Packing to write (HDF5)")->type_name("FILE.h5");
+  CLI::Option* exported = command
+                              .add_option("--export", options->export_file,
+                                          "Write the packing SPEC as a LIGGGHTS data file instead")
+                              ->type_name("FILE.data");
+  command
+      .add_option(
+          "--settle", options->settle,
+          "Bring a packing to rest under an input script, under its own pressure or --set pressure=...")
+      ->type_name("PACKING SCRIPT")
+      ->expected(2)
+      ->excludes(specification)
+      ->excludes(exported);
+  output->excludes(exported);
+  command.add_flag("--quiet", options->quiet, "Print nothing but errors");
+  add_settings(command, options->settings);
+  add_trust(command, options->scripts, grains);
+  return {&command, [options, &tools = grains.packing_tools] {
+            options->moduli = [trusted = options->scripts.trusted](const CellDefinition& cell) {
+              const CellDefinition* const one = &cell;
+              return moduli_of({&one, 1}, trusted).front();
+            };
+            return pack(*options, tools);
+          }};
 }
 
 }  // namespace polargrain::app

@@ -2,6 +2,7 @@
 #include "app/commands/point.hpp"
 
 #include <fmt/format.h>
+#include <memory>
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "common/error.hpp"
 #include "common/record_table.hpp"
@@ -235,6 +237,23 @@ int point(const PointOptions& options) {
   }
   logs.keep(false);
   return done ? 0 : 1;
+}
+
+Command add_point(CLI::App& program, const Grains& grains) {
+  const auto options = std::make_shared<PointOptions>();
+  CLI::App& command = *program.add_subcommand("point", "Take one point of a material along a path");
+  add_case(command, options->case_file);
+  command.add_option("MATERIAL", options->material, "Name of a material of the case")->required();
+  command.add_option("PATH", options->path_file, "CSV: an increment a row, h11,h12,h21,h22,w,k1,k2")
+      ->required();
+  command.add_option("-o,--output", options->output, "CSV to write [standard output]")->type_name("FILE");
+  command
+      .add_option("--replay", options->replay,
+                  "Also write the path as a folder for polargrain-liggghts (materials of model cell)")
+      ->type_name("DIR");
+  add_settings(command, options->settings);
+  add_trust(command, options->scripts, grains);
+  return {&command, [options] { return point(*options); }};
 }
 
 }  // namespace polargrain::app

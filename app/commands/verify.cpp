@@ -2,10 +2,12 @@
 #include "app/commands/verify.hpp"
 
 #include <fmt/format.h>
+#include <memory>
 
 #include <string>
 #include <vector>
 
+#include "app/commands/command.hpp"
 #include "app/run/proof.hpp"
 #include "app/run/sample.hpp"
 #include "common/error.hpp"
@@ -116,6 +118,16 @@ int verify(const VerifyOptions& options) {
   if (!answers.empty() && findings.good()) check_cells(the_case, answers, options, findings);
   tell(stdout, "{}\n", findings.good() ? "all agrees" : "NOT all agrees");
   return findings.good() ? 0 : 1;
+}
+
+Command add_verify(CLI::App& program, const Grains& grains) {
+  const auto options = std::make_shared<VerifyOptions>();
+  CLI::App& command = *program.add_subcommand(
+      "verify", "Hold a result against its proof: files, case, and a sample of cells evaluated again");
+  command.add_option("DIR", options->directory, "Results of run")->required();
+  add_workers(command, options->workers, 1);
+  add_trust(command, options->scripts, grains);
+  return {&command, [options] { return verify(*options); }};
 }
 
 }  // namespace polargrain::app

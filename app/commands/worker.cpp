@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/commands/command.hpp"
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/pool/confinement.hpp"
@@ -85,6 +86,20 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     return 1;
   }
   return 0;
+}
+
+Command add_worker(CLI::App& program, const Grains& grains) {
+  const auto options = std::make_shared<WorkerOptions>();
+  CLI::App& command = *program.add_subcommand("worker", "Serve cells to a coordinator (started by run)");
+  command.add_option("--connect", options->url, "The coordinator's endpoint")->required()->type_name("URL");
+  command.add_option("--key", options->key, "Key file of 'polargrain keys', needed for tcp://")
+      ->type_name("FILE");
+  command
+      .add_option("--patience", options->patience_seconds, "Give up after so long without a coordinator [60]")
+      ->type_name("SECONDS");
+  command.add_option("--log", options->log, "Append all output to this file")->type_name("FILE");
+  add_trust(command, options->scripts, grains);
+  return {&command, [options, &engine = grains.engine] { return work(*options, engine); }};
 }
 
 }  // namespace polargrain::app

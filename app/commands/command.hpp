@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/commands/pack.hpp"
+#include "app/commands/worker.hpp"
+
+namespace polargrain::app {
+
+/// What commands need of the grains' side; given by the program, so that nothing here knows an engine.
+struct Grains {
+  const WorkerEngine& engine;
+  const PackingTools& packing_tools;
+};
+
+/// A command as the command line has it: its options and help, and what it does once they are read.
+struct Command {
+  CLI::App* options = nullptr;
+  std::function<int()> call;  ///< @returns the exit status
+  /// Whether what it says is what it was asked for, so that standard output must take it, or only a comfort.
+  bool is_answer = true;
+};
+
+// ---- what several commands have
+
+/// A case or specification as named, or, where there is none, the one of that name that the program brings along
+/// (cases/): what --help tells to try works in any folder.
+std::string brought_along(const std::string& name);
+/// CASE, which must be given.
+void add_case(CLI::App& command, std::filesystem::path& file);
+/// --set KEY=VALUE
+void add_settings(CLI::App& command, std::vector<std::string>& settings);
+/// --trust-scripts. @param rules of the command, which get what the engine understands too
+void add_trust(CLI::App& command, ScriptRules& rules, const Grains& grains);
+/// -w,--workers; one a core where it is not given. @param least may be 0 where others may join
+void add_workers(CLI::App& command, int& workers, int least);
+
+}  // namespace polargrain::app

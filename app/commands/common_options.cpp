@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "app/commands/command.hpp"
+#include "coupler/case/data_files.hpp"
+
+namespace polargrain::app {
+
+std::string brought_along(const std::string& name) {
+  if (std::filesystem::exists(name)) return name;
+  const auto file = coupler::find_data_file(name, {});
+  return file ? file->string() : name;
+}
+
+void add_case(CLI::App& command, std::filesystem::path& file) {
+  command.add_option("CASE", file, "Case file (YAML)")->required()->transform(brought_along);
+}
+
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+  command
+      .add_option("--set", settings,
+                  "Change a value of the case, for example steps.count=10; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_trust(CLI::App& command, ScriptRules& rules, const Grains& grains) {
+  rules.more_commands = grains.engine.script_commands;
+  command.add_flag(
+      "--trust-scripts", rules.trusted,
+      "Run scripts of cells that can do more than set up a cell (start programs, read and write files), and "
+      "libraries of contact laws");
+}
+
+void add_workers(CLI::App& command, int& workers, int least) {
+  workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command.add_option("-w,--workers", workers, "Worker processes [one a core]")
+      ->type_name("N")
+      ->check(CLI::Range(least, 4096));
+}
+
+}  // namespace polargrain::app
