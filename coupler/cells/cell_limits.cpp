@@ -71,7 +71,8 @@ CellLimits limits_of(const CellCalls& calls, const CellReply& packing, double me
       if (at[way].response.quality == Quality::failed)
         throw RunError(fmt::format("the limits of a packing cannot be found: {} it fails: {}", kWays[way],
                                    at[way].response.message));
-      largest[way] = std::max(largest[way], share(way, at[way].response.stress));
+      if (at[way].response.quality == Quality::good)  // what is not at rest may be beyond a limit
+        largest[way] = std::max(largest[way], share(way, at[way].response.stress));
     }
   }
   for (std::size_t way = 0; way < 3; ++way) {

@@ -97,6 +97,27 @@ std::string replaced(std::string text, const std::string& part, const std::strin
   return text.replace(place, part.size(), other);
 }
 
+TEST(PackCommand, PackAndCheckTellTheSameModuli) {
+  const Scratch scratch("pack_moduli");
+  write(scratch.path() / "discs.yaml",
+        "grains: 60\nsizes: {law: uniform, radius: [3 mm, 5 mm]}\ndensity: 2650\nthickness: 100 mm\n"
+        "script: cells/hooke_li_chu.in\npressure: 100 kPa\nfriction: 0\nseed: 5\n");
+  const Outcome made = run_in(scratch.path(), kProgram + " pack discs.yaml -o discs.h5");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  write_material(scratch, "cells/hooke_li_chu.in", "discs.h5");
+  const Outcome checked = run_in(scratch.path(), kProgram + " check case.yaml");
+  ASSERT_EQ(checked.status, 0) << checked.errors;
+  const auto moduli = [](const std::string& text) {
+    const std::size_t place = text.find("moduli of the packing at rest: G ");
+    EXPECT_NE(place, std::string::npos) << text;
+    return place == std::string::npos ? "" : text.substr(place, text.find('\n', place) - place);
+  };
+  EXPECT_EQ(moduli(made.out), moduli(checked.out));
+  EXPECT_NE(checked.out.find("material 'sand': moduli"), std::string::npos) << checked.out;
+  std::cout << "[figure] " << moduli(made.out) << '\n';
+  EXPECT_NE(moduli(made.out).find("couple modulus"), std::string::npos);
+}
+
 TEST(PackCommand, AScriptAFifthAsStiffIsRefusedAndSettlingRepairs) {
   const Scratch scratch("pack_soft");
   make_discs(scratch);
