@@ -19,8 +19,8 @@ namespace {
 constexpr double kModulus = 3e7;
 
 /// s = -p + 2 G e / (1 + |e| / 0.4 %), with the secant for a tangent: enough for the decisions.
-CellReply answer(const Eigen::Matrix2d& strain) {
-  CellReply reply;
+PlaneReply answer(const Eigen::Matrix2d& strain) {
+  PlaneReply reply;
   const double factor = kModulus / (1.0 + strain.norm() / 4e-3);
   reply.response.stress << factor * strain(0, 0) - 1e5, factor * strain(1, 1) - 1e5, -1e5,
       factor * strain(0, 1), factor * strain(0, 1), 0.0, 0.0;
@@ -33,9 +33,9 @@ CellReply answer(const Eigen::Matrix2d& strain) {
 
 CellCalls calls() {
   return {[] { return answer(Eigen::Matrix2d::Zero()); },
-          [](std::span<const CellRequest> requests, std::span<const std::size_t>) {
-            std::vector<CellReply> replies;
-            for (const CellRequest& request : requests) {
+          [](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
+            std::vector<PlaneReply> replies;
+            for (const PlaneRequest& request : requests) {
               Eigen::Matrix2d strain;
               std::memcpy(strain.data(), request.state->bytes().data(), sizeof strain);
               replies.push_back(answer(strain + request.increment.displacement_gradient));

@@ -12,6 +12,7 @@
 #include <ctime>
 #include <vector>
 
+#include "coupler/cells/plane_cell.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/pack/prepare.hpp"
 #include "tests/support/cell_fixture.hpp"
@@ -82,13 +83,13 @@ struct Run {
 Run isochoric(CellDefinition definition, const Settings& asked, int increments) {
   definition.control = asked.control;
   if (asked.time_step > 0.0) definition.script += fmt::format("\ntimestep {:.17g}\n", asked.time_step);
-  const auto cell = dem::make_cell_service(definition);
+  const coupler::PlaneCell cell(dem::make_cell_service(definition));
   Run run;
-  CellRequest request;
+  coupler::PlaneRequest request;
   request.increment.displacement_gradient << 1e-3, 0.0, 0.0, -1e-3;
   for (int k = 0; k < increments; ++k) {
     const double start = processor_seconds();
-    const CellReply reply = cell->evaluate(request);
+    const coupler::PlaneReply reply = cell.evaluate(request);
     run.milliseconds += 1e3 * (processor_seconds() - start) / increments;
     if (reply.response.quality != Quality::good)
       fmt::print(stderr, "inertial number {:.1e}, damping {}, tolerance {:.0e}, increment {}: {}\n",
@@ -216,13 +217,13 @@ std::string besides(const CellDefinition& definition) {
   one.control.least_steps = 1;
   CellDefinition asked = definition;
   asked.control = one.control;
-  const auto cell = dem::make_cell_service(asked);
-  CellRequest request;
+  const coupler::PlaneCell cell(dem::make_cell_service(asked));
+  coupler::PlaneRequest request;
   request.increment.displacement_gradient << 1e-6, 0.0, 0.0, -1e-6;
   double least = 1e300;
   for (int k = 0; k < 1000; ++k) {
     const double start = processor_seconds();
-    cell->evaluate(request);
+    cell.evaluate(request);
     least = std::min(least, 1e3 * (processor_seconds() - start));
   }
   return fmt::format("restore, set-up, one step, read-out and save: {:.3f} ms\n", least);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/cell.hpp"
+#include "coupler/cells/plane_cell.hpp"
 #include "dem/cell/cell_service.hpp"
 
 namespace polargrain {
@@ -26,8 +27,8 @@ class DrivenCell {
   };
 
   explicit DrivenCell(const CellDefinition& definition)
-      : cell_(dem::make_cell_service(definition)), at_(cell_->initial()) {}
-  DrivenCell(const CellDefinition& definition, CellReply at)
+      : cell_(dem::make_cell_service(definition)), at_(cell_.initial()) {}
+  DrivenCell(const CellDefinition& definition, coupler::PlaneReply at)
       : cell_(dem::make_cell_service(definition)), at_(std::move(at)) {}
 
   static Vector stress(const Response& response) {
@@ -47,11 +48,11 @@ class DrivenCell {
   }
 
   /// What the cell answers to a strain from where it is; it stays there.
-  CellReply answer(const Vector& strain) {
-    CellRequest request;
+  coupler::PlaneReply answer(const Vector& strain) {
+    coupler::PlaneRequest request;
     request.state = at_.state;
     request.increment.displacement_gradient = gradient(strain);
-    CellReply reply = cell_->evaluate(request);
+    coupler::PlaneReply reply = cell_.evaluate(request);
     ++evaluations_;
     dem_steps_ += reply.diagnostics.dem_steps;
     return reply;
@@ -60,7 +61,7 @@ class DrivenCell {
   /// Goes to where each component is the stress or the strain that is given. @returns whether it got there
   bool go(const Vector& given, const std::array<bool, 3>& is_stress, const Limits& limits) {
     Vector strain = Vector::Zero();
-    CellReply trial = at_;
+    coupler::PlaneReply trial = at_;
     for (int iteration = 0; iteration <= limits.iterations; ++iteration) {
       Matrix matrix = tangent(trial.response);
       Vector residual = given - stress(trial.response);
@@ -88,13 +89,13 @@ class DrivenCell {
     return false;
   }
 
-  [[nodiscard]] const CellReply& at() const { return at_; }
+  [[nodiscard]] const coupler::PlaneReply& at() const { return at_; }
   [[nodiscard]] int evaluations() const { return evaluations_; }
   [[nodiscard]] std::int64_t dem_steps() const { return dem_steps_; }
 
  private:
-  std::unique_ptr<CellService> cell_;
-  CellReply at_;
+  coupler::PlaneCell cell_;
+  coupler::PlaneReply at_;
   int evaluations_ = 0;
   std::int64_t dem_steps_ = 0;
 };

@@ -94,7 +94,7 @@ std::string errors() {
     for (const Setting& setting :
          {Setting{20, 0.12, 5e-3}, Setting{20, 0.12, 1e-4}, Setting{20, 0.12, 1e-6}, Setting{400, 0.12, 1e-4},
           Setting{400, 0.06, 1e-4}, Setting{950, 0.06, 1e-4}}) {
-      const CellReply reply = DrivenCell(cell_of(setting), way.at()).answer(strain.value);
+      const coupler::PlaneReply reply = DrivenCell(cell_of(setting), way.at()).answer(strain.value);
       text += fmt::format(
           "{:>16} {:>6} {:>8} {:>10.0e} {:>8.3f} {:>10.3f} {:>10}\n", strain.name, setting.ramp,
           setting.damping, setting.tolerance,

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "bench/bare_loop.hpp"
+#include "coupler/cells/plane_cell.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "tests/support/cell_fixture.hpp"
 
@@ -78,16 +79,17 @@ CellDefinition cell_of(const std::string& style, CellLoop loop) {
   return definition;
 }
 
-CellRequest isochoric() {
-  CellRequest request;
+coupler::PlaneRequest isochoric() {
+  coupler::PlaneRequest request;
   request.increment.displacement_gradient << kStrain, 0.0, 0.0, -kStrain;
   return request;
 }
 
 Variant cell_variant(std::string what, const std::string& style, CellLoop loop) {
-  return {std::move(what), [cell = std::shared_ptr(dem::make_cell_service(cell_of(style, loop)))] {
+  return {std::move(what),
+          [cell = std::make_shared<coupler::PlaneCell>(dem::make_cell_service(cell_of(style, loop)))] {
             const double start = processor_seconds();
-            const CellReply reply = cell->evaluate(isochoric());
+            const coupler::PlaneReply reply = cell->evaluate(isochoric());
             return (processor_seconds() - start) / static_cast<double>(reply.diagnostics.dem_steps);
           }};
 }
@@ -106,7 +108,8 @@ template <bool Rolling>
 void hold_to_cell(const Packing& packing, const std::string& style) {
   bench::BareLoop<Rolling> bare(packing, kMaterial);
   bare.run(kStrain, kSteps);
-  const CellReply reply = dem::make_cell_service(cell_of(style, CellLoop::automatic))->evaluate(isochoric());
+  const coupler::PlaneReply reply =
+      coupler::PlaneCell(dem::make_cell_service(cell_of(style, CellLoop::automatic))).evaluate(isochoric());
   Eigen::Matrix2d stress;
   stress << reply.response.stress(k11), reply.response.stress(k12), reply.response.stress(k21),
       reply.response.stress(k22);

@@ -13,8 +13,8 @@ if(POLARGRAIN_ENGINE)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/dem/contact ${PROJECT_SOURCE_DIR}/dem/engine DESTINATION ${header_directory}/dem
           FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h"
           # Of the program alone.
-          PATTERN contact_pair.hpp EXCLUDE PATTERN registration.hpp EXCLUDE
-          PATTERN engine.hpp EXCLUDE PATTERN private_access.hpp EXCLUDE)
+          PATTERN contact_pair.hpp EXCLUDE
+          PATTERN engine.hpp EXCLUDE PATTERN private_access.hpp EXCLUDE PATTERN extension.hpp EXCLUDE)
   configure_package_config_file(cmake/polargrainConfig.cmake.in ${PROJECT_BINARY_DIR}/polargrainConfig.cmake
                                 INSTALL_DESTINATION ${package_directory} PATH_VARS header_directory)
   # A library of contact laws fits the version that it was compiled for alone.

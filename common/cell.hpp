@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "common/cell_increment.hpp"
+#include "common/cell_response.hpp"
 #include "common/contact_library_file.hpp"
-#include "common/increment.hpp"
 #include "common/packing.hpp"
 #include "common/record.hpp"
-#include "common/response.hpp"
 #include "common/state.hpp"
 
 namespace polargrain {
@@ -103,8 +103,12 @@ void describe(Record& definition, Visit&& visit) {
 /// One evaluation: from a state (or, when null, from the packing) along an increment.
 struct CellRequest {
   StatePointer state;
-  Increment increment;
+  CellIncrement increment;
 };
+
+/// Version of the folders that write_replay makes; `fix cell/load` reads it and 1, whose increments are those of the
+/// plane. Raised with every change of what stands in them.
+inline constexpr int kReplayVersion = 2;
 
 /// Diagnostics of a cell at read-out: what each field means is said in its description below, once.
 struct CellDiagnostics {
@@ -152,17 +156,16 @@ void describe(Record& d, Visit&& visit) {
         d.engine_seconds);
 }
 
-/// Answer of a cell. Stress and tangent are the cell's own (laboratory frame); Response::tangent is with
-/// respect to the Cosserat strain.
+/// Answer of a cell.
 struct CellReply {
-  Response response;
+  CellResponse response;
   CellDiagnostics diagnostics;
   StatePointer state;  ///< state after the increment; null when the evaluation failed
 };
 
 template <RecordOf<CellReply> Record, class Visit>
 void describe(Record& reply, Visit&& visit) {
-  visit(FieldNotes{"response", "", "stress and tangent of the cell"}, reply.response);
+  visit(FieldNotes{"response", "", "stress and tangent"}, reply.response);
   visit(FieldNotes{"diagnostics", "", "diagnostics at read-out"}, reply.diagnostics);
   visit(FieldNotes{"state", "", "state after the increment"}, reply.state);
 }
@@ -174,7 +177,8 @@ class CellService {
   virtual ~CellService() = default;
   /// The packing at rest: its stress, diagnostics, tangent and the state every cell starts from.
   virtual CellReply initial() = 0;
-  /// @throws RunError when the request cannot be served (a state of another definition, a broken increment).
+  /// @throws RunError when the request cannot be served (a state of another definition, an increment
+  /// that its grains cannot follow).
   virtual CellReply evaluate(const CellRequest& request) = 0;
 
   /// To be called now and then while the engine works, so that others know it is alive; may be empty.

@@ -17,11 +17,11 @@
 #include "app/commands/moduli.hpp"
 #include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
-#include "common/packing_data.hpp"
 #include "common/packing_file.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "fem/output/write_file.hpp"
+#include "grains_io/packing_data.hpp"
 
 namespace polargrain::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "common/cell.hpp"
 #include "common/packing_specification.hpp"
-#include "common/script.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::app {
 

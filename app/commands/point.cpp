@@ -16,6 +16,7 @@
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "common/error.hpp"
+#include "common/plane_in_space.hpp"
 #include "common/record_table.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
@@ -127,12 +128,12 @@ bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerT
 
 /// What the cell itself answers along the path, its symmetric or skew stress alone, without the Cosserat part
 /// of the case. Ends before an increment that fails.
-std::vector<Response> answers_of(coupler::Pool& pool, const CellDefinition& definition,
-                                 const std::vector<Increment>& path) {
+std::vector<CellResponse> answers_of(coupler::Pool& pool, const CellDefinition& definition,
+                                     const std::vector<CellIncrement>& path) {
   const std::uint32_t number = pool.define(definition);
-  std::vector<Response> answers;
+  std::vector<CellResponse> answers;
   StatePointer state;
-  for (const Increment& increment : path) {
+  for (const CellIncrement& increment : path) {
     const coupler::PoolRequest request{number, {state, increment}};
     const CellReply reply = pool.evaluate({&request, 1}).front();
     if (reply.response.quality == Quality::failed) break;
@@ -209,7 +210,8 @@ int point(const PointOptions& options) {
          fmt::format("has no material '{}'; it has {}", options.material, coupler::listed(names))});
   }
   const CellDefinition* const cell = recipe->second->cell();
-  coupler::Replay replay{nullptr, path, {}, fmt::format("The path {}.", options.path_file.string())};
+  coupler::Replay replay{nullptr, {}, {}, fmt::format("The path {}.", options.path_file.string())};
+  for (const Increment& increment : path) replay.increments.push_back(in_space(increment));
   if (!options.replay.empty()) {
     if (cell == nullptr)
       throw InputError(
@@ -232,7 +234,7 @@ int point(const PointOptions& options) {
   AnswerTable table(options.output, material->field_names());
   const bool done = follow(*material, path, table);
   if (!options.replay.empty()) {
-    replay.answers = answers_of(*pool, *cell, path);
+    replay.answers = answers_of(*pool, *cell, replay.increments);
     coupler::write_replay(options.replay, *cell, replay);
   }
   logs.keep(false);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/increment.hpp"
-#include "common/script.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::app {
 

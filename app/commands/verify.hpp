@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "common/script.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::app {
 

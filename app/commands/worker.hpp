@@ -5,9 +5,9 @@
 #include <string>
 
 #include "common/cell.hpp"
-#include "common/script.hpp"
 #include "common/state_check.hpp"
 #include "coupler/pool/worker.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::app {
 

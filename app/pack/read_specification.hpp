@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/packing_specification.hpp"
-#include "common/script.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::app {
 

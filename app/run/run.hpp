@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/script.hpp"
 #include "common/state_check.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::app {
 

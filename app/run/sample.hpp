@@ -15,7 +15,7 @@ namespace polargrain::app {
 struct SampledAnswer {
   std::int64_t definition = 0;  ///< number of the cell's definition in the pool
   CellRequest asked;            ///< its state with bytes; null: from the packing
-  Response response;
+  CellResponse response;
   std::string state;  ///< name of the state that was answered, 32 hexadecimal digits
 
   [[nodiscard]] bool same_answer(const CellReply& reply) const;

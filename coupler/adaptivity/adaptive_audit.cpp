@@ -43,20 +43,20 @@ void AdaptiveMaterial::audit() {
 }
 
 void AdaptiveMaterial::audit_offsets() {
-  std::vector<CellRequest> requests;
+  std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   std::vector<Vector7> given;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     if (is_zero(point.offset)) continue;
     if (hashed_share(options_.seed, p, static_cast<std::uint64_t>(step_)) >= options_.audit) continue;
-    const CellReply& answer = cells_[point.cell].answer;
+    const PlaneReply& answer = cells_[point.cell].answer;
     requests.push_back({answer.state, point.offset});
     points.push_back(p);
     given.push_back(linearised_stress(answer.response, point.offset));
   }
   if (requests.empty()) return;
-  const std::vector<CellReply> replies = run(requests, points);
+  const std::vector<PlaneReply> replies = run(requests, points);
   audits_ += static_cast<std::int64_t>(requests.size());
   for (std::size_t k = 0; k < replies.size(); ++k) {
     if (replies[k].response.quality != Quality::good) continue;
@@ -65,17 +65,17 @@ void AdaptiveMaterial::audit_offsets() {
 }
 
 void AdaptiveMaterial::audit_histories() {
-  std::vector<CellRequest> requests;
+  std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (const Followed& followed : followed_) {
     requests.push_back({followed.state, increment_of_step(followed.point)});
     points.push_back(followed.point);
   }
   if (std::all_of(requests.begin(), requests.end(),
-                  [](const CellRequest& request) { return is_zero(request.increment); })) {
+                  [](const PlaneRequest& request) { return is_zero(request.increment); })) {
     return;
   }
-  const std::vector<CellReply> replies = run(requests, points);
+  const std::vector<PlaneReply> replies = run(requests, points);
   audits_ += static_cast<std::int64_t>(requests.size());
   std::vector<Followed> going_on;
   for (std::size_t k = 0; k < replies.size(); ++k) {

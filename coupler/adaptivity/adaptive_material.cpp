@@ -16,7 +16,7 @@ namespace polargrain::coupler {
 namespace {
 
 /// Of a cell with free rotations only the symmetric part of stress and tangent is meant.
-void make_symmetric(CellReply& reply) {
+void make_symmetric(PlaneReply& reply) {
   Response& response = reply.response;
   response.stress[k12] = response.stress[k21] = 0.5 * (response.stress[k12] + response.stress[k21]);
   response.tangent = symmetric_tangent(response.tangent);
@@ -143,11 +143,11 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
     starts.back().leader = leader;
   }
   if (!replay_paths(starts)) return false;
-  std::vector<CellRequest> requests;
+  std::vector<PlaneRequest> requests;
   for (const Branch& start : starts) {
     requests.push_back({start.answer.state, offset_between(start.place, target_[start.leader])});
   }
-  std::vector<CellReply> replies = run(requests, leaders);
+  std::vector<PlaneReply> replies = run(requests, leaders);
   runs_ += static_cast<std::int64_t>(requests.size());
   bool all_good = true;
   for (std::size_t k = 0; k < starts.size(); ++k) {
@@ -187,7 +187,7 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
     longest = std::max(longest, turns.back().size());
   }
   for (std::size_t turn = 0; turn < longest; ++turn) {
-    std::vector<CellRequest> requests;
+    std::vector<PlaneRequest> requests;
     std::vector<Branch*> moving;
     std::vector<std::size_t> leaders;
     for (std::size_t k = 0; k < starts.size(); ++k) {
@@ -197,7 +197,7 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
       moving.push_back(&starts[k]);
       leaders.push_back(starts[k].leader);
     }
-    std::vector<CellReply> replies = run(requests, leaders);
+    std::vector<PlaneReply> replies = run(requests, leaders);
     runs_ += static_cast<std::int64_t>(requests.size());
     for (std::size_t k = 0; k < replies.size(); ++k) {
       moving[k]->answer = std::move(replies[k]);
@@ -210,11 +210,11 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
   return true;
 }
 
-std::vector<CellReply> AdaptiveMaterial::run(std::span<const CellRequest> requests,
-                                             std::span<const std::size_t> points) const {
-  std::vector<CellReply> replies = calls_.evaluate(requests, points);
+std::vector<PlaneReply> AdaptiveMaterial::run(std::span<const PlaneRequest> requests,
+                                              std::span<const std::size_t> points) const {
+  std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
   if (measure_.controlled()) return replies;
-  for (CellReply& reply : replies) make_symmetric(reply);
+  for (PlaneReply& reply : replies) make_symmetric(reply);
   return replies;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "common/cell.hpp"
 #include "coupler/adaptivity/audits.hpp"
 #include "coupler/adaptivity/error_estimate.hpp"
 #include "coupler/cells/cell_calls.hpp"
@@ -78,7 +77,7 @@ class AdaptiveMaterial : public fem::Material {
  private:
   /// A cell at the start of the step.
   struct Cell {
-    CellReply answer;  ///< stress and tangent symmetric where rotations are free
+    PlaneReply answer;  ///< stress and tangent symmetric where rotations are free
     Departure departure;
 
     template <RecordOf<Cell> Record, class Visit>
@@ -110,7 +109,7 @@ class AdaptiveMaterial : public fem::Material {
     std::size_t cell = 0;    ///< it comes from
     Increment place = {};    ///< from that cell to here
     std::size_t leader = 0;  ///< point it was run to
-    CellReply answer = {};
+    PlaneReply answer = {};
     Departure departure = {};
   };
   /// A point that is followed by a cell of its own along its whole history, to measure what sharing costs.
@@ -131,8 +130,8 @@ class AdaptiveMaterial : public fem::Material {
   /// The answer that a leader's branch starts from, and its place: that of its cell, taken along the turns of
   /// the path that the point has gone without it. @returns false when a cell has failed
   bool replay_paths(std::vector<Branch>& starts);
-  [[nodiscard]] std::vector<CellReply> run(std::span<const CellRequest> requests,
-                                           std::span<const std::size_t> points) const;
+  [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
+                                            std::span<const std::size_t> points) const;
   /// What takes the cell of a point through the step.
   [[nodiscard]] Increment increment_of_step(std::size_t point) const;
   /// Size of an error of a stress, as a share of the confining pressure.

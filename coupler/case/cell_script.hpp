@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "common/script.hpp"
 #include "coupler/case/section.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::coupler {
 

@@ -11,18 +11,20 @@
 namespace polargrain::coupler {
 
 CellCalls calls_of(Pool& pool, std::uint32_t definition) {
-  return {[&pool, definition] { return pool.initial(definition); },
-          [&pool, definition](std::span<const CellRequest> cells, std::span<const std::size_t> points) {
+  return {[&pool, definition] { return in_plane(pool.initial(definition)); },
+          [&pool, definition](std::span<const PlaneRequest> cells, std::span<const std::size_t> points) {
             std::vector<PoolRequest> requests;
             for (std::size_t k = 0; k < cells.size(); ++k)
-              requests.push_back({definition, cells[k], points[k]});
-            return pool.evaluate(requests);
+              requests.push_back({definition, in_space(cells[k]), points[k]});
+            std::vector<PlaneReply> replies;
+            for (CellReply& reply : pool.evaluate(requests)) replies.push_back(in_plane(std::move(reply)));
+            return replies;
           },
           [&pool](std::span<const StatePointer> states) { return pool.collect(states); }};
 }
 
-CellReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes) {
-  CellReply packing = calls.initial();
+PlaneReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes) {
+  PlaneReply packing = calls.initial();
   if (packing.response.quality == Quality::failed)
     throw RunError(
         fmt::format("the packing of a cell cannot be brought to rest: {}", packing.response.message));

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "common/cell.hpp"
+#include "coupler/cells/plane_cell.hpp"
 
 namespace polargrain::coupler {
 
 /// The cells a material asks: the packing at rest, and a batch of requests answered in their order. For
 /// messages each request comes with the point of the material that it stands for.
 struct CellCalls {
-  std::function<CellReply()> initial;
-  std::function<std::vector<CellReply>(std::span<const CellRequest>, std::span<const std::size_t> points)>
+  std::function<PlaneReply()> initial;
+  std::function<std::vector<PlaneReply>(std::span<const PlaneRequest>, std::span<const std::size_t> points)>
       evaluate;
   /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for what
   /// is committed. Empty: they all do.
@@ -29,7 +29,7 @@ CellCalls calls_of(Pool& pool, std::uint32_t definition);
 /// The packing at rest. What the engine remarked on it and its script goes to the notes instead of into the
 /// answer.
 /// @throws RunError when it cannot be brought to rest
-CellReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes);
+PlaneReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes);
 
 /// Sees to it that the bytes of all these states are here; null pointers stay.
 void collect(const CellCalls& calls, std::span<StatePointer* const> states);

@@ -55,16 +55,16 @@ std::string CellLimits::text() const {
       friction, skew, 1e3 * couple, 1e3 * plastic_length());
 }
 
-CellLimits limits_of(const CellCalls& calls, const CellReply& packing, double mean_diameter) {
+CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter) {
   std::array<Increment, 3> increments;
   increments[kSheared].displacement_gradient << kCompression, 0.0, 0.0, -kCompression;
   increments[kTurned].micro_rotation = kRotation;
   increments[kBent].curvature << kBending / mean_diameter, 0.0;
   std::array<double, 3> largest{};
-  std::vector<CellReply> at(3, packing);
+  std::vector<PlaneReply> at(3, packing);
   const std::vector<std::size_t> points(3, 0);  // each stands for all
   for (int k = 0; k < kIncrements; ++k) {
-    std::vector<CellRequest> requests;
+    std::vector<PlaneRequest> requests;
     for (std::size_t way = 0; way < 3; ++way) requests.push_back({at[way].state, increments[way]});
     at = calls.evaluate(requests, points);
     for (std::size_t way = 0; way < 3; ++way) {

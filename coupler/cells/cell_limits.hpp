@@ -26,6 +26,6 @@ struct CellLimits {
 
 /// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
 /// @throws RunError where a path cannot be followed or a limit is none
-CellLimits limits_of(const CellCalls& calls, const CellReply& packing, double mean_diameter);
+CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter);
 
 }  // namespace polargrain::coupler

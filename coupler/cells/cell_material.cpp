@@ -30,7 +30,7 @@ void CellMaterial::allocate(std::size_t points) {
 }
 
 void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
-  std::vector<CellRequest> requests;
+  std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
@@ -38,7 +38,7 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
     requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
     points.push_back(point);
   }
-  std::vector<CellReply> replies = calls_.evaluate(requests, points);
+  std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     PointState& point = trial_[points[r]];
     point.cell = std::move(replies[r]);

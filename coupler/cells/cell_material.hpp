@@ -44,7 +44,7 @@ class CellMaterial : public fem::Material {
 
  private:
   struct PointState {
-    CellReply cell;  ///< the cell's own last answer, with its state
+    PlaneReply cell;  ///< the cell's own last answer, with its state
     CosseratPart cosserat;
 
     template <RecordOf<PointState> Record, class Visit>

@@ -2,7 +2,7 @@
 #pragma once
 #include <cmath>
 
-#include "common/cell.hpp"
+#include "coupler/cells/plane_cell.hpp"
 
 namespace polargrain::coupler {
 
@@ -12,7 +12,7 @@ namespace polargrain::coupler {
 /// with controlled rotations: of the skew stress, and, times the mean radius, of the couple stress. What is not the
 /// grains' (skew and couple stress of CosseratParameters) counts as exact.
 /// @param mean_radius of grains whose rotations are controlled, m; 0: they are free
-inline StressNoise noise_of(const CellReply& reply, double mean_radius) {
+inline StressNoise noise_of(const PlaneReply& reply, double mean_radius) {
   const CellDiagnostics& cell = reply.diagnostics;
   if (!(cell.coordination_number > 0.0) || cell.contacts == 0) return {};
   const double grains = 2.0 * static_cast<double>(cell.contacts) / cell.coordination_number;

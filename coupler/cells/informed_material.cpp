@@ -117,7 +117,7 @@ InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& pa
 }
 
 void InformedMaterial::allocate(std::size_t points) {
-  const CellReply packing = packing_at_rest(calls_, notes_);
+  const PlaneReply packing = packing_at_rest(calls_, notes_);
   if (controlled() && !parameters_.weights) {
     const CellLimits limits = limits_of(calls_, packing, parameters_.mean_diameter);
     const fem::InvariantWeights weights = limits.weights(parameters_.elastic.internal_length);
@@ -128,8 +128,8 @@ void InformedMaterial::allocate(std::size_t points) {
   PointState start;
   start.cell = packing;
   Vector7 stress = packing.response.stress;
-  if (stress(k33) == 0.0) stress(k33) = 0.5 * (stress(k11) + stress(k22));  // discs
-  start.law.scaled_stress = complete_cell_stress(stress, stress);
+  if (!packing.knows_s33) stress(k33) = 0.5 * (stress(k11) + stress(k22));
+  start.law.scaled_stress = complete_cell_stress(stress, true, stress);
   start.mobilisation = fem::initial_mobilisation(parameters_.mobilisation);
   start.held_friction = start.mobilisation.cone.friction;
   committed_.assign(points, start);
@@ -188,14 +188,14 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
                                             std::span<Response> responses) {
   // With the cone of the last step it shows which points yield at all.
   evaluate_frozen(increments, responses);
-  std::vector<CellRequest> requests;
+  std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     if (is_zero(increments[point]) || responses[point].quality == Quality::failed) continue;
     requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
     points.push_back(point);
   }
-  const std::vector<CellReply> replies = calls_.evaluate(requests, points);
+  const std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     const std::size_t point = points[r];
     const Response& cell = replies[r].response;
@@ -232,7 +232,7 @@ void InformedMaterial::commit() {
 
 void InformedMaterial::follow(std::span<const std::size_t> points) {
   std::vector<std::size_t> pending(points.begin(), points.end());
-  std::vector<CellReply> last(committed_.size());
+  std::vector<PlaneReply> last(committed_.size());
   for (int parts = 1; !pending.empty(); parts *= 2) {
     if (parts > kMostParts) {
       throw RunError(
@@ -240,14 +240,15 @@ void InformedMaterial::follow(std::span<const std::size_t> points) {
                       "smaller steps, or update: fixed_point, which cuts steps for its cells",
                       pending.front(), kMostParts, last[pending.front()].response.message));
     }
-    for (const std::size_t point : pending) last[point] = CellReply{{}, {}, committed_[point].cell.state};
+    for (const std::size_t point : pending)
+      last[point] = PlaneReply{{}, true, {}, committed_[point].cell.state};
     std::vector<std::size_t> following = pending;
     for (int part = 0; part < parts && !following.empty(); ++part) {
-      std::vector<CellRequest> requests;
+      std::vector<PlaneRequest> requests;
       for (const std::size_t point : following) {
         requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), parts)});
       }
-      std::vector<CellReply> replies = calls_.evaluate(requests, following);
+      std::vector<PlaneReply> replies = calls_.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {
         replies[r].diagnostics.dem_steps += last[following[r]].diagnostics.dem_steps;
         last[following[r]] = std::move(replies[r]);
@@ -260,14 +261,14 @@ void InformedMaterial::follow(std::span<const std::size_t> points) {
   }
 }
 
-void InformedMaterial::take(const CellReply& reply, const Increment& increment, std::size_t point) {
+void InformedMaterial::take(const PlaneReply& reply, const Increment& increment, std::size_t point) {
   PointState& trial = trial_[point];
   const fem::ScaledVector<double>& law = trial.law.scaled_stress;
-  const fem::MicroStep step{
-      scaled_strain(increment),
-      complete_cell_stress(cell_start(point, increment), law_start(point, increment).scaled_stress),
-      complete_cell_stress(reply.response.stress, law), law.head<3>().sum() / 3.0,
-      trial.law.regime == fem::Regime::smooth};
+  const fem::MicroStep step{scaled_strain(increment),
+                            complete_cell_stress(cell_start(point, increment), reply.knows_s33,
+                                                 law_start(point, increment).scaled_stress),
+                            complete_cell_stress(reply.response.stress, reply.knows_s33, law),
+                            law.head<3>().sum() / 3.0, trial.law.regime == fem::Regime::smooth};
   trial.mobilisation =
       fem::advance(committed_[point].mobilisation, step, frame_.moduli, parameters_.mobilisation);
   const bool frozen = parameters_.update == InformedUpdate::frozen;
@@ -288,7 +289,7 @@ fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& incre
 }
 
 /// Discs have no out-of-plane stress: they are lent that of the law, in proportion to the pressures in the plane.
-fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& cell,
+fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& cell, bool knows_s33,
                                                                  const fem::ScaledVector<double>& law) const {
   fem::ScaledVector<double> scaled = cell;
   if (controlled()) {
@@ -298,7 +299,7 @@ fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& 
     scaled.tail<2>().setZero();
   }
   const double law_in_plane = law(k11) + law(k22);
-  if (cell(k33) == 0.0 && law_in_plane < 0.0) {
+  if (!knows_s33 && law_in_plane < 0.0) {
     scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));
   }
   return scaled;
@@ -311,21 +312,22 @@ double InformedMaterial::mismatch(const PointState& point) const {
     return std::sqrt(s(k11) * s(k11) + s(k22) * s(k22) + shear + (controlled() ? skew : 0.0));
   };
   const double size = in_plane(point.law.scaled_stress);
-  const double difference = in_plane(
-      point.law.scaled_stress - complete_cell_stress(point.cell.response.stress, point.law.scaled_stress));
+  const double difference =
+      in_plane(point.law.scaled_stress - complete_cell_stress(point.cell.response.stress,
+                                                              point.cell.knows_s33, point.law.scaled_stress));
   return size > 0.0 ? difference / size : difference;
 }
 
 void InformedMaterial::save(ArchiveWriter& archive) const {
   std::vector<double> values;
-  std::vector<CellReply> cells;
+  std::vector<PlaneReply> cells;
   for (PointState point : committed_) {
     Packer pack{values};
     visit_numbers(pack, point, parameters_.mobilisation.window);
     cells.push_back(point.cell);
   }
   archive.write("laws", std::span<const double>(values));
-  write_records(archive, "cells", std::span<const CellReply>(cells));
+  write_records(archive, "cells", std::span<const PlaneReply>(cells));
 }
 
 void InformedMaterial::restore(ArchiveReader& archive) {
@@ -335,7 +337,7 @@ void InformedMaterial::restore(ArchiveReader& archive) {
   visit_numbers(pack, any, parameters_.mobilisation.window);
   const std::size_t length = one.size();
   const std::vector<double> values = read_lists(archive, "laws", committed_.size(), length);
-  std::vector<CellReply> cells = read_records<CellReply>(archive, "cells", committed_.size());
+  std::vector<PlaneReply> cells = read_records<PlaneReply>(archive, "cells", committed_.size());
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     Unpacker unpack{std::span(values).subspan(point * length, length)};
     visit_numbers(unpack, committed_[point], parameters_.mobilisation.window);

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/cell.hpp"
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "fem/material/elastoplastic.hpp"
@@ -76,7 +75,7 @@ class InformedMaterial : public fem::Material {
     /// from `held_friction` at the start of the step to that of the cone `take_up` later.
     double held_friction = 0.0;
     double take_up = 0.0;
-    CellReply cell;  ///< its last answer, with its state
+    PlaneReply cell;  ///< its last answer, with its state
   };
 
   template <class Visitor>
@@ -89,7 +88,7 @@ class InformedMaterial : public fem::Material {
   [[nodiscard]] Vector7 cell_start(std::size_t point, const Increment& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(std::span<const std::size_t> points);
-  void take(const CellReply& reply, const Increment& increment, std::size_t point);
+  void take(const PlaneReply& reply, const Increment& increment, std::size_t point);
   /// Norm of the difference of the in-plane stresses of law and cell, over that of the law; controlled rotations: skew
   /// stress and couple stress over lc included.
   [[nodiscard]] double mismatch(const PointState& point) const;
@@ -97,7 +96,7 @@ class InformedMaterial : public fem::Material {
   /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
   [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& increment) const;
-  [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
+  [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell, bool knows_s33,
                                                                const fem::ScaledVector<double>& law) const;
 
   CellCalls calls_;

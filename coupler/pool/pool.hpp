@@ -25,7 +25,7 @@ struct PoolOptions {
   std::filesystem::path directory;
   /// The program and its leading arguments; the pool adds `--connect URL`. Empty: this program, `worker`.
   std::vector<std::string> worker_command;
-  /// Local workers run any script (common/script.hpp).
+  /// Local workers run any script (grains_io/script.hpp).
   bool trust_scripts = false;
   /// A worker that has not said Hello after so long is a start-up failure.
   double startup_seconds = 10.0;

@@ -9,7 +9,7 @@ namespace polargrain::coupler {
 namespace {
 
 /// All that an answer depends on.
-using Key = std::array<std::uint64_t, 11>;
+using Key = std::array<std::uint64_t, 25>;
 
 struct KeyHash {
   std::size_t operator()(const Key& key) const {
@@ -21,15 +21,14 @@ struct KeyHash {
 
 Key key_of(const PoolRequest& request) {
   const ContentName name = request.cell.state ? request.cell.state->name() : ContentName{};
-  const Increment& increment = request.cell.increment;
+  const CellIncrement& increment = request.cell.increment;
   Key key{request.definition, request.cell.state ? 1u : 0u, name.high, name.low};
   std::size_t place = 4;
-  for (int entry = 0; entry < 4; ++entry) {
-    key[place++] = std::bit_cast<std::uint64_t>(increment.displacement_gradient.data()[entry]);
-  }
-  key[place++] = std::bit_cast<std::uint64_t>(increment.micro_rotation);
-  key[place++] = std::bit_cast<std::uint64_t>(increment.curvature(0));
-  key[place++] = std::bit_cast<std::uint64_t>(increment.curvature(1));
+  for (const double value : increment.displacement_gradient.reshaped())
+    key[place++] = std::bit_cast<std::uint64_t>(value);
+  for (const double value : increment.rotation) key[place++] = std::bit_cast<std::uint64_t>(value);
+  for (const double value : increment.curvature.reshaped())
+    key[place++] = std::bit_cast<std::uint64_t>(value);
   return key;
 }
 

@@ -12,7 +12,7 @@
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 8;
+inline constexpr std::uint32_t kProtocolVersion = 9;
 
 /// A request asks for no more cells or states.
 inline constexpr std::size_t kMostInRequest = 64;
@@ -69,7 +69,7 @@ struct CellToEvaluate {
   bool from_packing = false;  ///< start from the packing; `base` and `state` are then unused
   ContentName base;           ///< name of the state to start from
   StatePointer state;         ///< that state when its bytes travel along, else null
-  Increment increment;
+  CellIncrement increment;
 };
 
 /// Coordinator to worker: CellService::evaluate, for some cells one after the other.

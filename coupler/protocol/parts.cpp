@@ -45,7 +45,7 @@ void require_possible(const CellDiagnostics& d) {
 
 }  // namespace
 
-void write(ArrayWriter&& writer, const Increment& increment) {
+void write(ArrayWriter&& writer, const CellIncrement& increment) {
   write_record(writer, increment);
 }
 void write(ArrayWriter&& writer, const CellDefinition& cell) {
@@ -55,8 +55,8 @@ void write(ArrayWriter&& writer, const CellReply& reply) {
   write_record(writer, reply);
 }
 
-Increment read_increment(const msgpack::object& object) {
-  const auto increment = read_record<Increment>(object, "an increment");
+CellIncrement read_increment(const msgpack::object& object) {
+  const auto increment = read_record<CellIncrement>(object, "an increment");
   require_finite_fields(increment, "an increment");
   return increment;
 }
@@ -73,15 +73,16 @@ CellDefinition read_definition(const msgpack::object& object) {
 
 CellReply read_cell_reply(const msgpack::object& object) {
   auto reply = read_record<CellReply>(object, "the answer of a cell");
-  Response& response = reply.response;
+  CellResponse& response = reply.response;
   response.message = plain_text(response.message);
   if (!(response.step_factor > 0.0 && response.step_factor <= 1.0))
     throw FalseMessage("a response proposes a part of its increment that is none");
   require_possible(reply.diagnostics);
   // A failed response has no numbers worth anything; all others are going to be used.
   if (response.quality == Quality::failed) return reply;
-  require_finite({response.stress.data(), 7}, "a stress");
-  require_finite({response.tangent.data(), 49}, "a tangent");
+  require_finite({response.stress.data(), 9}, "a stress");
+  require_finite({response.couple_stress.data(), 9}, "a couple stress");
+  require_finite({response.tangent.data(), 324}, "a tangent");
   if (!reply.state) throw FalseMessage("a reply that did not fail has no state");
   return reply;
 }

@@ -10,7 +10,9 @@
 
 #include "common/elementary_functions.hpp"
 #include "common/error.hpp"
-#include "common/packing_data.hpp"
+#include "common/plane_in_space.hpp"
+#include "common/record_values.hpp"
+#include "grains_io/packing_data.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -56,14 +58,15 @@ std::string mean_grain(const Packing& packing) {
   return fmt::format("{:.17g} {:.17g} {:.17g}", mass, radius, grains * mass / (area * packing.thickness));
 }
 
-std::string words_of(const Increment& increment) {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", h(0, 0), h(0, 1), h(1, 0),
-                     h(1, 1), increment.micro_rotation, increment.curvature(0), increment.curvature(1));
+/// The numbers of an increment in the order of its description, which is that of `fix cell/load`.
+std::string words_of(const CellIncrement& increment) {
+  RecordValues values;
+  append(values, increment, false);
+  return fmt::format("{:.17g}", fmt::join(values.numbers, " "));
 }
 
 /// The commands of one increment: loading, then rest, then the answer on the screen.
-std::string increment_commands(const Increment& increment, std::size_t number) {
+std::string increment_commands(const CellIncrement& increment, std::size_t number) {
   return fmt::format(
       "\nprint           \"increment {0}\"\n"
       "fix_modify      cell increment {1}\n"
@@ -96,12 +99,13 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
       definition.name, command_of(definition), kPacking, kScript);
   const bool controlled = definition.control.rotations == CellRotations::controlled;
   text += fmt::format(
-      "fix             cell all cell/load inertial_number {:.17g} damping {:.17g} least_steps {} &\n"
+      "fix             cell all cell/load version {} &\n"
+      "                inertial_number {:.17g} damping {:.17g} least_steps {} &\n"
       "                unbalanced {:.17g} {:.17g} most_relaxation_steps {} &\n"
       "                rotations {} mean_grain {}",
-      control.inertial_number, control.damping, control.least_steps, control.unbalanced_force_ratio,
-      control.unbalanced_moment_ratio, control.most_relaxation_steps, controlled ? "controlled" : "free",
-      mean_grain(definition.packing));
+      kReplayVersion, control.inertial_number, control.damping, control.least_steps,
+      control.unbalanced_force_ratio, control.unbalanced_moment_ratio, control.most_relaxation_steps,
+      controlled ? "controlled" : "free", mean_grain(definition.packing));
   const Eigen::Vector2d first = definition.packing.box.col(0);
   if (first.y() != 0.0)
     text += fmt::format(" &\n                turned {:.17g}", arc_tangent(first.y(), first.x()));
@@ -143,7 +147,7 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
             "agrees until\nround-off has grown, to eight digits and more over a thousand steps; with "
             "`loop: engine` in the case to all:\n\n";
   for (std::size_t k = 0; k < replay.answers.size(); ++k) {
-    const Vector7& s = replay.answers[k].stress;
+    const Vector7 s = in_plane(replay.answers[k]).stress;
     text += fmt::format(
         "    cell: increment {} stress {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} couple_stress "
         "{:.17g} {:.17g}\n",

@@ -10,10 +10,10 @@ namespace polargrain::coupler {
 
 /// A way of one cell, to be gone again outside of any coupling.
 struct Replay {
-  StatePointer start;                 ///< null: the packing at rest
-  std::vector<Increment> increments;  ///< one after the other
+  StatePointer start;                     ///< null: the packing at rest
+  std::vector<CellIncrement> increments;  ///< one after the other
   /// What the cell answered, an answer an increment from the first on; as many as there are, for comparison.
-  std::vector<Response> answers;
+  std::vector<CellResponse> answers;
   std::string reason;  ///< why it is written, a sentence for its README
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/plane_in_space.hpp"
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
@@ -30,14 +31,17 @@ constexpr double kHold = 1e-4;
 /// one increment.
 constexpr double kLargestIncrement = 0.25;
 
-class Cell final : public CellService {
+class Cell final : public CellOfGrains {
  public:
   explicit Cell(const CellDefinition& definition);
   CellReply initial() override;
   CellReply evaluate(const CellRequest& request) override;
+  [[nodiscard]] std::span<const Contact> contacts() const override { return grains_->contacts(); }
 
  private:
-  [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
+  /// Within the plane of the discs. @param start null: the packing
+  CellReply follow(const StatePointer& start, const Increment& increment);
+  [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
   void check_rolling_model();
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
@@ -45,25 +49,22 @@ class Cell final : public CellService {
   std::unique_ptr<GrainBox> choose_box(const Packing& packing);
   /// Neighbours and forces at the positions as they are; no step.
   void set_up();
-  /// DEM steps; the contacts of the last force pass are recorded.
-  void run(int steps);
+  /// DEM steps to the next look; the contacts of the last force pass are recorded.
+  void run();
   /// Weights of the grains in the mean rotation, from the recorded contacts (mode 2).
   void renew_weights();
   [[nodiscard]] double increment_size(const Increment& increment) const;
   [[nodiscard]] double volume() const { return grains_->box().area() * thickness_; }
   [[nodiscard]] Equilibrium equilibrium() const;
   [[nodiscard]] CellDiagnostics measure() const;
-  [[nodiscard]] bool in_equilibrium(const Equilibrium& equilibrium) const;
   /// Stress of the recorded contacts, in the laboratory frame.
-  [[nodiscard]] Response respond() const;
+  [[nodiscard]] CellResponse respond(const Matrix7& tangent) const;
   /// Tangent of the recorded contacts, in the laboratory frame.
   [[nodiscard]] Matrix7 tangent();
 
   CellControl control_;
-  double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this
-  double damping_rate_ = 0.0;   // 1/s
-  double least_force_ = 0.0;    // N, see kLeastForce
-  double thickness_ = 0.0;      // m
+  QuasiStatic protocol_;
+  double thickness_ = 0.0;  // m
   Driver driver_;
   Inertia inertia_;  // of the grains, as contacts count them
   std::unique_ptr<GrainBox> grains_;
@@ -79,6 +80,7 @@ const CellDefinition& sound(const CellDefinition& definition) {
 
 Cell::Cell(const CellDefinition& definition)
     : control_(definition.control),
+      protocol_(definition.control),
       thickness_(definition.packing.thickness),
       driver_(sound(definition).packing, definition.script, definition.script_file,
               definition.contact_library) {
@@ -96,17 +98,13 @@ Cell::Cell(const CellDefinition& definition)
   // The forces of the start are there; setting them up twice would fold the grains back twice, to other last bits.
   if (controlled()) renew_weights();
 
-  initial_.response = respond();
+  initial_.response = respond(tangent());
   initial_.response.message = remark;
-  initial_.response.tangent = tangent();
   initial_.diagnostics = measure();
-  const double pressure = -0.5 * (initial_.response.stress(k11) + initial_.response.stress(k22));
+  const double pressure = -0.5 * (initial_.response.stress(0, 0) + initial_.response.stress(1, 1));
   check(packing, pressure, definition.script_file);
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
-  time_of_grain_ = 2.0 * driver_.mean_radius() * std::sqrt(density / pressure);
-  damping_rate_ =
-      2.0 * control_.damping * std::sqrt(mean_normal_stiffness(grains_->contacts()) / driver_.mean_mass());
-  least_force_ = kLeastForce * mean_contact_force(grains_->contacts());
+  protocol_.take_scales({driver_.mean_mass(), driver_.mean_radius(), density}, grains_->contacts(), pressure);
   initial_.state = grains_->save();
 }
 
@@ -156,7 +154,15 @@ CellReply Cell::initial() {
 
 CellReply Cell::evaluate(const CellRequest& request) {
   const auto start = std::chrono::steady_clock::now();
-  if (const double size = increment_size(request.increment); !(size <= kLargestIncrement)) {
+  if (const std::string fault = out_of_plane_fault(request.increment); !fault.empty()) throw RunError(fault);
+  CellReply reply = follow(request.state, in_plane(request.increment));
+  reply.diagnostics.engine_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return reply;
+}
+
+CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
+  if (const double size = increment_size(increment); !(size <= kLargestIncrement)) {
     // An iteration gone astray; running it would cost hours and answer nothing.
     CellReply reply;
     reply.response.quality = Quality::failed;
@@ -166,51 +172,42 @@ CellReply Cell::evaluate(const CellRequest& request) {
                     kLargestIncrement);
     return reply;
   }
-  grains_->restore(request.state ? *request.state : *initial_.state);
-  const int loading = loading_steps(control_, request.increment, time_of_grain_, driver_.mean_radius(),
-                                    driver_.strain().time_step());
-  std::optional<RotationLoading> rotation;
-  if (controlled()) rotation = {request.increment.micro_rotation, request.increment.curvature};
-  grains_->begin(BoxPath(grains_->box(), request.increment.displacement_gradient, loading), damping_rate_,
-                 rotation);
+  grains_->restore(start ? *start : *initial_.state);
+  grains_->begin(protocol_.begin(grains_->box(), increment, driver_.strain().time_step()),
+                 protocol_.damping_rate(), protocol_.rotation_of(increment));
   set_up();
 
-  run(loading);
-  CellReply reply;
+  while (!protocol_.loaded()) run();
   // Taken while the box still moves: the contacts that slide now are those that slide along the increment. At
   // rest most of them have just come off their limit, and the tangent would be that of unloading.
   const Matrix7 loading_tangent = tangent();
   Equilibrium rest = equilibrium();
-  int relaxed = 0;
-  while (!in_equilibrium(rest) && relaxed < control_.most_relaxation_steps) {
-    run(kRelaxationChunk);
-    relaxed += kRelaxationChunk;
+  while (!protocol_.ended(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
+    run();
     rest = equilibrium();
   }
+  CellReply reply;
   reply.diagnostics = measure();
-  reply.response = respond();
-  reply.response.tangent = loading_tangent;
-  if (!in_equilibrium(rest)) {
+  reply.response = respond(loading_tangent);
+  if (!protocol_.at_rest(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
     reply.response.quality = Quality::unreliable;
     reply.response.step_factor = 0.5;
     reply.response.message = fmt::format(
         "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
         "moment ratio {:.2e} (asked {:.2e})",
-        relaxed, rest.unbalanced_force_ratio, control_.unbalanced_force_ratio, rest.unbalanced_moment_ratio,
-        control_.unbalanced_moment_ratio);
+        protocol_.relaxed(), rest.unbalanced_force_ratio, control_.unbalanced_force_ratio,
+        rest.unbalanced_moment_ratio, control_.unbalanced_moment_ratio);
   }
   std::string fault = answer_fault(overlaps_of(grains_->contacts(), inertia_.radii), rest.void_ratio);
   if (fault.empty())
-    fault = step_fault(grains_->contacts(), inertia_, damping_rate_, driver_.strain().time_step());
+    fault = step_fault(grains_->contacts(), inertia_, protocol_.damping_rate(), driver_.strain().time_step());
   if (!fault.empty()) {
     reply.response.quality = Quality::unreliable;
     reply.response.step_factor = 0.5;
     reply.response.message = fault;
   }
-  reply.diagnostics.dem_steps = loading + relaxed;
+  reply.diagnostics.dem_steps = protocol_.done();
   reply.state = grains_->save();
-  reply.diagnostics.engine_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return reply;
 }
 
@@ -228,18 +225,16 @@ void Cell::renew_weights() {
   if (!weights.empty()) grains_->set_rotation_weights(weights);
 }
 
-void Cell::run(int steps) {
-  if (!controlled()) return grains_->run(steps);
-  // The weights follow the forces, a chunk behind.
-  for (; steps > 0; steps -= kRelaxationChunk) {
-    grains_->run(std::min(steps, kRelaxationChunk));
-    renew_weights();
-  }
+void Cell::run() {
+  const int steps = protocol_.steps_to_next_look();
+  grains_->run(steps);
+  protocol_.advance(steps);
+  if (controlled()) renew_weights();
 }
 
 Equilibrium Cell::equilibrium() const {
-  return equilibrium_of(grains_->contacts(), grains_->imbalance(), driver_.mean_radius(), least_force_,
-                        grains_->box().area(), driver_.grain_area());
+  return equilibrium_of(grains_->contacts(), grains_->imbalance(), driver_.mean_radius(),
+                        protocol_.least_force(), grains_->box().area(), driver_.grain_area());
 }
 
 double Cell::increment_size(const Increment& increment) const {
@@ -280,22 +275,10 @@ CellDiagnostics Cell::measure() const {
   return diagnostics;
 }
 
-bool Cell::in_equilibrium(const Equilibrium& equilibrium) const {
-  return equilibrium.unbalanced_force_ratio <= control_.unbalanced_force_ratio &&
-         equilibrium.unbalanced_moment_ratio <= control_.unbalanced_moment_ratio;
-}
-
-Response Cell::respond() const {
-  const Eigen::Matrix2d frame = grains_->box().frame();
-  const double v = volume();
-  const Eigen::Matrix2d stress = frame * average_stress(grains_->contacts(), v) * frame.transpose();
-  Response response;
-  response.stress(k11) = stress(0, 0);
-  response.stress(k22) = stress(1, 1);
-  response.stress(k12) = stress(0, 1);
-  response.stress(k21) = stress(1, 0);
-  if (controlled()) response.stress.tail<2>() = frame * average_couple_stress(grains_->contacts(), v);
-  return response;
+CellResponse Cell::respond(const Matrix7& tangent) const {
+  Response response = protocol_.read_out(grains_->contacts(), grains_->box(), thickness_);
+  response.tangent = tangent;
+  return in_space(response, KnownComponents::plane);
 }
 
 Matrix7 Cell::tangent() {
@@ -321,7 +304,7 @@ Matrix7 Cell::tangent() {
 
 }  // namespace
 
-std::unique_ptr<CellService> make_cell_service(const CellDefinition& definition) {
+std::unique_ptr<CellOfGrains> make_cell_service(const CellDefinition& definition) {
   return std::make_unique<Cell>(definition);
 }
 

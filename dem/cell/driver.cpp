@@ -11,6 +11,7 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/packing_data.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/contact/contact_library.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -25,7 +26,8 @@ Driver::Driver(const Packing& packing, const std::string& script, const std::str
     : grains_(static_cast<int>(packing.grains.size())),
       thickness_(packing.thickness),
       script_file_(script_file),
-      engine_(true, contact_library) {
+      recorder_(contact_recorder(engine_.lammps())) {
+  add_contact_library(contact_library);
   for (const Grain& grain : packing.grains) {
     mean_radius_ += grain.radius / grains_;
     mean_mass_ += grain.mass / grains_;
@@ -50,11 +52,11 @@ Driver::Driver(const Packing& packing, const std::string& script, const std::str
 }
 
 void Driver::set_up() {
-  contact_recorder().contacts.clear();
-  contact_recorder().on = true;
+  recorder_.contacts.clear();
+  recorder_.on = true;
   lammps().update->integrate->setup_minimal(1);
-  contact_recorder().on = false;
-  rolling_->complete(contact_recorder().contacts);
+  recorder_.on = false;
+  rolling_->complete(recorder_.contacts);
 }
 
 void Driver::run(int steps) {
@@ -65,11 +67,11 @@ void Driver::run(int steps) {
     update.integrate->run(std::min(left, kProgressChunk));
     if (progress) progress();
   }
-  contact_recorder().contacts.clear();
-  contact_recorder().on = true;
+  recorder_.contacts.clear();
+  recorder_.on = true;
   update.integrate->run(1);
-  contact_recorder().on = false;
-  rolling_->complete(contact_recorder().contacts);
+  recorder_.on = false;
+  rolling_->complete(recorder_.contacts);
   check_grains();
 }
 

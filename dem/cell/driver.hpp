@@ -22,7 +22,7 @@ class Driver {
   /// Reads the packing through the user's script and starts the engine; the box is the packing's, at rest. No
   /// forces are computed yet.
   /// @param script_file for messages only
-  /// @param contact_library as Engine's
+  /// @param contact_library of contact laws of the user's own, or none @throws RunError as add_contact_library
   /// @param after_script called before the contact models read their parameters
   Driver(const Packing& packing, const std::string& script, const std::string& script_file,
          const ContactLibraryFile& contact_library = {},
@@ -40,7 +40,7 @@ class Driver {
   /// DEM steps, at least 1; the contacts of the last force pass are recorded. Ends the process in the
   /// engine's words when a grain was lost.
   void run(int steps);
-  [[nodiscard]] std::span<const Contact> contacts() const { return contact_recorder().contacts; }
+  [[nodiscard]] std::span<const Contact> contacts() const { return recorder_.contacts; }
   /// Of the recorded contacts and the last force pass.
   [[nodiscard]] Equilibrium equilibrium() const;
 
@@ -72,6 +72,7 @@ class Driver {
   double thickness_ = 0.0;
   std::string script_file_;
   Engine engine_;
+  ContactRecorder& recorder_;
   std::optional<ScriptTimeStep> time_step_;
   FixCellStrain* strain_ = nullptr;
   std::optional<StockRolling> rolling_;

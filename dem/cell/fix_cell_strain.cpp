@@ -6,9 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "dem/contact/cell_loading.hpp"
 #include "dem/contact/closing_factor.hpp"
-#include "dem/engine/private_access.hpp"
+#include "dem/engine/extension.hpp"
 
 namespace polargrain::dem {
 
@@ -16,7 +15,8 @@ using LAMMPS_NS::Fix;
 using LAMMPS_NS::LAMMPS;
 namespace FixConst = LAMMPS_NS::FixConst;
 
-FixCellStrain::FixCellStrain(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words) {
+FixCellStrain::FixCellStrain(LAMMPS* lammps, int count, char** words)
+    : Fix(lammps, count, words), loading_(cell_loading(*lammps)) {
   box_change_size = 1;
   box_change_shape = 1;
   for (int k = 3; k < count; k += 2) {
@@ -53,7 +53,7 @@ void FixCellStrain::begin(const BoxPath& path, double damping_rate, std::optiona
   weights_.clear();  // those of another path say nothing of this one
   thickness_ = domain->boxhi[2] - domain->boxlo[2];
   damping_rate_ = damping_rate;
-  cell_loading() = {};
+  loading_ = {};
   std::fill_n(domain->h_rate, 6, 0.0);
   std::fill_n(domain->h_ratelo, 3, 0.0);
   set_box(motion_.box());
@@ -101,7 +101,7 @@ void FixCellStrain::pre_initial_integrate() {
   motion_.advance();
   if (held_.empty()) {
     const Eigen::Vector2d& bending = motion_.curvature_rate();
-    cell_loading().curvature_rate = {bending.x(), bending.y()};
+    loading_.curvature_rate = {bending.x(), bending.y()};
   }
   if (motion_.moving()) accelerate();
   if (!held_.empty()) move_held_grains();
@@ -193,10 +193,8 @@ void FixCellStrain::damp() {
   }
 }
 
-void register_cell_fixes(LAMMPS_NS::Modify& modify) {
-  fix_table(modify)["cell/strain"] = [](LAMMPS* lammps, int count, char** words) -> Fix* {
-    return new FixCellStrain(lammps, count, words);
-  };
-}
+namespace {
+const Extension kCellStrain = fix_extension<FixCellStrain>("cell/strain");
+}  // namespace
 
 }  // namespace polargrain::dem

@@ -6,6 +6,7 @@
 
 #include "dem/cell/box_motion.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/contact/cell_loading.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -88,6 +89,7 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   /// Adds lambda W to the torques; `contact_torques` are the sums of the contacts, before damping.
   void control_mean_rotation();
 
+  CellLoading& loading_;
   BoxMotion motion_;
   double damping_rate_ = 0.0;
   double thickness_ = 0.0;
@@ -99,8 +101,5 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   double multiplier_ = 0.0;
   Imbalance imbalance_;
 };
-
-/// Makes the fixes of this project known to the engine.
-void register_cell_fixes(LAMMPS_NS::Modify& modify);
 
 }  // namespace polargrain::dem

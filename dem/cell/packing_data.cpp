@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "common/error.hpp"
-#include "common/packing_data.hpp"
+#include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 

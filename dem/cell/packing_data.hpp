@@ -6,7 +6,7 @@
 
 namespace polargrain::dem {
 
-/// The data file of a packing (common/packing_data.hpp) that exists in memory only, for `read_data
+/// The data file of a packing (grains_io/packing_data.hpp) that exists in memory only, for `read_data
 /// ${packing}`: an engine error ends the process on the spot, and must leave no file behind.
 class PackingDataFile {
  public:

@@ -13,6 +13,15 @@ namespace polargrain::dem {
 
 namespace {
 
+/// DEM steps between two looks at the contacts.
+constexpr int kChunk = 20;
+
+/// Share of the mean contact force of the packing that unbalanced forces are compared with at least. Grains
+/// that press on each other less than that carry nothing that counts: without it a cell whose stress has gone
+/// to zero could never be at rest, as what grains that barely touch are out of balance is all the force there
+/// is.
+constexpr double kLeastForce = 1e-3;
+
 /// Magnitude of the largest principal strain.
 double largest_principal(const Eigen::Matrix2d& strain) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(strain, Eigen::EigenvaluesOnly)
@@ -22,21 +31,6 @@ double largest_principal(const Eigen::Matrix2d& strain) {
 }
 
 }  // namespace
-
-int loading_steps(const CellControl& control, const Increment& increment, double time_of_grain,
-                  double mean_radius, double time_step) {
-  const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
-  double size = largest_principal(whole.strain());
-  if (control.rotations == CellRotations::controlled) {
-    // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
-    // them; a curvature turns them against each other by that times their distance.
-    size = std::max({size, std::abs(increment.micro_rotation - whole.rotation()),
-                     increment.curvature.norm() * 2.0 * mean_radius});
-  }
-  const double steps = std::ceil(size * time_of_grain / (control.inertial_number * time_step));
-  if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
-  return std::max(control.least_steps, static_cast<int>(steps));
-}
 
 std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains) {
   std::vector<double> weights(static_cast<std::size_t>(grains), 0.0);
@@ -80,6 +74,58 @@ Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& i
   found.rattlers = 1.0 - ratios.carrying / imbalance.grains;
   found.coordination_number = 2.0 * static_cast<double>(contacts.size()) / imbalance.grains;
   return found;
+}
+
+void QuasiStatic::take_scales(const MeanGrain& grain, std::span<const Contact> at_rest, double pressure) {
+  mean_radius_ = grain.radius;
+  time_of_grain_ = 2.0 * grain.radius * std::sqrt(grain.density / pressure);
+  damping_rate_ = 2.0 * control_.damping * std::sqrt(mean_normal_stiffness(at_rest) / grain.mass);
+  least_force_ = kLeastForce * mean_contact_force(at_rest);
+}
+
+BoxPath QuasiStatic::begin(const Box& box, const Increment& increment, double time_step, double reach) {
+  const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
+  double size = largest_principal(whole.strain());
+  if (controlled()) {
+    // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
+    // them; a curvature turns them against each other by that times their distance.
+    const double distance = reach > 0.0 ? reach : 2.0 * mean_radius_;
+    size = std::max(
+        {size, std::abs(increment.micro_rotation - whole.rotation()), increment.curvature.norm() * distance});
+  }
+  const double steps = std::ceil(size * time_of_grain_ / (control_.inertial_number * time_step));
+  if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
+  loading_ = std::max(control_.least_steps, static_cast<int>(steps));
+  done_ = 0;
+  return {box, increment.displacement_gradient, loading_};
+}
+
+std::optional<RotationLoading> QuasiStatic::rotation_of(const Increment& increment) const {
+  if (!controlled()) return std::nullopt;
+  return RotationLoading{increment.micro_rotation, increment.curvature};
+}
+
+int QuasiStatic::steps_to_next_look() const {
+  if (loaded()) return kChunk - relaxed() % kChunk;
+  const int left = loading_ - done_;
+  return controlled() ? std::min(kChunk - done_ % kChunk, left) : left;
+}
+
+bool QuasiStatic::looks_now() const {
+  return done_ == loading_ || (loaded() ? relaxed() : done_) % kChunk == 0;
+}
+
+Response QuasiStatic::read_out(std::span<const Contact> contacts, const Box& box, double thickness) const {
+  const Eigen::Matrix2d frame = box.frame();
+  const double volume = box.area() * thickness;
+  const Eigen::Matrix2d stress = frame * average_stress(contacts, volume) * frame.transpose();
+  Response response;
+  response.stress(k11) = stress(0, 0);
+  response.stress(k22) = stress(1, 1);
+  response.stress(k12) = stress(0, 1);
+  response.stress(k21) = stress(1, 0);
+  if (controlled()) response.stress.tail<2>() = frame * average_couple_stress(contacts, volume);
+  return response;
 }
 
 }  // namespace polargrain::dem

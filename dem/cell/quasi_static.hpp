@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/cell.hpp"
+#include "common/increment.hpp"
+#include "dem/cell/box_motion.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
 namespace polargrain::dem {
-
-// How a cell is loaded and when it is at rest (docs/theory/grains.md, G.3): what the cells of a run and
-// `fix cell/load` of a script must do alike, to the bit.
-
-/// DEM steps between two looks at the equilibrium while a cell relaxes.
-inline constexpr int kRelaxationChunk = 20;
-
-/// DEM steps of the loading ramp of an increment, at the inertial number asked for.
-/// @param time_of_grain mean diameter * sqrt(density / pressure), s @param mean_radius m @param time_step s
-/// @throws RunError when that is more than 1e9
-int loading_steps(const CellControl& control, const Increment& increment, double time_of_grain,
-                  double mean_radius, double time_step);
 
 /// Weights of the grains in the mean rotation (mode 2), W_p over the volume: the torque that the contacts of each
 /// can carry, up to the coefficient of friction, over the sum of all. Zero with fewer than two contacts, or the
@@ -39,12 +31,6 @@ struct Unbalanced {
   double carrying = 0.0;      ///< number of grains that touch others
 };
 
-/// Share of the mean contact force of the packing that unbalanced forces are compared with at least. Grains
-/// that press on each other less than that carry nothing that counts: without it a cell whose stress has gone
-/// to zero could never be at rest, as what grains that barely touch are out of balance is all the force there
-/// is.
-inline constexpr double kLeastForce = 1e-3;
-
 /// Of the last force pass. @param mean_radius m
 /// @param least_force the ratios are to the mean contact force, and to this when that is less, N
 Unbalanced unbalanced(const Imbalance& imbalance, std::span<const Contact> contacts, double mean_radius,
@@ -64,5 +50,71 @@ struct Equilibrium {
 /// @param least_force see unbalanced @param area of the box, m^2 @param grain_area sum, m^2
 Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& imbalance, double mean_radius,
                            double least_force, double area, double grain_area);
+
+/// The mean of the grains of a packing.
+struct MeanGrain {
+  double mass = 0.0;     ///< kg
+  double radius = 0.0;   ///< m
+  double density = 0.0;  ///< of the matter that grains are made of, kg/m^3
+};
+
+/// The quasi-static protocol of an increment (docs/theory/grains.md, G.3): load, relax, read out. It takes no steps: who
+/// takes them, a cell that runs its grains or a fix in whose engine a script does, asks how many come next, says that
+/// they are done, and looks at the contacts when told to, so that all take the same steps to the bit.
+///
+///     begin;  until loaded: steps_to_next_look, advance;  until ended: steps_to_next_look, advance;  read_out
+///
+/// With controlled rotations the weights of the mean rotation are renewed at every look.
+class QuasiStatic {
+ public:
+  explicit QuasiStatic(const CellControl& control) : control_(control) {}
+
+  /// How fast grains may be led and how they are damped follows from the packing at rest; before anything is begun.
+  /// @param at_rest its contacts @param pressure that it carries, positive, Pa
+  void take_scales(const MeanGrain& grain, std::span<const Contact> at_rest, double pressure);
+  [[nodiscard]] double damping_rate() const { return damping_rate_; }  ///< against the affine flow, 1/s
+  [[nodiscard]] double least_force() const {
+    return least_force_;
+  }  ///< see unbalanced(), N; 0 before take_scales
+
+  /// Begins an increment. @param reach grains turn against each other by the curvature times this, m: 0 for their mean
+  /// diameter @returns the path of the box, of as many steps as the loading has
+  /// @throws RunError when that is more than 1e9
+  BoxPath begin(const Box& box, const Increment& increment, double time_step, double reach = 0.0);
+  /// What is prescribed of the rotations; nothing where they are free.
+  [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment& increment) const;
+  [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
+
+  [[nodiscard]] int steps_to_next_look() const;
+  void advance(int steps) { done_ += steps; }
+  /// Whether the steps done so far end with a look at the contacts.
+  [[nodiscard]] bool looks_now() const;
+  [[nodiscard]] int loading() const { return loading_; }  ///< DEM steps
+  [[nodiscard]] int done() const { return done_; }        ///< DEM steps of this increment
+  [[nodiscard]] int relaxed() const { return std::max(0, done_ - loading_); }
+  [[nodiscard]] bool loaded() const { return done_ >= loading_; }
+  [[nodiscard]] bool at_rest(double unbalanced_force_ratio, double unbalanced_moment_ratio) const {
+    return unbalanced_force_ratio <= control_.unbalanced_force_ratio &&
+           unbalanced_moment_ratio <= control_.unbalanced_moment_ratio;
+  }
+  /// At rest, or given up.
+  [[nodiscard]] bool ended(double unbalanced_force_ratio, double unbalanced_moment_ratio) const {
+    return loaded() && (at_rest(unbalanced_force_ratio, unbalanced_moment_ratio) ||
+                        relaxed() >= control_.most_relaxation_steps);
+  }
+
+  /// Stress and couple stress of the contacts in the laboratory, without a tangent; no couple stress where rotations are
+  /// free. @param thickness of the box, m
+  [[nodiscard]] Response read_out(std::span<const Contact> contacts, const Box& box, double thickness) const;
+
+ private:
+  CellControl control_;
+  double mean_radius_ = 0.0;
+  double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this
+  double damping_rate_ = 0.0;
+  double least_force_ = 0.0;
+  int loading_ = 0;
+  int done_ = 0;
+};
 
 }  // namespace polargrain::dem

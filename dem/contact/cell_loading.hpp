@@ -2,10 +2,11 @@
 #pragma once
 #include <array>
 
+#include "dem/engine/engine_part.hpp"
+
 namespace polargrain::dem {
 
-/// What a cell imposes on its contacts beyond the motion of the grains. One cell runs in a process at a time,
-/// so this is a value of the process; outside a cell it stays zero.
+/// What a cell imposes on its contacts beyond the motion of the grains; outside a cell it stays zero.
 struct CellLoading {
   /// Rate of curvature d(micro-rotation)/dx_k, rad/(m s): every contact between grains sees their spins turned
   /// by what it makes from the middle of the branch to either centre (docs/theory/grains.md, C.6, C.8). Laws
@@ -15,7 +16,9 @@ struct CellLoading {
   [[nodiscard]] bool bends() const { return curvature_rate[0] != 0.0 || curvature_rate[1] != 0.0; }
 };
 
-/// The loading of the cell of this process.
-CellLoading& cell_loading();
+/// The loading of the cell of this engine.
+inline CellLoading& cell_loading(LAMMPS_NS::LAMMPS& lammps) {
+  return part_of<CellLoading>(lammps);
+}
 
 }  // namespace polargrain::dem

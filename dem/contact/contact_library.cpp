@@ -15,7 +15,7 @@
 #include "common/error.hpp"
 #include "common/state.hpp"
 #include "dem/contact/contact_recorder.hpp"
-#include "dem/contact/quiet_errors.hpp"
+#include "dem/engine/quiet_errors.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -63,6 +63,7 @@ const ContactLibrary& load(const std::string& file) {
 }  // namespace
 
 void add_contact_library(const ContactLibraryFile& file) {
+  if (file.path.empty()) return;
   require_content(file.path, file.content);
   const ContactLibrary& library = load(file.path);
   const QuietErrors quiet;

@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "dem/contact/cell_loading.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
 
 struct ContactPair::Engineroom {
-  Engine engine{true};
+  Engine engine;
 };
 
 namespace {
@@ -64,6 +65,10 @@ ContactPair::ContactPair(const Definition& definition, const Place& start)
 
 ContactPair::~ContactPair() = default;
 
+void ContactPair::bend(const Eigen::Vector2d& curvature_rate) {
+  cell_loading(room_->engine.lammps()).curvature_rate = {curvature_rate.x(), curvature_rate.y()};
+}
+
 ContactPair::Answer ContactPair::advance(const Place& next, const Spins& spins) {
   LAMMPS_NS::LAMMPS& lammps = room_->engine.lammps();
   LAMMPS_NS::Atom& atom = *lammps.atom;
@@ -76,7 +81,7 @@ ContactPair::Answer ContactPair::advance(const Place& next, const Spins& spins) 
     set(atom.x[grain], place);
     set(atom.omega[grain], spin);
   }
-  ContactRecorder& recorder = contact_recorder();
+  ContactRecorder& recorder = contact_recorder(lammps);
   recorder.on = true;
   recorder.contacts.clear();
   lammps.update->integrate->run(1);

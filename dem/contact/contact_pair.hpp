@@ -39,6 +39,8 @@ class ContactPair {
   ContactPair& operator=(const ContactPair&) = delete;
   ~ContactPair();
 
+  /// As a cell with that rate of curvature does, rad/(m s), from the next step on.
+  void bend(const Eigen::Vector2d& curvature_rate);
   /// Moves both centres to `next` in one time step at constant velocity, the grains spinning at `spins`.
   Answer advance(const Place& next, const Spins& spins);
 

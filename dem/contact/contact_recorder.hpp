@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "dem/engine/engine_part.hpp"
+
 namespace polargrain::dem {
 
 /// One contact as the force computation saw it. Grain indices are the engine's local ones. A contact across a
@@ -62,7 +64,9 @@ struct ContactRecorder {
   std::vector<Contact> contacts;
 };
 
-/// The recorder that contact models of this process write to.
-ContactRecorder& contact_recorder();
+/// The recorder that the contact models of this engine write to.
+inline ContactRecorder& contact_recorder(LAMMPS_NS::LAMMPS& lammps) {
+  return part_of<ContactRecorder>(lammps);
+}
 
 }  // namespace polargrain::dem

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dem/contact/spoken_settings.hpp"
+#include "dem/engine/engine_part.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -18,7 +19,9 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
 
  public:
   PairLoop(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::PairGran* pair, int64_t hash)
-      : Base(lammps, pair, hash), lammps_(*lammps), model_(*Model::last_made()) {}
+      : Base(lammps, pair, hash),
+        lammps_(*lammps),
+        model_(*part_of<typename Model::LastMade>(*lammps).model) {}
 
   [[nodiscard]] const SpokenSettings& spoken_settings() const override { return model_.spoken_settings(); }
 

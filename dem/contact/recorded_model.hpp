@@ -19,17 +19,20 @@ class RecordedModel : public Model {
  public:
   RecordedModel(LAMMPS_NS::LAMMPS* lammps, LIGGGHTS::IContactHistorySetup* history, bool is_wall,
                 int64_t hash)
-      : Model(lammps, history, is_wall, hash), lammps_(*lammps), hash_(hash) {
-    last_made() = this;
+      : Model(lammps, history, is_wall, hash),
+        lammps_(*lammps),
+        loading_(cell_loading(*lammps)),
+        recorder_(contact_recorder(*lammps)),
+        hash_(hash) {
+    part_of<LastMade>(*lammps).model = this;
   }
   RecordedModel(const RecordedModel&) = delete;
   RecordedModel& operator=(const RecordedModel&) = delete;
 
-  /// The model that was made last: how PairLoop finds the one inside the stock loop it extends.
-  static RecordedModel*& last_made() {
-    static RecordedModel* model = nullptr;
-    return model;
-  }
+  /// The model that an engine made last: how PairLoop finds the one inside the stock loop it extends.
+  struct LastMade {
+    RecordedModel* model = nullptr;
+  };
 
   void registerSettings(Settings& settings) {
     Model::registerSettings(settings);
@@ -71,7 +74,7 @@ class RecordedModel : public Model {
                                    LAMMPS_NS::TriMesh* mesh, LIGGGHTS::ContactModels::ForceData& force_i,
                                    LIGGGHTS::ContactModels::ForceData& force_j) {
     Model::endSurfacesIntersect(data, mesh, force_i, force_j);
-    if (contact_recorder().on)
+    if (recorder_.on)
       record(data.i, data.j, {data.delta[0], data.delta[1], data.delta[2]},
              {force_i.delta_F[0], force_i.delta_F[1], force_i.delta_F[2]}, data.kn, data.kt, data.cri,
              data.crj, force_i.delta_torque[2], data.gamman, data.gammat);
@@ -83,7 +86,7 @@ class RecordedModel : public Model {
                                         std::array<double, 3> force, double normal_stiffness,
                                         double tangential_stiffness, double arm_i, double arm_j,
                                         double torque, double normal_viscosity, double tangential_viscosity) {
-    const ContactRecorder::Rolling rolling = std::exchange(contact_recorder().rolling, {});
+    const ContactRecorder::Rolling rolling = std::exchange(recorder_.rolling, {});
     LAMMPS_NS::Atom& atom = *lammps_.atom;
     if (j >= atom.nlocal && !lammps_.force->newton_pair) {
       // Both grains of a contact across a periodic face see it; keep the one seen from the lower tag. A grain
@@ -112,11 +115,12 @@ class RecordedModel : public Model {
     contact.moment = torque + towards * (delta[0] * force[1] - delta[1] * force[0]);
     contact.rolling_stiffness = rolling.stiffness;
     contact.rolling_at_limit = rolling.at_limit;
-    contact_recorder().contacts.push_back(contact);
+    recorder_.contacts.push_back(contact);
   }
 
   LAMMPS_NS::LAMMPS& lammps_;
-  const CellLoading& loading_ = cell_loading();
+  const CellLoading& loading_;
+  ContactRecorder& recorder_;
   int64_t hash_;
   SpokenSettings spoken_;
   LAMMPS_NS::Fix* friction_ = nullptr;

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/contact/registration.hpp"
-
 #include <cstdint>
 
-#include "dem/contact/cell_loading.hpp"
 #include "dem/contact/combinations.hpp"
 #include "dem/contact/compiled_combination.hpp"
-#include "dem/contact/quiet_errors.hpp"
+#include "dem/engine/extension.hpp"
+#include "dem/engine/quiet_errors.hpp"
 
 namespace polargrain::dem {
 
 using namespace LIGGGHTS;                 // the engine's model constants
 using namespace LIGGGHTS::ContactModels;  // NOLINT: style headers name them unqualified
-
-ContactRecorder& contact_recorder() {
-  static ContactRecorder recorder;
-  return recorder;
-}
-
-CellLoading& cell_loading() {
-  static CellLoading loading;
-  return loading;
-}
 
 namespace {
 
@@ -39,27 +27,26 @@ void add_names() {
 #undef ROLLING_MODEL
 }
 
-void add_any_combination(bool record_all) {
+void add_any_combination() {
   const int64_t fall_back = GranStyle<>::HASHCODE;
   PairStyles::Factory::instance().addStyle("gran", fall_back, &create_pair<AnyCombination>);
   Walls::Factory::instance().addStyle("gran", fall_back, &create_wall<AnyCombination>);
   // Stock combinations are found by their number before the fall-back is.
-  if (record_all) add_combinations([](int, int, int, int) { return true; }, false);
+  add_combinations([](int, int, int, int) { return true; }, false);
 }
 
-}  // namespace
-
-void register_contact_models(bool record_all) {
+/// Makes this project's contact models known to the engine by name, and their combinations with the stock ones usable in
+/// `pair_style gran` and in walls; the stock combinations are replaced by ones that can be recorded. The engine registers
+/// its own styles anew with every instance.
+void register_contact_models(LAMMPS_NS::LAMMPS&) {
   const QuietErrors quiet;
   add_names();
-  add_any_combination(record_all);
-  if (record_all) {
-    add_compiled<HOOKE, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
-    add_compiled<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
-    add_compiled<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
-    add_compiled<HERTZ, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
-    add_compiled<HERTZ, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
-  }
+  add_any_combination();
+  add_compiled<HOOKE, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
+  add_compiled<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
+  add_compiled<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
+  add_compiled<HERTZ, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
+  add_compiled<HERTZ, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
   add_compiled<HOOKE_RADII, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF>();
   add_compiled<HOOKE_RADII, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2>();
   add_compiled<HOOKE_RADII, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_LI_CHU>();
@@ -68,5 +55,9 @@ void register_contact_models(bool record_all) {
   add_compiled<HOOKE_STIFFNESS, TANGENTIAL_LI_CHU, COHESION_OFF, ROLLING_LI_CHU>();
   add_compiled<HERTZ, TANGENTIAL_LI_CHU, COHESION_OFF, ROLLING_LI_CHU>();
 }
+
+const Extension kContactModels(register_contact_models);
+
+}  // namespace
 
 }  // namespace polargrain::dem

@@ -44,7 +44,9 @@ template <>
 class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
  public:
   RollingModel(LAMMPS* lmp, IContactHistorySetup* history, class ContactModelBase* model)
-      : RollingModelBase(lmp, history, model), model_(*model) {
+      : RollingModelBase(lmp, history, model),
+        model_(*model),
+        recorder_(polargrain::dem::contact_recorder(*lmp)) {
     bending_ = history->add_history_value("bending_x", "1");
     history->add_history_value("bending_y", "1");
     history->add_history_value("bending_z", "1");
@@ -112,7 +114,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
         moment[axis] += damping * (spin[axis] - torsion_rate * contact.en[axis]);
     if (torsion_on_) add_torsion(contact, advance, stiffness, damping, limit, torsion_rate, moment);
 
-    if (contact_recorder().on) contact_recorder().rolling = {stiffness, at_limit};
+    if (recorder_.on) recorder_.rolling = {stiffness, at_limit};
     const double share = contact.is_wall ? contact.area_ratio : 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       force_i.delta_torque[axis] -= share * moment[axis];
@@ -171,6 +173,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
   }
 
   ContactModelBase& model_;
+  polargrain::dem::ContactRecorder& recorder_;
   double** friction_ = nullptr;
   double** stiffness_ratio_ = nullptr;
   double** damping_ratio_ = nullptr;

@@ -4,15 +4,14 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <iostream>
+#include <functional>
+#include <utility>
+#include <vector>
 
-#include "common/script.hpp"
-#include "dem/cell/fix_cell_strain.hpp"
-#include "dem/contact/contact_library.hpp"
-#include "dem/contact/registration.hpp"
+#include "dem/engine/extension.hpp"
 #include "dem/engine/liggghts.hpp"
-#include "dem/engine/private_access.hpp"
-#include "dem/specimen/registration.hpp"
+#include "dem/engine/quiet_errors.hpp"
+#include "grains_io/script.hpp"
 
 namespace polargrain::dem {
 
@@ -30,23 +29,18 @@ void start_engine_process() {
   }
 }
 
+/// The engine with what belongs to it.
+struct Engine::Instance : LAMMPS_NS::LAMMPS {
+  Instance(int argc, char** argv, EngineParts& its_parts)
+      : LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD), parts(its_parts) {}
+  EngineParts& parts;
+};
+
+EngineParts& parts_of(LAMMPS_NS::LAMMPS& lammps) {
+  return static_cast<Engine::Instance&>(lammps).parts;
+}
+
 namespace {
-
-LAMMPS_NS::LAMMPS* create(int argc, char** argv) {
-  // The engine prints every duplicate registration of its own styles on the error stream.
-  std::streambuf* const errors = std::cerr.rdbuf(nullptr);
-  auto* lammps = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
-  std::cerr.rdbuf(errors);
-  std::cerr.clear();
-  return lammps;
-}
-
-LAMMPS_NS::LAMMPS* create() {
-  std::array<std::string, 3> words{"polargrain", "-log", "none"};
-  std::array<char*, 3> arguments{};
-  for (std::size_t k = 0; k < words.size(); ++k) arguments[k] = words[k].data();
-  return create(static_cast<int>(arguments.size()), arguments.data());
-}
 
 /// LIGGGHTS 3.8 zeroes the period of the unit box in its constructor, so that triclinic boxes get no ghost
 /// grains at all. The members are public.
@@ -57,28 +51,45 @@ void repair_triclinic_boxes(LAMMPS_NS::Domain& domain) {
   }
 }
 
-void equip(LAMMPS_NS::LAMMPS& lammps, bool record_all) {
-  repair_triclinic_boxes(*lammps.domain);
-  register_contact_models(record_all);
-  register_cell_fixes(*lammps.modify);
-  register_specimen_fixes(*lammps.modify);
+std::vector<std::function<void(LAMMPS_NS::LAMMPS&)>>& extensions() {
+  static std::vector<std::function<void(LAMMPS_NS::LAMMPS&)>> all;
+  return all;
 }
 
 }  // namespace
 
-Engine::Engine(bool record_all, const ContactLibraryFile& contact_library) : lammps_(create()) {
-  equip(*lammps_, record_all);
-  if (!contact_library.path.empty()) add_contact_library(contact_library);
+Extension::Extension(std::function<void(LAMMPS_NS::LAMMPS&)> add) {
+  extensions().push_back(std::move(add));
 }
 
-Engine::Engine(bool record_all, int argc, char** argv) : lammps_(create(argc, argv)) {
-  equip(*lammps_, record_all);
+Engine::Engine() {
+  std::array<std::string, 3> words{"polargrain", "-log", "none"};
+  std::array<char*, 3> arguments{};
+  for (std::size_t k = 0; k < words.size(); ++k) arguments[k] = words[k].data();
+  start(static_cast<int>(arguments.size()), arguments.data());
+}
+
+Engine::Engine(int argc, char** argv) {
+  start(argc, argv);
+}
+
+void Engine::start(int argc, char** argv) {
+  {
+    const QuietErrors quiet;  // the engine prints every duplicate registration of its own styles
+    instance_ = std::make_unique<Instance>(argc, argv, parts_);
+  }
+  repair_triclinic_boxes(*instance_->domain);
+  for (const auto& add : extensions()) add(*instance_);
 }
 
 Engine::~Engine() = default;
 
+LAMMPS_NS::LAMMPS& Engine::lammps() {
+  return *instance_;
+}
+
 void Engine::command(const std::string& line) {
-  lammps_->input->one(line.c_str());
+  instance_->input->one(line.c_str());
 }
 
 void Engine::script(const std::string& text, const std::string& script_file) {

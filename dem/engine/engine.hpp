@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "common/contact_library_file.hpp"
+#include "dem/engine/engine_part.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -15,16 +15,15 @@ namespace polargrain::dem {
 /// error ends the process at once and its words would be lost in the buffer. Call once, first.
 void start_engine_process();
 
-/// One LIGGGHTS instance with this project's contact models, and with its triclinic boxes repaired.
+/// One LIGGGHTS instance with this project's contact models and fixes (extension.hpp), and with its triclinic boxes
+/// repaired.
 /// Everything it prints goes to standard output. An engine error ends the PROCESS (MPI_Abort): that is
 /// LIGGGHTS's way, and the reason why workers are processes.
 class Engine {
  public:
-  /// @param record_all see register_contact_models
-  /// @param contact_library of contact laws of the user's own, or none @throws RunError as add_contact_library
-  explicit Engine(bool record_all, const ContactLibraryFile& contact_library = {});
+  Engine();
   /// The same with LIGGGHTS's own command line.
-  Engine(bool record_all, int argc, char** argv);
+  Engine(int argc, char** argv);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
   ~Engine();
@@ -36,10 +35,15 @@ class Engine {
   /// @param script_file the user's name of it, for messages.
   void script(const std::string& text, const std::string& script_file);
 
-  LAMMPS_NS::LAMMPS& lammps() { return *lammps_; }
+  LAMMPS_NS::LAMMPS& lammps();
 
  private:
-  std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
+  struct Instance;
+  friend EngineParts& parts_of(LAMMPS_NS::LAMMPS& lammps);
+  void start(int argc, char** argv);
+
+  EngineParts parts_;  ///< outlive the models and fixes that use them
+  std::unique_ptr<Instance> instance_;
 };
 
 }  // namespace polargrain::dem

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/elementary_functions.hpp"
+#include "dem/engine/extension.hpp"
 
 namespace polargrain::dem {
 
@@ -128,5 +129,9 @@ void FixSpaceBox::post_force(int) {
         inertia * Eigen::Map<const Eigen::Vector3d>(atom->omega[k]);
   }
 }
+
+namespace {
+const Extension kSpaceBox = fix_extension<FixSpaceBox>("pack/space_box");
+}  // namespace
 
 }  // namespace polargrain::dem

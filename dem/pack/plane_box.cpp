@@ -31,7 +31,8 @@ class PlaneBox final : public PressedBox {
                    specification.contact_library);
       probe.set_up();
       stiffest_.see(probe.contacts());
-      driver_.set_up();  // the recorder is one for all
+      // Grains are folded back into the box once more: packings have the last bits that they always had.
+      driver_.set_up();
     }
   }
 

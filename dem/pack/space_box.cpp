@@ -14,9 +14,9 @@
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/packing_data.hpp"
 #include "dem/cell/script_time_step.hpp"
+#include "dem/contact/contact_library.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
-#include "dem/engine/private_access.hpp"
 #include "dem/pack/fix_space_box.hpp"
 #include "dem/pack/pressed_box.hpp"
 
@@ -41,7 +41,8 @@ class SpaceBox final : public PressedBox {
            bool probe = false)
       : packing_(packing),
         script_file_(specification.script_file),
-        engine_(true, specification.contact_library) {
+        recorder_(contact_recorder(engine_.lammps())) {
+    add_contact_library(specification.contact_library);
     const auto count = static_cast<double>(packing.grains.size());
     for (const Grain& grain : packing.grains) {
       mean_mass_ += grain.mass / count;
@@ -49,9 +50,6 @@ class SpaceBox final : public PressedBox {
       solid_ += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
     }
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-    fix_table(*lammps.modify)["pack/space_box"] = [](LAMMPS_NS::LAMMPS* owner, int words, char** word) {
-      return static_cast<LAMMPS_NS::Fix*>(new FixSpaceBox(owner, words, word));
-    };
     const PackingDataFile data(packing);
     engine_.command(fmt::format("variable packing index {}", data.path()));
     engine_.script(specification.script, specification.script_file);
@@ -67,17 +65,17 @@ class SpaceBox final : public PressedBox {
     if (packing.state && state_fits(lammps, *packing.state)) restore_state(lammps, *packing.state);
     set_up();
     radii_ = inertia_of(lammps).radii;
-    stiffest_.see(contact_recorder().contacts);
-    if (!contact_recorder().contacts.empty() || script_time_step_->given() || probe) return;
+    stiffest_.see(recorder_.contacts);
+    if (!recorder_.contacts.empty() || script_time_step_->given() || probe) return;
     const SpaceBox pressed(specification, pressed_together(packing), friction, true);
     stiffest_ = pressed.stiffest_;
-    set_up();  // the recorder is one for all
+    // Grains are folded back into the box once more: packings have the last bits that they always had.
+    set_up();
   }
 
   void renew_time_step(double damping_rate) override {
-    stiffest_.see(contact_recorder().contacts);
-    script_time_step_->renew(engine_.lammps(), contact_recorder().contacts, stiffest_, damping_rate,
-                             script_file_);
+    stiffest_.see(recorder_.contacts);
+    script_time_step_->renew(engine_.lammps(), recorder_.contacts, stiffest_, damping_rate, script_file_);
   }
 
   void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
@@ -95,7 +93,7 @@ class SpaceBox final : public PressedBox {
   }
 
   [[nodiscard]] Look look() const override {
-    const std::vector<Contact>& contacts = contact_recorder().contacts;
+    const std::vector<Contact>& contacts = recorder_.contacts;
     const double volume = strain_->base_vectors().determinant();
     const auto grains = static_cast<double>(packing_.grains.size());
     std::vector<bool> touched(packing_.grains.size(), false);
@@ -168,10 +166,10 @@ class SpaceBox final : public PressedBox {
 
   template <typename Steps>
   void record(const Steps& steps) {
-    contact_recorder().contacts.clear();
-    contact_recorder().on = true;
+    recorder_.contacts.clear();
+    recorder_.on = true;
     steps();
-    contact_recorder().on = false;
+    recorder_.on = false;
   }
 
   void check_grains() {
@@ -187,6 +185,7 @@ class SpaceBox final : public PressedBox {
   Packing packing_;
   std::string script_file_;
   Engine engine_;
+  ContactRecorder& recorder_;
   LAMMPS_NS::LAMMPS* lammps_ = &engine_.lammps();
   std::optional<ScriptTimeStep> script_time_step_;
   std::vector<double> radii_;  // m, as the contacts count the grains

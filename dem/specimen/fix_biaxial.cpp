@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/specimen/fix_biaxial.hpp"
+#include "dem/engine/extension.hpp"
 
 #include <fmt/format.h>
 
@@ -347,5 +348,9 @@ void FixBiaxial::restart(char* buffer) {
     place += chain->size() * sizeof(int);
   }
 }
+
+namespace {
+const Extension kBiaxial = fix_extension<FixBiaxial>("biaxial");
+}  // namespace
 
 }  // namespace polargrain::dem

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/specimen/fix_grain_rotation.hpp"
+#include "dem/engine/extension.hpp"
 
 #include <algorithm>
 
@@ -84,5 +85,9 @@ int FixGrainRotation::size_restart(int) {
 int FixGrainRotation::maxsize_restart() {
   return kRestartValues;
 }
+
+namespace {
+const Extension kGrainRotation = fix_extension<FixGrainRotation>("grain/rotation");
+}  // namespace
 
 }  // namespace polargrain::dem

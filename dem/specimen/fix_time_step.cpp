@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dem/cell/stock_rolling.hpp"
+#include "dem/engine/extension.hpp"
 #include "dem/specimen/further_springs.hpp"
 
 namespace polargrain::dem {
@@ -23,7 +24,8 @@ constexpr double kMargin = 0.95;
 
 }  // namespace
 
-FixTimeStep::FixTimeStep(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words) {
+FixTimeStep::FixTimeStep(LAMMPS* lammps, int count, char** words)
+    : Fix(lammps, count, words), recorder_(contact_recorder(*lammps)) {
   restart_global = 1;
   const bool understood = count == 3 || (count == 5 && std::strcmp(words[3], "every") == 0);
   if (count == 5 && understood) every_ = force->inumeric(FLERR, words[4]);
@@ -64,8 +66,8 @@ void FixTimeStep::init() {
 }
 
 void FixTimeStep::start_recording() {
-  contact_recorder().contacts.clear();
-  contact_recorder().on = true;
+  recorder_.contacts.clear();
+  recorder_.on = true;
 }
 
 void FixTimeStep::setup_pre_force(int) {
@@ -81,12 +83,12 @@ void FixTimeStep::pre_force(int) {
 }
 
 void FixTimeStep::post_force(int) {
-  if (contact_recorder().on) look();
+  if (recorder_.on) look();
 }
 
 void FixTimeStep::look() {
-  contact_recorder().on = false;
-  std::vector<Contact>& contacts = contact_recorder().contacts;
+  recorder_.on = false;
+  std::vector<Contact>& contacts = recorder_.contacts;
   StockRolling(*lmp).complete(contacts);
   Inertia inertia = inertia_of(*lmp);
   for (int k = 0; k < modify->nfix; ++k)
@@ -143,5 +145,9 @@ void FixTimeStep::restart(char* buffer) {
   own_ = own;
   set_time_step(*lmp, own_);
 }
+
+namespace {
+const Extension kTimeStep = fix_extension<FixTimeStep>("time_step/contacts");
+}  // namespace
 
 }  // namespace polargrain::dem

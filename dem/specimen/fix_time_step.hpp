@@ -43,6 +43,7 @@ class FixTimeStep : public LAMMPS_NS::Fix {
   void look();
   void say(const std::string& words) const;
 
+  ContactRecorder& recorder_;
   int every_ = 2000;
   std::optional<ScriptTimeStep> step_;
   double own_ = 0.0;      ///< s, in use while the script has none

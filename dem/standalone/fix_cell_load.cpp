@@ -11,12 +11,14 @@
 #include <numbers>
 #include <vector>
 
+#include "common/plane_in_space.hpp"
+#include "common/record_values.hpp"
 #include "dem/cell/averages.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/script_time_step.hpp"
 #include "dem/cell/stock_rolling.hpp"
 #include "dem/contact/contact_recorder.hpp"
-#include "dem/engine/private_access.hpp"
+#include "dem/engine/extension.hpp"
 
 namespace polargrain::dem {
 
@@ -37,13 +39,15 @@ StatePointer read_state(const std::string& file, LAMMPS_NS::Error& error) {
 
 }  // namespace
 
-FixCellLoad::FixCellLoad(LAMMPS* lammps, int count, char** words) : FixCellStrain(lammps, 3, words) {
+FixCellLoad::FixCellLoad(LAMMPS* lammps, int count, char** words)
+    : FixCellStrain(lammps, 3, words), recorder_(contact_recorder(*lammps)), protocol_(CellControl{}) {
   scalar_flag = vector_flag = 1;
   size_vector = static_cast<int>(answer_.size());
   global_freq = 1;
   extscalar = extvector = 0;
   atom->sortfreq = 0;  // the order of the grains is part of a state
   read(count, words);
+  protocol_ = QuasiStatic(control_);
 }
 
 void FixCellLoad::read(int count, char** words) {
@@ -86,13 +90,20 @@ void FixCellLoad::read(int count, char** words) {
       density_ = positive("mean_grain");
     } else if (word == "turned") {
       turned_ = number();
+    } else if (word == "version") {
+      if (const double version = number(); version != 1.0 && version != kReplayVersion)
+        error->all(FLERR, fmt::format(
+                              "Fix cell/load: this script is of version {}, and this program reads 1 and {}: "
+                              "write the replay anew",
+                              version, kReplayVersion)
+                              .c_str());
     } else if (word == "packing_state" && at + 1 < count) {
       packing_state_ = words[++at];
     } else {
       error->all(FLERR, fmt::format("Illegal fix cell/load command: unknown or incomplete keyword '{}'; "
                                     "expected inertial_number, damping, least_steps, unbalanced, "
-                                    "most_relaxation_steps, rotations free|controlled, mean_grain, turned or "
-                                    "packing_state",
+                                    "most_relaxation_steps, rotations free|controlled, mean_grain, turned, "
+                                    "packing_state or version",
                                     word)
                             .c_str());
     }
@@ -127,13 +138,11 @@ void FixCellLoad::post_create() {
     error->all(FLERR,
                "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
                "stiffness in the script is not the one the packing was made with");
-  time_of_grain_ = 2.0 * mean_radius_ * std::sqrt(density_ / pressure);
-  rate_ = 2.0 * control_.damping * std::sqrt(mean_normal_stiffness(contact_recorder().contacts) / mean_mass_);
-  StockRolling(*lmp).complete(contact_recorder().contacts);
+  protocol_.take_scales({mean_mass_, mean_radius_, density_}, recorder_.contacts, pressure);
+  StockRolling(*lmp).complete(recorder_.contacts);
   const std::string remark =
-      time_step.settle(*lmp, contact_recorder().contacts, inertia_of(*lmp), rate_, "this script");
+      time_step.settle(*lmp, recorder_.contacts, inertia_of(*lmp), protocol_.damping_rate(), "this script");
   if (!remark.empty() && screen != nullptr) fmt::print(screen, "polargrain: {}\n", remark);
-  least_force_ = kLeastForce * mean_contact_force(contact_recorder().contacts);
 }
 
 void FixCellLoad::find_mean_grain() {
@@ -151,7 +160,7 @@ void FixCellLoad::find_mean_grain() {
 
 RestoredState FixCellLoad::go_on_from(StatePointer state) try {
   RestoredState restored = restore_state(*lmp, *state);
-  begin(BoxPath(restored.box, Eigen::Matrix2d::Zero(), 0), rate_);
+  begin(BoxPath(restored.box, Eigen::Matrix2d::Zero(), 0), protocol_.damping_rate());
   set_rotations(restored.rotations);
   restored_ = std::move(state);
   return restored;
@@ -170,18 +179,26 @@ int FixCellLoad::modify_param(int count, char** words) {
     report(words[1]);
     return 2;
   }
-  if (word != "increment" || count < 8)
-    error->all(FLERR,
-               "Illegal fix_modify command: fix cell/load takes state FILE, report WORD or increment with "
-               "seven numbers: h11 h12 h21 h22 w k1 k2");
-  std::array<double, 7> v{};
-  for (std::size_t k = 0; k < v.size(); ++k) v[k] = force->numeric(FLERR, words[k + 1]);
-  Increment increment;
-  increment.displacement_gradient << v[0], v[1], v[2], v[3];
-  increment.micro_rotation = v[4];
-  increment.curvature << v[5], v[6];
-  begin_increment(increment);
-  return 8;
+  if (word == "increment" && (count == 8 || count == 22)) {
+    begin_increment(read_increment(count - 1, words + 1));
+    return count;
+  }
+  error->all(
+      FLERR,
+      "Illegal fix_modify command: fix cell/load takes state FILE, report WORD or increment with seven "
+      "numbers (h11 h12 h21 h22 w k1 k2) or with 21 (h11 h12 h13 h21 ... h33 w1 w2 w3 k11 ... k33)");
+  return 0;
+}
+
+Increment FixCellLoad::read_increment(int count, char** words) const {
+  RecordValues values;
+  for (int k = 0; k < count; ++k) values.numbers.push_back(force->numeric(FLERR, words[k]));
+  RecordReader reader(values, "an increment", false);
+  if (count == 7) return reader.read<Increment>();
+  const auto increment = reader.read<CellIncrement>();
+  if (const std::string fault = out_of_plane_fault(increment); !fault.empty())
+    error->all(FLERR, ("Fix cell/load: " + fault).c_str());
+  return in_plane(increment);
 }
 
 void FixCellLoad::begin_increment(const Increment& increment) try {
@@ -189,21 +206,16 @@ void FixCellLoad::begin_increment(const Increment& increment) try {
   // steps in between the engine's lists know nothing of the contacts yet.
   const RestoredState restored =
       go_on_from(restored_ ? restored_ : save_state(*lmp, box().reduced(), rotations()));
-  loading_ = loading_steps(control_, increment, time_of_grain_, mean_radius_, update->dt);
-  done_ = 0;
-  const BoxPath path(restored.box, increment.displacement_gradient, loading_);
-  if (controlled())
-    begin(path, rate_, RotationLoading{increment.micro_rotation, increment.curvature});
-  else
-    begin(path, rate_);
+  begin(protocol_.begin(restored.box, increment, update->dt), protocol_.damping_rate(),
+        protocol_.rotation_of(increment));
   set_rotations(restored.rotations);
 } catch (const std::exception& fault) {
   error->all(FLERR, fault.what());
 }
 
 void FixCellLoad::start_recording() {
-  contact_recorder().contacts.clear();
-  contact_recorder().on = true;
+  recorder_.contacts.clear();
+  recorder_.on = true;
 }
 
 void FixCellLoad::setup_pre_force(int) {
@@ -212,60 +224,40 @@ void FixCellLoad::setup_pre_force(int) {
 
 void FixCellLoad::setup(int vflag) {
   restored_.reset();
-  contact_recorder().on = false;
+  recorder_.on = false;
   // Before the first forces of an increment the weights come from the contacts at its start.
-  if (controlled() && done_ == 0 && loading_ > 0) renew_weights();
+  if (protocol_.controlled() && protocol_.done() == 0 && protocol_.loading() > 0) renew_weights();
   FixCellStrain::setup(vflag);
   look();
 }
 
-bool FixCellLoad::ends_chunk() const {
-  const int steps = done_ > loading_ ? done_ - loading_ : done_;
-  return done_ == loading_ || steps % kRelaxationChunk == 0;
-}
-
 void FixCellLoad::pre_force(int) {
-  ++done_;
-  if (ends_chunk() || update->ntimestep == lmp->output->next) start_recording();
+  protocol_.advance(1);
+  if (protocol_.looks_now() || update->ntimestep == lmp->output->next) start_recording();
 }
 
 void FixCellLoad::post_force(int vflag) {
   FixCellStrain::post_force(vflag);
-  if (!contact_recorder().on) return;
-  contact_recorder().on = false;
+  if (!recorder_.on) return;
+  recorder_.on = false;
   look();
-  if (controlled() && ends_chunk()) renew_weights();
+  if (protocol_.controlled() && protocol_.looks_now()) renew_weights();
 }
 
 void FixCellLoad::renew_weights() {
-  const std::vector<double> weights = rotation_weights(contact_recorder().contacts, grains());
+  const std::vector<double> weights = rotation_weights(recorder_.contacts, grains());
   if (!weights.empty()) set_rotation_weights(weights);
 }
 
 void FixCellLoad::look() {
-  const std::vector<Contact>& contacts = contact_recorder().contacts;
-  const Box now = box();
-  const Eigen::Matrix2d frame = now.frame();
-  const double volume = now.area() * (domain->boxhi[2] - domain->boxlo[2]);
-  const Eigen::Matrix2d stress = frame * average_stress(contacts, volume) * frame.transpose();
-  // As in cells: with free rotations the couple stress is nobody's business.
-  Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();
-  if (controlled()) couple_stress = frame * average_couple_stress(contacts, volume);
-  const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_radius_, least_force_);
-  const bool at_rest = ratios.force_ratio <= control_.unbalanced_force_ratio &&
-                       ratios.moment_ratio <= control_.unbalanced_moment_ratio;
-  const bool given_up = done_ - loading_ >= control_.most_relaxation_steps;
-  answer_ = {stress(0, 0),
-             stress(1, 1),
-             0.0,
-             stress(0, 1),
-             stress(1, 0),
-             couple_stress(0),
-             couple_stress(1),
-             ratios.force_ratio,
-             ratios.moment_ratio,
-             done_ >= loading_ && (at_rest || given_up) ? 1.0 : 0.0,
-             static_cast<double>(contacts.size())};
+  const std::vector<Contact>& contacts = recorder_.contacts;
+  const Response now = protocol_.read_out(contacts, box(), domain->boxhi[2] - domain->boxlo[2]);
+  const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_radius_, protocol_.least_force());
+  std::ranges::copy(now.stress, answer_.begin());
+  answer_[7] = ratios.force_ratio;
+  answer_[8] = ratios.moment_ratio;
+  answer_[9] = protocol_.ended(ratios.force_ratio, ratios.moment_ratio) ? 1.0 : 0.0;
+  answer_[10] = static_cast<double>(contacts.size());
 }
 
 void FixCellLoad::report(const char* name) const {
@@ -273,23 +265,21 @@ void FixCellLoad::report(const char* name) const {
       "cell: increment {} stress {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} couple_stress {:.17g} "
       "{:.17g} unbalanced {:.3e} {:.3e} steps {}\n",
       name, answer_[0], answer_[1], answer_[2], answer_[3], answer_[4], answer_[5], answer_[6], answer_[7],
-      answer_[8], done_);
+      answer_[8], protocol_.done());
   for (FILE* stream : {screen, logfile})
     if (stream) std::fputs(line.c_str(), stream);
 }
 
 double FixCellLoad::compute_scalar() {
-  return loading_;
+  return protocol_.loading();
 }
 
 double FixCellLoad::compute_vector(int place) {
   return answer_.at(static_cast<std::size_t>(place));
 }
 
-void register_standalone_fixes(LAMMPS_NS::Modify& modify) {
-  fix_table(modify)["cell/load"] = [](LAMMPS* lammps, int count, char** words) -> Fix* {
-    return new FixCellLoad(lammps, count, words);
-  };
-}
+namespace {
+const Extension kCellLoad = fix_extension<FixCellLoad>("cell/load");
+}  // namespace
 
 }  // namespace polargrain::dem

@@ -6,6 +6,7 @@
 #include "common/cell.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/fix_cell_strain.hpp"
+#include "dem/contact/contact_recorder.hpp"
 
 namespace polargrain::dem {
 
@@ -25,11 +26,13 @@ namespace polargrain::dem {
 ///                                packing's own figures in the last bit
 ///   turned ANGLE                 rotation of the box against the laboratory, rad (0)
 ///   packing_state FILE           velocities and contact histories of the packing at rest
+///   version N                    of the script (kReplayVersion); another than 1 and that one is refused
 ///
 /// fix_modify ID state FILE                      goes on from a saved state
-/// fix_modify ID increment h11 h12 h21 h22 w k1 k2    starts an increment; then `run` f_ID steps (loading)
-/// and
-///                                               20 at a time with `pre no` until f_ID[10] is 1
+/// fix_modify ID increment NUMBERS               starts an increment; then `run` f_ID steps (loading) and
+///                                               20 at a time with `pre no` until f_ID[10] is 1. NUMBERS: seven
+///                                               in the plane, h11 h12 h21 h22 w k1 k2, or the 21 of a
+///                                               CellIncrement, those out of the plane zero
 /// fix_modify ID report WORD                     prints the answer under that name
 ///
 /// f_ID: DEM steps of the loading. f_ID[1..11]: s11 s22 s33 s12 s21 (Pa), m1 m2 (N/m), unbalanced force and
@@ -54,31 +57,23 @@ class FixCellLoad final : public FixCellStrain {
   void find_mean_grain();
   /// Puts a state into the engine and the box to where it was.
   RestoredState go_on_from(StatePointer state);
+  [[nodiscard]] Increment read_increment(int count, char** words) const;
   void begin_increment(const Increment& increment);
   void report(const char* name) const;
-  [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
-  /// A step after which a cell looks at its contacts.
-  [[nodiscard]] bool ends_chunk() const;
   void renew_weights();
   void look();
   void start_recording();
 
+  ContactRecorder& recorder_;
   CellControl control_;
   double mean_mass_ = 0.0;
   double mean_radius_ = 0.0;
   double density_ = 0.0;
   double turned_ = 0.0;
   std::string packing_state_;
-  double time_of_grain_ = 0.0;
-  double rate_ = 0.0;         // of the damping, 1/s
-  double least_force_ = 0.0;  // see unbalanced(), N
-  StatePointer restored_;     // null once forces have been computed with it
-  int loading_ = 0;
-  int done_ = 0;  // steps of the increment
+  QuasiStatic protocol_;
+  StatePointer restored_;  // null once forces have been computed with it
   std::array<double, 11> answer_{};
 };
-
-/// Makes the fixes for scripts of users known to the engine.
-void register_standalone_fixes(LAMMPS_NS::Modify& modify);
 
 }  // namespace polargrain::dem

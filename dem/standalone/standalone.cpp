@@ -16,7 +16,6 @@
 #include "dem/contact/contact_library.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
-#include "dem/standalone/fix_cell_load.hpp"
 
 namespace polargrain::dem {
 
@@ -85,8 +84,7 @@ std::vector<std::string> take_contact_libraries(std::vector<char*>& words) {
 
 void run_script(std::vector<char*> words, const std::function<void()>& add_models) {
   const std::vector<std::string> libraries = take_contact_libraries(words);
-  Engine engine(true, static_cast<int>(words.size()), words.data());
-  register_standalone_fixes(*engine.lammps().modify);
+  Engine engine(static_cast<int>(words.size()), words.data());
   if (add_models) add_models();
   for (const std::string& library : libraries) add_contact_library({library, {}});
   running_engine = &engine.lammps();

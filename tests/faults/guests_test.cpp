@@ -124,7 +124,7 @@ TEST_F(GuestsTest, ARunMayLiveOnGuestsAlone) {
   Pool pool(options(0));
   const std::uint32_t sand = pool.define(testing::fake_definition(""));
   Process one(guest(pool.listening_url(), worker_key()), log());
-  EXPECT_EQ(pool.initial(sand).response.stress[k11], -100e3);
+  EXPECT_EQ(pool.initial(sand).response.stress(0, 0), -100e3);
   const std::vector<PoolRequest> requests = requests_of(20);
   expect_exact(pool.evaluate(requests), requests);
 }
@@ -159,7 +159,7 @@ TEST_F(GuestsTest, AGuestFindsTheNextCoordinatorAtTheSameUrl) {
   kill(first, SIGKILL);
   waitpid(first, nullptr, 0);
   Pool second(options(0, url));
-  EXPECT_EQ(second.initial(second.define(testing::fake_definition("young 1e6"))).response.tangent(k12, k12),
+  EXPECT_EQ(second.initial(second.define(testing::fake_definition("young 1e6"))).response.tangent(1, 1),
             0.4e6);
   EXPECT_FALSE(guest_process.end());
 }

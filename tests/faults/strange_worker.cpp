@@ -113,7 +113,7 @@ class Stranger {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     if (way_ == "nan") std::memcpy(bytes.data() + 16, &nan, sizeof nan);
     if (way_ == "misnames" || way_ == "falsifies") bytes[20] ^= std::byte{1};
-    if (way_ == "falsifies") reply.response.stress(k22) *= 1.0 + 1e-9;
+    if (way_ == "falsifies") reply.response.stress(1, 1) *= 1.0 + 1e-9;
     if (way_ == "diagnostics") reply.diagnostics.void_ratio = nan;
     reply.state = std::make_shared<const State>(std::move(bytes));
     return reply;

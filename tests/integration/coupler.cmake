@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 add_library(polargrain_fake_engine STATIC integration/fake_engine.cpp integration/tries.cpp)
-target_link_libraries(polargrain_fake_engine PUBLIC polargrain_common)
+target_link_libraries(polargrain_fake_engine PUBLIC polargrain_grains_io)
 
 add_executable(fake_worker integration/fake_worker.cpp)
 target_link_libraries(fake_worker PRIVATE polargrain_pool polargrain_fake_engine)

@@ -14,7 +14,8 @@
 #include <thread>
 
 #include "common/error.hpp"
-#include "common/script.hpp"
+#include "common/plane_in_space.hpp"
+#include "grains_io/script.hpp"
 #include "tests/integration/tries.hpp"
 
 namespace polargrain::testing {
@@ -74,7 +75,9 @@ class FakeEngine : public CellService {
     }
   }
 
-  CellReply initial() override { return reply({kConfining, kConfining, kConfining, 0.0, 0.0}, 0.0); }
+  CellReply initial() override {
+    return reply({kConfining, kConfining, kConfining, 0.0, 0.0}, stiffness_, 0.0);
+  }
 
   CellReply evaluate(const CellRequest& request) override {
     if (settings_.count("sleep_milliseconds") != 0) sleep(static_cast<int>(settings_["sleep_milliseconds"]));
@@ -100,7 +103,7 @@ class FakeEngine : public CellService {
     std::array<double, 5> stress{};
     std::copy_n(start.begin(), stress.size(), stress.begin());
     // Small substeps, so that a long increment ends where the same way in short ones does.
-    const Vector7 strain = request.increment.strain();
+    const Vector7 strain = in_plane(request.increment).strain();
     const int substeps =
         settings_.count("softening") == 0 ? 1 : static_cast<int>(std::ceil(strain.norm() / 1e-5));
     for (int substep = 0; substep < substeps; ++substep) {
@@ -109,9 +112,7 @@ class FakeEngine : public CellService {
     }
     // Another engine than the one of the run, for tests of `verify`: the last digits of its answers differ.
     if (forges_) stress[k11] *= 1.0 + 1e-15;
-    CellReply made = reply(stress, start[5] + 1.0);
-    made.response.tangent = softened(stress[k11] - stress[k22]);
-    return made;
+    return reply(stress, softened(stress[k11] - stress[k22]), start[5] + 1.0);
   }
 
  private:
@@ -140,13 +141,16 @@ class FakeEngine : public CellService {
     return stiffness_ / (1.0 + share->second * std::abs(stress_difference / kConfining));
   }
 
-  [[nodiscard]] CellReply reply(const std::array<double, 5>& stress, double evaluations) const {
+  [[nodiscard]] CellReply reply(const std::array<double, 5>& stress, const Matrix7& tangent,
+                                double evaluations) const {
     std::array<double, 6> values{};
     std::copy(stress.begin(), stress.end(), values.begin());
     values[5] = evaluations;
+    Response response;
+    for (int i = 0; i < 5; ++i) response.stress[i] = stress[i];
+    response.tangent = tangent;
     CellReply reply;
-    for (int i = 0; i < 5; ++i) reply.response.stress[i] = stress[i];
-    reply.response.tangent = stiffness_;
+    reply.response = in_space(response, KnownComponents::all);
     reply.diagnostics.void_ratio = 0.2;
     reply.diagnostics.coordination_number = 4.0 + evaluations;
     reply.diagnostics.dem_steps = 10;
@@ -189,6 +193,12 @@ std::string fake_state_fault(const CellDefinition& definition, const State& stat
   for (const double value : values)
     if (!std::isfinite(value)) return "a state holds a number that is not finite";
   return {};
+}
+
+Eigen::Matrix3d fake_stress(const CellIncrement& increment) {
+  Response response;
+  response.stress = fake_stress(in_plane(increment));
+  return in_space(response, KnownComponents::all).stress;
 }
 
 Vector7 fake_stress(const Increment& increment) {

@@ -33,6 +33,7 @@ std::string fake_state_fault(const CellDefinition& definition, const State& stat
 
 /// Stress after an increment from the packing, for the default modulus.
 Vector7 fake_stress(const Increment& increment);
+Eigen::Matrix3d fake_stress(const CellIncrement& increment);
 
 /// A packing of one grain, enough for a fake.
 Packing fake_packing();

@@ -60,7 +60,8 @@ class InformedEngineTest : public ::testing::Test {
 
   /// The cell alone, in steps of 1e-4, its lateral strain led by its own tangent: no finite elements.
   Peak cell_alone() {
-    CellReply reply = pool_.initial(sand_);
+    const coupler::CellCalls calls = coupler::calls_of(pool_, sand_);
+    coupler::PlaneReply reply = calls.initial();
     Peak peak;
     constexpr double kStep = 1e-4;
     for (int step = 1; step <= kEnd / kStep; ++step) {
@@ -69,8 +70,9 @@ class InformedEngineTest : public ::testing::Test {
       increment.displacement_gradient(1, 1) = -kStep;
       increment.displacement_gradient(0, 0) =
           (-kConfining - before.stress(k11) + before.tangent(k11, k22) * kStep) / before.tangent(k11, k11);
-      const coupler::PoolRequest request{sand_, {reply.state, increment}};
-      reply = pool_.evaluate({&request, 1}).front();
+      const coupler::PlaneRequest request{reply.state, increment};
+      const std::size_t point = 0;
+      reply = calls.evaluate({&request, 1}, {&point, 1}).front();
       EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
       EXPECT_NEAR(reply.response.stress(k11), -kConfining, 0.1 * kConfining);
       peak.see(reply.response.stress(k22) / reply.response.stress(k11), step * kStep);

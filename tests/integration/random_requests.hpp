@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "common/plane_in_space.hpp"
 #include "coupler/pool/pool.hpp"
 
 namespace polargrain::testing {
@@ -15,8 +16,9 @@ inline std::vector<coupler::PoolRequest> random_requests(std::size_t count,
   std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
   std::vector<coupler::PoolRequest> requests(count);
   for (std::size_t r = 0; r < count; ++r) {
-    for (double& value : requests[r].cell.increment.displacement_gradient.reshaped())
-      value = entry(generator);
+    Increment increment;
+    for (double& value : increment.displacement_gradient.reshaped()) value = entry(generator);
+    requests[r].cell.increment = in_space(increment);
     if (!from.empty()) requests[r].cell.state = from[r].state;
     requests[r].point = r;
   }

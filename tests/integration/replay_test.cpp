@@ -7,6 +7,7 @@
 
 #include <sstream>
 
+#include "common/plane_in_space.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "tests/integration/command.hpp"
 #include "tests/support/cell_fixture.hpp"
@@ -42,11 +43,11 @@ Reports replayed(const CellDefinition& definition, const std::vector<Increment>&
   StatePointer state;
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k == first) replay.start = state;
-    const CellReply reply = cell->evaluate({state, path[k]});
+    const CellReply reply = cell->evaluate({state, in_space(path[k])});
     EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     state = reply.state;
     if (k < first) continue;
-    replay.increments.push_back(path[k]);
+    replay.increments.push_back(in_space(path[k]));
     replay.answers.push_back(reply.response);
   }
   const Scratch scratch("replay");
@@ -129,7 +130,8 @@ TEST(Replay, PrintsTheCoupleStressOfControlledRotations) {
 
 TEST(Replay, OfARequestNeedsNoAnswer) {
   const Scratch scratch("replay_request");
-  coupler::write_replay(scratch.path(), test::demo_cell(), {nullptr, kPath[0]}, "The worker died: reasons.");
+  coupler::write_replay(scratch.path(), test::demo_cell(), CellRequest{nullptr, in_space(kPath[0])},
+                        "The worker died: reasons.");
   const std::string readme = polargrain::testing::content(scratch.path() / "README.md");
   EXPECT_NE(readme.find("The worker died: reasons."), std::string::npos);
   EXPECT_TRUE(reports(readme).empty());
@@ -137,6 +139,39 @@ TEST(Replay, OfARequestNeedsNoAnswer) {
       run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   EXPECT_EQ(reports(outcome.out).size(), 1u);
+}
+
+/// Scripts of version 1 give the numbers of the plane alone, and no version.
+TEST(Replay, OfTheFirstVersionIsRead) {
+  const Scratch scratch("replay_old");
+  const auto printed = [&scratch] {
+    const Outcome outcome =
+        run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
+    EXPECT_EQ(outcome.status, 0) << outcome.out;
+    return reports(outcome.out);
+  };
+  coupler::write_replay(scratch.path(), test::demo_cell(), CellRequest{nullptr, in_space(kPath[1])},
+                        "A test.");
+  const std::vector<std::string> now = printed();
+  std::string script = polargrain::testing::content(scratch.path() / "in.replay");
+  const auto replace = [&script](const std::string& from, const std::string& to) {
+    const auto at = script.find(from);
+    ASSERT_NE(at, std::string::npos) << script;
+    script.replace(at, from.size(), to);
+  };
+  replace(" version 2", "");
+  const auto numbers = script.find("fix_modify      cell increment ") + 31;
+  script.replace(numbers, script.find('\n', numbers) - numbers, "2e-4 4e-4 -1e-3 -5e-4 0 0 0");
+  polargrain::testing::write(scratch.path() / "in.replay", script);
+  EXPECT_EQ(printed(), now);
+  ASSERT_EQ(now.size(), 1u);
+  // Discs stay in their plane.
+  replace("2e-4 4e-4 -1e-3 -5e-4 0 0 0", "2e-4 4e-4 0 -1e-3 -5e-4 0 0 0 1e-4 0 0 0 0 0 0 0 0 0 0 0 0");
+  polargrain::testing::write(scratch.path() / "in.replay", script);
+  const Outcome refused =
+      run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
+  EXPECT_NE(refused.status, 0);
+  EXPECT_NE(refused.out.find("discs cannot move out of their plane"), std::string::npos) << refused.out;
 }
 
 /// The path of a point: the program writes the folder, the engine's program goes it again.
@@ -170,11 +205,13 @@ struct BadFix {
 
 TEST(Replay, ErrorsOfTheFixNameScriptAndLine) {
   const Scratch scratch("replay_errors");
-  coupler::write_replay(scratch.path(), test::demo_cell(), {nullptr, kPath[0]}, "A test.");
+  coupler::write_replay(scratch.path(), test::demo_cell(), CellRequest{nullptr, in_space(kPath[0])},
+                        "A test.");
   const std::string head = "variable packing index packing.data\ninclude cell.in\n";
   for (const BadFix& bad : {BadFix{"damping 1.5", "damping must be at least 0 and less than 1"},
                             BadFix{"dampling 0.1", "unknown or incomplete keyword 'dampling'"},
                             BadFix{"unbalanced 1e-3", "a value is missing at the end"},
+                            BadFix{"version 7", "this script is of version 7"},
                             BadFix{"packing_state nowhere", "there is no file nowhere"}}) {
     polargrain::testing::write(scratch.path() / "bad.in",
                                head + "fix cell all cell/load " + bad.words + "\n");

@@ -23,7 +23,7 @@ TEST(RequestSharing, AlikeMeansTheSameBitsOfEverything) {
   const auto equal = std::make_shared<const State>(bytes('a'));
   const auto other = std::make_shared<const State>(bytes('b'));
   PoolRequest turned = request_of(1e-3);
-  turned.cell.increment.micro_rotation = 1e-9;
+  turned.cell.increment.rotation(2) = 1e-9;
   PoolRequest of_another_cell = request_of(1e-3);
   of_another_cell.definition = 1;
   const std::vector<PoolRequest> requests{

@@ -33,8 +33,8 @@ class KnownCells {
     return s;
   }
 
-  static CellReply at(const Vector7& v) {
-    CellReply reply;
+  static PlaneReply at(const Vector7& v) {
+    PlaneReply reply;
     reply.response.stress = stress(v);
     const double norm = v.norm();
     const double factor = kModulus / (1.0 + norm / kHalf);
@@ -50,9 +50,9 @@ class KnownCells {
 
   CellCalls calls() {
     return {[] { return at(Vector7::Zero()); },
-            [this](std::span<const CellRequest> requests, std::span<const std::size_t>) {
-              std::vector<CellReply> replies;
-              for (const CellRequest& request : requests) {
+            [this](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
+              std::vector<PlaneReply> replies;
+              for (const PlaneRequest& request : requests) {
                 ++runs;
                 Vector7 v;
                 std::memcpy(v.data(), request.state->bytes().data(), sizeof v);

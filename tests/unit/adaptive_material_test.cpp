@@ -34,7 +34,7 @@ class KnownCells {
   /// Fails beyond this strain.
   double breaks_at = 1e9;
   int runs = 0;
-  CellRequest last_request;
+  PlaneRequest last_request;
   std::size_t last_point = 0;  ///< that it was said to stand for
 
   static Vector7 stress(const Eigen::Matrix2d& strain) {
@@ -45,8 +45,8 @@ class KnownCells {
     return s;
   }
 
-  CellReply at(const Eigen::Matrix2d& strain) const {
-    CellReply reply;
+  PlaneReply at(const Eigen::Matrix2d& strain) const {
+    PlaneReply reply;
     reply.response.stress = stress(strain);
     const double norm = strain.norm();
     const double factor = kModulus / (1.0 + norm / kHalf);
@@ -68,13 +68,13 @@ class KnownCells {
     return reply;
   }
 
-  CellReply answer(const CellRequest& request) {
+  PlaneReply answer(const PlaneRequest& request) {
     ++runs;
     Eigen::Matrix2d strain;
     std::memcpy(strain.data(), request.state->bytes().data(), 4 * sizeof(double));
     const Eigen::Matrix2d& h = request.increment.displacement_gradient;
     strain += 0.5 * (h + h.transpose());
-    CellReply reply = at(strain);
+    PlaneReply reply = at(strain);
     reply.diagnostics.dem_steps = 10;
     if (strain.norm() > breaks_at) {
       reply.response.quality = Quality::failed;
@@ -87,10 +87,10 @@ class KnownCells {
 
   CellCalls calls() {
     return {[this] { return at(Eigen::Matrix2d::Zero()); },
-            [this](std::span<const CellRequest> requests, std::span<const std::size_t> points) {
-              std::vector<CellReply> replies;
+            [this](std::span<const PlaneRequest> requests, std::span<const std::size_t> points) {
+              std::vector<PlaneReply> replies;
               EXPECT_EQ(requests.size(), points.size());
-              for (const CellRequest& request : requests) replies.push_back(answer(request));
+              for (const PlaneRequest& request : requests) replies.push_back(answer(request));
               last_request = requests.back();
               last_point = points.back();
               return replies;
@@ -167,7 +167,7 @@ std::vector<Eigen::Matrix2d> three_bands(std::size_t points) {
 TEST_F(AdaptiveMaterialTest, ARemarkOnTheScriptIsPassedOnOnce) {
   CellCalls calls = cells_.calls();
   calls.initial = [this] {
-    CellReply packing = cells_.at(Eigen::Matrix2d::Zero());
+    PlaneReply packing = cells_.at(Eigen::Matrix2d::Zero());
     packing.response.message = "too many DEM steps";
     return packing;
   };

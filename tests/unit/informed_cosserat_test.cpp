@@ -40,8 +40,10 @@ class ConeCells {
               weights,
               {fem::PiecewiseLinear(kFriction), fem::PiecewiseLinear(0.0), fem::PiecewiseLinear(1.0)}}) {}
 
-  [[nodiscard]] CellReply initial() const { return reply(law_.initial_state(), elasticity().initial_stress); }
-  [[nodiscard]] CellReply evaluate(const CellRequest& request) const {
+  [[nodiscard]] PlaneReply initial() const {
+    return reply(law_.initial_state(), elasticity().initial_stress);
+  }
+  [[nodiscard]] PlaneReply evaluate(const PlaneRequest& request) const {
     constexpr int kParts = 20;
     fem::ElastoplasticState state;
     std::memcpy(static_cast<void*>(&state), request.state->bytes().data(), sizeof state);
@@ -59,16 +61,16 @@ class ConeCells {
   }
   [[nodiscard]] CellCalls calls() const {
     return {[this] { return initial(); },
-            [this](std::span<const CellRequest> requests, std::span<const std::size_t>) {
-              std::vector<CellReply> replies;
-              for (const CellRequest& request : requests) replies.push_back(evaluate(request));
+            [this](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
+              std::vector<PlaneReply> replies;
+              for (const PlaneRequest& request : requests) replies.push_back(evaluate(request));
               return replies;
             }};
   }
 
  private:
-  static CellReply reply(const fem::ElastoplasticState& state, const Vector7& stress) {
-    CellReply reply;
+  static PlaneReply reply(const fem::ElastoplasticState& state, const Vector7& stress) {
+    PlaneReply reply;
     reply.response.stress = stress;
     const auto bytes = std::as_bytes(std::span(&state, 1));
     reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
@@ -119,8 +121,8 @@ TEST(CellLimits, TheWeightsOfAConeAreFoundAgain) {
 TEST(CellLimits, GrainsThatResistNothingAreNamed) {
   const ConeCells cells(kWeights);
   CellCalls calls = cells.calls();
-  calls.evaluate = [&cells](std::span<const CellRequest> requests, std::span<const std::size_t>) {
-    return std::vector<CellReply>(requests.size(), cells.initial());
+  calls.evaluate = [&cells](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
+    return std::vector<PlaneReply>(requests.size(), cells.initial());
   };
   try {
     limits_of(calls, cells.initial(), kDiameter);
@@ -161,7 +163,7 @@ double error_of(InformedUpdate update, int steps, bool standard) {
   if (standard) given.weights = fem::InvariantWeights{};
   InformedMaterial law(cells.calls(), given);
   law.allocate(1);
-  CellReply cell = cells.initial();
+  PlaneReply cell = cells.initial();
   double largest = 0.0;
   for (int step = 1; step <= steps; ++step) {
     const Increment increment = increment_of_path(step, steps);

@@ -33,15 +33,15 @@ class KnownCells {
   explicit KnownCells(bool discs) : discs_(discs), law_({elasticity(), {}, micro_strength()}) {}
 
   int calls = 0;
-  CellRequest last_request;
+  PlaneRequest last_request;
   std::size_t last_point = 0;  ///< that it was said to stand for
   double fails_beyond = 1e9;   ///< of a strain increment
 
-  CellReply initial() { return reply(law_.initial_state(), elasticity().initial_stress); }
+  PlaneReply initial() { return reply(law_.initial_state(), elasticity().initial_stress); }
 
-  CellReply evaluate(const CellRequest& request) {
+  PlaneReply evaluate(const PlaneRequest& request) {
     ++calls;
-    CellReply failed;
+    PlaneReply failed;
     failed.response.quality = Quality::failed;
     failed.response.message = "the box collapsed";
     failed.response.step_factor = 0.5;
@@ -62,10 +62,10 @@ class KnownCells {
 
   CellCalls calls_to_it() {
     return {[this] { return initial(); },
-            [this](std::span<const CellRequest> requests, std::span<const std::size_t> points) {
-              std::vector<CellReply> replies;
+            [this](std::span<const PlaneRequest> requests, std::span<const std::size_t> points) {
+              std::vector<PlaneReply> replies;
               EXPECT_EQ(requests.size(), points.size());
-              for (const CellRequest& request : requests) replies.push_back(evaluate(request));
+              for (const PlaneRequest& request : requests) replies.push_back(evaluate(request));
               last_request = requests.back();
               last_point = points.back();
               return replies;
@@ -73,9 +73,10 @@ class KnownCells {
   }
 
  private:
-  CellReply reply(const fem::ElastoplasticState& state, const Vector7& stress) const {
-    CellReply reply;
+  PlaneReply reply(const fem::ElastoplasticState& state, const Vector7& stress) const {
+    PlaneReply reply;
     reply.response.stress = stress;
+    reply.knows_s33 = !discs_;
     if (discs_) reply.response.stress(k33) = 0.0;
     const auto bytes = std::as_bytes(std::span(&state, 1));
     reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
@@ -151,7 +152,7 @@ TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
   KnownCells grains(false);
   CellCalls calls = grains.calls_to_it();
   calls.initial = [&grains] {
-    CellReply packing = grains.initial();
+    PlaneReply packing = grains.initial();
     packing.response.message = "too many DEM steps";
     return packing;
   };
@@ -300,7 +301,7 @@ TEST_F(InformedPointTest, ShowsWhatLawAndCellDisagreeAbout) {
     sand.commit();
   }
   // The cell alone along the same path.
-  CellReply cell = cells_.initial();
+  PlaneReply cell = cells_.initial();
   for (int i = 0; i < 3; ++i) {
     Increment straight = compression(1e-3);
     const Eigen::Matrix2d h = straight.displacement_gradient;

@@ -104,7 +104,7 @@ const Candidate kGuestB{4, "key b", "guest 2"};
 
 Opinion opinion_of(const Candidate& who, double stress) {
   CellReply reply;
-  reply.response.stress[0] = stress;
+  reply.response.stress(0, 0) = stress;
   return {who, who.name, who.party.empty() ? who.name : who.party, reply, coupler::name_of_answer(reply)};
 }
 

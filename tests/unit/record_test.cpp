@@ -151,7 +151,8 @@ TEST(Record, DocumentationShowsEveryField) {
   std::ifstream file(POLARGRAIN_SOURCE_DIRECTORY "/docs/file_formats.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   for (const std::string& table :
-       {markdown_table(columns_of<CellDiagnostics>()), markdown_table(columns_of<Increment>())}) {
+       {markdown_table(columns_of<CellDiagnostics>()), markdown_table(columns_of<Increment>()),
+        markdown_table(columns_of<CellIncrement>())}) {
     EXPECT_NE(page.find(table), std::string::npos) << "docs/file_formats.md must hold this table:\n" << table;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which commands of an input script a cell may use. How the engine reads a line is that of LIGGGHTS 3.8 (Input::parse,
 // Input::substitute, Input::nextword).
-#include "common/script.hpp"
+#include "grains_io/script.hpp"
 
 #include <gtest/gtest.h>
 

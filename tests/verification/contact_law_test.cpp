@@ -7,7 +7,6 @@
 #include <iostream>
 #include <numbers>
 
-#include "dem/contact/cell_loading.hpp"
 #include "tests/verification/contact_law_support.hpp"
 
 namespace polargrain::dem {
@@ -152,11 +151,10 @@ TEST(ContactLaw, CurvatureOfTheCellTurnsAndSlidesTheGrains) {
   ContactPair pair(definition(model("tangential li_chu rolling_friction li_chu")), place_at(0.3));
   const double stiffness = kRollingRatio * kSliding * kReduced * kReduced;
   const std::array<double, 2> curvature{3e-4, -1e-4};  // rad/m over 10 steps, below the limit
-  cell_loading().curvature_rate = {curvature[0] / (10 * kStep), curvature[1] / (10 * kStep)};
+  pair.bend({curvature[0] / (10 * kStep), curvature[1] / (10 * kStep)});
   ContactPair::Answer answer;
   for (int k = 0; k < 10; ++k)
     answer = pair.advance(place_at(0.3), {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
-  cell_loading().curvature_rate = {};
   const Eigen::Vector3d branch = place_at(0.3).second;
   const double exact = stiffness * (curvature[0] * branch.x() + curvature[1] * branch.y());
   EXPECT_NEAR(answer.contact.moment / exact, 1.0, 1e-9);  // round-off of torque minus arm times force

@@ -4,9 +4,11 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_lattice_test verification verification/dem_lattice_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_cell_test verification verification/dem_cell_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_tangent_test verification verification/dem_tangent_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(dem_two_cells_test verification verification/dem_two_cells_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_rowe_test verification verification/dem_rowe_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_limits_test verification verification/dem_limits_test.cpp support/engine_main.cpp LIBS polargrain_dem)
-  polargrain_test(dem_boundary_test verification verification/dem_boundary_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(dem_boundary_test verification verification/dem_boundary_test.cpp support/boundary_cell.cpp
+                  support/engine_main.cpp LIBS polargrain_contact_models)
   polargrain_test(dem_polar_test verification verification/dem_polar_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(disc_loop_test verification verification/disc_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(spoiled_states_test verification verification/spoiled_states_test.cpp support/engine_main.cpp

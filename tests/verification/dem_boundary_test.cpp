@@ -7,8 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dem/cell/boundary_cell.hpp"
+#include "tests/support/boundary_cell.hpp"
 #include "tests/support/lattice_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -20,12 +21,13 @@ struct Moduli {
 };
 
 Moduli moduli(int size) {
-  const auto cell = make_boundary_cell_service(test::lattice(size, size, CellRotations::free));
+  const PlaneCell boundary(make_boundary_cell_service(test::lattice(size, size, CellRotations::free)));
+  const PlaneCell* const cell = &boundary;
   const Vector7 start = cell->initial().response.stress;
   const auto change = [&](const Increment& increment) {
-    CellRequest request;
+    PlaneRequest request;
     request.increment = increment;
-    const CellReply reply = cell->evaluate(request);
+    const PlaneReply reply = cell->evaluate(request);
     EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     return Vector7(reply.response.stress - start);
   };

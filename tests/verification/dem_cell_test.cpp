@@ -9,40 +9,40 @@
 #include <limits>
 
 #include "common/error.hpp"
-#include "dem/cell/cell_service.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
 
-CellRequest request(StatePointer state, double h11, double h12, double h21, double h22) {
-  CellRequest made;
+PlaneRequest request(StatePointer state, double h11, double h12, double h21, double h22) {
+  PlaneRequest made;
   made.state = std::move(state);
   made.increment.displacement_gradient << h11, h12, h21, h22;
   return made;
 }
 
-bool same_bits(const CellReply& a, const CellReply& b) {
+bool same_bits(const PlaneReply& a, const PlaneReply& b) {
   return std::memcmp(a.response.stress.data(), b.response.stress.data(), sizeof(Vector7)) == 0 &&
          std::memcmp(a.response.tangent.data(), b.response.tangent.data(), sizeof(Matrix7)) == 0 &&
          a.state->name() == b.state->name() && std::ranges::equal(a.state->bytes(), b.state->bytes());
 }
 
 TEST(Cell, SameRequestGivesTheSameBitsWhateverCameBetween) {
-  const auto cell = make_cell_service(test::demo_cell());
-  const CellRequest first = request(nullptr, 5e-4, 2e-4, 0.0, -5e-4);
-  const CellReply once = cell->evaluate(first);
+  const auto cell = make_plane_cell(test::demo_cell());
+  const PlaneRequest first = request(nullptr, 5e-4, 2e-4, 0.0, -5e-4);
+  const PlaneReply once = cell->evaluate(first);
   cell->evaluate(request(once.state, -2e-3, 0.0, 1e-3, 1e-3));
-  const CellReply twice = cell->evaluate(first);
+  const PlaneReply twice = cell->evaluate(first);
   EXPECT_TRUE(same_bits(once, twice));
 
   // Another engine, and a state that went through bytes.
-  const auto other = make_cell_service(test::demo_cell());
+  const auto other = make_plane_cell(test::demo_cell());
   const auto copy = std::make_shared<const State>(
       std::vector<std::byte>(once.state->bytes().begin(), once.state->bytes().end()));
-  const CellRequest second = request(once.state, 3e-4, 0.0, 1e-4, -6e-4);
-  const CellReply here = cell->evaluate(second);
-  const CellReply there = other->evaluate(request(copy, 3e-4, 0.0, 1e-4, -6e-4));
+  const PlaneRequest second = request(once.state, 3e-4, 0.0, 1e-4, -6e-4);
+  const PlaneReply here = cell->evaluate(second);
+  const PlaneReply there = other->evaluate(request(copy, 3e-4, 0.0, 1e-4, -6e-4));
   EXPECT_TRUE(same_bits(here, there));
   EXPECT_FALSE(same_bits(here, once));
   std::printf("[figure] state of 400 grains: %zu bytes, %.0f a grain\n", once.state->bytes().size(),
@@ -52,29 +52,29 @@ TEST(Cell, SameRequestGivesTheSameBitsWhateverCameBetween) {
 TEST(Cell, SameBitsWithPrescribedRotationsToo) {
   CellDefinition definition = test::demo_cell();
   definition.control.rotations = CellRotations::controlled;
-  const auto cell = make_cell_service(definition);
-  CellRequest first = request(nullptr, 5e-4, 2e-4, 0.0, -5e-4);
+  const auto cell = make_plane_cell(definition);
+  PlaneRequest first = request(nullptr, 5e-4, 2e-4, 0.0, -5e-4);
   first.increment.micro_rotation = 1e-3;
-  const CellReply once = cell->evaluate(first);
+  const PlaneReply once = cell->evaluate(first);
   cell->evaluate(request(once.state, -2e-3, 0.0, 1e-3, 1e-3));  // leaves other forces behind
   EXPECT_TRUE(same_bits(once, cell->evaluate(first)));
 }
 
 TEST(Cell, ZeroIncrementHoldsTheStress) {
-  const auto cell = make_cell_service(test::demo_cell());
-  const CellReply loaded = cell->evaluate(request(nullptr, 1e-4, 0.0, 0.0, -1e-4));
-  const CellReply held = cell->evaluate(request(loaded.state, 0.0, 0.0, 0.0, 0.0));
+  const auto cell = make_plane_cell(test::demo_cell());
+  const PlaneReply loaded = cell->evaluate(request(nullptr, 1e-4, 0.0, 0.0, -1e-4));
+  const PlaneReply held = cell->evaluate(request(loaded.state, 0.0, 0.0, 0.0, 0.0));
   // What is left unbalanced (half a percent of a contact force) may still creep.
   EXPECT_LT((held.response.stress - loaded.response.stress).norm(), 5e-3 * loaded.response.stress.norm());
 }
 
 TEST(Cell, RigidRotationTurnsTheStress) {
-  const auto cell = make_cell_service(test::demo_cell());
-  const CellReply sheared = cell->evaluate(request(nullptr, 3e-4, 0.0, 0.0, -3e-4));
+  const auto cell = make_plane_cell(test::demo_cell());
+  const PlaneReply sheared = cell->evaluate(request(nullptr, 3e-4, 0.0, 0.0, -3e-4));
   const double angle = 0.2;
   const double c = std::cos(angle);
   const double s = std::sin(angle);
-  const CellReply turned = cell->evaluate(request(sheared.state, c - 1.0, -s, s, c - 1.0));
+  const PlaneReply turned = cell->evaluate(request(sheared.state, c - 1.0, -s, s, c - 1.0));
   Eigen::Matrix2d before;
   before << sheared.response.stress(k11), sheared.response.stress(k12), sheared.response.stress(k21),
       sheared.response.stress(k22);
@@ -91,13 +91,13 @@ TEST(Cell, RigidRotationTurnsTheStress) {
 }
 
 TEST(Cell, TiltedBoxGoesOnSmoothlyAfterAFlip) {
-  const auto cell = make_cell_service(test::demo_cell());
+  const auto cell = make_plane_cell(test::demo_cell());
   StatePointer state;
   double previous = 0.0;
   double largest_jump = 0.0;
   // Simple shear to 0.6 in steps of 0.02: the box flips at 0.5.
   for (int step = 1; step <= 30; ++step) {
-    const CellReply reply = cell->evaluate(request(state, 0.0, 0.02, 0.0, 0.0));
+    const PlaneReply reply = cell->evaluate(request(state, 0.0, 0.02, 0.0, 0.0));
     ASSERT_NE(reply.state, nullptr);
     state = reply.state;
     const double ratio = reply.response.stress(k21) / reply.response.stress(k22);
@@ -112,11 +112,11 @@ TEST(Cell, TiltedBoxGoesOnSmoothlyAfterAFlip) {
 }
 
 TEST(Cell, RefusesForeignStatesAndAbsurdIncrements) {
-  const auto cell = make_cell_service(test::demo_cell());
+  const auto cell = make_plane_cell(test::demo_cell());
   const auto garbage = std::make_shared<const State>(std::vector<std::byte>(1000, std::byte{7}));
   EXPECT_THROW(cell->evaluate(request(garbage, 0.0, 0.0, 0.0, 0.0)), RunError);
   // An iteration gone astray is no reason to end a run: the step is to be cut.
-  const CellReply folded = cell->evaluate(request(nullptr, -2.0, 0.0, 0.0, 0.0));
+  const PlaneReply folded = cell->evaluate(request(nullptr, -2.0, 0.0, 0.0, 0.0));
   EXPECT_EQ(folded.response.quality, Quality::failed);
   EXPECT_NE(folded.response.message.find("at most 0.25 is taken"), std::string::npos)
       << folded.response.message;
@@ -128,8 +128,8 @@ TEST(Cell, SaysWhenItDidNotComeToRest) {
   CellDefinition definition = test::demo_cell();
   definition.control.unbalanced_force_ratio = 1e-9;
   definition.control.most_relaxation_steps = 40;
-  const auto cell = make_cell_service(definition);
-  const CellReply reply = cell->evaluate(request(nullptr, 1e-3, 0.0, 0.0, -1e-3));
+  const auto cell = make_plane_cell(definition);
+  const PlaneReply reply = cell->evaluate(request(nullptr, 1e-3, 0.0, 0.0, -1e-3));
   EXPECT_EQ(reply.response.quality, Quality::unreliable);
   EXPECT_NE(reply.response.message.find("did not come to rest within 40 DEM steps"), std::string::npos);
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dem/cell/cell_service.hpp"
 #include "tests/support/lattice_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -20,10 +20,10 @@ using test::kThickness;
 using test::lattice;
 
 /// Stress increment of one evaluation from the packing at rest.
-Vector7 stress_increment(CellService& cell, const Increment& increment) {
-  CellRequest request;
+Vector7 stress_increment(const PlaneCell& cell, const Increment& increment) {
+  PlaneRequest request;
   request.increment = increment;
-  const CellReply reply = cell.evaluate(request);
+  const PlaneReply reply = cell.evaluate(request);
   EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
   // Moments in balance (C.4): the multiplier carries the skew stress.
   EXPECT_NEAR(reply.diagnostics.multiplier, reply.response.stress(k21) - reply.response.stress(k12),
@@ -43,7 +43,7 @@ const double kCosserat = std::sqrt(3.0) / 2.0 * kTangential / kThickness;
 class Lattice : public testing::TestWithParam<int> {};
 
 TEST_P(Lattice, FreeRotationsGiveTheClassicalModuli) {
-  const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::free));
+  const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::free));
   Increment increment;
   increment.displacement_gradient << kStrain, 0.0, 0.0, 0.0;
   const Vector7 axial = stress_increment(*cell, increment);
@@ -60,7 +60,7 @@ TEST_P(Lattice, FreeRotationsGiveTheClassicalModuli) {
 TEST_P(Lattice, ThePackingTellsItsCosseratModuliWithFreeRotationsToo) {
   CellDefinition definition = lattice(GetParam(), GetParam(), CellRotations::free);
   definition.control.tangent = CellTangent::cosserat;
-  const Matrix7 tangent = make_cell_service(definition)->initial().response.tangent;
+  const Matrix7 tangent = make_plane_cell(definition)->initial().response.tangent;
   EXPECT_NEAR(tangent(k12, k12), kShear + kCosserat, kTolerance * kShear);
   EXPECT_NEAR(tangent(k12, k21), kShear - kCosserat, kTolerance * kShear);
   EXPECT_NEAR(tangent(kCurvature1, kCurvature1), kCouple, kTolerance * kCouple);
@@ -68,7 +68,7 @@ TEST_P(Lattice, ThePackingTellsItsCosseratModuliWithFreeRotationsToo) {
 }
 
 TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
-  const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
+  const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::controlled));
   Increment increment;
   increment.displacement_gradient << 0.0, kStrain, 0.0,
       0.0;  // micro-rotation zero: eps21 = strain, eps12 = 0
@@ -79,7 +79,7 @@ TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
   Increment turn;
   turn.micro_rotation = kStrain;
   const Vector7 turned = stress_increment(*cell, turn);
-  CellRequest request;
+  PlaneRequest request;
   request.increment = turn;
   const CellDiagnostics diagnostics = cell->evaluate(request).diagnostics;
   EXPECT_NEAR(diagnostics.mean_rotation, kStrain, 1e-12);
@@ -96,7 +96,7 @@ TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
 }
 
 TEST_P(Lattice, CurvatureGivesTheCoupleModulusAtAnySize) {
-  const auto cell = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
+  const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::controlled));
   Increment bend;
   bend.curvature << 1e-3, 0.0;  // 1e-5 rad a diameter
   const Vector7 along = stress_increment(*cell, bend);
@@ -123,7 +123,7 @@ TEST_P(Lattice, CurvatureTurnsWithTheBox) {
   };
   definition.packing.box = turn(0.3) * definition.packing.box;
   for (Grain& grain : definition.packing.grains) grain.position = turn(0.3) * grain.position;
-  const auto cell = make_cell_service(definition);
+  const auto cell = make_plane_cell(definition);
   Increment bend;
   bend.micro_rotation = 0.2;
   bend.displacement_gradient = turn(0.2) - Eigen::Matrix2d::Identity();
@@ -135,11 +135,11 @@ TEST_P(Lattice, CurvatureTurnsWithTheBox) {
 }
 
 TEST_P(Lattice, CondensedTangentsAreThoseModuli) {
-  const auto free = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::free));
+  const auto free = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::free));
   const Matrix7 classical = free->initial().response.tangent;
   EXPECT_NEAR(classical(k12, k12), kShear, kTolerance * kShear);
   EXPECT_NEAR(classical(k11, k11), kLambda + 2.0 * kShear, kTolerance * kShear);
-  const auto held = make_cell_service(lattice(GetParam(), GetParam(), CellRotations::controlled));
+  const auto held = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::controlled));
   const Matrix7 cosserat = held->initial().response.tangent;
   EXPECT_NEAR(cosserat(k21, k21), kShear + kCosserat, kTolerance * kShear);
   EXPECT_NEAR(cosserat(k12, k21), kShear - kCosserat, kTolerance * kShear);
@@ -154,12 +154,12 @@ TEST(LatticeFlip, ChangesNothing) {
   CellDefinition definition = lattice(4, 4, CellRotations::controlled);
   Eigen::Matrix2d& box = definition.packing.box;
   box(0, 1) = 0.5 * box(0, 0);
-  const auto cell = make_cell_service(definition);
-  CellRequest request;
+  const auto cell = make_plane_cell(definition);
+  PlaneRequest request;
   request.increment.displacement_gradient << 0.0, kStrain, 0.0, 0.0;
   const Vector7 start = cell->initial().response.stress;
   for (int step = 1; step <= 2; ++step) {
-    const CellReply reply = cell->evaluate(request);
+    const PlaneReply reply = cell->evaluate(request);
     ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     const Vector7 stress = reply.response.stress - start;
     std::printf("[figure] lattice, increment %d about a flip: G + Gc %.5f of the exact\n", step,

@@ -9,14 +9,14 @@
 #include <numbers>
 #include <random>
 
-#include "dem/cell/cell_service.hpp"
 #include "dem/cell/linear_contact.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
 
-double pressure(const CellReply& reply) {
+double pressure(const PlaneReply& reply) {
   return -0.5 * (reply.response.stress(k11) + reply.response.stress(k22));
 }
 
@@ -31,14 +31,14 @@ TEST(CellLimits, SkewStressIsTwiceFrictionTimesPressure) {
   // Where every contact slides, grains that ring let go in turns: at a damping of 0.24 and less the ratio is
   // 0.5 to 0.97, with the rate and the time step; at 0.5 it is the same for any.
   definition.control.damping = 0.5;
-  const auto cell = make_cell_service(definition);
-  CellRequest turn;
+  const auto cell = make_plane_cell(definition);
+  PlaneRequest turn;
   turn.increment.micro_rotation = 2e-3;
   const double mu = std::tan(0.5);
   double ratio = 0.0;
   double difference = 0.0;
   for (int step = 1; step <= 20; ++step) {
-    const CellReply reply = cell->evaluate(turn);
+    const PlaneReply reply = cell->evaluate(turn);
     ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     turn.state = reply.state;
     const double skew = reply.response.stress(k21) - reply.response.stress(k12);
@@ -62,15 +62,15 @@ TEST(CellLimits, CoupleStressIsThatOfContactsAtTheirRollingLimit) {
   constexpr double kFriction = 0.2;
   CellDefinition definition = test::rolling_cell(1.0, kFriction);
   definition.control.rotations = CellRotations::controlled;
-  definition.control.loop = CellLoop::engine;  // whose contacts are in the recorder
-  const auto cell = make_cell_service(definition);
-  CellRequest bend;
+  definition.control.loop = CellLoop::engine;
+  const auto cell = make_plane_cell(definition);
+  PlaneRequest bend;
   bend.increment.curvature << 0.3, 0.0;
   double couple_stress = 0.0;
   double pressure_now = 0.0;
   double rolling = 0.0;
   for (int step = 1; step <= 20; ++step) {
-    const CellReply reply = cell->evaluate(bend);
+    const PlaneReply reply = cell->evaluate(bend);
     ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     bend.state = reply.state;
     couple_stress = reply.response.stress(kCurvature1);
@@ -82,7 +82,7 @@ TEST(CellLimits, CoupleStressIsThatOfContactsAtTheirRollingLimit) {
   double weights = 0.0;
   double of_moments = 0.0;
   double polar_limit = 0.0;
-  for (const Contact& contact : contact_recorder().contacts) {
+  for (const Contact& contact : cell->contacts()) {
     of_moments += contact.branch.x() * contact.moment / volume(definition.packing);
     polar_limit += std::abs(0.5 * (contact.arm_second - contact.arm_first) * contact.branch.x()) *
                    contact.friction * contact.normal_force() / volume(definition.packing);
@@ -109,15 +109,15 @@ TEST(CellIdentities, VirtualWorkOfAnyMotionIsThatOfTheStress) {
   definition.control.rotations = CellRotations::controlled;
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-6;
   definition.control.damping = 0.5;
-  definition.control.loop = CellLoop::engine;  // whose contacts are in the recorder
-  const auto cell = make_cell_service(definition);
-  CellRequest request;
+  definition.control.loop = CellLoop::engine;
+  const auto cell = make_plane_cell(definition);
+  PlaneRequest request;
   request.increment.displacement_gradient << 1e-3, 5e-4, 0.0, -2e-3;
   request.increment.micro_rotation = 1e-3;
   request.increment.curvature << 0.02, -0.05;
-  const CellReply reply = cell->evaluate(request);
+  const PlaneReply reply = cell->evaluate(request);
   ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
-  const std::vector<Contact>& contacts = contact_recorder().contacts;
+  const std::span<const Contact> contacts = cell->contacts();
   const double box_volume =
       volume(definition.packing) *
       (Eigen::Matrix2d::Identity() + request.increment.displacement_gradient).determinant();
@@ -172,19 +172,19 @@ TEST(CellIdentities, WorkIsTheStoredEnergyWhenNothingSlips) {
   definition.script.replace(definition.script.find(friction), friction.size(), "1e3");
   definition.control.rotations = CellRotations::controlled;
   definition.control.inertial_number = 2.4e-4;
-  definition.control.loop = CellLoop::engine;  // whose contacts are in the recorder
+  definition.control.loop = CellLoop::engine;
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-4;
-  const auto cell = make_cell_service(definition);
-  const auto energy = [] {
+  const auto cell = make_plane_cell(definition);
+  const auto energy = [&cell] {
     double sum = 0.0;
-    for (const Contact& contact : contact_recorder().contacts) {
+    for (const Contact& contact : cell->contacts()) {
       sum += 0.5 * contact.normal_force() * contact.normal_force() / contact.normal_stiffness +
              0.5 * contact.tangential_force() * contact.tangential_force() / contact.tangential_stiffness +
              0.5 * contact.moment * contact.moment / contact.rolling_stiffness;
     }
     return sum;
   };
-  CellRequest request;
+  PlaneRequest request;
   request.increment.displacement_gradient << -1e-5, 4e-5, 0.0, -3e-5;
   request.increment.micro_rotation = 4e-5;
   request.increment.curvature << 15e-3, -6e-3;
@@ -194,11 +194,11 @@ TEST(CellIdentities, WorkIsTheStoredEnergyWhenNothingSlips) {
   double couple_work = 0.0;
   double now = volume(definition.packing);
   {
-    CellRequest rest;  // records the contacts of the start
+    PlaneRequest rest;  // records the contacts of the start
     start = (cell->evaluate(rest), energy());
   }
   for (int step = 0; step < 10; ++step) {
-    const CellReply reply = cell->evaluate(request);
+    const PlaneReply reply = cell->evaluate(request);
     ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     const Vector7 mean = 0.5 * (stress + reply.response.stress);
     const double middle = now * (1.0 + 0.5 * request.increment.displacement_gradient.trace());
@@ -230,15 +230,15 @@ TEST(CellIdentities, TurningPackingAndPathTurnsTheAnswer) {
   turned.packing.box.col(1) = quarter * straight.packing.box.col(0);
   for (Grain& grain : turned.packing.grains)
     grain.position = quarter * grain.position + turned.packing.box.col(0);
-  CellRequest request;
+  PlaneRequest request;
   request.increment.displacement_gradient << 2e-4, 1e-4, 0.0, -3e-4;
   request.increment.micro_rotation = 1e-4;
   request.increment.curvature << 0.01, -0.02;
-  const CellReply one = make_cell_service(straight)->evaluate(request);
+  const PlaneReply one = make_plane_cell(straight)->evaluate(request);
   request.increment.displacement_gradient =
       quarter * request.increment.displacement_gradient * quarter.transpose();
   request.increment.curvature = quarter * request.increment.curvature;
-  const CellReply other = make_cell_service(turned)->evaluate(request);
+  const PlaneReply other = make_plane_cell(turned)->evaluate(request);
   const auto turn_back = [](const Vector7& s) {
     Vector7 back;
     back << s(k22), s(k11), s(k33), -s(k21), -s(k12), s(kCurvature2), -s(kCurvature1);

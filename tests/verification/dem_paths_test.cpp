@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "dem/cell/cell_service.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -42,7 +42,7 @@ std::vector<Row> reference_paths() {
 class Paths : public testing::TestWithParam<std::string> {};
 
 TEST_P(Paths, FollowTheIndependentCode) {
-  const std::unique_ptr<CellService> cell = make_cell_service(test::demo_cell());
+  const std::unique_ptr<PlaneCell> cell = make_plane_cell(test::demo_cell());
   StatePointer state;
   double worst_of_three = 0.0;
   double worst_of_ten = 0.0;
@@ -51,7 +51,7 @@ TEST_P(Paths, FollowTheIndependentCode) {
     if (row.path != GetParam() || row.increment > 10) continue;
     Response response;
     if (row.increment == 0) {
-      const CellReply reply = cell->initial();
+      const PlaneReply reply = cell->initial();
       state = reply.state;
       response = reply.response;
       // Nothing has moved: only the reference's printed digits limit the comparison.
@@ -59,10 +59,10 @@ TEST_P(Paths, FollowTheIndependentCode) {
       EXPECT_NEAR(response.stress(k22) / row.stress_22, 1.0, 1e-5);
       continue;
     }
-    CellRequest request;
+    PlaneRequest request;
     request.state = state;
     request.increment.displacement_gradient = row.gradient;
-    const CellReply reply = cell->evaluate(request);
+    const PlaneReply reply = cell->evaluate(request);
     ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     EXPECT_LE(reply.diagnostics.unbalanced_force_ratio, test::demo_cell().control.unbalanced_force_ratio);
     state = reply.state;

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <vector>
 
-#include "dem/cell/cell_service.hpp"
 #include "dem/cell/condensed_tangent.hpp"
 #include "tests/support/lattice_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -186,10 +186,10 @@ TEST(PolarCells, TheGrainsAnswerToACurvatureAsTheLatticeDoes) {
     for (const CellLoop loop : {CellLoop::automatic, CellLoop::plain, CellLoop::engine}) {
       CellDefinition definition = packed(radii, 4, models);
       definition.control.loop = loop;
-      const auto cell = make_cell_service(definition);
-      CellRequest request;
+      const auto cell = make_plane_cell(definition);
+      PlaneRequest request;
       request.increment.curvature << 2e-3, 0.0;
-      const CellReply reply = cell->evaluate(request);
+      const PlaneReply reply = cell->evaluate(request);
       ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
       const double modulus = reply.response.stress(kCurvature1) / request.increment.curvature.x();
       std::printf("[figure] %s: couple modulus %.6g of the exact one, tangent %.6g\n", models.c_str(),

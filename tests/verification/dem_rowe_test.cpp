@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "dem/cell/cell_service.hpp"
 #include "tests/support/lattice_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -48,17 +48,17 @@ TEST_P(Rowe, StressRatioFollowsTheContactAngle) {
   definition.packing.box = now;
   definition.control = {};
   definition.control.inertial_number = 1.2e-2;
-  const auto cell = make_cell_service(definition);
+  const auto cell = make_plane_cell(definition);
   StatePointer state;
   double largest = 0.0;
   for (int step = 1; step <= 48; ++step) {
     strain -= 0.001;
     const Eigen::Matrix2d next = box(branch, contact_angle(strain));
-    CellRequest request;
+    PlaneRequest request;
     request.state = state;
     // Keeps the oblique contacts at their length; the discs can only slide.
     request.increment.displacement_gradient = next * now.inverse() - Eigen::Matrix2d::Identity();
-    const CellReply reply = cell->evaluate(request);
+    const PlaneReply reply = cell->evaluate(request);
     ASSERT_EQ(reply.response.quality, Quality::good) << reply.response.message;
     state = reply.state;
     now = next;

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "dem/cell/cell_service.hpp"
 #include "dem/cell/condensed_tangent.hpp"
 #include "dem/cell/plain_tangents.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -46,17 +46,17 @@ Increment increment_of(const Vector7& scaled) {
   return increment;
 }
 
-CellReply evaluate(CellService& cell, const StatePointer& state, const Vector7& strain) {
-  CellRequest request;
+PlaneReply evaluate(const PlaneCell& cell, const StatePointer& state, const Vector7& strain) {
+  PlaneRequest request;
   request.state = state;
   request.increment = increment_of(strain);
-  const CellReply reply = cell.evaluate(request);
+  const PlaneReply reply = cell.evaluate(request);
   EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
   return reply;
 }
 
 /// Central differences of the stress at the end of an increment with respect to that increment.
-Matrix7 differences(CellService& cell, const StatePointer& state, const Vector7& increment, double step) {
+Matrix7 differences(const PlaneCell& cell, const StatePointer& state, const Vector7& increment, double step) {
   Matrix7 derivative = Matrix7::Zero();
   for (const Component column : kColumns) {
     const Vector7 change = step * Vector7::Unit(column);
@@ -80,8 +80,8 @@ double largest_error(const Matrix7& tangent, const Matrix7& derivative) {
 }
 
 TEST(Tangent, IsTheDerivativeOfTheCellBeforeYield) {
-  const auto cell = make_cell_service(strict_cell(CellRotations::controlled));
-  const CellReply start = cell->initial();
+  const auto cell = make_plane_cell(strict_cell(CellRotations::controlled));
+  const PlaneReply start = cell->initial();
   const Matrix7 derivative = differences(*cell, start.state, Vector7::Zero(), 1e-7);
   const double error = largest_error(scaled(start.response.tangent), derivative);
   std::printf(
@@ -97,21 +97,21 @@ TEST(Tangent, AfterYieldItKnowsWhatSlides) {
   definition.control.inertial_number = 1.2e-3;
   definition.control.least_steps = 100;
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 5e-4;
-  const auto condensed_cell = make_cell_service(definition);
+  const auto condensed_cell = make_plane_cell(definition);
   definition.control.tangent = CellTangent::voigt;
-  const auto affine_cell = make_cell_service(definition);
+  const auto affine_cell = make_plane_cell(definition);
   Vector7 step = Vector7::Zero();
   step(k11) = 1e-3;
   step(k22) = -1e-3;
   StatePointer state;
   for (int k = 1; k <= 10; ++k) {
-    const CellReply reply = evaluate(*condensed_cell, state, step);
+    const PlaneReply reply = evaluate(*condensed_cell, state, step);
     state = reply.state;
     if (k != 1 && k != 3 && k != 10) continue;
     // What Newton asks for: the derivative with respect to the increment, at an increment that goes on.
     const Vector7 further = 0.1 * step;
     const Matrix7 derivative = differences(*condensed_cell, state, further, 1e-5);
-    const auto error = [&](CellService& cell) {
+    const auto error = [&](const PlaneCell& cell) {
       return (scaled(evaluate(cell, state, further).response.tangent) - derivative).norm() /
              derivative.norm();
     };
@@ -138,8 +138,8 @@ TEST(Tangent, KnowsTheStockRollingModel) {
   Vector7 step = Vector7::Zero();
   step(k11) = 1e-3;
   step(k22) = -1e-3;
-  const CellReply one = evaluate(*make_cell_service(ours), nullptr, step);
-  const CellReply other = evaluate(*make_cell_service(stock), nullptr, step);
+  const PlaneReply one = evaluate(*make_plane_cell(ours), nullptr, step);
+  const PlaneReply other = evaluate(*make_plane_cell(stock), nullptr, step);
   const double stress = (one.response.stress - other.response.stress).norm() / one.response.stress.norm();
   const double tangent = (one.response.tangent - other.response.tangent).norm() / one.response.tangent.norm();
   std::printf("[figure] epsd2 against li_chu with the same parameters: stress %.1e, tangent %.1e apart\n",
@@ -152,7 +152,7 @@ TEST(Tangent, KnowsTheStockRollingModel) {
 TEST(Tangent, IsThePlainOneAlongAPath) {
   CellDefinition definition = test::rolling_cell(1.0, 0.4);
   definition.control.rotations = CellRotations::controlled;
-  const auto cell = make_cell_service(definition);
+  const auto cell = make_plane_cell(definition);
   const int grains = static_cast<int>(definition.packing.grains.size());
   const std::vector<double> weights(grains, 1.0 / grains);
   Vector7 step = Vector7::Zero();
@@ -161,11 +161,11 @@ TEST(Tangent, IsThePlainOneAlongAPath) {
   StatePointer state;
   CondensedTangent condensed;
   double largest = 0.0;
-  CellReply reply;
+  PlaneReply reply;
   for (int k = 1; k <= 20; ++k) {
     reply = evaluate(*cell, state, step);
     state = reply.state;
-    const ContactNetwork network{contact_recorder().contacts, grains, Eigen::Matrix2d::Identity(),
+    const ContactNetwork network{cell->contacts(), grains, Eigen::Matrix2d::Identity(),
                                  definition.packing.volume(), 1e-4};
     const auto difference = [&largest](const std::optional<Matrix7>& fast,
                                        const std::optional<Matrix7>& plain) {
@@ -189,12 +189,12 @@ TEST(Tangent, OutlivesABoxThatComesApartAndCloses) {
   CellDefinition definition = test::rolling_cell(1.0, 0.4);
   definition.control.rotations = CellRotations::controlled;
   definition.control.most_relaxation_steps = 100;
-  const auto cell = make_cell_service(definition);
-  CellRequest request;
+  const auto cell = make_plane_cell(definition);
+  PlaneRequest request;
   for (const double strain :
        {2e-3, 2e-3, 5e-3, -2e-3, -2e-3, -1e-3, -1e-3, -1e-3, -1e-3, -1e-3, -1e-3, -2e-3}) {
     request.increment.displacement_gradient = strain * Eigen::Matrix2d::Identity();
-    const CellReply reply = cell->evaluate(request);
+    const PlaneReply reply = cell->evaluate(request);
     EXPECT_TRUE(reply.response.tangent.allFinite());
     request.state = reply.state;
     std::printf("[figure] volume strain %.0e more: %lld contacts\n", 2.0 * strain,

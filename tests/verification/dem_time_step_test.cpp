@@ -10,12 +10,12 @@
 #include <cstdio>
 #include <numbers>
 
-#include "dem/cell/cell_service.hpp"
 #include "dem/cell/driver.hpp"
 #include "dem/cell/time_step.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "tests/support/cell_fixture.hpp"
 #include "tests/support/lattice_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -179,14 +179,14 @@ TEST(TimeStep, OfACellFollowsFromItsContacts) {
 TEST(TimeStep, ASmallStepOfAScriptIsHonouredWithAWord) {
   CellDefinition cell = test::demo_cell();
   cell.script += "\ntimestep 2e-6\n";
-  const CellReply reply = make_cell_service(cell)->initial();
+  const PlaneReply reply = make_plane_cell(cell)->initial();
   EXPECT_EQ(reply.response.quality, Quality::good);
   EXPECT_NE(
       reply.response.message.find("times as many DEM steps as are needed: leave the line 'timestep' out"),
       std::string::npos)
       << reply.response.message;
   cell.script += "\ntimestep 1.5e-5\n";
-  EXPECT_EQ(make_cell_service(cell)->initial().response.message, "");
+  EXPECT_EQ(make_plane_cell(cell)->initial().response.message, "");
 }
 
 }  // namespace

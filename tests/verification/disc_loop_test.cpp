@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "dem/cell/cell_service.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -97,20 +97,20 @@ class DiscLoop : public testing::TestWithParam<Models> {
  protected:
   /// Two increments with sliding, rolling and rotation of the box, about 1,000 steps in all. The settings are
   /// such that every run takes the same number of steps.
-  static std::vector<CellReply> replies(CellDefinition definition, CellLoop loop, CellRotations rotations) {
+  static std::vector<PlaneReply> replies(CellDefinition definition, CellLoop loop, CellRotations rotations) {
     definition.control.loop = loop;
     definition.control.rotations = rotations;
     definition.control.least_steps = 500;
     definition.control.inertial_number = 1.0;
     definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e3;
-    const auto cell = make_cell_service(definition);
-    CellRequest request;
+    const auto cell = make_plane_cell(definition);
+    PlaneRequest request;
     request.increment.displacement_gradient << 6e-4, 3e-4, -2e-4, -9e-4;
     if (rotations == CellRotations::controlled) {
       request.increment.micro_rotation = 4e-4;
       request.increment.curvature << 0.02, -0.01;
     }
-    std::vector<CellReply> made{cell->initial()};
+    std::vector<PlaneReply> made{cell->initial()};
     for (int k = 0; k < 2; ++k) {
       made.push_back(cell->evaluate(request));
       request.state = made.back().state;
@@ -119,7 +119,7 @@ class DiscLoop : public testing::TestWithParam<Models> {
   }
 
   /// Largest difference of a stress, over the mean pressure.
-  static double difference(const CellReply& a, const CellReply& b) {
+  static double difference(const PlaneReply& a, const PlaneReply& b) {
     const double pressure = -0.5 * (a.response.stress(k11) + a.response.stress(k22));
     Vector7 apart = a.response.stress - b.response.stress;
     apart.tail<2>() /= 0.01;  // couple stresses over a mean diameter
@@ -179,11 +179,11 @@ TEST(DiscBoxes, OneLatticeInTwoBoxesAnswersAlike) {
   CellDefinition swapped = straight;
   swapped.packing.box.col(0) = straight.packing.box.col(1);
   swapped.packing.box.col(1) = -straight.packing.box.col(0);
-  CellRequest request;
+  PlaneRequest request;
   request.increment.displacement_gradient << 1e-3, 2e-3, -1e-3, -2e-3;
-  const Vector7 one = make_cell_service(straight)->evaluate(request).response.stress;
-  const Vector7 two = make_cell_service(tilted)->evaluate(request).response.stress;
-  const Vector7 three = make_cell_service(swapped)->evaluate(request).response.stress;
+  const Vector7 one = make_plane_cell(straight)->evaluate(request).response.stress;
+  const Vector7 two = make_plane_cell(tilted)->evaluate(request).response.stress;
+  const Vector7 three = make_plane_cell(swapped)->evaluate(request).response.stress;
   // Other orders of the sums: round-off, which grows with contacts that slide or open.
   EXPECT_LT((two - one).norm(), 1e-5 * one.norm());
   EXPECT_LT((three - one).norm(), 1e-5 * one.norm());
@@ -192,11 +192,11 @@ TEST(DiscBoxes, OneLatticeInTwoBoxesAnswersAlike) {
 TEST(DiscBoxes, RefuseStatesThatAreNotTheirs) {
   CellDefinition definition = test::demo_cell();
   definition.control.most_relaxation_steps = 100;
-  const auto cell = make_cell_service(definition);
+  const auto cell = make_plane_cell(definition);
   const StatePointer good = cell->initial().state;
   const std::vector<std::byte> bytes(good->bytes().begin(), good->bytes().end());
   const auto refused = [&cell](std::vector<std::byte> changed) {
-    CellRequest request;
+    PlaneRequest request;
     request.state = std::make_shared<const State>(std::move(changed));
     EXPECT_THROW(cell->evaluate(request), RunError);
   };
@@ -207,7 +207,7 @@ TEST(DiscBoxes, RefuseStatesThatAreNotTheirs) {
   for (std::size_t place = 0; place < bytes.size(); place += place < 80 ? 1 : 997) {
     std::vector<std::byte> changed = bytes;
     changed[place] = ~changed[place];
-    CellRequest request;
+    PlaneRequest request;
     request.state = std::make_shared<const State>(std::move(changed));
     request.increment.displacement_gradient << 1e-4, 0.0, 0.0, -1e-4;
     try {
@@ -216,8 +216,8 @@ TEST(DiscBoxes, RefuseStatesThatAreNotTheirs) {
     }
   }
   CellDefinition other = test::rolling_cell(1.0, 0.4);
-  CellRequest request;
-  request.state = make_cell_service(other)->initial().state;
+  PlaneRequest request;
+  request.state = make_plane_cell(other)->initial().state;
   EXPECT_THROW(cell->evaluate(request), RunError);
 }
 

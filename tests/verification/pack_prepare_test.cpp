@@ -9,9 +9,9 @@
 #include <iostream>
 
 #include "common/error.hpp"
-#include "dem/cell/cell_service.hpp"
 #include "dem/pack/prepare.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -211,7 +211,7 @@ TEST(PackPrepare, APackingIsACellUnderItsPressure) {
     CellDefinition cell = test::demo_cell();
     cell.packing = prepare_packing(asked, {}).packing;
     EXPECT_EQ(cell.packing.state != nullptr, friction > 0.0);
-    const Vector7 stress = make_cell_service(cell)->initial().response.stress;
+    const Vector7 stress = make_plane_cell(cell)->initial().response.stress;
     // The state travels to the bit, positions with the digits of the data file.
     EXPECT_NEAR(stress(k11) / -1e5, 1.0, 1.5 * asked.pressure_tolerance) << friction;
     EXPECT_NEAR(stress(k22) / -1e5, 1.0, 1.5 * asked.pressure_tolerance) << friction;

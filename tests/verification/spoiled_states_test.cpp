@@ -116,7 +116,8 @@ TEST_P(SpoiledStates, EndNoEngineByASignal) {
   // then put where the engine has them, in an order that is that of the evaluation before, and so are the last bits.
   const bool leaves_no_trace = GetParam().maker == GetParam().taker;
   CellRequest request;
-  request.increment.displacement_gradient << 0.0, 2e-4, 0.0, -1e-4;
+  request.increment.displacement_gradient(0, 1) = 2e-4;
+  request.increment.displacement_gradient(1, 1) = -1e-4;
   const StatePointer good = make_cell_service(maker)->evaluate(request).state;
   ASSERT_EQ(is_disc_state(*good), GetParam().maker == CellLoop::automatic);
   ASSERT_EQ(state_fault(maker, *good), "");

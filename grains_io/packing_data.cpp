@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "common/packing_data.hpp"
+#include "grains_io/packing_data.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "common/script.hpp"
+#include "grains_io/script.hpp"
 
 #include <fmt/format.h>
 

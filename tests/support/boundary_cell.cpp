@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/cell/boundary_cell.hpp"
+#include "tests/support/boundary_cell.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/plane_in_space.hpp"
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/driver.hpp"
@@ -29,6 +30,12 @@ Packing taken_out(Packing packing) {
   return packing;
 }
 
+/// The boundary turns its grains.
+CellControl turning(CellControl control) {
+  control.rotations = CellRotations::controlled;
+  return control;
+}
+
 class BoundaryCell final : public CellService {
  public:
   explicit BoundaryCell(const CellDefinition& definition);
@@ -37,31 +44,28 @@ class BoundaryCell final : public CellService {
 
  private:
   void find_boundary();
-  [[nodiscard]] Response respond();
+  [[nodiscard]] CellResponse respond();
 
-  CellControl control_;
+  QuasiStatic protocol_;
   Packing packing_;
   Driver driver_;
   std::vector<bool> held_;
   Eigen::Vector2d span_ = Eigen::Vector2d::Zero();  // of the outermost centres in the packing, m
-  double time_of_grain_ = 0.0;
-  double damping_rate_ = 0.0;
   CellReply initial_;
 };
 
 BoundaryCell::BoundaryCell(const CellDefinition& definition)
-    : control_(definition.control),
+    : protocol_(turning(definition.control)),
       packing_(taken_out(definition.packing)),
       driver_(packing_, definition.script, definition.script_file, definition.contact_library) {
   find_boundary();
   driver_.strain().hold(held_);
   driver_.set_up();
-  driver_.settle_time_step(control_.damping);
-  damping_rate_ = driver_.damping_rate(control_.damping);
+  driver_.settle_time_step(definition.control.damping);
   initial_.response = respond();
-  const double pressure = -0.5 * (initial_.response.stress(k11) + initial_.response.stress(k22));
+  const double pressure = -0.5 * (initial_.response.stress(0, 0) + initial_.response.stress(1, 1));
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing_.thickness);
-  time_of_grain_ = 2.0 * driver_.mean_radius() * std::sqrt(density / pressure);
+  protocol_.take_scales({driver_.mean_mass(), driver_.mean_radius(), density}, driver_.contacts(), pressure);
   initial_.state = save_state(driver_.lammps(), driver_.strain().box());
 }
 
@@ -87,42 +91,34 @@ CellReply BoundaryCell::evaluate(const CellRequest& request) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   lammps.update->ntimestep = 0;
   const Box box = restore_state(lammps, request.state ? *request.state : *initial_.state).box;
-  const Increment& increment = request.increment;
-  const double size =
-      std::max({increment.displacement_gradient.cwiseAbs().maxCoeff(), std::abs(increment.micro_rotation),
-                increment.curvature.norm() * span_.norm()});
-  const double steps = size * time_of_grain_ / (control_.inertial_number * driver_.strain().time_step());
-  const int loading = std::max(control_.least_steps, static_cast<int>(std::min(steps, 1e8)));
-  driver_.strain().begin(BoxPath(box, increment.displacement_gradient, loading), damping_rate_,
-                         RotationLoading{increment.micro_rotation, increment.curvature});
+  if (const std::string fault = out_of_plane_fault(request.increment); !fault.empty()) throw RunError(fault);
+  const Increment increment = in_plane(request.increment);
+  driver_.strain().begin(protocol_.begin(box, increment, driver_.strain().time_step(), span_.norm()),
+                         protocol_.damping_rate(), protocol_.rotation_of(increment));
   driver_.strain().hold(held_);
   driver_.set_up();
 
-  driver_.run(loading);
-  Equilibrium now = driver_.equilibrium();
-  int relaxed = 0;
-  const auto at_rest = [&] {
-    return now.unbalanced_force_ratio <= control_.unbalanced_force_ratio &&
-           now.unbalanced_moment_ratio <= control_.unbalanced_moment_ratio;
-  };
-  for (; !at_rest() && relaxed < control_.most_relaxation_steps; relaxed += kRelaxationChunk) {
-    driver_.run(kRelaxationChunk);
+  Equilibrium now;
+  do {
+    const int steps = protocol_.steps_to_next_look();
+    driver_.run(steps);
+    protocol_.advance(steps);
     now = driver_.equilibrium();
-  }
+  } while (!protocol_.ended(now.unbalanced_force_ratio, now.unbalanced_moment_ratio));
   CellReply reply;
   reply.response = respond();
-  if (!at_rest()) {
+  if (!protocol_.at_rest(now.unbalanced_force_ratio, now.unbalanced_moment_ratio)) {
     reply.response.quality = Quality::unreliable;
     reply.response.message = "the cell with a prescribed boundary did not come to rest";
   }
   reply.diagnostics.unbalanced_force_ratio = now.unbalanced_force_ratio;
   reply.diagnostics.unbalanced_moment_ratio = now.unbalanced_moment_ratio;
-  reply.diagnostics.dem_steps = loading + relaxed;
+  reply.diagnostics.dem_steps = protocol_.done();
   reply.state = save_state(lammps, driver_.strain().box());
   return reply;
 }
 
-Response BoundaryCell::respond() {
+CellResponse BoundaryCell::respond() {
   const LAMMPS_NS::Atom& atom = *driver_.lammps().atom;
   const Box box = driver_.strain().box();
   const Eigen::Vector2d centre = 0.5 * box.base_vectors().rowwise().sum();
@@ -139,7 +135,7 @@ Response BoundaryCell::respond() {
   stress = frame * stress * frame.transpose();
   Response response;
   response.stress << stress(0, 0), stress(1, 1), 0.0, stress(0, 1), stress(1, 0), frame * couple_stress;
-  return response;
+  return in_space(response, KnownComponents::plane);
 }
 
 }  // namespace

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+
+#include "common/cell_increment.hpp"
+#include "common/cell_response.hpp"
+#include "common/increment.hpp"
+
+namespace polargrain {
+
+// The plane of finite elements and of discs within the space of cells (docs/theory/continuum.md, A.7): the one place
+// that knows where the seven components of Component stand among the eighteen. e_3 is normal to the plane; nothing
+// moves along it, and rotations are about it.
+
+/// What a point of the plane asks of its cell. The increment is about the start of the step already.
+CellIncrement in_space(const Increment& increment);
+
+/// The part of an increment that lies in the plane.
+Increment in_plane(const CellIncrement& increment);
+
+/// Why discs cannot follow an increment; nothing when it lies in their plane.
+std::string out_of_plane_fault(const CellIncrement& increment);
+
+/// @param known what the components outside of the plane are worth: all, when they are zero or s33; plane, when nothing
+/// is known of them
+CellResponse in_space(const Response& response, KnownComponents known);
+
+/// The components of the plane, s33 among them; zero where the cell does not know it.
+Response in_plane(const CellResponse& response);
+
+}  // namespace polargrain

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <utility>
+
+#include "common/cell.hpp"
+#include "common/plane_in_space.hpp"
+
+namespace polargrain::coupler {
+
+// Cells as the points of plane finite elements see them: what goes to a cell is put into space here, what comes from it
+// is taken out of space here, and nowhere else.
+
+/// What a point asks of a cell.
+struct PlaneRequest {
+  StatePointer state;   ///< null: the packing
+  Increment increment;  ///< about the start of the step (increment_for_cell)
+};
+
+/// What a cell answers to a point of the plane.
+struct PlaneReply {
+  Response response;  ///< the cell's own stress and tangent
+  /// Whether the cell has a stress along e_3. Discs have none: the s33 of the response is zero then, and the material
+  /// that asks says what it puts there.
+  bool knows_s33 = true;
+  CellDiagnostics diagnostics;
+  StatePointer state;  ///< state after the increment; null when the evaluation failed
+};
+
+template <RecordOf<PlaneReply> Record, class Visit>
+void describe(Record& reply, Visit&& visit) {
+  visit(FieldNotes{"response", "", "stress and tangent of the cell"}, reply.response);
+  visit(FieldNotes{"knows_s33", "", "whether the cell has a stress normal to the plane"}, reply.knows_s33);
+  visit(FieldNotes{"diagnostics", "", "diagnostics at read-out"}, reply.diagnostics);
+  visit(FieldNotes{"state", "", "state after the increment"}, reply.state);
+}
+
+inline CellRequest in_space(const PlaneRequest& request) {
+  return {request.state, polargrain::in_space(request.increment)};
+}
+
+inline PlaneReply in_plane(CellReply reply) {
+  return {polargrain::in_plane(reply.response), reply.response.known == KnownComponents::all,
+          reply.diagnostics, std::move(reply.state)};
+}
+
+/// One engine, asked in the plane.
+class PlaneCell {
+ public:
+  explicit PlaneCell(std::unique_ptr<CellService> cell) : cell_(std::move(cell)) {}
+  [[nodiscard]] PlaneReply initial() const { return in_plane(cell_->initial()); }
+  [[nodiscard]] PlaneReply evaluate(const PlaneRequest& request) const {
+    return in_plane(cell_->evaluate(in_space(request)));
+  }
+
+ private:
+  std::unique_ptr<CellService> cell_;
+};
+
+}  // namespace polargrain::coupler
