@@ -49,7 +49,7 @@ class PlaneCell {
  public:
   explicit PlaneCell(std::unique_ptr<CellService> cell) : cell_(std::move(cell)) {}
   [[nodiscard]] PlaneReply initial() const { return in_plane(cell_->initial()); }
-  [[nodiscard]] PlaneReply evaluate(const PlaneRequest& request) const {
+  PlaneReply evaluate(const PlaneRequest& request) const {
     return in_plane(cell_->evaluate(in_space(request)));
   }
 
