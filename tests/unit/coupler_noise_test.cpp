@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "coupler/cells/cell_noise.hpp"
+#include "coupler/cells/plane_cell.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
 TEST(CellNoise, IsThePressureTimesTheUnbalancedRatioOverTheRootOfTheGrains) {
-  CellReply reply;
+  PlaneReply reply;
   reply.response.stress << -80e3, -220e3, -100e3, 5e3, 5e3, 1.0, 1.0;
   reply.diagnostics.unbalanced_force_ratio = 5e-3;
   reply.diagnostics.contacts = 800;
@@ -25,7 +26,7 @@ TEST(CellNoise, IsThePressureTimesTheUnbalancedRatioOverTheRootOfTheGrains) {
 }
 
 TEST(CellNoise, IsNoneWithoutContacts) {
-  EXPECT_TRUE(noise_of(CellReply{}, 5e-3).is_zero());
+  EXPECT_TRUE(noise_of(PlaneReply{}, 5e-3).is_zero());
 }
 
 }  // namespace
