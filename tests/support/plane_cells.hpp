@@ -16,7 +16,8 @@ using coupler::PlaneRequest;
 /// A cell of discs, asked in their plane.
 class PlaneDiscs : public PlaneCell {
  public:
-  explicit PlaneDiscs(std::unique_ptr<CellOfGrains> cell) : PlaneDiscs(*cell, std::move(cell)) {}
+  // Braces: the first is taken before the second is moved.
+  explicit PlaneDiscs(std::unique_ptr<CellOfGrains> cell) : PlaneDiscs{*cell, std::move(cell)} {}
   [[nodiscard]] std::span<const Contact> contacts() const { return grains_.contacts(); }
 
  private:
