@@ -5,7 +5,7 @@ target_link_libraries(polargrain_fake_engine PUBLIC polargrain_grains_io)
 add_executable(fake_worker integration/fake_worker.cpp)
 target_link_libraries(fake_worker PRIVATE polargrain_pool polargrain_fake_engine)
 
-polargrain_test(coupler_pool_test integration integration/coupler_pool_test.cpp
+polargrain_test(coupler_pool_test integration integration/coupler_pool_test.cpp integration/coupler_pool_failures_test.cpp
                 LIBS polargrain_pool polargrain_fake_engine)
 target_compile_definitions(coupler_pool_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>")
 add_dependencies(coupler_pool_test fake_worker)
