@@ -10,7 +10,6 @@
 #include <fstream>
 #include <string_view>
 
-#include "common/error.hpp"
 #include "common/plain_text.hpp"
 
 namespace polargrain {
@@ -25,23 +24,33 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& file) : file_(file) {
+CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults) : file_(file) {
   std::ifstream stream(file);
   if (!stream) fail(0, "cannot be read: no such file, or no permission");
   std::string line;
+  std::vector<Fault> ragged;
   for (int number = 1; std::getline(stream, line); ++number) {
     if (trimmed(line).empty()) continue;
-    if (names_.empty() && line.front() == '#') {
+    if (line.front() == '#') {
       comments_.push_back(line);
     } else if (names_.empty()) {
       names_ = cells_of(line, number);
       line_of_names_ = number;
     } else {
-      rows_.push_back({number, cells_of(line, number)});
-      if (const std::size_t count = rows_.back().cells.size(); count != names_.size())
-        fail(number, fmt::format("there are {} columns ('{}') and {} values here", names_.size(),
-                                 fmt::join(names_, ","), count));
+      std::vector<std::string> cells = cells_of(line, number);
+      if (cells.size() == names_.size()) {
+        rows_.push_back({number, std::move(cells)});
+      } else {
+        ragged.push_back({file_.string(), number,
+                          plain_text(fmt::format("there are {} columns ('{}') and {} values here",
+                                                 names_.size(), fmt::join(names_, ","), cells.size()))});
+      }
     }
+  }
+  if (faults != nullptr) {
+    *faults = std::move(ragged);
+  } else if (!ragged.empty()) {
+    throw InputError(ragged);
   }
   if (names_.empty()) fail(0, "is empty; a line with the names of the columns was expected");
 }

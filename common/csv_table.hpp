@@ -4,17 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace polargrain {
 
-/// A CSV file: lines of comments that begin with '#', then the names of the columns, then rows with a cell for each.
-/// Cells may be quoted as RFC 4180 says, but hold no line ends. Spaces around cells do not count, nor do empty lines.
+/// A CSV file: the names of the columns, then rows with a cell for each. Cells may be quoted as RFC 4180 says, but hold
+/// no line ends. Spaces around cells do not count, nor do empty lines and those that begin with '#'.
 class CsvTable {
  public:
-  /// @throws InputError naming file and line when it cannot be read, or a row has not a cell for each column
-  explicit CsvTable(const std::filesystem::path& file);
+  /// @param faults gets a fault for each row that has not a cell for each column, and the table is without it; null:
+  /// such rows are an error
+  /// @throws InputError naming file and line: of all such rows, or because it cannot be read
+  explicit CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults = nullptr);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  /// Lines before the names of the columns.
+  /// The lines that begin with '#'.
   [[nodiscard]] const std::vector<std::string>& comments() const { return comments_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] std::size_t rows() const { return rows_.size(); }

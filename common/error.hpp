@@ -20,7 +20,7 @@ struct Fault {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);
-  explicit InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
+  explicit InputError(const Fault& fault) : InputError(std::vector<Fault>{fault}) {}
   [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
 
  private:

@@ -15,6 +15,7 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
+#include "common/csv_table.hpp"
 #include "common/error.hpp"
 #include "common/plane_in_space.hpp"
 #include "common/record_table.hpp"
@@ -27,17 +28,6 @@ namespace polargrain::app {
 namespace {
 
 const std::vector<std::string> kPathColumns = names_of_columns<Increment>();
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t\r");
-    const auto last = cell.find_last_not_of(" \t\r");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-  }
-  return cells;
-}
 
 Increment increment_of(const std::vector<double>& numbers) {
   const RecordValues values{numbers, {}, {}, {}};
@@ -158,32 +148,21 @@ coupler::Case case_for(const PointOptions& options) {
 }  // namespace
 
 std::vector<Increment> read_path(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw InputError({file.string(), 0, "there is no such file; give the path of a CSV file of increments"});
   coupler::Faults faults;
+  const CsvTable table(file, &faults);
+  coupler::Faults of_columns;
+  const std::vector<std::size_t> columns =
+      columns_of(table.names(), {file.string(), table.line_of_names(), ""}, of_columns);
+  if (!of_columns.empty()) throw InputError(of_columns);  // rows of unknown columns say nothing
   std::vector<Increment> increments;
-  std::vector<std::size_t> columns;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    const std::vector<std::string> cells = split(line);
-    if (cells.empty() || line.front() == '#' || (cells.size() == 1 && cells[0].empty())) continue;
-    const Fault place{file.string(), number, ""};
-    if (columns.empty()) {
-      columns = columns_of(cells, place, faults);
-      if (!faults.empty()) break;  // the rows of a table whose columns are unknown say nothing
-      continue;
-    }
-    if (cells.size() != columns.size()) {
-      faults.push_back(
-          {place.file, number, fmt::format("expected {} numbers, found {}", columns.size(), cells.size())});
-      continue;
-    }
+  for (std::size_t row = 0; row < table.rows(); ++row) {
     std::vector<double> values(kPathColumns.size(), 0.0);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const auto value = parse_quantity(cells[c], coupler::Dimension::number);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const std::string& cell = table.cell(row, c);
+      const auto value = parse_quantity(cell, coupler::Dimension::number);
       if (!value)
-        faults.push_back({place.file, number, fmt::format("expected a number, found '{}'", cells[c])});
+        faults.push_back(
+            {file.string(), table.line_of(row), fmt::format("expected a number, found '{}'", cell)});
       values[columns[c]] = value.value_or(0.0);
     }
     increments.push_back(increment_of(values));
@@ -194,6 +173,7 @@ std::vector<Increment> read_path(const std::filesystem::path& file) {
          fmt::format("holds no increment; expected a line of names out of {} and an increment a line",
                      coupler::listed(kPathColumns))});
   }
+  std::ranges::stable_sort(faults, {}, &Fault::line);
   if (!faults.empty()) throw InputError(faults);
   return increments;
 }

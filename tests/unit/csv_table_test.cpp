@@ -45,6 +45,16 @@ TEST_F(CsvTableTest, KeepsCommentsNamesAndTheLinesOfRows) {
   EXPECT_EQ(read.cell(1, "c"), "6, \"7\"");
 }
 
+TEST_F(CsvTableTest, CanLeaveRowsOutThatHaveNotACellForEachColumn) {
+  std::ofstream(file_) << "a,b\n1\n2,3\n# nothing\n4,5,6\n";
+  std::vector<Fault> faults;
+  const CsvTable read(file_, &faults);
+  EXPECT_EQ(read.numbers("b"), (std::vector<double>{3.0}));
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].line, 2);
+  EXPECT_EQ(faults[1].line, 5);
+}
+
 TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(fault("a,b\n1,2\n"), "none");
   EXPECT_EQ(fault("a,b\n1,2\n3\n"), "3: there are 2 columns ('a,b') and 1 values here");
