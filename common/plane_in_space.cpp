@@ -32,12 +32,10 @@ std::string out_of_plane_fault(const CellIncrement& increment) {
   const CellIncrement within = in_space(in_plane(increment));
   if (within.displacement_gradient != increment.displacement_gradient)
     return "discs cannot move out of their plane: the displacement gradient of the increment must have zeros "
-           "in "
-           "its third row and column";
+           "in its third row and column";
   if (within.rotation != increment.rotation || within.curvature != increment.curvature)
     return "discs turn about the normal of their plane alone: rotations about another axis, and curvatures "
-           "but k31 "
-           "and k32, must be zero";
+           "but k31 and k32, must be zero";
   return {};
 }
 

@@ -14,8 +14,7 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
   std::string text = fmt::format(
       "<p>Reference: {}. Errors are the largest difference from its curve over {}, as a share of the curve's "
       "range. Red: no other run is both faster and closer. White: stopped before its end. Drawing a "
-      "rectangle "
-      "with the mouse enlarges it, a double click shows all again.</p>\n",
+      "rectangle with the mouse enlarges it, a double click shows all again.</p>\n",
       escaped(results.front().setting.label), escaped(axes.x));
   if (sizes.empty()) return text;
   return text + fmt::format(

@@ -152,8 +152,7 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
   if (record.jumps > 0) {
     text += fmt::format(
         "{} jumps of the stresses were passed; the largest left {:.3g} of the forces out of balance, let go "
-        "by the end "
-        "of its step\n",
+        "by the end of its step\n",
         record.jumps, record.jump_residual);
   }
   return text;

@@ -50,8 +50,7 @@ double CellLimits::plastic_length() const {
 std::string CellLimits::text() const {
   return fmt::format(
       "M {:.4g}, skew stress {:.4g} of the pressure, couple stress {:.4g} mm times the pressure (plastic "
-      "length {:.3g} "
-      "mm)",
+      "length {:.3g} mm)",
       friction, skew, 1e3 * couple, 1e3 * plastic_length());
 }
 

@@ -137,8 +137,7 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
         fmt::format("| {} | the cell before the first increment: box, grains, contact histories |\n", kState);
   text +=
       "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s22 s33 "
-      "s12 "
-      "s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the face.\n";
+      "s12 s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the face.\n";
   if (replay.answers.empty()) return text + "\nThe cell gave no answer that could be compared.\n";
   text +=
       definition.control.loop == CellLoop::engine

@@ -152,8 +152,7 @@ std::string packing_fault(const PackingAtRest& packing, double unrest, const std
     return fmt::format(
         "Under {}: {}: the contacts are too soft for the pressure (k_n / (p t) is {:.3g}); take a stiffer "
         "script or a lower pressure, and bring the packing to rest with it: 'polargrain pack --settle "
-        "PACKING "
-        "SCRIPT -o NEW.h5'",
+        "PACKING SCRIPT -o NEW.h5'",
         script, description(packing.overlaps), packing.stiffness_level);
   if (fault.empty()) return {};
   return fmt::format(

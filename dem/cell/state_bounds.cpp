@@ -47,8 +47,7 @@ std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& m
   if (is_sound) return {};
   return fmt::format(
       "this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}) m and moves at ({:.3g}, {:.3g}) "
-      "m/s "
-      "and {:.3g} rad/s, turned by {:.3g} rad",
+      "m/s and {:.3g} rad/s, turned by {:.3g} rad",
       grain, motion.x, motion.y, motion.vx, motion.vy, motion.spin, motion.turned);
 }
 

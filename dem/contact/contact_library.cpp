@@ -40,8 +40,7 @@ void require_content(const std::string& file, const std::string& content) {
   if (name_of(std::as_bytes(std::span(bytes))).text() != content)
     fail(file,
          "it is another one than the coordinator found when the run began; put the same file on every "
-         "machine, and "
-         "build it again only between runs");
+         "machine, and build it again only between runs");
 }
 
 const ContactLibrary& load(const std::string& file) {

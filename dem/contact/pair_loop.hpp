@@ -44,6 +44,7 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
   }
 
  private:
+  /// One long function: what it keeps at hand over all pairs would be handed from part to part, once a contact.
   __attribute__((flatten)) void plain_pass(LAMMPS_NS::PairGran& pair) {
     using LIGGGHTS::ContactModels::ForceData;
     using LIGGGHTS::ContactModels::SurfacesIntersectData;

@@ -32,8 +32,7 @@ std::int32_t copy_of(double boxes) {
   if (std::abs(boxes) < kMostBoxes) return static_cast<std::int32_t>(std::floor(boxes));
   throw RunError(
       "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed "
-      "into "
-      "each other");
+      "into each other");
 }
 
 /// Bins of a periodic box that is divided evenly along its base vectors, none narrower than it must be where

@@ -100,8 +100,7 @@ void check_softening(const HardeningCone& hardening, const SubspaceModuli& modul
     if (!(modulus > 0.0)) {
       found.push_back(fmt::format(
           "softening is too steep for this elasticity: 3G + K M_phi M_psi - M_phi' p + k' = {:.6g} Pa at "
-          "gamma_p = {} "
-          "and mean stress p = {:.6g} Pa, but it must be above 0; soften over a larger range of gamma_p",
+          "gamma_p = {} and mean stress p = {:.6g} Pa, but it must be above 0; soften over a larger range of gamma_p",
           modulus, place.gamma_p, mean));
       return;
     }

@@ -26,8 +26,7 @@ std::string JumpWatch::statement() const {
   const Attempt& last = attempts_.back();
   return fmt::format(
       "; the stresses jump here, however small the strain: the predictor leaves a residual of {:.3g} at "
-      "{:.2g} "
-      "of the step, and still {:.3g} at {:.2g}",
+      "{:.2g} of the step, and still {:.3g} at {:.2g}",
       longer->residual, longer->share, last.residual, last.share);
 }
 

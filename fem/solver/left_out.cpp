@@ -30,10 +30,8 @@ std::string left_out_by_small_deformation(const Discretisation& discretisation,
   if (rotation <= kRotation && strain <= kStrain) return {};
   return fmt::format(
       "small deformation leaves out that element {} has turned by {:.2g} rad and element {} been strained by "
-      "{:.2g}: "
-      "stresses are off by up to {:.0f} % of the difference of the principal stresses, lengths by up to "
-      "{:.0f} %, and "
-      "more from here on; 'deformation: large' takes both in",
+      "{:.2g}: stresses are off by up to {:.0f} % of the difference of the principal stresses, lengths by up to "
+      "{:.0f} %, and more from here on; 'deformation: large' takes both in",
       discretisation.element_of_point(turned), rotation, discretisation.element_of_point(strained), strain,
       100.0 * rotation, 100.0 * strain);
 }

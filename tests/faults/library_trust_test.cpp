@@ -10,8 +10,7 @@ namespace {
 
 const std::string kRefused =
     "contact_library: 'laws.so' is a program, and would run with your rights; say --trust-scripts when you "
-    "trust it, or "
-    "remove the key\n";
+    "trust it, or remove the key\n";
 
 class LibraryTrust : public ::testing::Test {
  protected:

@@ -119,16 +119,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:3: mesh.rectangle: size: must be greater than zero, found '-0.8 m'"},
         BadInput{"WrongUnit", "size: [0.4 m,", "size: [0.4 kPa,",
                  "case.yaml:3: mesh.rectangle: size: expected a length in m, or with one of the units m, mm, "
-                 "cm, um, "
-                 "km, found '0.4 kPa'"},
+                 "cm, um, km, found '0.4 kPa'"},
         BadInput{"NoNumber", "G: 40 MPa", "G: stiff",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
-                 "kPa, MPa, "
-                 "GPa, or 'from packing', found 'stiff'"},
+                 "kPa, MPa, GPa, or 'from packing', found 'stiff'"},
         BadInput{"NotFinite", "G: 40 MPa", "G: inf",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
-                 "kPa, MPa, "
-                 "GPa, or 'from packing', found 'inf'"},
+                 "kPa, MPa, GPa, or 'from packing', found 'inf'"},
         BadInput{"ZeroModulus", "Gc: 10 MPa", "Gc: 0",
                  "case.yaml:7: material 'sand': Gc: must be greater than zero, found '0'"},
         BadInput{"FractionOfASteps", "count: 4", "count: 2.5",
@@ -150,12 +147,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "'cell'?"},
         BadInput{"MissingPacking", "packing: grains.csv", "packing: grain.csv",
                  "case.yaml:7: material 'sand': packing: there is no file 'grain.csv', neither beside the "
-                 "case nor "
-                 "below liggghts_inputs/; correct the path or put the file there"},
+                 "case nor below liggghts_inputs/; correct the path or put the file there"},
         BadInput{"MissingScript", "script: fake.in", "script: cells/fake.in",
                  "case.yaml:7: material 'sand': script: there is no file 'cells/fake.in', neither beside the "
-                 "case nor "
-                 "below liggghts_inputs/; correct the path or put the file there"},
+                 "case nor below liggghts_inputs/; correct the path or put the file there"},
         BadInput{
             "TableOutOfOrder", "pressure: 100 kPa", "pressure: [[0, 0], [1, 100 kPa], [1, 50 kPa]]",
             "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than that "
@@ -172,8 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:5: case: deformation: expected one of small, large, found 'finite'"},
         BadInput{"MissingMeshFile", "  rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}", "  file: no.msh",
                  "case.yaml:3: mesh: file: there is no mesh 'no.msh' beside the case; correct the path or "
-                 "make the "
-                 "mesh (gmsh -2 SHAPE.geo)"},
+                 "make the mesh (gmsh -2 SHAPE.geo)"},
         BadInput{"FileThatIsNoMesh", "  rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}",
                  "  file: grains.csv", "case.yaml:3: mesh: grains.csv: expected a mesh file, NAME.msh"},
         BadInput{"MeshTwice", "  element: Q8R", "  file: a.msh",
@@ -240,20 +234,17 @@ INSTANTIATE_TEST_SUITE_P(
                  "node_force"},
         BadInput{"FreeTranslation", "  - {on: bottom_left, fix: [u1]}", "  #",
                  "case.yaml:12: boundary: nothing holds the body against a rigid motion (translation along "
-                 "1); fix "
-                 "or move a displacement that stops it"},
+                 "1); fix or move a displacement that stops it"},
         BadInput{
             "UnknownValueInFormula", "-top_force /", "-top_forse /",
             "case.yaml:21: monitor 'stress_ratio': there is no value 'top_forse' before it; did you mean "
             "'top_force'?"},
         BadInput{"BrokenFormula", "100 kPa)", "100 kPa",
                  "case.yaml:21: monitor 'stress_ratio': expected ')' at character 30 of '-top_force / (0.4 m "
-                 "* 100 "
-                 "kPa'"},
+                 "* 100 kPa'"},
         BadInput{"MonitorOfNothing", "reaction: u2", "strain: u2",
                  "case.yaml:20: monitor 'top_force': expected either 'reaction' or 'displacement', each one "
-                 "of u1, "
-                 "u2, w, or a formula\n"
+                 "of u1, u2, w, or a formula\n"
                  "case.yaml:20: monitor 'top_force': unknown key 'strain'; known keys are on, reaction, "
                  "displacement"},
         BadInput{
@@ -292,8 +283,7 @@ TEST_F(BadInputTest, AllFaultsAtOnceInTheOrderOfTheFile) {
   EXPECT_EQ(
       outcome.errors,
       "case.yaml:3: mesh.rectangle: size: expected a length in m, or with one of the units m, mm, cm, um, "
-      "km, "
-      "found '0.8 s'\n"
+      "km, found '0.8 s'\n"
       "case.yaml:7: material 'sand': script: there is no file 'no.in', neither beside the case nor below "
       "liggghts_inputs/; correct the path or put the file there\n"
       "case.yaml:17: steps: count: expected a whole number of at least 1, found 'none'\n");
@@ -326,8 +316,7 @@ TEST_F(BadInputTest, ADirectoryOfTheUsersOwnIsNotTouched) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.errors,
             "out: exists and holds no former result; give an empty or new directory with -o DIR, so that no "
-            "file of "
-            "yours is mixed with results\n");
+            "file of yours is mixed with results\n");
   EXPECT_EQ(names_in(scratch.path() / "out"), std::vector<std::string>{"thesis.txt"});
 }
 

@@ -46,8 +46,7 @@ TEST_F(PackingFile, IsReadWithItsCell) {
 TEST_F(PackingFile, FaultsNameTheLineAndWhatIsExpected) {
   EXPECT_EQ(fault("id,x\n"),
             ":1: expected the cell's base vectors as '# cell xx=... xy=... yx=... yy=... z=...' in m; 'xx=' "
-            "is missing "
-            "or not a number");
+            "is missing or not a number");
   EXPECT_EQ(fault("# cell xx=0.2 xy=0 yx=0 yy=0 z=0.1\nid,x,y,r,mass,Izz\n"),
             ":1: the base vectors span no area (or are left-handed)");
   EXPECT_EQ(fault("# cell xx=0.2 xy=0 yx=0 yy=0.2 z=0.1\nx,y\n"),

@@ -52,8 +52,7 @@ TEST(BoundaryCell, CosseratModuliFollowItsSize) {
   };
   std::printf(
       "[figure] boundary layer, lattice of N x N: s_12 per u_2,1 at w = 0, Gc and couple modulus over the "
-      "exact "
-      "ones (published)\n");
+      "exact ones (published)\n");
   for (const auto& [size, published] : {Row{6, {0.768, 0.373, 56.0}}, Row{8, {0.721, 0.271, 80.0}},
                                         Row{12, {0.679, 0.175, 129.0}}, Row{16, {0.660, 0.129, 178.0}}}) {
     const Moduli found = moduli(size);

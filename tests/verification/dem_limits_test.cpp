@@ -48,8 +48,7 @@ TEST(CellLimits, SkewStressIsTwiceFrictionTimesPressure) {
   }
   std::printf(
       "[figure] skew stress over 2 mu p at a relative rotation of 0.04: %.3f; multiplier against skew "
-      "stress: "
-      "%.1e of the pressure\n",
+      "stress: %.1e of the pressure\n",
       ratio, difference);
   EXPECT_NEAR(ratio, 1.0, 0.03);
   // The mean unbalanced moment is below 5e-3 of force times radius, and those of grains cancel.
@@ -93,8 +92,7 @@ TEST(CellLimits, CoupleStressIsThatOfContactsAtTheirRollingLimit) {
   const double limit = 4.0 / std::numbers::pi * kFriction * (sum / weights) * pressure_now;
   std::printf(
       "[figure] couple stress of the moments over (4/pi) mu_th r_c p at a curvature of 6 rad/m: %.3f, %.0f "
-      "%% of the "
-      "contacts at the limit; polar part %.3f, %.2f of what sliding contacts could carry\n",
+      "%% of the contacts at the limit; polar part %.3f, %.2f of what sliding contacts could carry\n",
       of_moments / limit, 100.0 * rolling, couple_stress / limit - of_moments / limit,
       (couple_stress - of_moments) / polar_limit);
   EXPECT_NEAR(of_moments / limit, 1.0, 0.1);

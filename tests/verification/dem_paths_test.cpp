@@ -74,8 +74,7 @@ TEST_P(Paths, FollowTheIndependentCode) {
   }
   std::printf(
       "[figure] %s path: largest error of a normal stress %.2f %% in 3 increments, %.2f %% in 10; %lld DEM "
-      "steps "
-      "an increment\n",
+      "steps an increment\n",
       GetParam().c_str(), 100.0 * worst_of_three, 100.0 * worst_of_ten, static_cast<long long>(steps / 10));
   // The packing is the same, so the codes agree closely at first; later, small differences grow (grains are
   // chaotic).

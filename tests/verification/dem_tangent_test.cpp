@@ -119,8 +119,7 @@ TEST(Tangent, AfterYieldItKnowsWhatSlides) {
     const double affine = error(*affine_cell);
     std::printf(
         "[figure] after %d e-3 of isochoric strain, %.0f %% of the contacts sliding, %.0f %% at the rolling "
-        "limit: "
-        "condensed tangent %.2f of the derivative away, Voigt tangent %.2f\n",
+        "limit: condensed tangent %.2f of the derivative away, Voigt tangent %.2f\n",
         k, 100.0 * reply.diagnostics.sliding_fraction, 100.0 * reply.diagnostics.rolling_fraction, condensed,
         affine);
     // Contacts that come to slide or stop sliding within the difference make the rest.

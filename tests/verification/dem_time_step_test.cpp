@@ -109,8 +109,7 @@ TEST(TimeStep, WavesOfTheHexagonalLattice) {
     const double found = largest_frequency(driver.contacts(), inertia_of(driver.lammps()));
     std::printf(
         "[figure] lattice of %d x %d: largest frequency %.5f of the exact, bound %.4f; all discs turning "
-        "alike "
-        "%.5f\n",
+        "alike %.5f\n",
         size, size, found / exact, frequency_bound(driver.contacts(), inertia_of(driver.lammps())) / exact,
         std::sqrt(24.0 * test::kTangential / mass) / exact);
     EXPECT_NEAR(found / exact, 1.0, 1e-3);
@@ -145,8 +144,7 @@ TEST(TimeStep, TheStableStepIsWhereTheEngineBlowsUp) {
   const double above = unrest(lattice, 1.02, 0.0);
   std::printf(
       "[figure] unbalanced moments after 3000 steps of 0.98 and 1.02 of the stable step: %.2e and %.2e of "
-      "those "
-      "at the start\n",
+      "those at the start\n",
       below, above);
   EXPECT_LT(below, 10.0);
   EXPECT_GT(above, 100.0);
