@@ -12,10 +12,10 @@
 #include <ctime>
 #include <vector>
 
-#include "coupler/cells/plane_cell.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/pack/prepare.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain {
 namespace {
@@ -83,7 +83,7 @@ struct Run {
 Run isochoric(CellDefinition definition, const Settings& asked, int increments) {
   definition.control = asked.control;
   if (asked.time_step > 0.0) definition.script += fmt::format("\ntimestep {:.17g}\n", asked.time_step);
-  const coupler::PlaneCell cell(dem::make_cell_service(definition));
+  const dem::PlaneCell cell(dem::make_cell_service(definition));
   Run run;
   coupler::PlaneRequest request;
   request.increment.displacement_gradient << 1e-3, 0.0, 0.0, -1e-3;
@@ -217,7 +217,7 @@ std::string besides(const CellDefinition& definition) {
   one.control.least_steps = 1;
   CellDefinition asked = definition;
   asked.control = one.control;
-  const coupler::PlaneCell cell(dem::make_cell_service(asked));
+  const dem::PlaneCell cell(dem::make_cell_service(asked));
   coupler::PlaneRequest request;
   request.increment.displacement_gradient << 1e-6, 0.0, 0.0, -1e-6;
   double least = 1e300;

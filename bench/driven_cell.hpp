@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common/cell.hpp"
-#include "coupler/cells/plane_cell.hpp"
 #include "dem/cell/cell_service.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain {
 
@@ -94,7 +94,7 @@ class DrivenCell {
   [[nodiscard]] std::int64_t dem_steps() const { return dem_steps_; }
 
  private:
-  coupler::PlaneCell cell_;
+  dem::PlaneCell cell_;
   coupler::PlaneReply at_;
   int evaluations_ = 0;
   std::int64_t dem_steps_ = 0;

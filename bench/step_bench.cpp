@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "bench/bare_loop.hpp"
-#include "coupler/cells/plane_cell.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/plane_cells.hpp"
 
 namespace polargrain {
 namespace {
@@ -87,7 +87,7 @@ coupler::PlaneRequest isochoric() {
 
 Variant cell_variant(std::string what, const std::string& style, CellLoop loop) {
   return {std::move(what),
-          [cell = std::make_shared<coupler::PlaneCell>(dem::make_cell_service(cell_of(style, loop)))] {
+          [cell = std::make_shared<dem::PlaneCell>(dem::make_cell_service(cell_of(style, loop)))] {
             const double start = processor_seconds();
             const coupler::PlaneReply reply = cell->evaluate(isochoric());
             return (processor_seconds() - start) / static_cast<double>(reply.diagnostics.dem_steps);
@@ -109,7 +109,7 @@ void hold_to_cell(const Packing& packing, const std::string& style) {
   bench::BareLoop<Rolling> bare(packing, kMaterial);
   bare.run(kStrain, kSteps);
   const coupler::PlaneReply reply =
-      coupler::PlaneCell(dem::make_cell_service(cell_of(style, CellLoop::automatic))).evaluate(isochoric());
+      dem::PlaneCell(dem::make_cell_service(cell_of(style, CellLoop::automatic))).evaluate(isochoric());
   Eigen::Matrix2d stress;
   stress << reply.response.stress(k11), reply.response.stress(k12), reply.response.stress(k21),
       reply.response.stress(k22);

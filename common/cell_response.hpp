@@ -28,7 +28,7 @@ inline constexpr std::array<int, 6> kPlanePlaces{0, 1, 3, 4, 11, 14};
 
 /// What a cell answers, in space and in the laboratory (docs/theory/continuum.md, A.7). What it cannot tell is zero,
 /// and does not travel.
-struct CellResponse {
+struct CellResponse : Trust {
   /// stress(i,j), Pa: i the normal of the face, j the direction of the force, tension positive.
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   /// couple_stress(i,j), N/m: i the normal of the face, j the axis of the moment.
@@ -37,12 +37,6 @@ struct CellResponse {
   /// them does work on, eps_ij = d u_j / d x_i - e_ijk w_k, then d w_j / d x_i.
   Matrix18 tangent = Matrix18::Zero();
   KnownComponents known = KnownComponents::all;
-  StressNoise noise;
-  Quality quality = Quality::good;
-  /// Why the answer is not good; empty when it is.
-  std::string message;
-  /// When the answer is not good: the fraction of the increment that should be tried instead, in (0, 1).
-  double step_factor = 1.0;
 
   /// Stress and couple stress in the order of the tangent.
   [[nodiscard]] Vector18 components() const {
@@ -82,12 +76,7 @@ void describe(Record& response, Visit&& visit) {
       response.tangent(kPlanePlaces, kPlanePlaces) = slopes;
     }
   }
-  visit(FieldNotes{"noise", "Pa, N/m", "how well the stress is known"}, response.noise);
-  visit(FieldNotes{"quality", "", "-1 failed, 0 unreliable, 1 good"}, response.quality);
-  visit(FieldNotes{"message", "", "why the answer is not good"}, response.message);
-  visit(
-      FieldNotes{"step_factor", "1", "fraction of the increment to try instead, when the answer is not good"},
-      response.step_factor);
+  describe(trust_of(response), visit);
 }
 
 }  // namespace polargrain

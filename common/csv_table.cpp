@@ -50,7 +50,7 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults
   if (faults != nullptr) {
     *faults = std::move(ragged);
   } else if (!ragged.empty()) {
-    throw InputError(ragged);
+    throw InputError(ragged.front());
   }
   if (names_.empty()) fail(0, "is empty; a line with the names of the columns was expected");
 }
@@ -79,10 +79,6 @@ std::vector<std::string> CsvTable::cells_of(const std::string& line, int number)
     if (comma == std::string_view::npos) return cells;
     rest.remove_prefix(comma + 1);
   }
-}
-
-bool CsvTable::has(const std::string& name) const {
-  return std::ranges::find(names_, name) != names_.end();
 }
 
 std::size_t CsvTable::column(const std::string& name) const {

@@ -14,10 +14,9 @@ class CsvTable {
  public:
   /// @param faults gets a fault for each row that has not a cell for each column, and the table is without it; null:
   /// such rows are an error
-  /// @throws InputError naming file and line: of all such rows, or because it cannot be read
+  /// @throws InputError naming file and line: of the first such row, or because it cannot be read
   explicit CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults = nullptr);
 
-  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   /// The lines that begin with '#'.
   [[nodiscard]] const std::vector<std::string>& comments() const { return comments_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -26,7 +25,6 @@ class CsvTable {
   [[nodiscard]] int line_of(std::size_t row) const { return rows_[row].line; }
   /// The line of the names of the columns.
   [[nodiscard]] int line_of_names() const { return line_of_names_; }
-  [[nodiscard]] bool has(const std::string& name) const;
   /// @throws InputError naming the columns there are when this is none
   [[nodiscard]] std::size_t column(const std::string& name) const;
   [[nodiscard]] const std::string& cell(std::size_t row, std::size_t column) const;

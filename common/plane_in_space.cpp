@@ -46,10 +46,7 @@ CellResponse in_space(const Response& response, KnownComponents known) {
   made.set_components(all);
   made.tangent(kPlaces, kPlaces) = response.tangent;
   made.known = known;
-  made.noise = response.noise;
-  made.quality = response.quality;
-  made.message = response.message;
-  made.step_factor = response.step_factor;
+  static_cast<Trust&>(made) = response;
   return made;
 }
 
@@ -57,10 +54,7 @@ Response in_plane(const CellResponse& response) {
   Response made;
   made.stress = response.components()(kPlaces);
   made.tangent = response.tangent(kPlaces, kPlaces);
-  made.noise = response.noise;
-  made.quality = response.quality;
-  made.message = response.message;
-  made.step_factor = response.step_factor;
+  static_cast<Trust&>(made) = response;
   return made;
 }
 

@@ -36,18 +36,40 @@ void describe(Record& noise, Visit&& visit) {
   visit(FieldNotes{"couple", "N/m", "standard deviation of the errors of m1 and m2"}, noise.couple);
 }
 
-/// What a material answers at one point.
-struct Response {
-  /// s11, s22, s33, s12, s21 in Pa and couple stresses m1, m2 in N/m.
-  Vector7 stress = Vector7::Zero();
-  /// d stress / d strain (Increment::strain), consistent with the increment evaluated; need not be symmetric.
-  Matrix7 tangent = Matrix7::Zero();
+/// How far an answer can be trusted, and what to do where it cannot.
+struct Trust {
   StressNoise noise;
   Quality quality = Quality::good;
   /// Why the answer is not good; empty when it is.
   std::string message;
   /// When the answer is not good: the fraction of the increment that should be tried instead, in (0, 1).
   double step_factor = 1.0;
+};
+
+template <RecordOf<Trust> Record, class Visit>
+void describe(Record& trust, Visit&& visit) {
+  visit(FieldNotes{"noise", "Pa, N/m", "how well the stress is known"}, trust.noise);
+  visit(FieldNotes{"quality", "", "-1 failed, 0 unreliable, 1 good"}, trust.quality);
+  visit(FieldNotes{"message", "", "why the answer is not good"}, trust.message);
+  visit(
+      FieldNotes{"step_factor", "1", "fraction of the increment to try instead, when the answer is not good"},
+      trust.step_factor);
+}
+
+/// The trust in an answer, for its description.
+inline const Trust& trust_of(const Trust& answer) {
+  return answer;
+}
+inline Trust& trust_of(Trust& answer) {
+  return answer;
+}
+
+/// What a material answers at one point.
+struct Response : Trust {
+  /// s11, s22, s33, s12, s21 in Pa and couple stresses m1, m2 in N/m.
+  Vector7 stress = Vector7::Zero();
+  /// d stress / d strain (Increment::strain), consistent with the increment evaluated; need not be symmetric.
+  Matrix7 tangent = Matrix7::Zero();
 };
 
 template <RecordOf<Response> Record, class Visit>
@@ -61,12 +83,7 @@ void describe(Record& response, Visit&& visit) {
                    "_41 _42 _43 _44 _45 _46 _47 _51 _52 _53 _54 _55 _56 _57 _61 _62 _63 _64 _65 _66 _67 "
                    "_71 _72 _73 _74 _75 _76 _77"},
         response.tangent);
-  visit(FieldNotes{"noise", "Pa, N/m", "how well the stress is known"}, response.noise);
-  visit(FieldNotes{"quality", "", "-1 failed, 0 unreliable, 1 good"}, response.quality);
-  visit(FieldNotes{"message", "", "why the answer is not good"}, response.message);
-  visit(
-      FieldNotes{"step_factor", "1", "fraction of the increment to try instead, when the answer is not good"},
-      response.step_factor);
+  describe(trust_of(response), visit);
 }
 
 }  // namespace polargrain

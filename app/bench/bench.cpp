@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <numeric>
 
@@ -16,14 +15,13 @@
 #include "app/run/run.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
+#include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
 #include "fem/output/write_file.hpp"
 
 namespace polargrain::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 BenchAxes axes_of(const BenchOptions& options, const coupler::Case& the_case) {
   BenchAxes axes{options.x, options.y, !options.band.empty()};
@@ -164,7 +162,7 @@ int bench(const BenchOptions& options, const PackingTools& packing_tools) {
   const Clock::time_point start = Clock::now();
   for (const BenchSetting& setting : settings) {
     if (!options.quiet) {
-      const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+      const double spent = seconds_since(start);
       print_progress(setting, results.size(), settings.size(), spent);
     }
     const std::filesystem::path directory = options.directory / fmt::format("run-{:02}", results.size());

@@ -9,7 +9,6 @@
 #include <unistd.h>
 #include <memory>
 
-#include <chrono>
 #include <cstdio>
 #include <functional>
 
@@ -18,6 +17,7 @@
 #include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
+#include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "fem/output/write_file.hpp"
@@ -141,12 +141,12 @@ int pack(const PackOptions& options, const PackingTools& tools) {
   };
   std::filesystem::path log = options.output;
   log += ".log";
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   if (!make_in_child(make, options, tools, log))
     throw RunError(fmt::format("the packing could not be made (the engine's output is in {}):\n{}",
                                log.string(), coupler::log_excerpt(log)));
   std::filesystem::remove(log);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   if (options.quiet) return 0;
   const PreparedPacking made = read_packing_file(options.output);
   report(made, seconds, options.output);

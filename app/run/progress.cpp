@@ -62,7 +62,7 @@ std::string Progress::line() const {
   std::string text = fmt::format("step {}/{}  iteration {}", step_, steps_, iteration_);
   if (cells_ > 0) text += fmt::format("  cells {}/{}", cells_done_, cells_);
   if (iteration_ > 0) text += fmt::format("  residual {:.1e}", residual_);
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double elapsed = seconds_since(start_);
   if (time_ >= 1.0) {
     text += fmt::format("  done in {}", duration_text(elapsed));
   } else if (time_ > start_time_) {
@@ -75,7 +75,7 @@ void Progress::show(bool whole_line) {
   if (style_ == Style::quiet) return;
   const double wait = style_ == Style::terminal ? kTerminalSeconds : kSparseSeconds;
   const Clock::time_point now = Clock::now();
-  if (!whole_line && std::chrono::duration<double>(now - shown_).count() < wait) return;
+  if (!whole_line && seconds_of(now - shown_) < wait) return;
   shown_ = now;
   if (style_ == Style::terminal) {
     tell(out_, "\r{}\033[K{}", line(), whole_line ? "\n" : "");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <chrono>
 #include <cstdio>
 #include <string>
 
+#include "common/seconds.hpp"
 #include "fem/solver/solver.hpp"
 
 namespace polargrain::app {
@@ -31,7 +31,6 @@ class Progress : public fem::Observer {
   void clear();
 
  private:
-  using Clock = std::chrono::steady_clock;
   void show(bool whole_line);
   [[nodiscard]] std::string line() const;
 

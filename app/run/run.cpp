@@ -5,7 +5,6 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <optional>
 
 #include "app/run/interrupt.hpp"
@@ -18,17 +17,12 @@
 #include "app/run/sample.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
+#include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/replay/replay.hpp"
 
 namespace polargrain::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One run: its parts in the order they are made.
 class Run {

@@ -8,21 +8,13 @@
 #include "app/run/result_directory.hpp"
 
 namespace polargrain::app {
-namespace {
-
-double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
-
-}  // namespace
-
 void RunCheckpoints::begin_from(int step) {
   saved_step_ = step;
   begun_from_ = step;
 }
 
 bool RunCheckpoints::is_due() const {
-  return saved_step_ < 0 || seconds_between(saved_, Clock::now()) >= seconds_between_;
+  return saved_step_ < 0 || seconds_since(saved_) >= seconds_between_;
 }
 
 std::optional<double> RunCheckpoints::save() {
@@ -31,7 +23,7 @@ std::optional<double> RunCheckpoints::save() {
   write_checkpoint(directory_ / kCheckpointFile, *last_);
   saved_ = Clock::now();
   saved_step_ = last_->step;
-  return seconds_between(begin, saved_);
+  return seconds_of(saved_ - begin);
 }
 
 void RunCheckpoints::postpone() {

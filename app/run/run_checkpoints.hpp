@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "common/seconds.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
 
 namespace polargrain::app {
@@ -39,8 +39,6 @@ class RunCheckpoints {
   [[nodiscard]] std::string text() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::filesystem::path directory_;
   int steps_;
   double seconds_between_;

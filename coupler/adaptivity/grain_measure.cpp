@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupler/cells/cosserat_part.hpp"
+
 namespace polargrain::coupler {
 namespace {
 
@@ -13,13 +15,9 @@ constexpr double kVolume = 0.35;
 }  // namespace
 
 Vector7 GrainMeasure::strain(const Increment& increment) const {
+  if (!controlled()) return symmetric_part(increment.strain());
   Vector7 strain = increment.strain();
-  if (controlled()) {
-    strain.tail<2>() *= diameter_;
-  } else {
-    strain[k12] = strain[k21] = 0.5 * (strain[k12] + strain[k21]);
-    strain.tail<2>().setZero();
-  }
+  strain.tail<2>() *= diameter_;
   return strain;
 }
 

@@ -5,6 +5,13 @@
 
 namespace polargrain::coupler {
 
+Vector7 symmetric_part(const Vector7& components) {
+  Vector7 part = components;
+  part[k12] = part[k21] = 0.5 * (components[k12] + components[k21]);
+  part.tail<2>().setZero();
+  return part;
+}
+
 Matrix7 symmetric_tangent(const Matrix7& cell) {
   Matrix7 tangent = Matrix7::Zero();
   tangent.topLeftCorner<5, 5>() = cell.topLeftCorner<5, 5>();
@@ -26,9 +33,9 @@ void CosseratPart::add(const Increment& increment, const CosseratParameters& cos
 Response CosseratPart::joined_to(const Response& cell, const CosseratParameters& cosserat) const {
   Response response = cell;
   if (response.quality == Quality::failed) return response;
-  const double symmetric_shear = 0.5 * (response.stress[k12] + response.stress[k21]);
-  response.stress[k12] = symmetric_shear - 0.5 * skew_stress;
-  response.stress[k21] = symmetric_shear + 0.5 * skew_stress;
+  response.stress = symmetric_part(response.stress);
+  response.stress[k12] -= 0.5 * skew_stress;
+  response.stress[k21] += 0.5 * skew_stress;
   response.stress.tail<2>() = couple_stress;
   response.tangent = symmetric_tangent(response.tangent);
   const double skew_modulus = cosserat.cosserat_shear_modulus;

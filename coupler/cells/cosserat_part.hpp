@@ -40,6 +40,10 @@ void describe(Record& part, Visit&& visit) {
   visit(FieldNotes{"couple_stress", "N/m", "couple stress", "_1 _2"}, part.couple_stress);
 }
 
+/// The symmetric part of a stress or a strain, without couples or curvatures: what a cell with free rotations answers
+/// and feels.
+Vector7 symmetric_part(const Vector7& components);
+
 /// The tangent of the symmetric stress with respect to the Cosserat strain: mean of the two shear rows, and,
 /// because a cell with free rotations feels eps12 and eps21 through their sum alone, mean of the two shear
 /// columns. Nothing in the rows and columns of the curvatures.

@@ -278,26 +278,17 @@ void InformedMaterial::take(const PlaneReply& reply, const Increment& increment,
 }
 
 fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& increment) const {
+  if (!controlled()) return symmetric_part(increment.strain());
   Vector7 strain = increment.strain();
-  if (controlled()) {
-    strain.tail<2>() *= frame_.length;
-  } else {
-    strain(k12) = strain(k21) = 0.5 * (strain(k12) + strain(k21));
-    strain.tail<2>().setZero();
-  }
+  strain.tail<2>() *= frame_.length;
   return strain;
 }
 
 /// Discs have no out-of-plane stress: they are lent that of the law, in proportion to the pressures in the plane.
 fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& cell, bool knows_s33,
                                                                  const fem::ScaledVector<double>& law) const {
-  fem::ScaledVector<double> scaled = cell;
-  if (controlled()) {
-    scaled.tail<2>() /= frame_.length;
-  } else {
-    scaled(k12) = scaled(k21) = 0.5 * (cell(k12) + cell(k21));
-    scaled.tail<2>().setZero();
-  }
+  fem::ScaledVector<double> scaled = controlled() ? cell : symmetric_part(cell);
+  if (controlled()) scaled.tail<2>() /= frame_.length;
   const double law_in_plane = law(k11) + law(k22);
   if (!knows_s33 && law_in_plane < 0.0) {
     scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <memory>
 #include <utility>
 
 #include "common/cell.hpp"
@@ -43,18 +42,5 @@ inline PlaneReply in_plane(CellReply reply) {
   return {polargrain::in_plane(reply.response), reply.response.known == KnownComponents::all,
           reply.diagnostics, std::move(reply.state)};
 }
-
-/// One engine, asked in the plane.
-class PlaneCell {
- public:
-  explicit PlaneCell(std::unique_ptr<CellService> cell) : cell_(std::move(cell)) {}
-  [[nodiscard]] PlaneReply initial() const { return in_plane(cell_->initial()); }
-  PlaneReply evaluate(const PlaneRequest& request) const {
-    return in_plane(cell_->evaluate(in_space(request)));
-  }
-
- private:
-  std::unique_ptr<CellService> cell_;
-};
 
 }  // namespace polargrain::coupler

@@ -58,7 +58,7 @@ bool Connection::receive(zmq::message_t& bytes, std::chrono::milliseconds timeou
 
 double Connection::lost_seconds() const {
   if (!lost_) return 0.0;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *lost_).count();
+  return seconds_since(*lost_);
 }
 
 void Connection::note_events() {
@@ -72,7 +72,7 @@ void Connection::note_events() {
       stranger_ = false;
       continue;
     }
-    if (!lost_) lost_ = std::chrono::steady_clock::now();
+    if (!lost_) lost_ = Clock::now();
     if (event == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH) refused_ = true;
     if (event == ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL || event == ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL) {
       stranger_ = true;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <zmq.hpp>
 
+#include "common/seconds.hpp"
 #include "coupler/pool/keys.hpp"
 
 namespace polargrain::coupler {
@@ -35,7 +36,7 @@ class Connection {
   zmq::context_t context_;
   zmq::socket_t socket_{context_, zmq::socket_type::dealer};
   zmq::socket_t monitor_{context_, zmq::socket_type::pair};
-  std::optional<std::chrono::steady_clock::time_point> lost_ = std::chrono::steady_clock::now();
+  std::optional<Clock::time_point> lost_ = Clock::now();
   bool renewed_ = false;
   bool refused_ = false;
   bool stranger_ = false;

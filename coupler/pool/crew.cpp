@@ -122,7 +122,7 @@ void Crew::watch_seats() {
     if (seat.process && !seat.address.id.empty()) continue;
     seats_are_quiet_ = false;
     if (!seat.process) continue;
-    const double waited = std::chrono::duration<double>(now - seat.started).count();
+    const double waited = seconds_of(now - seat.started);
     if (waited < options_.startup_seconds) continue;
     last_end_ = fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
                             seat.number, options_.startup_seconds, seat.log.string(),

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/seconds.hpp"
 #include "coupler/pool/private_directory.hpp"
 #include "coupler/pool/process.hpp"
 #include "coupler/pool/state_cache.hpp"
@@ -35,12 +36,12 @@ struct CrewOptions {
 /// What a worker was asked for with one message.
 struct Job {
   std::vector<std::size_t> tasks;
-  std::uint64_t request = 0;                     ///< number on the wire, never used twice
-  std::chrono::steady_clock::time_point sent;    ///< or when the job before it was answered
-  std::chrono::steady_clock::time_point heard;   ///< last sign of life, or `sent`
-  std::chrono::steady_clock::time_point resent;  ///< last time it was sent, or sent again
-  bool begun = false;                            ///< it has said Working
-  int supplied = 0;                              ///< times it was sent again because something was missing
+  std::uint64_t request = 0;  ///< number on the wire, never used twice
+  Clock::time_point sent;     ///< or when the job before it was answered
+  Clock::time_point heard;    ///< last sign of life, or `sent`
+  Clock::time_point resent;   ///< last time it was sent, or sent again
+  bool begun = false;         ///< it has said Working
+  int supplied = 0;           ///< times it was sent again because something was missing
 };
 
 /// A worker that has been welcomed.
@@ -114,8 +115,6 @@ class Crew {
   [[nodiscard]] std::int64_t bytes_received() const { return bytes_received_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// The place of a local worker, filled anew when its process dies.
   struct Seat {
     int number = 0;

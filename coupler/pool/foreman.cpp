@@ -29,10 +29,6 @@ static_assert(kMostCells <= kMostInRequest);
 constexpr std::size_t kMostStates = 16;
 constexpr std::size_t kMostStateBytes = std::size_t{1} << 20;
 
-double seconds_of(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 std::string own_program() {
   return std::filesystem::read_symlink("/proc/self/exe").string();
 }

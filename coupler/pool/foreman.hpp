@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "common/seconds.hpp"
 #include "coupler/pool/crew.hpp"
 #include "coupler/pool/pool.hpp"
 #include "coupler/pool/state_book.hpp"
@@ -41,7 +42,6 @@ class Foreman final : private CrewEvents {
   std::map<std::string, WorkerRecord> records;  ///< by the names of workers
 
  private:
-  using Clock = std::chrono::steady_clock;
   /// A worker has one job at work and one more at hand, so that it never waits for the coordinator.
   static constexpr std::size_t kJobsAtHand = 2;
   struct Definition {

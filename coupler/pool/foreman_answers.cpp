@@ -23,10 +23,6 @@ std::deque<Job>::iterator find_job(Member& member, std::uint64_t request) {
                       [&](const Job& job) { return job.request == request; });
 }
 
-double seconds_of(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 }  // namespace
 
 // ---- their answers

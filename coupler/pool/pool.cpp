@@ -43,11 +43,13 @@ std::vector<Task> tasks_to_bring(std::span<const StatePointer> states, const Sta
     if (!is_new || place->second) continue;
     const Origin* const origin = book.origin(state->name());
     if (origin == nullptr) throw RunError("the bytes of a state are with nobody any more");
-    tasks.emplace_back(book.home(state->name()), Task{.kind = Task::Kind::fetch,
-                                                      .definition = origin->definition,
-                                                      .cell = origin->request,
-                                                      .wanted = state,
-                                                      .evidence = origin->evidence});
+    Task task;
+    task.kind = Task::Kind::fetch;
+    task.definition = origin->definition;
+    task.cell = origin->request;
+    task.wanted = state;
+    task.evidence = origin->evidence;
+    tasks.emplace_back(book.home(state->name()), std::move(task));
   }
   std::stable_sort(tasks.begin(), tasks.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -13,14 +13,13 @@
 #include "common/error.hpp"
 #include "common/processor.hpp"
 #include "common/record_values.hpp"
+#include "common/seconds.hpp"
 #include "coupler/pool/connection.hpp"
 #include "coupler/pool/state_cache.hpp"
 #include "coupler/protocol/messages.hpp"
 
 namespace polargrain::coupler {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Time between two Hellos of a worker that nobody has welcomed yet.
 constexpr std::chrono::milliseconds kHelloPeriod{500};

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "common/error.hpp"
 #include "common/plane_in_space.hpp"
+#include "common/seconds.hpp"
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
@@ -153,11 +153,10 @@ CellReply Cell::initial() {
 }
 
 CellReply Cell::evaluate(const CellRequest& request) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   if (const std::string fault = out_of_plane_fault(request.increment); !fault.empty()) throw RunError(fault);
   CellReply reply = follow(request.state, in_plane(request.increment));
-  reply.diagnostics.engine_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  reply.diagnostics.engine_seconds = seconds_since(start);
   return reply;
 }
 

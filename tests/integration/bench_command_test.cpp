@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "app/bench/bench_page.hpp"
+#include "common/csv_table.hpp"
 #include "tests/integration/command.hpp"
-#include "tests/integration/csv.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -152,7 +152,7 @@ class BenchCommandTest : public ::testing::Test {
   }
   /// "what,setting": the cells of the row by column.
   [[nodiscard]] std::map<std::string, std::map<std::string, std::string>> read_rows() const {
-    const testing::Csv csv(directory() / "out/bench.csv");
+    const CsvTable csv(directory() / "out/bench.csv");
     std::map<std::string, std::map<std::string, std::string>> rows;
     for (std::size_t k = 0; k < csv.rows(); ++k) {
       std::map<std::string, std::string> row;

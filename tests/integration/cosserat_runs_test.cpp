@@ -6,8 +6,9 @@
 #include <cmath>
 #include <iostream>
 
+#include "common/csv_table.hpp"
 #include "tests/faults/checkpoint_runs.hpp"
-#include "tests/integration/csv.hpp"
+#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -48,7 +49,7 @@ class CosseratRunsTest : public ::testing::Test {
     write_case(model);
     const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " run case.yaml -w 2 -o " + name);
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
-    const Csv history(scratch_.path() / name / "history.csv");
+    const CsvTable history(scratch_.path() / name / "history.csv");
     const std::string summary = content(scratch_.path() / name / "summary.json");
     const std::string key = "\"dem_steps\": ";
     const std::size_t place = summary.find(key);

@@ -5,7 +5,8 @@
 #include <iostream>
 #include <vector>
 
-#include "tests/integration/csv.hpp"
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -24,7 +25,7 @@ class ReadyCase : public ::testing::Test {
 TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
   const Outcome outcome = run(CASES "/footing/case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const Csv columns(scratch_.path() / "out/history.csv");
+  const CsvTable columns(scratch_.path() / "out/history.csv");
   const auto pressure = columns.numbers("pressure");
   const auto base_force = columns.numbers("base_force");
   const double weight = 6.0 * 4.0 * 18e3 + 5.0 * 10e3;
@@ -45,7 +46,7 @@ TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
 TEST_F(ReadyCase, SlopeCarriesItsWeightAndYieldsUnderTheLoad) {
   const Outcome outcome = run(CASES "/slope/case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const Csv columns(scratch_.path() / "out/history.csv");
+  const CsvTable columns(scratch_.path() / "out/history.csv");
   const double area = 18.0 * 3.0 + 8.0 * 5.0 + 0.5 * 5.0 * 5.0;
   EXPECT_NEAR(columns.numbers("base_force")[4], area * 18e3, 1e-6 * area * 18e3);
   EXPECT_NEAR(columns.numbers("base_force").back(), area * 18e3 + 3.0 * 150e3, 1e-6 * area * 18e3);
@@ -80,7 +81,7 @@ monitors: {length: {on: top, displacement: u2}}
   write(scratch_.path() / "case.yaml", text);
   const Outcome outcome = run("case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const Csv columns(scratch_.path() / "out/history.csv");
+  const CsvTable columns(scratch_.path() / "out/history.csv");
   const auto time = columns.numbers("time");
   ASSERT_EQ(time.size(), 10U);
   // Plane strain: u2 = s22 (1 - nu^2) / E * 2 m, that is 1.92 mm a unit of time.

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "tests/integration/csv.hpp"
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -50,7 +51,7 @@ class RunTest : public ::testing::Test {
 
   /// Values of a column of a CSV file, from its second line.
   [[nodiscard]] std::vector<double> column(const std::string& file, const std::string& name) const {
-    return Csv(directory() / file).numbers(name);
+    return CsvTable(directory() / file).numbers(name);
   }
 
   Scratch scratch_;

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/integration/csv.hpp"
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -50,7 +51,7 @@ class HardCells : public ::testing::Test {
   [[nodiscard]] std::string history() const { return content(scratch_.path() / "out/history.csv"); }
   /// A column of history.csv.
   [[nodiscard]] std::vector<double> column(const std::string& name) const {
-    return Csv(scratch_.path() / "out/history.csv").numbers(name);
+    return CsvTable(scratch_.path() / "out/history.csv").numbers(name);
   }
   /// That the stop is what the words say, and that the run goes on from its checkpoint: to the same stop, as
   /// nothing has changed, and with the same digits.

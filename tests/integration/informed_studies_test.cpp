@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "tests/integration/csv.hpp"
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -26,7 +27,7 @@ TEST(Studies, BothSchemesOfTheBiaxialStudyAgreeInTheirFirstPercent) {
                                    " --set 'mesh.rectangle.patch=[0.15 m, 0.15 m]'"
                                    " --set boundary.2.move.u2='-3.2 mm' --set steps.count=8");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
-    ratio[i] = Csv(scratch.path() / scheme / "history.csv").numbers("stress_ratio").back();
+    ratio[i] = CsvTable(scratch.path() / scheme / "history.csv").numbers("stress_ratio").back();
   }
   std::cout << "[figure] stress ratio at 0.8 %: informed " << ratio[0] << ", cell " << ratio[1] << '\n';
   EXPECT_GT(ratio[1], 2.5);
@@ -63,9 +64,10 @@ TEST(Studies, TheCalibrationKeepsARecordAndTheSpecimenUsesIt) {
   ASSERT_EQ(specimen.status, 0) << specimen.errors;
   const std::string figures = content(scratch.path() / "out/specimen.csv");
   EXPECT_EQ(std::count(figures.begin(), figures.end(), '\n'), 3) << figures;
-  EXPECT_NEAR(Csv(scratch.path() / "out/specimen-98-6-2/out/history.csv").numbers("axial_strain").back(),
+  EXPECT_NEAR(CsvTable(scratch.path() / "out/specimen-98-6-2/out/history.csv").numbers("axial_strain").back(),
               0.006, 1e-9);
-  EXPECT_GT(Csv(scratch.path() / "out/specimen-98-6-2/out/history.csv").numbers("stress_ratio").back(), 2.0);
+  EXPECT_GT(CsvTable(scratch.path() / "out/specimen-98-6-2/out/history.csv").numbers("stress_ratio").back(),
+            2.0);
 }
 
 }  // namespace

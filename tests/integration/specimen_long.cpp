@@ -15,7 +15,7 @@ TEST(Specimen, PeaksAsInTheStudy) {
   const Scratch scratch("specimen_long");
   const Outcome run = run_specimen(scratch.path(), "-o run --rate 0.72 --strain 0.08");
   ASSERT_EQ(run.status, 0) << run.out << run.errors;
-  const Csv history(scratch.path() / "run/history.csv");
+  const polargrain::CsvTable history(scratch.path() / "run/history.csv");
   const std::vector<double> ratios = history.numbers("stress_ratio");
   const auto highest = std::max_element(ratios.begin(), ratios.end());
   const double peak = *highest;

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/integration/csv.hpp"
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
 

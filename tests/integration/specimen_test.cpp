@@ -36,7 +36,7 @@ TEST(Specimen, ARunThatGoesOnGivesTheSameBytes) {
   }
   EXPECT_EQ(dumps, 7);  // the start and six frames
 
-  const Csv history(scratch.path() / "whole/history.csv");
+  const polargrain::CsvTable history(scratch.path() / "whole/history.csv");
   const std::vector<double> ratios = history.numbers("stress_ratio");
   ASSERT_EQ(history.rows(), 60U);
   // Steps * time step * rate, less half of the run-up of 1e-3 of strain; to a step. The seating's log tells

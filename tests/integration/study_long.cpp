@@ -7,7 +7,8 @@
 #include <iostream>
 #include <optional>
 
-#include "tests/integration/csv.hpp"
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
 #include "tests/integration/study_run.hpp"
 
 namespace {
@@ -32,7 +33,7 @@ class Table {
   }
 
  private:
-  Csv csv_;
+  polargrain::CsvTable csv_;
 };
 
 TEST(Study, TwoScalesPeakAndLocaliseAsSpecimensOfGrainsDo) {

@@ -9,9 +9,21 @@
 
 namespace polargrain::dem {
 
-using coupler::PlaneCell;
 using coupler::PlaneReply;
 using coupler::PlaneRequest;
+
+/// One engine, asked in the plane.
+class PlaneCell {
+ public:
+  explicit PlaneCell(std::unique_ptr<CellService> cell) : cell_(std::move(cell)) {}
+  [[nodiscard]] PlaneReply initial() const { return coupler::in_plane(cell_->initial()); }
+  PlaneReply evaluate(const PlaneRequest& request) const {
+    return coupler::in_plane(cell_->evaluate(coupler::in_space(request)));
+  }
+
+ private:
+  std::unique_ptr<CellService> cell_;
+};
 
 /// A cell of discs, asked in their plane.
 class PlaneDiscs : public PlaneCell {
