@@ -98,6 +98,21 @@ bool read_node_forces(Section& item, const std::vector<std::string>& places, Cas
                     });
 }
 
+/// `{on: left, tie: right}`
+bool read_tie(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
+  if (item.find("tie") == nullptr) return false;
+  const std::string to = item.text("tie", "the name of the opposite boundary");
+  if (places.size() > 1) item.fault("on", "on: a tie joins one boundary to one other; give one name");
+  if (places.size() != 1 || to.empty() || !parts.has_mesh) return true;
+  const fem::Tie tie{places.front(), to};
+  if (const std::string message = tied_nodes(parts.result.problem.mesh, tie).fault; !message.empty()) {
+    item.fault("tie", "tie: " + message);
+  } else {
+    parts.result.problem.ties.push_back(tie);
+  }
+  return true;
+}
+
 void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
   const std::vector<std::string> places =
@@ -105,11 +120,12 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
   const bool supports = read_supports(item, places, parts);
   const bool tractions = read_tractions(item, places, parts);
   const bool forces = read_node_forces(item, places, parts);
+  const bool tie = read_tie(item, places, parts);
   item.finish();
   if (!tractions) parts.check_places(item, "on", places);
-  if (!supports && !tractions && !forces && entry.kind == Entry::Kind::map) {
+  if (!supports && !tractions && !forces && !tie && entry.kind == Entry::Kind::map) {
     parts.faults.push_back(
-        entry.fault(name + ": does nothing; give fix, move, pressure, traction or node_force"));
+        entry.fault(name + ": does nothing; give fix, move, pressure, traction, node_force or tie"));
   }
 }
 
@@ -183,7 +199,7 @@ void read_boundary(const Entry& entry, CaseParts& parts) {
   if (!parts.has_mesh || parts.faults.size() != faults_before) return;
   const fem::Problem& problem = parts.result.problem;
   for (const std::string& motion :
-       fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed)) {
+       fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {
     parts.faults.push_back(
         entry.fault(fmt::format("boundary: nothing holds the body against a rigid motion ({}); fix or move a "
                                 "displacement that stops it",

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/constraints.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "fem/element/dofs.hpp"
 
 namespace polargrain::fem {
 
-Constraints::Constraints(const Mesh& mesh, Continuum continuum, const std::vector<PrescribedDof>& prescribed)
-    : equation_(entry_of(mesh.nodes.size()), 0) {
-  for (const PrescribedDof& item : prescribed) {
+Constraints::Constraints(const Problem& problem)
+    : equation_(entry_of(problem.mesh.nodes.size()), 0), has_ties_(!problem.ties.empty()) {
+  const Mesh& mesh = problem.mesh;
+  for (const PrescribedDof& item : problem.prescribed) {
     for (const int node : mesh.nodes_on(item.on)) {
       const auto number = static_cast<std::size_t>(node);
       const std::size_t entry = entry_of(number, item.dof);
@@ -17,11 +21,34 @@ Constraints::Constraints(const Mesh& mesh, Continuum continuum, const std::vecto
       given_.push_back({entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});
     }
   }
-  if (continuum == Continuum::cauchy) {
+  if (problem.continuum == Continuum::cauchy) {
     for (std::size_t node = 0; node < mesh.nodes.size(); ++node) equation_[entry_of(node, Dof::w)] = -1;
   }
-  for (int& equation : equation_) {
-    if (equation >= 0) equation = unknowns_++;
+  // Of entries that are tied, over any number of ties, the lowest number stands for all.
+  std::vector<std::size_t> root(equation_.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t entry) {
+    while (root[entry] != entry) entry = root[entry];
+    return entry;
+  };
+  for (const Tie& tie : problem.ties) {
+    for (const auto& [follower, leader] : tied_nodes(mesh, tie).pairs) {
+      for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
+        const std::size_t a = find(entry_of(static_cast<std::size_t>(follower), dof));
+        const std::size_t b = find(entry_of(static_cast<std::size_t>(leader), dof));
+        root[std::max(a, b)] = std::min(a, b);
+      }
+    }
+  }
+  for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
+    if (equation_[entry] < 0) continue;
+    const std::size_t first = find(entry);
+    if (first == entry) {
+      equation_[entry] = unknowns_++;
+      first_.push_back(entry);
+    } else {
+      equation_[entry] = equation_[first];
+    }
   }
 }
 
@@ -39,12 +66,25 @@ Eigen::VectorXd Constraints::slope(double time) const {
   return nodal;
 }
 
-Eigen::VectorXd Constraints::restrict_to_free(const Eigen::VectorXd& nodal) const {
-  Eigen::VectorXd unknowns(unknowns_);
+Eigen::VectorXd Constraints::restrict_to_free(const Eigen::VectorXd& forces) const {
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(unknowns_);
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
-    if (equation_[entry] >= 0) unknowns(equation_[entry]) = nodal(static_cast<Eigen::Index>(entry));
+    if (equation_[entry] >= 0) unknowns(equation_[entry]) += forces(static_cast<Eigen::Index>(entry));
   }
   return unknowns;
+}
+
+Eigen::VectorXd Constraints::folded(const Eigen::VectorXd& forces) const {
+  if (!has_ties_) return forces;
+  Eigen::VectorXd sums = forces;
+  for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
+    if (equation_[entry] < 0) continue;
+    const std::size_t first = first_[static_cast<std::size_t>(equation_[entry])];
+    if (first == entry) continue;
+    sums(static_cast<Eigen::Index>(first)) += forces(static_cast<Eigen::Index>(entry));
+    sums(static_cast<Eigen::Index>(entry)) = 0.0;
+  }
+  return sums;
 }
 
 void Constraints::add_free(const Eigen::VectorXd& unknowns, Eigen::VectorXd& nodal) const {

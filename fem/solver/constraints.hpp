@@ -7,11 +7,11 @@
 
 namespace polargrain::fem {
 
-/// Which entries of a nodal vector (3 a node) are given and which are unknown.
+/// Which entries of a nodal vector (3 a node) are given, which are unknown, and which share an unknown.
 class Constraints {
  public:
-  /// @param prescribed must outlive this object.
-  Constraints(const Mesh& mesh, Continuum continuum, const std::vector<PrescribedDof>& prescribed);
+  /// @param problem without faults; must outlive this object.
+  explicit Constraints(const Problem& problem);
 
   /// Number of unknowns.
   [[nodiscard]] int unknowns() const { return unknowns_; }
@@ -25,8 +25,12 @@ class Constraints {
   /// Nodal vector: change per time of the given entries just after `time`, zero at the free ones.
   [[nodiscard]] Eigen::VectorXd slope(double time) const;
 
-  /// The free entries of a nodal vector, in the order of the equations.
-  [[nodiscard]] Eigen::VectorXd restrict_to_free(const Eigen::VectorXd& nodal) const;
+  /// Forces on the unknowns, in the order of the equations: the free entries of nodal forces, summed where entries
+  /// share an unknown.
+  [[nodiscard]] Eigen::VectorXd restrict_to_free(const Eigen::VectorXd& forces) const;
+  /// Nodal forces, those of entries that share an unknown summed at the first of them and zero at the others: forces
+  /// in a tie balance each other and are no imbalance.
+  [[nodiscard]] Eigen::VectorXd folded(const Eigen::VectorXd& forces) const;
   /// Adds values of the unknowns to the free entries of a nodal vector.
   void add_free(const Eigen::VectorXd& unknowns, Eigen::VectorXd& nodal) const;
 
@@ -38,6 +42,8 @@ class Constraints {
   };
   std::vector<Given> given_;
   std::vector<int> equation_;
+  std::vector<std::size_t> first_;  ///< of each equation: the entry where forces are summed
+  bool has_ties_;
   int unknowns_ = 0;
 };
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -11,6 +13,8 @@ namespace polargrain::fem {
 namespace {
 
 using Messages = std::vector<std::string>;
+
+constexpr std::array kDofNames{"u1", "u2", "w"};
 
 template <class Map>
 std::string names_of(const Map& map) {
@@ -80,12 +84,43 @@ void check_prescribed_once(const Problem& problem, Messages& messages) {
       const Eigen::Vector2d& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
       const auto factor = [&](const PrescribedDof& given) { return given.profile ? given.profile(at) : 1.0; };
       if (added || (other.value == item.value && factor(other) == factor(item))) continue;
-      const char* names[] = {"u1", "u2", "w"};
       messages.push_back(
           fmt::format("{} is given two different values at the node ({:.6g}, {:.6g}), on '{}' and on "
                       "'{}': give it once there",
-                      names[static_cast<int>(item.dof)], at(0), at(1), other.on, item.on));
+                      kDofNames[static_cast<std::size_t>(item.dof)], at(0), at(1), other.on, item.on));
       break;
+    }
+  }
+}
+
+/// What holds one side of a tie has to hold the other alike.
+void check_ties(const Problem& problem, Messages& messages) {
+  const Mesh& mesh = problem.mesh;
+  const auto value_at = [&](int node, Dof dof) -> std::pair<const PrescribedDof*, double> {
+    for (const PrescribedDof& item : problem.prescribed) {
+      if (item.dof != dof || !mesh.has_nodes_on(item.on)) continue;
+      const std::vector<int> nodes = mesh.nodes_on(item.on);
+      if (!std::binary_search(nodes.begin(), nodes.end(), node)) continue;
+      return {&item, item.profile ? item.profile(mesh.nodes[static_cast<std::size_t>(node)]) : 1.0};
+    }
+    return {nullptr, 0.0};
+  };
+  for (const Tie& tie : problem.ties) {
+    const TiedNodes tied = tied_nodes(mesh, tie);
+    if (!tied.fault.empty()) messages.push_back("tie: " + tied.fault);
+    for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
+      for (const auto& [follower, leader] : tied.pairs) {
+        const auto [a, factor_a] = value_at(follower, dof);
+        const auto [b, factor_b] = value_at(leader, dof);
+        if (a == nullptr && b == nullptr) continue;
+        if (a != nullptr && b != nullptr && a->value == b->value && factor_a == factor_b) continue;
+        const Eigen::Vector2d& at = mesh.nodes[static_cast<std::size_t>(a != nullptr ? follower : leader)];
+        messages.push_back(fmt::format(
+            "{} is given at the node ({:.6g}, {:.6g}), and not alike at the node it is tied to ('{}' to '{}'): give it "
+            "on both sides or on neither",
+            kDofNames[static_cast<std::size_t>(dof)], at(0), at(1), tie.on, tie.to));
+        break;
+      }
     }
   }
 }
@@ -98,8 +133,10 @@ Messages faults(const Problem& problem) {
   check_names(problem, messages);
   check_materials(problem, messages);
   check_prescribed_once(problem, messages);
+  check_ties(problem, messages);
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
-  for (const std::string& motion : free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed)) {
+  for (const std::string& motion :
+       free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {
     messages.push_back(
         fmt::format("the supports leave a rigid motion free: {}; fix or move what holds it", motion));
   }

@@ -51,6 +51,15 @@ std::string unresisted_rotation(const Mesh& mesh, const Discretisation& discreti
       if (couple) root[find(node)] = find(first);
     }
   }
+  // Nodes whose micro-rotation is one unknown.
+  std::vector<int> node_of(static_cast<std::size_t>(constraints.unknowns()), -1);
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+    const int equation = constraints.equation(entry_of(node, Dof::w));
+    if (equation < 0) continue;
+    int& first = node_of[static_cast<std::size_t>(equation)];
+    if (first < 0) first = static_cast<int>(node);
+    root[find(node)] = find(static_cast<std::size_t>(first));
+  }
   std::vector<char> held(mesh.nodes.size(), 0);
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
     if (stiff[node] != 0 || !constraints.is_free(entry_of(node, Dof::w))) held[find(node)] = 1;

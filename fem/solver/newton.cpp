@@ -49,7 +49,7 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
     : problem(checked(std::move(problem_in))),
       options(options_in),
       discretisation(problem.mesh, problem.continuum),
-      constraints(problem.mesh, problem.continuum, problem.prescribed),
+      constraints(problem),
       loads(problem),
       materials(problem, discretisation),
       reference_length(options.reference_length > 0.0
@@ -116,7 +116,7 @@ Linearisation Newton::linearised(const std::vector<Response>& answers) const {
 }
 
 Residual Newton::relative(const Eigen::VectorXd& forces) const {
-  return measure(forces, constraints, state.reference_force, reference_length);
+  return measure(constraints.folded(forces), constraints, state.reference_force, reference_length);
 }
 
 double Newton::excess(const Residual& residual) const {
@@ -256,8 +256,10 @@ Newton::Iterate Newton::start_of(const StepGoal& goal) const {
 void Newton::remember(const Iterate& iterate) {
   if (!anderson_.is_on()) return;
   const auto free_part = [&](const Eigen::VectorXd& forces) {
-    Eigen::VectorXd nodal = Eigen::VectorXd::Zero(forces.size());
-    constraints.add_free(constraints.restrict_to_free(forces), nodal);
+    Eigen::VectorXd nodal = constraints.folded(forces);
+    for (Eigen::Index entry = 0; entry < nodal.size(); ++entry) {
+      if (!constraints.is_free(static_cast<std::size_t>(entry))) nodal(entry) = 0.0;
+    }
     return nodal;
   };
   const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);

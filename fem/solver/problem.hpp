@@ -11,6 +11,7 @@
 #include "fem/element/kinematics.hpp"
 #include "fem/material/material.hpp"
 #include "fem/mesh/mesh.hpp"
+#include "fem/solver/ties.hpp"
 #include "fem/solver/time_table.hpp"
 
 namespace polargrain::fem {
@@ -68,6 +69,7 @@ struct Problem {
   /// Material of each region; together the regions named here must cover every element exactly once.
   std::map<std::string, std::shared_ptr<Material>> materials;
   std::vector<PrescribedDof> prescribed;
+  std::vector<Tie> ties = {};
   std::vector<EdgeLoad> edge_loads;
   std::vector<NodeLoad> node_loads;
   std::vector<BodyLoad> body_loads;
@@ -75,13 +77,14 @@ struct Problem {
 };
 
 /// All faults of a problem, one message each: unknown names, elements with no or two materials, a dof
-/// prescribed twice with different values, distorted elements, rigid motions that no support holds. Runs no
+/// prescribed twice with different values, ties whose sides do not match, distorted elements, rigid motions that no support holds. Runs no
 /// material, so that a case can be checked before anything starts. Materials may still be null.
 std::vector<std::string> faults(const Problem& problem);
 
-/// Rigid motions of the body that the prescribed dofs leave free: "translation along 1", "translation along
+/// Rigid motions of the body that prescribed dofs and ties leave free: "translation along 1", "translation along
 /// 2", "rotation", or "a rotation about (x, y)" when only a rotation about that point is free.
 std::vector<std::string> free_rigid_motions(const Mesh& mesh, Continuum continuum,
-                                            const std::vector<PrescribedDof>& prescribed);
+                                            const std::vector<PrescribedDof>& prescribed,
+                                            const std::vector<Tie>& ties = {});
 
 }  // namespace polargrain::fem

@@ -10,8 +10,11 @@
 namespace polargrain::fem {
 namespace {
 
-/// Number of the part of the body that each node belongs to; parts share no node. Nodes of no element are -1.
-std::vector<int> parts_of_nodes(const Mesh& mesh, int& parts) {
+using Pairs = std::vector<std::pair<int, int>>;
+
+/// Number of the part of the body that each node belongs to; parts share no node and no tie. Nodes of no element are
+/// -1.
+std::vector<int> parts_of_nodes(const Mesh& mesh, const Pairs& tied, int& parts) {
   std::vector<int> root(mesh.nodes.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int node) {
@@ -28,6 +31,7 @@ std::vector<int> parts_of_nodes(const Mesh& mesh, int& parts) {
       used[static_cast<std::size_t>(node)] = 1;
     }
   }
+  for (const auto& [follower, leader] : tied) root[static_cast<std::size_t>(find(follower))] = find(leader);
   std::vector<int> part(mesh.nodes.size(), -1);
   std::vector<int> number(mesh.nodes.size(), -1);
   parts = 0;
@@ -82,9 +86,15 @@ std::vector<std::string> free_motions(const Eigen::Matrix3d& normal_matrix, cons
 }  // namespace
 
 std::vector<std::string> free_rigid_motions(const Mesh& mesh, Continuum continuum,
-                                            const std::vector<PrescribedDof>& prescribed) {
+                                            const std::vector<PrescribedDof>& prescribed,
+                                            const std::vector<Tie>& ties) {
+  Pairs tied;
+  for (const Tie& tie : ties) {
+    const Pairs pairs = tied_nodes(mesh, tie).pairs;
+    tied.insert(tied.end(), pairs.begin(), pairs.end());
+  }
   int parts = 0;
-  const std::vector<int> part_of = parts_of_nodes(mesh, parts);
+  const std::vector<int> part_of = parts_of_nodes(mesh, tied, parts);
   std::vector<std::string> messages;
   for (int part = 0; part < parts; ++part) {
     Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
@@ -108,6 +118,14 @@ std::vector<std::string> free_rigid_motions(const Mesh& mesh, Continuum continuu
         if (item.dof == Dof::u2) row = {0.0, 1.0, arm(0)};
         normal_matrix += row * row.transpose();
       }
+    }
+    // Nodes that move alike cannot turn about each other.
+    for (const auto& [follower, leader] : tied) {
+      if (part_of[static_cast<std::size_t>(follower)] != part) continue;
+      const Eigen::Vector2d arm =
+          (mesh.nodes[static_cast<std::size_t>(leader)] - mesh.nodes[static_cast<std::size_t>(follower)]) /
+          length;
+      normal_matrix(2, 2) += arm.squaredNorm();
     }
     for (std::string& motion : free_motions(normal_matrix, centre, length)) {
       if (parts > 1) motion += fmt::format(" of the part around ({:.6g}, {:.6g})", centre(0), centre(1));

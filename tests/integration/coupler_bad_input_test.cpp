@@ -230,8 +230,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownDof", "fix: [u1]", "fix: [u3]",
                  "case.yaml:13: boundary item 2: fix: expected u1, u2 or w, found 'u3'"},
         BadInput{"BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
-                 "case.yaml:14: boundary item 3: does nothing; give fix, move, pressure, traction or "
-                 "node_force"},
+                 "case.yaml:14: boundary item 3: does nothing; give fix, move, pressure, traction, "
+                 "node_force or tie"},
+        BadInput{
+            "TieToNothing", "on: top, move: {u2: -4 mm}", "on: left, tie: rihgt",
+            "case.yaml:14: boundary item 3: tie: the mesh has no boundary or node set 'rihgt'; it has bottom, left, "
+            "right, top, all, bottom_left, bottom_right, top_left, top_right"},
+        BadInput{
+            "TieOfOneSideThatIsHeld", "on: top, move: {u2: -4 mm}", "on: left, tie: right",
+            "case.yaml:12: boundary: u1 is given at the node (0, 0), and not alike at the node it is tied to "
+            "('left' to 'right'): give it on both sides or on neither"},
         BadInput{"FreeTranslation", "  - {on: bottom_left, fix: [u1]}", "  #",
                  "case.yaml:12: boundary: nothing holds the body against a rigid motion (translation along "
                  "1); fix or move a displacement that stops it"},

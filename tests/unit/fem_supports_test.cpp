@@ -61,6 +61,73 @@ TEST(free_rigid_motions, looks_at_each_part_of_the_body) {
   EXPECT_NE(motions[0].find("of the part around (0.12, 0.04)"), std::string::npos) << motions[0];
 }
 
+TEST(free_rigid_motions, sides_that_are_tied_do_not_turn_and_still_move) {
+  const std::vector<Tie> ties{{"left", "right"}};
+  const auto free_with_ties = [&](const std::vector<PrescribedDof>& prescribed) {
+    return free_rigid_motions(block(), Continuum::cauchy, prescribed, ties);
+  };
+  EXPECT_EQ(free_with_ties({{"bottom_left", Dof::u1, kZero, {}}, {"bottom_left", Dof::u2, kZero, {}}}),
+            Strings{});
+  EXPECT_EQ(free_with_ties({{"bottom_left", Dof::u1, kZero, {}}}), Strings{"translation along 2"});
+}
+
+TEST(free_rigid_motions, parts_that_are_tied_are_one) {
+  Mesh mesh = rectangle({{0.04, 0.08}, {1, 2}});
+  const Mesh other = rectangle({{0.04, 0.08}, {1, 2}, {0.1, 0.0}});
+  const int shift = static_cast<int>(mesh.nodes.size());
+  mesh.nodes.insert(mesh.nodes.end(), other.nodes.begin(), other.nodes.end());
+  for (Element element : other.elements) {
+    for (int& node : element.nodes) node += shift;
+    mesh.elements.push_back(element);
+  }
+  for (const int node : mesh.nodes_on("left")) mesh.node_sets["other left"].push_back(node + shift);
+  const std::vector<PrescribedDof> supports{{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  EXPECT_EQ(free_rigid_motions(mesh, Continuum::cosserat, supports).size(), 3U);
+  EXPECT_EQ(free_rigid_motions(mesh, Continuum::cosserat, supports, {{"left", "other left"}}), Strings{});
+}
+
+TEST(tied_nodes, finds_the_partner_of_every_node) {
+  const Mesh mesh = block();
+  const TiedNodes tied = tied_nodes(mesh, {"left", "right"});
+  EXPECT_EQ(tied.fault, "");
+  ASSERT_EQ(tied.pairs.size(), 9U);  // 4 elements of eight nodes along the side
+  for (const auto& [follower, leader] : tied.pairs) {
+    EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(follower)](0), 0.0);
+    EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(leader)](0), 0.04);
+    EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(follower)](1),
+              mesh.nodes[static_cast<std::size_t>(leader)](1));
+  }
+}
+
+TEST(tied_nodes, says_why_two_sides_do_not_match) {
+  Mesh mesh = block();
+  EXPECT_NE(tied_nodes(mesh, {"left", "rigth"}).fault.find("no boundary or node set 'rigth'"),
+            std::string::npos);
+  EXPECT_NE(tied_nodes(mesh, {"left", "top"}).fault.find("'left' has 9 nodes and 'top' has 5"),
+            std::string::npos);
+  EXPECT_NE(tied_nodes(mesh, {"left", "left"}).fault.find("lie on each other"), std::string::npos);
+  for (Eigen::Vector2d& node : mesh.nodes) {
+    if (node(0) == 0.04 && node(1) == 0.04) node(1) = 0.0401;
+  }
+  EXPECT_NE(tied_nodes(mesh, {"left", "right"}).fault.find("'right' has no node at"), std::string::npos);
+}
+
+TEST(faults, what_holds_one_side_of_a_tie_holds_the_other) {
+  Problem problem;
+  problem.mesh = block();
+  problem.materials["all"] = nullptr;
+  problem.ties = {{"left", "right"}};
+  problem.prescribed = {{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  EXPECT_EQ(faults(problem), Strings{});
+  problem.prescribed.push_back({"top_left", Dof::u1, TimeTable::ramp(1.0), {}});
+  ASSERT_EQ(faults(problem).size(), 1U);
+  EXPECT_NE(faults(problem)[0].find("u1 is given at the node (0, 0.08), and not alike"), std::string::npos);
+  problem.prescribed.push_back({"top_right", Dof::u1, TimeTable::ramp(2.0), {}});
+  EXPECT_EQ(faults(problem).size(), 1U);
+  problem.prescribed.back().value = TimeTable::ramp(1.0);
+  EXPECT_EQ(faults(problem), Strings{});
+}
+
 TEST(faults, lists_everything_that_is_wrong_at_once) {
   Problem problem;
   problem.mesh = block();
