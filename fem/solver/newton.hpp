@@ -103,6 +103,9 @@ class Newton {
   [[nodiscard]] Attempt limit_correction(Iterate& iterate, Correction& change, StepReport& report) const;
   [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
                                         StepReport& report) const;
+  /// The committed step before, as far as this goal, with the given entries of the goal; empty when there is none or it
+  /// went another way.
+  [[nodiscard]] Correction last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const;
   void remember(const Iterate& iterate);
   [[nodiscard]] std::string residual_text(const Residual& residual) const;
   void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);

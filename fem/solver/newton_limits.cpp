@@ -59,24 +59,37 @@ Attempt Newton::limit_predictor(const StepGoal& goal, Iterate& iterate, Correcti
                   "singular or the step too long",
                   options.largest_strain / share, options.largest_strain),
       share};
-  if (!goal.controls_time() || state.last_increment.size() == 0) return cut;
-  // The last step drawn on, as far as the given entries say.
-  Eigen::VectorXd drawn_on = state.last_increment;
-  double product = 0.0;
-  double square = 0.0;
-  for (Eigen::Index entry = 0; entry < drawn_on.size(); ++entry) {
-    if (constraints.is_free(static_cast<std::size_t>(entry))) continue;
-    product += iterate.displacement(entry) * drawn_on(entry);
-    square += drawn_on(entry) * drawn_on(entry);
-  }
-  if (square == 0.0) return cut;
-  drawn_on *= product / square;
-  for (Eigen::Index entry = 0; entry < drawn_on.size(); ++entry) {
-    if (!constraints.is_free(static_cast<std::size_t>(entry))) drawn_on(entry) = iterate.displacement(entry);
-  }
-  if (allowed_share(nothing, drawn_on) < 1.0) return cut;
-  change.displacement = drawn_on - iterate.displacement;
+  const Correction drawn_on = last_step_drawn_on(goal, iterate);
+  if (drawn_on.displacement.size() == 0 || allowed_share(nothing, drawn_on.displacement) < 1.0) return cut;
+  change = {drawn_on.displacement - iterate.displacement, drawn_on.time};
   return {true, ""};
+}
+
+Correction Newton::last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const {
+  if (state.last_increment.size() == 0) return {};
+  Correction drawn_on{state.last_increment, 0.0};
+  // What is given of it: the increments of this goal, or so many times their growth with the time.
+  Eigen::VectorXd given = goal.controls_time() ? iterate.displacement : constraints.slope(iterate.time);
+  for (Eigen::Index entry = 0; entry < given.size(); ++entry) {
+    if (constraints.is_free(static_cast<std::size_t>(entry))) given(entry) = 0.0;
+  }
+  const double square = given.squaredNorm();
+  if (square == 0.0) return {};
+  if (goal.controls_time()) {
+    const double product = given.dot(drawn_on.displacement);
+    if (product == 0.0) return {};
+    drawn_on.displacement *= square / product;
+  } else {
+    const double growth = goal.measure.dot(drawn_on.displacement);
+    if (!(growth > 0.0)) return {};
+    drawn_on.displacement *= goal.amount / growth;
+    drawn_on.time = given.dot(drawn_on.displacement) / square;
+    given *= drawn_on.time;
+  }
+  for (Eigen::Index entry = 0; entry < given.size(); ++entry) {
+    if (!constraints.is_free(static_cast<std::size_t>(entry))) drawn_on.displacement(entry) = given(entry);
+  }
+  return drawn_on;
 }
 
 }  // namespace polargrain::fem

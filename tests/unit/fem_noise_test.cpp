@@ -262,7 +262,8 @@ TEST(equilibrate, gives_up_with_a_reason) {
 
 TEST(absurd_corrections, are_not_asked_of_the_material) {
   double asked = 0.0;
-  const auto column = [&](SolverOptions options) {
+  enum class Control { time, measure };
+  const auto column = [&](SolverOptions options, Control control) {
     Problem problem = block({.largest_asked = &asked});
     problem.mesh = rectangle({{0.04, 0.08}, {1, 20}});
     problem.mesh.regions["band"] = {10};
@@ -278,19 +279,28 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
     EXPECT_TRUE(solver.equilibrate().converged);
     EXPECT_TRUE(solver.advance(0.25).converged);
     asked = 0.0;
-    return solver.advance(0.35);
+    if (control == Control::time) return solver.advance(0.35);
+    DisplacementMeasure measure;
+    for (const int node : solver.problem().mesh.nodes_on("top"))
+      measure.terms.push_back({node, Dof::u2, 1.0 / 3.0});
+    const StepReport report = solver.advance_measure(measure, -0.1 * 0.0008);
+    EXPECT_NEAR(report.time, 0.35, 1e-9);
+    EXPECT_NEAR(solver.mean_displacement("top")(1), -0.35 * 0.0008, 1e-12);
+    return report;
   };
-  SolverOptions options;
-  const StepReport free = column(options);  // the predictor puts all of the way into the band
-  EXPECT_GT(asked, 0.018);
-  EXPECT_EQ(free.limited, 0);
-  options.largest_strain = 0.01;
-  const StepReport limited = column(options);
-  ASSERT_TRUE(limited.converged) << limited.message;
-  EXPECT_LE(asked, 0.01);
-  EXPECT_GT(limited.limited, 0);
-  EXPECT_EQ(limited.cuts, 0);  // the step before, drawn on, is the answer here
-  EXPECT_EQ(limited.iterations, 1);
+  for (const Control control : {Control::time, Control::measure}) {
+    SolverOptions options;
+    const StepReport free = column(options, control);  // the predictor puts all of the way into the band
+    EXPECT_GT(asked, 0.018);
+    EXPECT_EQ(free.limited, 0);
+    options.largest_strain = 0.01;
+    const StepReport limited = column(options, control);
+    ASSERT_TRUE(limited.converged) << limited.message;
+    EXPECT_LE(asked, 0.01);
+    EXPECT_GT(limited.limited, 0);
+    EXPECT_EQ(limited.cuts, 0);  // the step before, drawn on, is the answer here
+    EXPECT_EQ(limited.iterations, 1);
+  }
 }
 
 TEST(absurd_corrections, cut_the_step_when_there_is_no_other_way) {

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""How thick is the band in a sheared layer: of grains, and of cells with controlled rotations.
+
+    python3 layer_study.py -o RESULTS [--size reduced|full] [--jobs 2] [--programs FOLDER]
+
+Layers: ten packings of 1,600 discs (40 d high) with rolling coefficients 0, 0.2 and 0.4 (reduced: two packings, 0.2). Columns of
+cells (layer_column.yaml): 10, 20 and 40 elements, with micro-rotations and, for comparison, as a Cauchy continuum (reduced:
+10 elements). Both are measured with one ruler: a straight line and a tanh, fitted to the displacements along the layer in a
+window of time; thickness is the full width at half maximum of the shear rate of the tanh. Nothing is smoothed before.
+What is there already is not made again. Prints tables in Markdown and, with matplotlib, writes layer.svg.
+"""
+import argparse
+import base64
+import concurrent.futures
+import csv
+import math
+import pathlib
+import shutil
+import statistics
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import numpy
+import scipy.optimize
+
+import layer
+
+HERE = pathlib.Path(__file__).resolve().parent
+DIAMETER = 0.01  # m, mean
+PRESSURE = 1e5   # Pa
+WINDOW = 6       # frames of 0.005 of shear over which a layer's displacements are taken
+COLUMN = 0.1     # m, height of the columns
+STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 10: 2.262}  # 97.5 %, by number of packings
+
+
+def interval(values):
+    if len(values) < 2:
+        return f"{values[0]:.3g}" if values else "-"
+    half = STUDENT.get(len(values), 2.2) * statistics.stdev(values) / math.sqrt(len(values))
+    return f"{statistics.mean(values):.3g} +- {half:.2g}"
+
+
+def band(height, displacement):
+    """@returns thickness (full width at half maximum of the rate, m), place (m), the fit's own explained share"""
+    whole = height.max() - height.min()
+    jump = displacement[height.argmax()] - displacement[height.argmin()]
+
+    def profile(y, base, slope, half, place, length):
+        return base + slope * y / whole + half * numpy.tanh((y - place) / length)
+
+    best = None
+    for place in numpy.linspace(height.min() + 0.1 * whole, height.max() - 0.1 * whole, 12):
+        for length in (0.3 * DIAMETER, DIAMETER, 4.0 * DIAMETER):
+            try:
+                fit, _ = scipy.optimize.curve_fit(profile, height, displacement, [0.5 * jump, 0.1 * jump, 0.5 * jump, place, length],
+                                                  maxfev=4000)
+            except RuntimeError:  # this start leads nowhere
+                continue
+            rest = ((profile(height, *fit) - displacement) ** 2).sum()
+            if best is None or rest < best[0]:
+                best = (rest, fit)
+    rest, fit = best
+    share = 1.0 - rest / ((displacement - displacement.mean()) ** 2).sum()
+    return 2.0 * math.acosh(math.sqrt(2.0)) * abs(fit[4]), fit[3], share
+
+
+# --- layers of grains
+
+def read_grains(dump):
+    lines = dump.read_text(encoding="utf-8").splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
+    rows = numpy.array([[float(word) for word in line.split()] for line in lines[first + 1:]])
+    return rows[rows[:, 0].argsort()]  # id, x, y, radius, rotation
+
+
+def layer_figures(place):
+    with open(place / "history.csv", encoding="utf-8") as text:
+        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
+    ratio = [row["shear_stress"] / PRESSURE for row in rows]
+    dumps = sorted((place / "grains").glob("step-*.dump"))
+    figures = {"peak": max(ratio), "peak at": rows[ratio.index(max(ratio))]["displacement"] / DIAMETER,
+               "residual": statistics.mean(ratio[-len(rows) // 10:])}
+    for name, frame in (("thickness early", 20), ("thickness", len(dumps) - 1)):
+        before, after = read_grains(dumps[frame - WINDOW]), read_grains(dumps[frame])
+        width, _, _ = band(0.5 * (before[:, 2] + after[:, 2]), after[:, 1] - before[:, 1])
+        figures[name] = width / DIAMETER
+    return figures
+
+
+# --- columns of cells
+
+def write_column(file, elements):
+    """A column one element wide of eight-noded elements (Gmsh 2.2), with the sets of nodes `below` and `above` at 0.3 and 0.7."""
+    size = COLUMN / elements
+    nodes = {}
+
+    def node(x, y):  # in quarters of an element
+        return nodes.setdefault((x, y), len(nodes) + 1)
+
+    def row(y):
+        return [node(0, y), node(4, y), node(2, y)]
+
+    quads, left, right = [], [], []
+    for e in range(elements):
+        low, middle, high = 4 * e, 4 * e + 2, 4 * e + 4
+        quads.append([node(0, low), node(4, low), node(4, high), node(0, high), node(2, low), node(4, middle), node(2, high),
+                      node(0, middle)])
+        left.append([node(0, high), node(0, low), node(0, middle)])
+        right.append([node(4, low), node(4, high), node(4, middle)])
+    top = row(4 * elements)
+    groups = [(1, "bottom", 8, [row(0)]), (1, "top", 8, [[top[1], top[0], top[2]]]), (1, "left", 8, left), (1, "right", 8, right),
+              (0, "below", 15, [[n] for n in row(4 * round(0.3 * elements))]),
+              (0, "above", 15, [[n] for n in row(4 * round(0.7 * elements))]), (2, "sand", 16, quads)]
+    elements_ = [f"{kind} 2 {tag} {tag} " + " ".join(map(str, member))
+                 for tag, (_, _, kind, members) in enumerate(groups, start=1) for member in members]
+    file.write_text(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" +
+        f"$PhysicalNames\n{len(groups)}\n" +
+        "".join(f'{dimension} {tag} "{name}"\n' for tag, (dimension, name, _, _) in enumerate(groups, start=1)) +
+        f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n" +
+        "".join(f"{number} {x * size / 4:.17g} {y * size / 4:.17g} 0\n" for (x, y), number in nodes.items()) +
+        f"$EndNodes\n$Elements\n{len(elements_)}\n" + "".join(f"{k} {text}\n" for k, text in enumerate(elements_, start=1)) +
+        "$EndElements\n", encoding="utf-8")
+
+
+def run_column(program, place, elements, packing, cauchy, workers):
+    """@returns whether it came to its end"""
+    out = place / f"column{elements}-{packing.stem}{'-cauchy' if cauchy else ''}"
+    if not (out / "summary.json").exists():
+        command = [program, "run", "layer_column.yaml", "-o", out.name, "-w", str(workers), "--quiet", "--set",
+                   f"mesh.file=column{elements}.msh", "--set", f"materials.sand.packing={packing.name}"]
+        if cauchy:
+            for word in ("continuum=cauchy", "materials.sand.rotations=free", "materials.sand.lc=5 mm",  # has no effect 
+                         "boundary.1={on: bottom, fix: [u1, u2]}",
+                         "boundary.2={on: top, move: {u1: [[0, 0], [10, 200 mm]]}, pressure: 100 kPa}"):
+                command += ["--set", word]
+        with open(place / f"{out.name}.log", "w", encoding="utf-8") as log:
+            subprocess.run(command, cwd=place, stdout=log, stderr=subprocess.STDOUT, check=False)
+    return out
+
+
+def read_column(file):
+    """@returns heights (m), displacements along the layer (m) and micro-rotations (rad) of the nodes on the left side"""
+    tree = ElementTree.parse(file)
+
+    def values(array):  # behind a header of eight bytes
+        return numpy.frombuffer(base64.b64decode(array.text), dtype="<f8", offset=8)
+
+    arrays = {array.get("Name"): array for array in tree.iter("DataArray")}
+    place = values(next(tree.iter("Points")).find("DataArray")).reshape(-1, 3)
+    displacement = values(arrays["displacement"]).reshape(-1, 3)
+    left = numpy.flatnonzero(place[:, 0] < 1e-9)
+    left = left[place[left, 1].argsort()]
+    rotation = values(arrays["micro_rotation"])[left] if "micro_rotation" in arrays else numpy.full(left.size, math.nan)
+    return place[left, 1], displacement[left, 0], rotation
+
+
+def column_figures(out, elements):
+    with open(out / "history.csv", encoding="utf-8") as text:
+        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
+    ratio = [row["shear_force"] / (COLUMN / elements * PRESSURE) for row in rows]
+    fields = sorted((out / "fields").glob("step-*.vtu"))
+    widths = []
+    for before, after in zip(fields[-7:-2:2], fields[-5::2]):
+        start, end = read_column(before), read_column(after)
+        width, _, _ = band(start[0], end[1] - start[1])
+        widths.append(width / DIAMETER)
+    return {"peak": max(ratio), "peak at": rows[ratio.index(max(ratio))]["displacement"] / DIAMETER,
+            "residual": statistics.mean(ratio[-10:]), "thickness": statistics.median(widths),
+            "followed to": rows[-1]["displacement"] / DIAMETER,
+            "iterations": sum(row["iterations"] for row in rows) / max(1, len(rows) - 1), "jumps": sum(row["jumps"] for row in rows)}
+
+
+def draw(place, layers, columns):
+    try:
+        import matplotlib
+        matplotlib.use("svg")
+        from matplotlib import pyplot
+    except ImportError:
+        return
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2))
+    for out in layers:
+        with open(out / "history.csv", encoding="utf-8") as text:
+            rows = [(float(row["displacement"]), float(row["shear_stress"])) for row in csv.DictReader(text)]
+        left.plot([1e3 * x for x, _ in rows], [y / PRESSURE for _, y in rows], color="0.7", lw=0.6)
+        dumps = sorted((out / "grains").glob("step-*.dump"))
+        before, after = read_grains(dumps[-1 - WINDOW]), read_grains(dumps[-1])
+        moved = after[:, 1] - before[:, 1]
+        height = 0.5 * (before[:, 2] + after[:, 2])
+        _, centre, _ = band(height, moved)
+        right.plot((moved - moved.min()) / (moved.max() - moved.min()), (height - centre) / DIAMETER, ".", color="0.75", ms=1)
+    for name, (out, elements) in columns.items():
+        with open(out / "history.csv", encoding="utf-8") as text:
+            rows = [(float(row["displacement"]), float(row["shear_force"])) for row in csv.DictReader(text)]
+        left.plot([1e3 * x for x, _ in rows], [y / (COLUMN / elements * PRESSURE) for _, y in rows], lw=1.2, label=name)
+        fields = sorted((out / "fields").glob("step-*.vtu"))
+        start, end = read_column(fields[-3]), read_column(fields[-1])
+        moved = end[1] - start[1]
+        _, centre, _ = band(start[0], moved)
+        right.plot(moved / moved[-1], (start[0] - centre) / DIAMETER, ".-", lw=1.2, ms=3, label=name)
+    left.set(xlabel="displacement of the upper plate, mm", ylabel="shear stress over normal stress", xlim=(0, 30))
+    right.set(xlabel="share of the displacement of the last window", ylabel="height from the band, mean diameters", ylim=(-6, 6))
+    right.legend(frameon=False, title="columns of cells (grey: grains)", fontsize=8)
+    figure.tight_layout()
+    figure.savefig(place / "layer.svg")
+
+
+def table(title, groups, keys):
+    print(f"| {title} | n | " + " | ".join(keys) + " |")
+    print("|" + "---|" * (len(keys) + 2))
+    for name, figures in groups.items():
+        print(f"| {name} | {len(figures)} | " + " | ".join(interval([one[key] for one in figures]) for key in keys) + " |")
+    print()
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("-o", "--output", type=pathlib.Path, required=True)
+    arguments.add_argument("--size", choices=("reduced", "full"), default="reduced")
+    arguments.add_argument("--jobs", type=int, default=2)
+    arguments.add_argument("--programs", type=pathlib.Path, default=HERE / "../../build/release/app")
+    options = arguments.parse_args()
+    place = options.output.resolve()
+    place.mkdir(parents=True, exist_ok=True)
+    polargrain = str((options.programs / "polargrain").resolve())
+    liggghts = str((options.programs / "standalone/polargrain-liggghts").resolve())
+    full = options.size == "full"
+
+    seeds, coefficients = (range(1, 11), (0.0, 0.2, 0.4)) if full else (range(1, 3), (0.2,))
+    layers = {(rolling, seed): place / f"layer-r{rolling:g}-s{seed}" for rolling in coefficients for seed in seeds}
+
+    def one_layer(key):
+        rolling, seed = key
+        layer.shear(polargrain, liggghts, place / f"grains1600-s{seed}.h5", layers[key], rolling, 0.16)
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(lambda seed: layer.make_packing(polargrain, 1600, seed, place / f"grains1600-s{seed}.h5"), seeds))
+        list(pool.map(one_layer, layers))
+    table("rolling coefficient, layers of grains",
+          {f"{rolling:g}": [layer_figures(layers[rolling, seed]) for seed in seeds] for rolling in coefficients},
+          ("peak", "peak at", "residual", "thickness early", "thickness"))
+
+    shutil.copy(HERE / "layer_column.yaml", place)
+    for elements in (10, 20, 40):
+        write_column(place / f"column{elements}.msh", elements)
+    packings = [HERE / f"{name}.h5" for name in (("dense100_seed2", "dense400_seed1", "dense400_seed4") if full else ("dense100_seed2",))]
+    columns = {}
+    for packing in packings:
+        shutil.copy(packing, place)
+        for cauchy in (False, True):
+            for elements in (10, 20, 40) if full else (10,):
+                out = run_column(polargrain, place, elements, packing, cauchy, options.jobs)
+                columns[f"{packing.stem}, {elements} elements{', Cauchy' if cauchy else ''}"] = (out, elements)
+    table("columns of cells", {name: [column_figures(*column)] for name, column in columns.items()},
+          ("peak", "peak at", "residual", "thickness", "followed to", "iterations", "jumps"))
+    shown = {name: column for name, column in columns.items() if "Cauchy" not in name and "400" in name} if full else columns
+    draw(place, [layers[0.2, seed] for seed in seeds], shown)
+
+
+if __name__ == "__main__":
+    main()
