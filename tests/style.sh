@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 need() { command -v "$1" >/dev/null || { echo "skipped: there is no $1"; exit 77; }; }
-sources() { find app band bench common coupler dem fem grains_io tests \( -name '*.cpp' -o -name '*.hpp' \) | sort; }
+sources() { find app band bench common coupler dem element fem grains_io tests \( -name '*.cpp' -o -name '*.hpp' \) | sort; }
 
 case "${1:-}" in
   format)
@@ -28,7 +28,7 @@ case "${1:-}" in
     trap 'rm -rf "$commands"' EXIT
     sed 's/ -Winvalid-pch//g; s/ -include [^ ]*cmake_pch\.hxx//g' "$2/compile_commands.json" >"$commands/compile_commands.json"
     folders=("${@:3}")
-    ((${#folders[@]})) || folders=(app band common coupler fem grains_io)
+    ((${#folders[@]})) || folders=(app band common coupler element fem grains_io)
     # Warnings that g++ knows and clang does not are switched off in the compile commands. The count of what was found in
     # headers of others is not shown.
     find "${folders[@]}" -name '*.cpp' | sort | xargs -P 2 -n 1 clang-tidy -p "$commands" --quiet \

@@ -28,6 +28,7 @@ Try:
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain verify results/biaxial                 hold a result against its proof, some cells evaluated again
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
+  polargrain element --help                         laboratory tests of one point: biaxial, triaxial, shear, ...
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains
   polargrain pack --settle dense400.h5 soft.in -o soft400.h5    bring one to rest under another script
   polargrain bench --quick                          speed against error of the demo, some minutes

@@ -50,8 +50,8 @@ ElasticLaw::ElasticLaw(const ElasticParameters& parameters) : initial_stress_(pa
   stiffness_ = elastic_stiffness(parameters);
 }
 
-Response ElasticLaw::integrate(const State& start, const Increment& increment, State& trial) const {
-  trial.stress = start.stress + stiffness_ * increment.strain();
+Response ElasticLaw::integrate(const State& start, const Vector7& strain, State& trial) const {
+  trial.stress = start.stress + stiffness_ * strain;
   Response response;
   response.stress = trial.stress;
   response.tangent = stiffness_;

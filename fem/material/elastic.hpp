@@ -47,7 +47,10 @@ class ElasticLaw {
   [[nodiscard]] static State unpacked(std::span<const double> values) {
     return {Vector7(Eigen::Map<const Vector7>(values.data()))};
   }
-  [[nodiscard]] Response integrate(const State& start, const Increment& increment, State& trial) const;
+  [[nodiscard]] Response integrate(const State& start, const Increment& increment, State& trial) const {
+    return integrate(start, increment.strain(), trial);
+  }
+  [[nodiscard]] Response integrate(const State& start, const Vector7& strain, State& trial) const;
 
  private:
   Vector7 initial_stress_;

@@ -38,9 +38,9 @@ Vector7 component_scale(double length) {
 
 template <class ConeAt>
 Response integrate(const ElastoplasticFrame& frame, const ConeAt& cone, const ElastoplasticState& start,
-                   const Increment& increment, ElastoplasticState& trial) {
+                   const Vector7& strain_increment, ElastoplasticState& trial) {
   const Vector7 scale = component_scale(frame.length);
-  const ScaledVector<double> strain = increment.strain().cwiseProduct(scale);
+  const ScaledVector<double> strain = strain_increment.cwiseProduct(scale);
   const ScaledVector<double> trial_stress = start.scaled_stress + elastic_stress(frame.moduli, strain);
   const ConeReturn<double> end = return_to_cone(trial_stress, start.gamma_p, frame.moduli, cone);
 
@@ -72,13 +72,19 @@ Vector7 ElastoplasticFrame::unscaled_stress(const ScaledVector<double>& scaled) 
 Response integrate_elastoplastic(const ElastoplasticFrame& frame, const HardeningCone& cone,
                                  const ElastoplasticState& start, const Increment& increment,
                                  ElastoplasticState& trial) {
-  return integrate(frame, cone, start, increment, trial);
+  return integrate(frame, cone, start, increment.strain(), trial);
+}
+
+Response integrate_elastoplastic(const ElastoplasticFrame& frame, const HardeningCone& cone,
+                                 const ElastoplasticState& start, const Vector7& strain,
+                                 ElastoplasticState& trial) {
+  return integrate(frame, cone, start, strain, trial);
 }
 
 Response integrate_elastoplastic(const ElastoplasticFrame& frame, const FrozenCone& cone,
                                  const ElastoplasticState& start, const Increment& increment,
                                  ElastoplasticState& trial) {
-  return integrate(frame, cone, start, increment, trial);
+  return integrate(frame, cone, start, increment.strain(), trial);
 }
 
 ElastoplasticLaw::ElastoplasticLaw(const ElastoplasticParameters& parameters)

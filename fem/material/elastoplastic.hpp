@@ -58,6 +58,11 @@ Response integrate_elastoplastic(const ElastoplasticFrame& frame, const FrozenCo
                                  const ElastoplasticState& start, const Increment& increment,
                                  ElastoplasticState& trial);
 
+/// The same along a strain (order of Component) whose eps_33 need not be zero.
+Response integrate_elastoplastic(const ElastoplasticFrame& frame, const HardeningCone& cone,
+                                 const ElastoplasticState& start, const Vector7& strain,
+                                 ElastoplasticState& trial);
+
 /// The elastoplastic material as a local law (local_material.hpp).
 class ElastoplasticLaw {
  public:
@@ -76,6 +81,9 @@ class ElastoplasticLaw {
   }
   [[nodiscard]] Response integrate(const State& start, const Increment& increment, State& trial) const {
     return integrate_elastoplastic(frame_, cone_, start, increment, trial);
+  }
+  [[nodiscard]] Response integrate(const State& start, const Vector7& strain, State& trial) const {
+    return integrate_elastoplastic(frame_, cone_, start, strain, trial);
   }
 
   /// The scaled stress, gamma_p, the regime.

@@ -9,6 +9,7 @@
 #include "common/packed_values.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/rotation.hpp"
+#include "fem/material/strain_driven.hpp"
 
 namespace polargrain::fem {
 
@@ -28,6 +29,7 @@ namespace polargrain::fem {
 ///       State rotated(const State& state, double angle) const;
 ///       static std::vector<std::string> field_names();
 ///       void fields(const State& state, std::span<double> values) const;
+///       Response integrate(const State& start, const Vector7& strain, State& trial) const;  // any eps_33
 ///       static std::vector<double> packed(const State& state);         // always as many values,
 ///       static State unpacked(std::span<const double> values);         // and back: for checkpoints
 template <class Law>
@@ -63,9 +65,16 @@ concept LawWithArchive = requires(const typename Law::State state, std::span<con
   { Law::unpacked(values) } -> std::same_as<typename Law::State>;
 };
 
+/// The law also follows strains along e_3.
+template <class Law>
+concept LawOfStrain = requires(const Law law, const typename Law::State start, const Vector7 strain,
+                               typename Law::State trial) {
+  { law.integrate(start, strain, trial) } -> std::same_as<Response>;
+};
+
 /// Makes a Material of a local law: keeps the committed and the trial state of every point.
 template <LocalLaw Law>
-class LocalMaterial final : public Material {
+class LocalMaterial final : public Material, public StrainDriven {
  public:
   explicit LocalMaterial(Law law) : law_(std::move(law)) {}
 
@@ -87,6 +96,16 @@ class LocalMaterial final : public Material {
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
     for (std::size_t point = 0; point < committed_.size(); ++point) {
       responses[point] = law_.integrate(start_of(point, increments[point]), increments[point], trial_[point]);
+    }
+  }
+
+  [[nodiscard]] bool takes_any_strain() const override { return LawOfStrain<Law>; }
+  Response evaluate_strain(const Vector7& strain) override {
+    if constexpr (LawOfStrain<Law>) {
+      return law_.integrate(committed_.front(), strain, trial_.front());
+    } else {
+      (void)strain;
+      throw RunError("this material follows strains of the plane alone");
     }
   }
 

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/element/element_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "element/measures.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using element::can_strain;
+using element::kPlaceNames;
+using element::tells_stress;
+
+}  // namespace
+
+std::vector<std::string> element_columns(element::Room room, const std::vector<std::string>& fields,
+                                         bool has_void_ratio) {
+  std::vector<std::string> names{"stage", "row", "axial_strain", "volume_strain"};
+  for (int place = 0; place < 6; ++place)
+    if (can_strain(room, place))
+      names.push_back(std::string("e") + kPlaceNames[static_cast<std::size_t>(place)]);
+  for (int place = 0; place < 6; ++place)
+    if (tells_stress(room, place))
+      names.push_back(std::string("s") + kPlaceNames[static_cast<std::size_t>(place)] + "_Pa");
+  for (const char* const name : {"p_Pa", "q_Pa", "stress_ratio", "friction_angle_deg"})
+    names.emplace_back(name);
+  if (room != element::Room::discs) names.emplace_back("b");
+  for (const char* const name : {"pore_pressure_Pa", "residual", "steps", "evaluations", "jumps"})
+    names.emplace_back(name);
+  if (has_void_ratio) names.emplace_back("void_ratio");
+  names.insert(names.end(), fields.begin(), fields.end());
+  return names;
+}
+
+std::vector<double> element_values(const element::Row& row, element::Room room,
+                                   const std::optional<double>& void_ratio) {
+  std::vector<double> values{static_cast<double>(row.stage), static_cast<double>(row.number),
+                             0.0 - row.strain(element::k22), row.volume - 1.0};
+  for (int place = 0; place < 6; ++place)
+    if (can_strain(room, place)) values.push_back(row.strain(place));
+  for (int place = 0; place < 6; ++place)
+    if (tells_stress(room, place)) values.push_back(row.stress(place));
+  const element::StressMeasures measures = element::measures_of(row.stress, room);
+  for (const double value :
+       {measures.p, measures.q, measures.ratio, measures.friction_angle * 180.0 / std::numbers::pi})
+    values.push_back(value);
+  if (room != element::Room::discs) values.push_back(measures.b);
+  values.push_back(row.pore_pressure);
+  values.push_back(row.residual);
+  for (const int count : {row.steps, row.evaluations, row.jumps}) values.push_back(count);
+  if (void_ratio) values.push_back((1.0 + *void_ratio) * row.total_volume - 1.0);
+  values.insert(values.end(), row.fields.begin(), row.fields.end());
+  return values;
+}
+
+double student_95(int count) {
+  // 97.5 % quantiles of Student's t for 1 to 30 degrees of freedom (Fisher and Yates, table III).
+  constexpr std::array<double, 30> kTable{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
+                                          2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
+                                          2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
+                                          2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
+  const int freedom = count - 1;
+  // Beyond the table: Cornish and Fisher's first term, right to 1e-3.
+  return freedom <= 30 ? kTable[static_cast<std::size_t>(freedom - 1)] : 1.960 + 2.372 / freedom;
+}
+
+ElementMean mean_of(const std::vector<ElementCurve>& curves) {
+  ElementMean result;
+  for (std::size_t k = 0;; ++k) {
+    std::vector<const std::vector<double>*> rows;
+    for (const ElementCurve& curve : curves)
+      if (k < curve.rows.size()) rows.push_back(&curve.rows[k]);
+    if (rows.size() < 2) return result;
+    const auto count = static_cast<double>(rows.size());
+    std::vector<double> mean(rows.front()->size(), 0.0);
+    std::vector<double> half(mean.size(), 0.0);
+    for (std::size_t c = 0; c < mean.size(); ++c) {
+      for (const auto* const row : rows) mean[c] += (*row)[c] / count;
+      double squares = 0.0;
+      for (const auto* const row : rows) squares += std::pow((*row)[c] - mean[c], 2);
+      half[c] = student_95(static_cast<int>(rows.size())) * std::sqrt(squares / (count - 1.0) / count);
+    }
+    result.count.push_back(static_cast<int>(rows.size()));
+    result.mean.push_back(std::move(mean));
+    result.half_width.push_back(std::move(half));
+  }
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/element/run_element.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/record_table.hpp"
+#include "coupler/points/cell_point.hpp"
+#include "coupler/points/law_point.hpp"
+#include "coupler/pool/private_directory.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using coupler::Pool;
+
+/// A pool whose logs stay when it ends by an exception.
+class WorkingPool {
+ public:
+  WorkingPool(int workers, bool trust_scripts) {
+    logs_.keep();
+    coupler::PoolOptions options;
+    options.directory = logs_.path();
+    options.workers = workers;
+    options.trust_scripts = trust_scripts;
+    pool_.emplace(options);
+  }
+  Pool& pool() { return *pool_; }
+  void done() {
+    pool_.reset();
+    logs_.keep(false);
+  }
+
+ private:
+  coupler::PrivateDirectory logs_;
+  std::optional<Pool> pool_;
+};
+
+ElementCurve curve_of(const std::string& name, element::MaterialPoint& point,
+                      const ElementSpecification& specification) {
+  element::Outcome outcome = follow(point, specification.stages, specification.accuracy);
+  ElementCurve curve;
+  curve.name = name;
+  curve.failure = std::move(outcome.failure);
+  for (const element::Row& row : outcome.rows)
+    curve.rows.push_back(element_values(row, specification.room, specification.void_ratio));
+  return curve;
+}
+
+ElementResult run_cells(const ElementSpecification& specification, int workers, bool trust_scripts) {
+  WorkingPool working(std::min<int>(workers, static_cast<int>(specification.cells.size())), trust_scripts);
+  std::vector<std::uint32_t> definitions;
+  std::vector<CellReply> at_rest;
+  for (const CellDefinition& cell : specification.cells) {
+    definitions.push_back(working.pool().define(cell));
+    at_rest.push_back(working.pool().initial(definitions.back()));
+    if (at_rest.back().response.quality == Quality::failed)
+      throw RunError(fmt::format("the packing {} cannot be brought to rest: {}", cell.name,
+                                 at_rest.back().response.message));
+  }
+  ElementResult result;
+  result.curves.resize(definitions.size());
+  coupler::ask_together(working.pool(), definitions, [&](std::size_t test, const coupler::AskCell& ask) {
+    coupler::CellPoint point(ask, at_rest[test], specification.cells[test].packing.dimension);
+    result.curves[test] = curve_of(specification.names[test], point, specification);
+  });
+  result.columns = element_columns(specification.room, names_of_columns<CellDiagnostics>(), false);
+  working.done();
+  return result;
+}
+
+ElementResult run_material(const ElementSpecification& specification, int workers, bool trust_scripts) {
+  std::optional<WorkingPool> working;
+  const bool asks_cells = specification.material->needs_workers();
+  if (asks_cells) working.emplace(workers, trust_scripts);
+  ElementResult result;
+  {
+    coupler::LawPoint point(specification.material->make(asks_cells ? &working->pool() : nullptr),
+                            asks_cells ? std::nullopt : std::optional(specification.pressure));
+    result.columns =
+        element_columns(specification.room, point.field_names(), specification.void_ratio.has_value());
+    result.curves.push_back(curve_of(specification.names.front(), point, specification));
+  }
+  if (working) working->done();
+  return result;
+}
+
+/// What is told of a curve.
+struct Figures {
+  double friction_angle = 0.0;  ///< the largest, degrees
+  double strain_at_peak = 0.0;  ///< the axial one (the shear strain where that is larger)
+  double last_angle = 0.0;
+  double last_volume_strain = 0.0;
+};
+
+std::size_t column(const ElementResult& result, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(result.columns, name) - result.columns.begin());
+}
+
+Figures figures_of(const ElementResult& result, const ElementCurve& curve) {
+  Figures figures;
+  const std::size_t angle = column(result, "friction_angle_deg");
+  const auto strain_of = [&](const std::vector<double>& row) {
+    const double axial = row[column(result, "axial_strain")];
+    const double shear = row[column(result, "e12")];
+    return std::abs(shear) > std::abs(axial) ? shear : axial;
+  };
+  for (const auto& row : curve.rows) {
+    if (!(row[angle] > figures.friction_angle)) continue;
+    figures.friction_angle = row[angle];
+    figures.strain_at_peak = strain_of(row);
+  }
+  figures.last_angle = curve.rows.back()[angle];
+  figures.last_volume_strain = curve.rows.back()[column(result, "volume_strain")];
+  return figures;
+}
+
+}  // namespace
+
+ElementResult run_element(const ElementSpecification& specification, int workers, bool trust_scripts) {
+  return specification.material != nullptr ? run_material(specification, workers, trust_scripts)
+                                           : run_cells(specification, workers, trust_scripts);
+}
+
+std::string summary_of(const ElementResult& result) {
+  std::string text = fmt::format("{:<24} {:>16} {:>16} {:>16} {:>16} {:>6}\n", "", "peak angle, deg",
+                                 "at strain, %", "last angle, deg", "last volume, %", "jumps");
+  std::array<std::vector<double>, 4> values;
+  for (const ElementCurve& curve : result.curves) {
+    if (curve.rows.empty()) continue;
+    const Figures f = figures_of(result, curve);
+    const std::array<double, 4> numbers{f.friction_angle, 100.0 * f.strain_at_peak, f.last_angle,
+                                        100.0 * f.last_volume_strain};
+    text += fmt::format("{:<24} {:>16.2f} {:>16.3f} {:>16.2f} {:>16.3f} {:>6.0f}\n", curve.name, numbers[0],
+                        numbers[1], numbers[2], numbers[3], curve.rows.back()[column(result, "jumps")]);
+    for (std::size_t k = 0; k < 4 && curve.failure.empty(); ++k) values[k].push_back(numbers[k]);
+  }
+  const std::size_t count = values[0].size();
+  if (count < 2) return text;
+  text += fmt::format("{:<24}", fmt::format("mean of {}, 95 %", count));
+  for (const std::vector<double>& of : values) {
+    double mean = 0.0;
+    for (const double value : of) mean += value / static_cast<double>(count);
+    double squares = 0.0;
+    for (const double value : of) squares += std::pow(value - mean, 2);
+    const double half = student_95(static_cast<int>(count)) *
+                        std::sqrt(squares / static_cast<double>(count - 1) / static_cast<double>(count));
+    text += fmt::format(" {:>16}", fmt::format("{:.2f} +- {:.2f}", mean, half));
+  }
+  return text + '\n';
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "common/error.hpp"
+#include "coupler/points/cell_point.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// What one test waits for.
+struct Desk {
+  std::optional<CellRequest> request;
+  std::optional<CellReply> reply;
+};
+
+/// Tests put their requests down here; when all that still run have, they are answered.
+class Office {
+ public:
+  explicit Office(std::size_t tests) : desks_(tests), running_(tests) {}
+
+  CellReply ask(std::size_t test, const CellRequest& request) {
+    std::unique_lock lock(mutex_);
+    desks_[test].request = request;
+    ++waiting_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return closed_ || desks_[test].reply.has_value(); });
+    if (closed_) throw RunError("the test was ended by the failure of another");
+    CellReply reply = std::move(*desks_[test].reply);
+    desks_[test].reply.reset();
+    return reply;
+  }
+
+  void leave() {
+    const std::scoped_lock lock(mutex_);
+    --running_;
+    changed_.notify_all();
+  }
+
+  /// Answers until all have left.
+  void serve(Pool& pool, const std::vector<std::uint32_t>& definitions) {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return waiting_ == running_; });
+      if (running_ == 0) return;
+      std::vector<PoolRequest> requests;
+      std::vector<std::size_t> askers;
+      for (std::size_t test = 0; test < desks_.size(); ++test) {
+        if (!desks_[test].request) continue;
+        requests.push_back({definitions[test], std::move(*desks_[test].request), test});
+        desks_[test].request.reset();
+        askers.push_back(test);
+      }
+      lock.unlock();  // nobody comes: all that run wait
+      std::vector<CellReply> replies = pool.evaluate(requests);
+      lock.lock();
+      for (std::size_t k = 0; k < askers.size(); ++k) desks_[askers[k]].reply = std::move(replies[k]);
+      waiting_ = 0;
+      changed_.notify_all();
+    }
+  }
+
+  void close() {
+    const std::scoped_lock lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Desk> desks_;
+  std::size_t running_;
+  std::size_t waiting_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace
+
+void ask_together(Pool& pool, const std::vector<std::uint32_t>& definitions,
+                  const std::function<void(std::size_t, const AskCell&)>& run) {
+  Office office(definitions.size());
+  std::vector<std::exception_ptr> errors(definitions.size());
+  std::vector<std::thread> threads;
+  for (std::size_t test = 0; test < definitions.size(); ++test) {
+    threads.emplace_back([&, test] {
+      try {
+        run(test, [&office, test](const CellRequest& request) { return office.ask(test, request); });
+      } catch (...) {
+        errors[test] = std::current_exception();
+      }
+      office.leave();
+    });
+  }
+  std::exception_ptr of_pool;
+  try {
+    office.serve(pool, definitions);
+  } catch (...) {
+    of_pool = std::current_exception();
+    office.close();
+  }
+  for (std::thread& thread : threads) thread.join();
+  if (of_pool) std::rethrow_exception(of_pool);
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace polargrain::coupler

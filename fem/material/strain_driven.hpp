@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "common/response.hpp"
+
+namespace polargrain::fem {
+
+/// What laws that answer in place can do beyond plane strain: take a strain along e_3 too. For tests of one point
+/// (coupler/points); finite elements here are plane.
+class StrainDriven {
+ public:
+  virtual ~StrainDriven() = default;
+  [[nodiscard]] virtual bool takes_any_strain() const = 0;
+  /// Material::evaluate of the first point, in small deformation, for a strain in the order of Component whose eps_33 may
+  /// be anything. Only where takes_any_strain().
+  virtual Response evaluate_strain(const Vector7& strain) = 0;
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The command `element` with cells that are linear (fake_engine.hpp), and what it says of bad input.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kPacking = POLARGRAIN_SOURCE_DIRECTORY "/cases/biaxial/packing400.csv";
+const std::string kElement = FAKE_POLARGRAIN " element ";
+constexpr double kYoung = 100e6;  // of the fake engine
+constexpr double kPoisson = 0.25;
+
+const std::string kLaw = R"(pressure: 100 kPa
+material: {model: elastic, E: 50 MPa, nu: 0.3, Gc: 10 MPa, lc: 1 mm}
+)";
+
+class ElementCommand : public ::testing::Test {
+ protected:
+  ElementCommand() : scratch("element") { write(scratch.path() / "cell.in", "young 100e6\n"); }
+
+  Outcome run(const std::string& arguments) const { return run_in(scratch.path(), kElement + arguments); }
+  /// Of a specification.
+  Outcome run_text(const std::string& text, const std::string& arguments = "") const {
+    write(scratch.path() / "spec.yaml", text);
+    return run("spec.yaml " + arguments);
+  }
+  void expect_fault(const std::string& text, const std::string& message) const {
+    const Outcome outcome = run_text(text);
+    EXPECT_EQ(outcome.status, 2) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "element.csv"));
+  }
+
+  Scratch scratch;
+};
+
+TEST_F(ElementCommand, BiaxialCompressionOfLinearCells) {
+  const Outcome outcome =
+      run("--test biaxial --pressure 100kPa --set axial_strain=1% --set rows=10 --set tolerance=1e-9 " +
+          kPacking + " cell.in");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const CsvTable table(scratch.path() / "element.csv");
+  const std::vector<double> strains = table.numbers("axial_strain");
+  const std::vector<double> axial = table.numbers("s22_Pa");
+  ASSERT_EQ(strains.size(), 13u);  // packing, consolidation, zero and ten rows
+  EXPECT_DOUBLE_EQ(strains.back(), 0.01);
+  // What the box feels of each row is the increment over its length then; s11 stays where e11 = -nu / (1 - nu) e22.
+  double sum = 0.0;
+  for (std::size_t k = 3; k < strains.size(); ++k) {
+    sum += (strains[k] - strains[k - 1]) / (1.0 - strains[k - 1]);
+    EXPECT_NEAR(axial[k], -100e3 - kYoung / (1.0 - kPoisson * kPoisson) * sum, 1e-3);
+    EXPECT_LE(table.numbers("residual")[k], 1e-9);
+  }
+  const std::string page = content(scratch.path() / "element.html");
+  for (const char* const title : {"s1 / s3", "volume strain", "q, kPa", "void ratio"})
+    EXPECT_NE(page.find(title), std::string::npos) << title;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "element_mean.csv"));
+}
+
+TEST_F(ElementCommand, SeveralPackingsHaveAMeanAndItsInterval) {
+  // Three moduli: 1, 2 and 3 times 100 MPa, by the mass of the first grain.
+  for (const int mass : {1, 2, 3})
+    write(scratch.path() / ("p" + std::to_string(mass) + ".csv"),
+          "# cell xx=1 xy=0 yx=0 yy=1 z=0.1\nid,x,y,r,mass,Izz\n1,0.5,0.5,0.4," + std::to_string(mass) +
+              ",0.08\n");
+  write(scratch.path() / "mass.in", "young_of_mass 100e6\n");
+  const std::string test =
+      "--test oedometer --pressure 100kPa --set axial_strain=1% --set rows=5 --set largest_increment=0.1 p1.csv p2.csv p3.csv mass.in ";
+  const Outcome one = run(test + "-w 1 -o one");
+  ASSERT_EQ(one.status, 0) << one.errors;
+  const Outcome three = run(test + "-w 3 -o three");
+  ASSERT_EQ(three.status, 0) << three.errors;
+  for (const char* const ending : {".csv", "_mean.csv", ".html"})
+    EXPECT_EQ(content(scratch.path() / (std::string("one") + ending)),
+              content(scratch.path() / (std::string("three") + ending)))
+        << ending;
+  const CsvTable mean(scratch.path() / "one_mean.csv");
+  const std::vector<double> stress = mean.numbers("s22_Pa");
+  const std::vector<double> half = mean.numbers("s22_Pa_half_95");
+  const double step = stress[3] - stress[4];  // of the mean modulus, over one row
+  EXPECT_EQ(mean.numbers("n").back(), 3.0);
+  // Standard deviation of 1, 2, 3 is 1; t of two degrees of freedom 4.303.
+  EXPECT_NEAR(half[3], 4.303 / std::sqrt(3.0) * 0.5 * (-100e3 - stress[3]), 1e-4 * half[3]);
+  EXPECT_GT(step, 0.0);
+  EXPECT_NE(one.out.find("mean of 3, 95 %"), std::string::npos) << one.out;
+}
+
+TEST_F(ElementCommand, StagesOfALaw) {
+  const Outcome outcome = run_text(kLaw + R"(void_ratio: 0.7
+tolerance: 1e-9
+stages:
+  - {test: isotropic, to: 200 kPa, rows: 4}
+  - {test: triaxial, deviator: 50 kPa, rows: 5, zero: yes}
+  - {test: triaxial, cycles: 2, amplitude: 10 kPa, drainage: undrained}
+  - {p: hold, q: 0 kPa, b: 0, rows: 3}
+  - {e22: hold, s11: -150 kPa, s33: hold, rows: 2}
+)");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const CsvTable table(scratch.path() / "element.csv");
+  ASSERT_EQ(table.rows(), 2u + 1u + 4u + 1u + 5u + 80u + 3u + 2u);
+  const auto last = [&](const char* name) { return table.numbers(name).back(); };
+  EXPECT_NEAR(last("s11_Pa"), -150e3, 1e-3);
+  EXPECT_NEAR(table.numbers("e22").back(), table.numbers("e22")[table.rows() - 3], 1e-15);
+  // dp over K of the isotropic stage, from the void ratio given.
+  const double bulk = 50e6 / (3.0 * (1.0 - 0.6));
+  EXPECT_NEAR(table.numbers("void_ratio")[7], 1.7 * (1.0 - 100e3 / bulk) - 1.0, 1e-12);
+  // After the cycles at constant volume the elastic law has no pore pressure left.
+  EXPECT_NEAR(last("pore_pressure_Pa"), 0.0, 1e-2);
+}
+
+TEST_F(ElementCommand, SaysWhatIsWrongBeforeAnythingMoves) {
+  const std::string cells = "packing: " + kPacking + "\nscript: cell.in\npressure: 100 kPa\n";
+  expect_fault(cells + "test: biaxal\n",
+               "spec.yaml:4: element test: test: expected one of isotropic, triaxial");
+  expect_fault(cells + "test: biaxal\n", "did you mean 'biaxial'?");
+  expect_fault(cells + "test: triaxial\n",
+               "spec.yaml:4: element test: triaxial: a cell of discs has no third direction");
+  expect_fault(cells + "test: biaxial\naxial_strain: 1 %\ndeviator: 20 kPa\n",
+               "spec.yaml:5: element test: axial_strain: deviator drives the test already");
+  expect_fault(cells + "stages:\n  - {e22: -1 %,\n     s22: hold}\n",
+               "spec.yaml:6: stage 1: s22: the component is prescribed twice, as e22 too");
+  expect_fault(cells + "stages: [{e22: -1 %, s33: hold}]\n",
+               "spec.yaml:4: stage 1: s33: discs neither move out");
+  expect_fault(cells + "test: biaxial\nstrain: 1 %\n", "spec.yaml:5: element test: unknown key 'strain'");
+  expect_fault(cells + "test: biaxial\ncycles: 3\namplitude: 20\n",
+               "spec.yaml:6: element test: amplitude: is a strain of 2000 %; a stress needs its unit");
+  expect_fault("packing: none.h5\nscript: cell.in\npressure: 100\ntest: biaxial\n",
+               "spec.yaml:1: element test: packing: there is no file 'none.h5'");
+  expect_fault("packing: none.h5\nscript: cell.in\npressure: 100\ntest: biaxial\n",
+               "spec.yaml:3: element test: pressure: '100' has no unit; write 100 kPa");
+  expect_fault(kLaw, "the key 'test' is missing");
+  const Outcome option = run("--test biaxial --pressure 100 " + kPacking + " cell.in");
+  EXPECT_EQ(option.status, 2);
+  EXPECT_NE(option.errors.find("--pressure: element test: pressure: '100' has no unit"), std::string::npos)
+      << option.errors;
+  const Outcome folder = run("--test biaxial --pressure 100kPa -o no/where " + kPacking + " cell.in");
+  EXPECT_EQ(folder.status, 2) << folder.errors;
+}
+
+TEST_F(ElementCommand, ACellThatFailsIsAFailureWithItsReason) {
+  write(scratch.path() / "weak.in", "fail_beyond 1e-6\n");
+  const Outcome outcome =
+      run("--test biaxial --pressure 100kPa --set axial_strain=5% --set rows=1 --set cuts=3 " + kPacking +
+          " weak.in");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("stage 2 (biaxial), row 1 of 1: "), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the box collapsed"), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "element.csv"));
+  EXPECT_NE(content(scratch.path() / "element.html").find("ended before its end"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(element_laws_test verification verification/element_laws_test.cpp LIBS polargrain_coupler)
