@@ -11,6 +11,7 @@ Command add_run(CLI::App& program, const Grains& grains);
 Command add_check(CLI::App& program, const Grains& grains);
 Command add_point(CLI::App& program, const Grains& grains);
 Command add_element(CLI::App& program, const Grains& grains);
+Command add_calibrate(CLI::App& program, const Grains& grains);
 Command add_pack(CLI::App& program, const Grains& grains);
 Command add_band(CLI::App& program, const Grains& grains);
 Command add_bench(CLI::App& program, const Grains& grains);
@@ -19,7 +20,8 @@ Command add_keys(CLI::App& program, const Grains& grains);
 Command add_verify(CLI::App& program, const Grains& grains);
 
 /// In the order of --help.
-inline constexpr AddCommand kCommands[] = {add_run,  add_check, add_point,  add_element, add_pack,
-                                           add_band, add_bench, add_worker, add_keys,    add_verify};
+inline constexpr AddCommand kCommands[] = {add_run,       add_check, add_point, add_element,
+                                           add_calibrate, add_pack,  add_band,  add_bench,
+                                           add_worker,    add_keys,  add_verify};
 
 }  // namespace polargrain::app

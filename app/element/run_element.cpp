@@ -51,26 +51,31 @@ ElementCurve curve_of(const std::string& name, element::MaterialPoint& point,
   return curve;
 }
 
-ElementResult run_cells(const ElementSpecification& specification, int workers, bool trust_scripts) {
-  WorkingPool working(std::min<int>(workers, static_cast<int>(specification.cells.size())), trust_scripts);
+/// One test on one packing.
+struct CellTest {
+  const ElementSpecification* specification;
+  std::size_t packing;
+  ElementCurve* curve;
+};
+
+void run_cells(const std::vector<CellTest>& tests, int workers, bool trust_scripts) {
+  WorkingPool working(std::min<int>(workers, static_cast<int>(tests.size())), trust_scripts);
   std::vector<std::uint32_t> definitions;
   std::vector<CellReply> at_rest;
-  for (const CellDefinition& cell : specification.cells) {
+  for (const CellTest& test : tests) {
+    const CellDefinition& cell = test.specification->cells[test.packing];
     definitions.push_back(working.pool().define(cell));
     at_rest.push_back(working.pool().initial(definitions.back()));
     if (at_rest.back().response.quality == Quality::failed)
       throw RunError(fmt::format("the packing {} cannot be brought to rest: {}", cell.name,
                                  at_rest.back().response.message));
   }
-  ElementResult result;
-  result.curves.resize(definitions.size());
-  coupler::ask_together(working.pool(), definitions, [&](std::size_t test, const coupler::AskCell& ask) {
-    coupler::CellPoint point(ask, at_rest[test], specification.cells[test].packing.dimension);
-    result.curves[test] = curve_of(specification.names[test], point, specification);
+  coupler::ask_together(working.pool(), definitions, [&](std::size_t k, const coupler::AskCell& ask) {
+    const CellTest& test = tests[k];
+    coupler::CellPoint point(ask, at_rest[k], test.specification->cells[test.packing].packing.dimension);
+    *test.curve = curve_of(test.specification->names[test.packing], point, *test.specification);
   });
-  result.columns = element_columns(specification.room, names_of_columns<CellDiagnostics>(), false);
   working.done();
-  return result;
 }
 
 ElementResult run_material(const ElementSpecification& specification, int workers, bool trust_scripts) {
@@ -121,9 +126,23 @@ Figures figures_of(const ElementResult& result, const ElementCurve& curve) {
 
 }  // namespace
 
-ElementResult run_element(const ElementSpecification& specification, int workers, bool trust_scripts) {
-  return specification.material != nullptr ? run_material(specification, workers, trust_scripts)
-                                           : run_cells(specification, workers, trust_scripts);
+std::vector<ElementResult> run_elements(std::span<const ElementSpecification> specifications, int workers,
+                                        bool trust_scripts) {
+  std::vector<ElementResult> results(specifications.size());
+  std::vector<CellTest> of_cells;
+  for (std::size_t k = 0; k < specifications.size(); ++k) {
+    const ElementSpecification& specification = specifications[k];
+    if (specification.material != nullptr) {
+      results[k] = run_material(specification, workers, trust_scripts);
+      continue;
+    }
+    results[k].columns = element_columns(specification.room, names_of_columns<CellDiagnostics>(), false);
+    results[k].curves.resize(specification.cells.size());
+    for (std::size_t packing = 0; packing < specification.cells.size(); ++packing)
+      of_cells.push_back({&specification, packing, &results[k].curves[packing]});
+  }
+  if (!of_cells.empty()) run_cells(of_cells, workers, trust_scripts);
+  return results;
 }
 
 std::string summary_of(const ElementResult& result) {

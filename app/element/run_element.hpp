@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ struct ElementResult {
   std::vector<ElementCurve> curves;
 };
 
+/// Several tests; all that ask cells share the workers.
 /// @param trust_scripts of cells @throws RunError when no worker can be started, or a packing cannot be brought to rest
-ElementResult run_element(const ElementSpecification& specification, int workers, bool trust_scripts);
+std::vector<ElementResult> run_elements(std::span<const ElementSpecification> specifications, int workers,
+                                        bool trust_scripts);
 
 /// What came out, for the terminal: peak, dilatancy, end of each specimen and their mean.
 std::string summary_of(const ElementResult& result);

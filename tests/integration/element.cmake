@@ -9,3 +9,8 @@ if(TARGET polargrain)
                                                          POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(element_engine_test polargrain)
 endif()
+
+polargrain_test(calibrate_command_test integration integration/calibrate_command_test.cpp LIBS polargrain_common)
+target_compile_definitions(calibrate_command_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"
+                                                          POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+add_dependencies(calibrate_command_test fake_polargrain)

@@ -54,8 +54,20 @@ bool this_process_forges() {
 class FakeEngine : public CellService {
  public:
   explicit FakeEngine(const CellDefinition& definition) {
+    std::map<std::string, std::string> variables;
     for (const ScriptCommand& line : commands_of_script(definition.script, definition.script_file)) {
-      std::istringstream words(line.text);
+      std::string text = line.text;
+      for (const auto& [name, value] : variables)
+        if (const std::size_t place = text.find("${" + name + "}"); place != std::string::npos)
+          text.replace(place, name.size() + 3, value);
+      std::istringstream words(text);
+      if (text.starts_with("variable ")) {
+        std::string name;
+        std::string style;
+        words >> style >> name >> style;
+        words >> variables[name];
+        continue;
+      }
       for (std::string command; words >> command;) {
         if (!fake_commands().contains(command)) {
           die_like_the_engine(("Unknown command: " + command + " (../input.cpp:209)").c_str());

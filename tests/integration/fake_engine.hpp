@@ -23,6 +23,8 @@ namespace polargrain::testing {
 ///     exceeds e die_beyond e           then prints what LIGGGHTS prints when grains are lost, and ends the
 ///     process hang_beyond e          then hangs for ever refuse_beyond e        then throws
 ///
+///     variable NAME index VALUE   puts the value in the place of ${NAME} in later lines
+///
 /// An unknown command ends the process as LIGGGHTS does.
 std::unique_ptr<CellService> make_fake_engine(const CellDefinition& definition);
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "app/calibrate/calibration.hpp"
+
+namespace polargrain::app {
+
+/// What the curves are at some values of the parameters.
+struct Evaluation {
+  std::vector<double> values;       ///< of the parameters
+  double misfit = 0.0;              ///< mean square of the differences
+  std::vector<double> differences;  ///< one a point, in errors
+};
+
+/// What a calibration found.
+struct CalibrationResult {
+  std::vector<Evaluation> record;  ///< in their order
+  Evaluation best;
+  std::string end;  ///< why the search ended
+  bool converged = false;
+  /// Places of the parameters between their bounds (Parameter::place_of), by linearising around the best ones: 95 %
+  /// interval, and correlations. Infinite where the data say nothing.
+  std::vector<double> half_width;
+  Eigen::MatrixXd correlations;
+  /// Directions in which the misfit is steep and flat, columns, and half the 95 % interval along each.
+  Eigen::MatrixXd directions;
+  std::vector<double> direction_half_width;
+};
+
+/// Finds the parameters by BOBYQA (Powell 2009, of NLopt: no derivatives, bounds, content with some noise), then
+/// linearises around them.
+/// @param evaluate what the tests give for values of the parameters: their differences
+/// @param known evaluations made before: taken instead of being made again
+/// @param on_new called with each one that was made
+CalibrationResult calibrate(const Calibration& calibration,
+                            const std::function<std::vector<double>(const std::vector<double>&)>& evaluate,
+                            const std::vector<Evaluation>& known,
+                            const std::function<void(const Evaluation&)>& on_new);
+
+}  // namespace polargrain::app

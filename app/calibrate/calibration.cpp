@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/calibrate/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "app/calibrate/script_parameters.hpp"
+#include "app/element/element_table.hpp"
+#include "common/csv_table.hpp"
+#include "common/elementary_functions.hpp"
+#include "common/record_table.hpp"
+#include "common/state.hpp"
+#include "coupler/case/data_files.hpp"
+#include "coupler/case/section.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using coupler::Dimension;
+using coupler::Entry;
+using coupler::Faults;
+using coupler::Limit;
+using coupler::Section;
+
+/// What a specification says once for all tests.
+constexpr const char* kShared[] = {"packing",
+                                   "script",
+                                   "contact_library",
+                                   "inertial_number",
+                                   "unbalanced_force_ratio",
+                                   "unbalanced_moment_ratio",
+                                   "damping",
+                                   "least_steps",
+                                   "most_relaxation_steps",
+                                   "tangent",
+                                   "loop",
+                                   "tolerance",
+                                   "largest_increment",
+                                   "iterations",
+                                   "cuts",
+                                   "jumps"};
+
+Parameter read_parameter(const Entry::Member& member, Faults& faults) {
+  Section section(member.value, fmt::format("parameter '{}'", member.key), faults);
+  Parameter parameter;
+  parameter.name = member.key;
+  parameter.linear = section.choice_or("scale", {"logarithmic", "linear"}, "logarithmic") == "linear";
+  const Limit limit = parameter.linear ? Limit::any : Limit::positive;
+  const std::vector<double> bounds = section.quantities("bounds", 2, Dimension::number, limit);
+  parameter.low = bounds[0];
+  parameter.high = bounds[1];
+  parameter.start = section.quantity("start", Dimension::number, limit);
+  if (section.find("bounds") != nullptr && !(parameter.low < parameter.high))
+    section.fault("bounds", "bounds: the first must be the smaller one");
+  else if (!(parameter.start >= parameter.low && parameter.start <= parameter.high))
+    section.fault("start", fmt::format("start: {:.6g} is outside of the bounds {:.6g} to {:.6g}",
+                                       parameter.start, parameter.low, parameter.high));
+  section.finish();
+  return parameter;
+}
+
+/// A test with what the specification says for all.
+ElementSpecification read_test(const Entry& document, const Entry::Member& member,
+                               const std::filesystem::path& directory, const ScriptRules& scripts,
+                               Faults& faults) {
+  Entry whole = member.value;
+  if (whole.kind == Entry::Kind::map)
+    for (const char* const key : kShared)
+      if (const Entry* const shared = document.find(key); shared != nullptr && whole.find(key) == nullptr)
+        whole.members.push_back({key, shared->line, *shared});
+  try {
+    ElementSpecification test = read_element_specification(whole, directory, scripts);
+    // Contacts of another stiffness carry another pressure in the same place; the test itself brings it to its own.
+    for (CellDefinition& cell : test.cells) cell.packing.pressure = 0.0;
+    if (test.cells.empty())
+      faults.push_back(member.value.fault(fmt::format(
+          "test '{}': the parameters are variables of a script of cells; give 'packing' and 'script'",
+          member.key)));
+    return test;
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults())
+      if (std::ranges::none_of(faults, [&](const Fault& f) { return f.text() == fault.text(); }))
+        faults.push_back(fault);
+  }
+  return {};
+}
+
+std::vector<std::string> columns_of_test(const ElementSpecification& test) {
+  return element_columns(test.room, names_of_columns<CellDiagnostics>(), false);
+}
+
+/// Reads one target: points of the laboratory's table, or one number.
+void read_target(const Entry& entry, std::size_t number, const CsvTable& table, Calibration& calibration,
+                 Faults& faults) {
+  Section section(entry, fmt::format("target {}", number), faults);
+  TargetPoint point;
+  const std::string test =
+      calibration.test_names.size() == 1
+          ? section.choice_or("test", calibration.test_names, calibration.test_names.front())
+          : section.choice("test", calibration.test_names);
+  const auto found = std::ranges::find(calibration.test_names, test);
+  if (found == calibration.test_names.end()) return;
+  point.test = static_cast<std::size_t>(found - calibration.test_names.begin());
+  const std::vector<std::string> columns = columns_of_test(calibration.tests[point.test]);
+  point.column = section.choice("column", columns);
+  point.error = section.quantity("error", Dimension::number, Limit::positive);
+  for (const auto& [key, where] :
+       {std::pair{"largest", TargetPoint::Where::largest}, {"last", TargetPoint::Where::last}}) {
+    if (section.find(key) == nullptr) continue;
+    point.where = where;
+    point.value = section.quantity(key, Dimension::number, Limit::any);
+    calibration.points.push_back(point);
+    section.finish();
+    return;
+  }
+  point.along = section.choice_or("along", columns, "axial_strain");
+  const std::string lab = section.text_or("lab", point.column);
+  const std::string lab_along = section.text_or("lab_along", point.along);
+  const double factor = section.quantity_or("factor", Dimension::number, Limit::any, 1.0);
+  const double factor_along = section.quantity_or("factor_along", Dimension::number, Limit::any, 1.0);
+  const std::string lab_test = section.text_or("lab_test", test);
+  const std::string test_column = section.text_or("test_column", "test");
+  section.finish();
+  if (point.column.empty() || point.along.empty()) return;
+  for (const std::string& name : {lab, lab_along})
+    if (std::ranges::find(table.names(), name) == table.names().end()) {
+      section.fault(name == lab ? "lab" : "lab_along",
+                    fmt::format("the laboratory's table has no column '{}'; it has {}", name,
+                                coupler::listed(table.names())));
+      return;
+    }
+  const bool names_tests = std::ranges::find(table.names(), test_column) != table.names().end();
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (names_tests && table.cell(row, test_column) != lab_test) continue;
+    if (table.cell(row, lab).empty() || table.cell(row, lab_along).empty()) continue;
+    point.at = factor_along * table.number(row, table.column(lab_along));
+    point.value = factor * table.number(row, table.column(lab));
+    calibration.points.push_back(point);
+    ++count;
+  }
+  if (count == 0)
+    section.fault("lab", fmt::format("the laboratory's table has no row of the test '{}' with both {} and {}",
+                                     lab_test, lab_along, lab));
+}
+
+/// Where a curve first comes to a value of x, or nothing.
+std::optional<double> value_along(const std::vector<std::vector<double>>& rows, std::size_t x, std::size_t y,
+                                  double at) {
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+    const double from = rows[k][x];
+    const double to = rows[k + 1][x];
+    if (from == at) return rows[k][y];
+    if ((from < at) == (to < at) && to != at) continue;
+    return rows[k][y] + (rows[k + 1][y] - rows[k][y]) * (at - from) / (to - from);
+  }
+  return {};
+}
+
+std::optional<double> value_of(const TargetPoint& point, const std::vector<std::string>& columns,
+                               const std::vector<std::vector<double>>& all_rows) {
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+  };
+  // What the consolidation did is none of the test's; its rows are those of stage 0.
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : all_rows)
+    if (row[column("stage")] > 0.0) rows.push_back(row);
+  if (rows.empty()) return {};
+  const std::size_t y = column(point.column);
+  if (point.where == TargetPoint::Where::last) return rows.back()[y];
+  if (point.where == TargetPoint::Where::along) return value_along(rows, column(point.along), y, point.at);
+  return (*std::ranges::max_element(rows, {}, [y](const auto& row) { return row[y]; }))[y];
+}
+
+}  // namespace
+
+double Parameter::place_of(double value) const {
+  return linear ? (value - low) / (high - low) : logarithm(value / low) / logarithm(high / low);
+}
+
+double Parameter::value_at(double place) const {
+  if (place <= 0.0) return low;
+  if (place >= 1.0) return high;
+  return linear ? low + place * (high - low) : low * exponential(place * logarithm(high / low));
+}
+
+Calibration read_calibration(const std::filesystem::path& laboratory, const std::filesystem::path& file,
+                             const std::vector<std::string>& settings, const ScriptRules& scripts) {
+  Entry document = coupler::load_document(file);
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  const CsvTable table(laboratory);
+  Faults faults;
+  Calibration calibration;
+  Section top(document, "calibration", faults);
+  calibration.title = top.text_or("title", "Calibration");
+  for (const char* const key : kShared) top.find(key);
+  calibration.evaluations = top.whole_or("evaluations", 1, calibration.evaluations);
+  const auto share = [&top](const char* key, double otherwise) {
+    const double value = top.quantity_or(key, Dimension::number, Limit::positive, otherwise);
+    if (value > 0.5)
+      top.fault(key, fmt::format("{}: is a share of the way between the bounds, at most 0.5", key));
+    return value;
+  };
+  calibration.tolerance = share("search_tolerance", calibration.tolerance);
+  calibration.difference = share("difference", calibration.difference);
+  if (const Entry* const parameters =
+          top.require("parameters", "a map of names, each with 'bounds' and 'start'"))
+    for (const Entry::Member& member : parameters->members)
+      calibration.parameters.push_back(read_parameter(member, faults));
+  if (calibration.parameters.empty()) top.fault("parameters", "parameters: at least one is sought");
+  if (const Entry* const tests = top.require("tests", "a map of names, each with a test and its pressure")) {
+    for (const Entry::Member& member : tests->members) {
+      calibration.test_names.push_back(member.key);
+      calibration.tests.push_back(read_test(document, member, file.parent_path(), scripts, faults));
+    }
+    if (calibration.tests.empty()) top.fault("tests", "tests: at least one is needed");
+  }
+  for (const ElementSpecification& test : calibration.tests) {
+    if (test.cells.empty()) continue;
+    if (const Entry* const parameters = top.find("parameters"))
+      for (const Entry::Member& member : parameters->members)
+        if (const std::string fault = parameter_fault(test.cells.front().script, member.key); !fault.empty())
+          faults.push_back(
+              {member.value.file, member.line,
+               fmt::format("parameter '{}': {}: {}", member.key, test.cells.front().script_file, fault)});
+    break;
+  }
+  const Entry* const targets = top.require("targets", "a list of what the tests are to give");
+  if (targets != nullptr && faults.empty())
+    for (std::size_t k = 0; k < targets->items.size(); ++k)
+      read_target(targets->items[k], k + 1, table, calibration, faults);
+  top.finish();
+  if (faults.empty() && calibration.points.size() < calibration.parameters.size())
+    top.fault("targets", fmt::format("targets: {} points cannot tell {} parameters",
+                                     calibration.points.size(), calibration.parameters.size()));
+  std::ranges::stable_sort(faults, {}, [](const Fault& fault) { return std::pair(fault.file, fault.line); });
+  if (!faults.empty()) throw InputError(faults);
+  std::string all = coupler::content_of(file) + coupler::content_of(laboratory);
+  for (const std::string& setting : settings) all += setting + '\n';
+  for (const ElementSpecification& test : calibration.tests)
+    for (const CellDefinition& cell : test.cells) {
+      all += cell.script;
+      for (const Grain& grain : cell.packing.grains)
+        all += fmt::format("{} {} {}\n", grain.position.x(), grain.position.y(), grain.radius);
+    }
+  calibration.identity = name_of(std::as_bytes(std::span(all))).text();
+  return calibration;
+}
+
+std::vector<double> differences(const std::vector<TargetPoint>& points,
+                                const std::vector<std::vector<std::string>>& columns,
+                                const std::vector<std::vector<std::vector<std::vector<double>>>>& curves) {
+  std::vector<double> result;
+  for (const TargetPoint& point : points) {
+    double sum = 0.0;
+    for (const auto& rows : curves[point.test]) {
+      const std::optional<double> value = value_of(point, columns[point.test], rows);
+      sum += value && std::isfinite(*value)
+                 ? std::clamp((*value - point.value) / point.error, -100.0 * kMissed, 100.0 * kMissed)
+                 : kMissed;
+    }
+    result.push_back(sum / static_cast<double>(curves[point.test].size()));
+  }
+  return result;
+}
+
+}  // namespace polargrain::app

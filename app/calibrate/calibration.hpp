@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/element/read_specification.hpp"
+
+namespace polargrain::app {
+
+/// What is sought: a variable of the script. The search works on its logarithm, unless it is linear.
+struct Parameter {
+  std::string name;
+  double low = 0.0;
+  double high = 1.0;
+  double start = 0.5;
+  bool linear = false;
+
+  /// Where between its bounds a value lies, 0 to 1, and back.
+  [[nodiscard]] double place_of(double value) const;
+  [[nodiscard]] double value_at(double place) const;
+};
+
+/// One number of the laboratory that the tests are to give.
+struct TargetPoint {
+  std::size_t test = 0;  ///< which of the tests
+  std::string column;    ///< of its curve
+  enum class Where { along, largest, last } where = Where::along;
+  std::string along;  ///< column that says where
+  double at = 0.0;    ///< value of that column
+  double value = 0.0;
+  double error = 1.0;  ///< standard deviation of its reading
+};
+
+/// A calibration as a specification asks for it, checked (docs/element_tests.md).
+struct Calibration {
+  std::string title;
+  std::vector<Parameter> parameters;
+  std::vector<std::string> test_names;
+  std::vector<ElementSpecification> tests;
+  std::vector<TargetPoint> points;
+  int evaluations = 100;     ///< most of a search
+  double tolerance = 0.005;  ///< of a search: change of the places of the parameters
+  double difference = 0.05;  ///< of these places, for the derivatives at the end
+  std::string identity;      ///< of everything that decides results
+};
+
+/// @param laboratory CSV file with the curves @throws InputError with all faults
+Calibration read_calibration(const std::filesystem::path& laboratory, const std::filesystem::path& file,
+                             const std::vector<std::string>& settings, const ScriptRules& scripts);
+
+/// The differences of the curves from the points, over their errors: of the mean over the packings. A packing that did
+/// not come as far as a point counts as `kMissed` errors there.
+inline constexpr double kMissed = 10.0;
+std::vector<double> differences(const std::vector<TargetPoint>& points,
+                                const std::vector<std::vector<std::string>>& columns,
+                                const std::vector<std::vector<std::vector<std::vector<double>>>>& curves);
+
+}  // namespace polargrain::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/calibrate/calibration_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "app/page/page.hpp"
+
+namespace polargrain::app {
+namespace {
+
+std::size_t column(const ElementResult& result, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(result.columns, name) - result.columns.begin());
+}
+
+/// The curves of one test in two columns, and the points of the laboratory.
+std::string curves_of(const Calibration& calibration, const std::vector<ElementResult>& best,
+                      std::size_t test, const std::string& x, const std::string& y) {
+  std::vector<ChartSeries> series;
+  for (const ElementCurve& curve : best[test].curves) {
+    ChartSeries line;
+    line.name = curve.name;
+    line.line = true;
+    for (const auto& row : curve.rows)
+      if (row[column(best[test], "stage")] > 0.0)
+        line.points.emplace_back(row[column(best[test], x)], row[column(best[test], y)]);
+    series.push_back(std::move(line));
+  }
+  ChartSeries laboratory;
+  laboratory.name = "laboratory";
+  laboratory.colour = "#c33";
+  for (const TargetPoint& point : calibration.points)
+    if (point.test == test && point.where == TargetPoint::Where::along && point.along == x &&
+        point.column == y)
+      laboratory.points.emplace_back(point.at, point.value);
+  series.push_back(std::move(laboratory));
+  return fmt::format("<h2>{}: {}</h2>\n", escaped(calibration.test_names[test]), escaped(y)) +
+         chart({.title = x}, {.title = y}, series, true);
+}
+
+}  // namespace
+
+std::string calibration_summary(const Calibration& calibration, const CalibrationResult& result) {
+  std::string text =
+      fmt::format("{} evaluations; {}\nroot mean square difference {:.3g} reading errors, of {} points\n\n",
+                  result.record.size(), result.end, std::sqrt(result.best.misfit), calibration.points.size());
+  text += fmt::format("{:<24} {:>12} {:>12} {:>12}\n", "parameter", "best", "95 % from", "to");
+  for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
+    const Parameter& parameter = calibration.parameters[k];
+    const double place = parameter.place_of(result.best.values[k]);
+    const double low = place - result.half_width[k];
+    const double high = place + result.half_width[k];
+    text += fmt::format("{:<24} {:>12.5g} {:>12} {:>12}{}\n", parameter.name, result.best.values[k],
+                        low > 0.0 ? fmt::format("{:.5g}", parameter.value_at(low)) : "bound",
+                        high < 1.0 ? fmt::format("{:.5g}", parameter.value_at(high)) : "bound",
+                        place < 0.01 || place > 0.99 ? "   at a bound" : "");
+  }
+  if (calibration.parameters.size() > 1) {
+    text += "\ncorrelations\n";
+    for (std::size_t p = 0; p < calibration.parameters.size(); ++p) {
+      text += fmt::format("{:<24}", calibration.parameters[p].name);
+      for (std::size_t q = 0; q < calibration.parameters.size(); ++q)
+        text += fmt::format(" {:>8.3f}",
+                            result.correlations(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)));
+      text += '\n';
+    }
+    text +=
+        "\nwhat the data tell, steepest last: half a 95 % interval (of the way between the bounds) along a direction\n";
+    for (std::size_t d = 0; d < result.direction_half_width.size(); ++d) {
+      text += fmt::format("{:>10.3g}  ", result.direction_half_width[d]);
+      for (std::size_t p = 0; p < calibration.parameters.size(); ++p)
+        text += fmt::format(" {:+.2f} {}",
+                            result.directions(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(d)),
+                            calibration.parameters[p].name);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string calibration_page(const Calibration& calibration, const CalibrationResult& result,
+                             const std::vector<ElementResult>& best) {
+  std::string body = "<pre>" + escaped(calibration_summary(calibration, result)) + "</pre>\n";
+  std::set<std::tuple<std::size_t, std::string, std::string>> shown;
+  for (const TargetPoint& point : calibration.points)
+    if (point.where == TargetPoint::Where::along &&
+        shown.insert({point.test, point.along, point.column}).second)
+      body += curves_of(calibration, best, point.test, point.along, point.column);
+  ChartSeries search;
+  search.name = "misfit";
+  ChartSeries least;
+  least.name = "least so far";
+  least.line = true;
+  for (std::size_t k = 0; k < result.record.size(); ++k) {
+    const double misfit = std::sqrt(result.record[k].misfit);
+    search.points.emplace_back(static_cast<double>(k + 1), misfit);
+    least.points.emplace_back(static_cast<double>(k + 1),
+                              least.points.empty() ? misfit : std::min(misfit, least.points.back().second));
+  }
+  body += "<h2>Convergence</h2>\n" +
+          chart({.title = "evaluation"},
+                {.title = "root mean square difference, reading errors", .logarithmic = true},
+                {search, least}, true);
+  return page(calibration.title, body);
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/calibrate/calibration_page.hpp"
+#include "app/calibrate/script_parameters.hpp"
+#include "app/commands/command.hpp"
+#include "app/commands/csv_file.hpp"
+#include "common/csv_table.hpp"
+#include "common/standard_streams.hpp"
+#include "common/write_file.hpp"
+
+namespace polargrain::app {
+namespace {
+
+struct CalibrateOptions {
+  std::filesystem::path laboratory;
+  std::filesystem::path specification;
+  std::filesystem::path directory = "calibration";
+  std::vector<std::string> settings;
+  int workers = 1;
+  bool quiet = false;
+  ScriptRules scripts = {};
+};
+
+/// The tests under a script with these values.
+std::vector<ElementSpecification> tests_with(const Calibration& calibration,
+                                             const std::vector<double>& values) {
+  std::vector<std::pair<std::string, double>> parameters;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    parameters.emplace_back(calibration.parameters[k].name, values[k]);
+  std::vector<ElementSpecification> tests = calibration.tests;
+  for (ElementSpecification& test : tests)
+    for (CellDefinition& cell : test.cells) cell.script = with_parameters(cell.script, parameters);
+  return tests;
+}
+
+std::vector<double> evaluate(const Calibration& calibration, const std::vector<double>& values,
+                             const CalibrateOptions& options) {
+  const std::vector<ElementSpecification> tests = tests_with(calibration, values);
+  std::vector<std::vector<std::string>> columns;
+  std::vector<std::vector<std::vector<std::vector<double>>>> curves;
+  for (const ElementResult& result : run_elements(tests, options.workers, options.scripts.trusted)) {
+    columns.push_back(result.columns);
+    curves.emplace_back();
+    for (const ElementCurve& curve : result.curves) curves.back().push_back(curve.rows);
+  }
+  return differences(calibration.points, columns, curves);
+}
+
+std::vector<std::string> columns_of_record(const Calibration& calibration) {
+  std::vector<std::string> columns;
+  for (const Parameter& parameter : calibration.parameters) columns.push_back(parameter.name);
+  columns.emplace_back("misfit");
+  for (std::size_t k = 0; k < calibration.points.size(); ++k)
+    columns.push_back(fmt::format("difference_{}", k + 1));
+  return columns;
+}
+
+std::string row_of(const Evaluation& evaluation) {
+  std::vector<std::string> cells;
+  for (const double value : evaluation.values) cells.push_back(exact(value));
+  cells.push_back(exact(evaluation.misfit));
+  for (const double difference : evaluation.differences) cells.push_back(exact(difference));
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+std::string heading_of(const Calibration& calibration) {
+  return fmt::format("# calibration {}\n{}\n", calibration.identity,
+                     fmt::join(columns_of_record(calibration), ","));
+}
+
+/// The evaluations that a record holds. @throws InputError when it is one of another calibration
+std::vector<Evaluation> known_evaluations(const std::filesystem::path& record,
+                                          const Calibration& calibration) {
+  if (!std::filesystem::exists(record)) return {};
+  const CsvTable table(record);
+  if (table.comments().empty() || table.comments().front() != "# calibration " + calibration.identity)
+    throw InputError(
+        {record.string(), 1,
+         "is the record of another calibration: its table, specification, script or packings were "
+         "different; name another folder with -o, or remove it"});
+  std::vector<Evaluation> known;
+  const std::size_t count = calibration.parameters.size();
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    Evaluation one;
+    for (std::size_t k = 0; k < count; ++k) one.values.push_back(table.number(row, k));
+    one.misfit = table.number(row, count);
+    for (std::size_t k = 0; k < calibration.points.size(); ++k)
+      one.differences.push_back(table.number(row, count + 1 + k));
+    known.push_back(std::move(one));
+  }
+  return known;
+}
+
+std::string table_of(const Calibration& calibration, const CalibrationResult& result) {
+  std::string text = "parameter,best,low_95,high_95\n";
+  for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
+    const Parameter& parameter = calibration.parameters[k];
+    const double place = parameter.place_of(result.best.values[k]);
+    text += fmt::format("{},{},{},{}\n", parameter.name, exact(result.best.values[k]),
+                        exact(parameter.value_at(place - result.half_width[k])),
+                        exact(parameter.value_at(place + result.half_width[k])));
+  }
+  return text;
+}
+
+int run_calibration(const CalibrateOptions& options) {
+  const Calibration calibration =
+      read_calibration(options.laboratory, options.specification, options.settings, options.scripts);
+  std::filesystem::create_directories(options.directory);
+  const std::filesystem::path file = options.directory / "record.csv";
+  const std::vector<Evaluation> known = known_evaluations(file, calibration);
+  std::string text = heading_of(calibration);
+  for (const Evaluation& one : known) text += row_of(one);
+  CsvFile record(file, text);
+  std::size_t count = known.size();
+  const CalibrationResult result = calibrate(
+      calibration, [&](const std::vector<double>& values) { return evaluate(calibration, values, options); },
+      known,
+      [&](const Evaluation& one) {
+        std::string row = row_of(one);
+        row.pop_back();
+        record.row({row});
+        if (!options.quiet)
+          tell(stderr, "evaluation {}: {:.4g}, difference {:.4g} errors\n", ++count,
+               fmt::join(one.values, ", "), std::sqrt(one.misfit));
+      });
+  const std::vector<ElementSpecification> tests = tests_with(calibration, result.best.values);
+  const std::vector<ElementResult> best = run_elements(tests, options.workers, options.scripts.trusted);
+  write_file(options.directory / "parameters.csv", table_of(calibration, result));
+  write_file(options.directory / "best.in", tests.front().cells.front().script);
+  write_file(options.directory / "calibration.html", calibration_page(calibration, result, best));
+  tell(stdout, "{}", calibration_summary(calibration, result));
+  return result.converged ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_calibrate(CLI::App& program, const Grains& grains) {
+  const auto options = std::make_shared<CalibrateOptions>();
+  CLI::App& command =
+      *program.add_subcommand("calibrate", "Find parameters of contacts from laboratory curves");
+  command.description(
+      "Finds parameters of contacts, variables of a script of cells, for which laboratory tests of cells give the curves of a\n"
+      "laboratory (docs/element_tests.md). Writes record.csv (a row an evaluation; the same command goes on from there),\n"
+      "parameters.csv (with 95 % intervals), best.in (the script) and calibration.html. Exit status 1: not converged.");
+  command.add_option("LAB", options->laboratory, "CSV: the laboratory's curves, named columns")->required();
+  command.add_option("SPEC", options->specification, "Specification (YAML): parameters, tests, targets")
+      ->required();
+  command.add_option("-o,--output", options->directory, "Folder to write [calibration]")->type_name("DIR");
+  command.add_flag("--quiet", options->quiet, "No line for each evaluation");
+  add_settings(command, options->settings);
+  add_workers(command, options->workers, 1);
+  add_trust(command, options->scripts, grains);
+  return {&command, [options] { return run_calibration(*options); }};
+}
+
+}  // namespace polargrain::app
