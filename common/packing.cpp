@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,6 +22,7 @@ namespace polargrain {
 namespace {
 
 constexpr std::string_view kColumns = "id,x,y,r,mass,Izz";
+constexpr std::string_view kColumnsInSpace = "id,x,y,z,r,mass,Izz";
 
 /// The value behind "key=" in the header line.
 std::optional<double> header_value(std::string_view line, std::string_view key) {
@@ -40,10 +42,13 @@ class Reader {
   explicit Reader(const std::filesystem::path& file) : table_(file) {}
 
   Packing read() {
-    read_header();
     const std::string names = fmt::format("{}", fmt::join(table_.names(), ","));
-    if (names != kColumns)
-      table_.fail(table_.line_of_names(), fmt::format("expected the column names '{}'", kColumns));
+    if (names == kColumnsInSpace) packing_.dimension = 3;
+    read_header();
+    if (names != kColumns && names != kColumnsInSpace)
+      table_.fail(
+          table_.line_of_names(),
+          fmt::format("expected the column names '{}', of spheres in space '{}'", kColumns, kColumnsInSpace));
     for (std::size_t row = 0; row < table_.rows(); ++row) read_grain(row);
     if (packing_.grains.empty()) table_.fail(table_.line_of_names(), "the packing has no grains");
     return packing_;
@@ -52,38 +57,50 @@ class Reader {
  private:
   void read_header() {
     const std::string line = table_.comments().empty() ? "" : table_.comments().front();
-    std::array<double, 5> values{};
-    constexpr std::array<std::string_view, 5> keys{"xx", "xy", "yx", "yy", "z"};
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      const std::optional<double> value = header_value(line, keys[k]);
+    const auto value_of = [&](std::string_view key, std::string_view expected) {
+      const std::optional<double> value = header_value(line, key);
       if (!value || !std::isfinite(*value))
         table_.fail(
-            1, fmt::format(
-                   "expected the cell's base vectors as '# cell xx=... xy=... yx=... yy=... z=...' in m; "
-                   "'{}=' is missing or not a number",
-                   keys[k]));
-      values[k] = *value;
-    }
+            1, fmt::format("expected the cell's base vectors as '# cell {}' in m; '{}=' is missing or not "
+                           "a number",
+                           expected, key));
+      return *value;
+    };
+    const bool space = packing_.dimension == 3;
+    constexpr std::string_view kPlane = "xx=... xy=... yx=... yy=... z=...";
+    constexpr std::string_view kSpace = "xx=... xy=... xz=... yx=... yy=... yz=... zx=... zy=... zz=...";
+    const auto value = [&](std::string_view key) { return value_of(key, space ? kSpace : kPlane); };
+    packing_.box << value("xx"), value("xy"), value("yx"), value("yy");
+    packing_.thickness = value(space ? "zz" : "z");
     if (const std::optional<double> pressure = header_value(line, "p")) {
       if (!(*pressure > 0.0)) table_.fail(1, "the pressure p must be positive, or left out");
       packing_.pressure = *pressure;
     }
-    packing_.box << values[0], values[1], values[2], values[3];
-    packing_.thickness = values[4];
+    if (space) {
+      packing_.lean << value("xz"), value("yz");
+      if (value("zx") != 0.0 || value("zy") != 0.0)
+        table_.fail(
+            1,
+            "the first two base vectors of a packing in space must lie in the plane of x and y: zx and zy "
+            "must be 0; turn the packing");
+    }
     if (!(packing_.box.determinant() > 0.0))
       table_.fail(1, "the base vectors span no area (or are left-handed)");
     if (!(packing_.thickness > 0.0)) table_.fail(1, "the thickness z must be positive");
   }
 
   void read_grain(std::size_t row) {
-    std::array<double, 6> values{};
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = table_.number(row, k);
+    std::array<double, 7> values{};
+    const bool space = packing_.dimension == 3;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = space ? table_.number(row, k) : k == 3 ? 0.0 : table_.number(row, k > 3 ? k - 1 : k);
     const auto fail = [&](const std::string& message) { table_.fail(table_.line_of(row), message); };
     Grain grain;
     grain.position = {values[1], values[2]};
-    grain.radius = values[3];
-    grain.mass = values[4];
-    grain.moment_of_inertia = values[5];
+    grain.height = values[3];
+    grain.radius = values[4];
+    grain.mass = values[5];
+    grain.moment_of_inertia = values[6];
     if (!(values[0] >= 0.0 && values[0] <= 2e9) || std::floor(values[0]) != values[0])
       fail("the id must be a whole number from 0 to 2e9");
     grain.id = static_cast<std::int64_t>(values[0]);
@@ -99,6 +116,23 @@ class Reader {
 };
 
 }  // namespace
+
+Eigen::Matrix3d Packing::base_vectors() const {
+  Eigen::Matrix3d columns = Eigen::Matrix3d::Zero();
+  columns.topLeftCorner<2, 2>() = box;
+  columns.topRightCorner<2, 1>() = lean;
+  columns(2, 2) = thickness;
+  return columns;
+}
+
+double Packing::grain_volume() const {
+  double sum = 0.0;
+  for (const Grain& grain : grains) {
+    const double area = std::numbers::pi * grain.radius * grain.radius;
+    sum += area * (dimension == 3 ? 4.0 / 3.0 * grain.radius : thickness);
+  }
+  return sum;
+}
 
 double Packing::mean_radius() const {
   double sum = 0.0;

@@ -33,8 +33,8 @@ void describe(Record& grain, Visit&& visit) {
 
 /// The prepared initial state of a cell: grains in a periodic box.
 struct Packing {
-  /// 2: a plane packing, what cells are made of. 3: spheres in a box that is periodic in x3 too, with the
-  /// height `thickness`.
+  /// 2: a plane packing, of discs. 3: spheres in a box that is periodic in x3 too, with the height
+  /// `thickness`.
   int dimension = 2;
   /// Columns are the base vectors of the periodic box, m.
   Eigen::Matrix2d box = Eigen::Matrix2d::Zero();
@@ -50,6 +50,10 @@ struct Packing {
   StatePointer state;
 
   [[nodiscard]] double volume() const { return box.determinant() * thickness; }
+  /// The base vectors in space as columns, m: those of the plane, and the third along e_3 by the thickness, leaning.
+  [[nodiscard]] Eigen::Matrix3d base_vectors() const;
+  /// Sum of the volumes of the grains, m^3: of spheres in space, of discs as high as the box in a plane packing.
+  [[nodiscard]] double grain_volume() const;
   /// Mean radius of the grains, m.
   [[nodiscard]] double mean_radius() const;
 };
@@ -73,7 +77,8 @@ void describe(Record& packing, Visit&& visit) {
 /// Reads a packing: from HDF5 when the name ends in .h5 (common/packing_file.hpp), else from CSV: a first
 /// line `# cell ... xx=... xy=... yx=... yy=... z=... p=...` with the base vectors as columns (xy: x
 /// component of the second vector) and the pressure (may be left out), a line of column names
-/// `id,x,y,r,mass,Izz`, then one grain a line.
+/// `id,x,y,r,mass,Izz`, then one grain a line. Spheres in space have the nine components xx to zz of their
+/// base vectors in the first line (yx 0 or not, zx and zy 0) and the columns `id,x,y,z,r,mass,Izz`.
 /// @throws InputError naming file and line when the file is missing, a number does not parse, a radius or
 /// mass is not positive, the box has no area, or two grains share an id.
 Packing read_packing(const std::filesystem::path& file);

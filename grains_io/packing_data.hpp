@@ -14,4 +14,7 @@ namespace polargrain {
 /// (Packing::state) is not part of it.
 std::string packing_data(const Packing& packing);
 
+/// The rotation that turns the box of that file, whose first base vector is along x, into the laboratory.
+Eigen::Matrix3d frame_of_packing_data(const Packing& packing);
+
 }  // namespace polargrain

@@ -150,7 +150,7 @@ int pack(const PackOptions& options, const PackingTools& tools) {
   if (options.quiet) return 0;
   const PreparedPacking made = read_packing_file(options.output);
   report(made, seconds, options.output);
-  if (options.moduli && made.packing.dimension == 2)
+  if (options.moduli)
     tell(stdout, "  {}\n",
          options.moduli({options.output.stem().string(), specification.script_file, specification.script,
                          made.packing, CellControl{}, specification.contact_library}));

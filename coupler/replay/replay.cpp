@@ -55,7 +55,8 @@ std::string mean_grain(const Packing& packing) {
     mass += grain.mass / grains;
     area += std::numbers::pi * grain.radius * grain.radius;
   }
-  return fmt::format("{:.17g} {:.17g} {:.17g}", mass, radius, grains * mass / (area * packing.thickness));
+  const double volume = packing.dimension == 3 ? packing.grain_volume() : area * packing.thickness;
+  return fmt::format("{:.17g} {:.17g} {:.17g}", mass, radius, grains * mass / volume);
 }
 
 /// The numbers of an increment in the order of its description, which is that of `fix cell/load`.
@@ -107,7 +108,12 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
       control.unbalanced_force_ratio, control.unbalanced_moment_ratio, control.most_relaxation_steps,
       controlled ? "controlled" : "free", mean_grain(definition.packing));
   const Eigen::Vector2d first = definition.packing.box.col(0);
-  if (first.y() != 0.0)
+  if (first.y() != 0.0 && definition.packing.dimension == 3) {
+    text += " &\n                frame";
+    const Eigen::Matrix3d frame = frame_of_packing_data(definition.packing);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) text += fmt::format(" {:.17g}", frame(i, j));
+  } else if (first.y() != 0.0)
     text += fmt::format(" &\n                turned {:.17g}", arc_tangent(first.y(), first.x()));
   if (definition.packing.state) text += fmt::format(" &\n                packing_state {}", kPackingState);
   text +=
@@ -135,17 +141,29 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
   if (replay.start)
     text +=
         fmt::format("| {} | the cell before the first increment: box, grains, contact histories |\n", kState);
+  const bool space = definition.packing.dimension == 3;
   text +=
-      "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s22 s33 "
-      "s12 s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the face.\n";
+      space
+          ? "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s12 s13 s21 "
+            "s22 s23 s31 s32 s33):\ntension positive, first index the normal of the face.\n"
+          : "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s22 s33 "
+            "s12 s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the "
+            "face.\n";
   if (replay.answers.empty()) return text + "\nThe cell gave no answer that could be compared.\n";
   text +=
-      definition.control.loop == CellLoop::engine
+      definition.control.loop == CellLoop::engine || space
           ? "The cell answered, and the replay prints the same digits:\n\n"
           : "The cell answered, stepped by the loop over discs. The replay runs in LIGGGHTS's own loop and "
             "agrees until\nround-off has grown, to eight digits and more over a thousand steps; with "
             "`loop: engine` in the case to all:\n\n";
   for (std::size_t k = 0; k < replay.answers.size(); ++k) {
+    if (space) {
+      text += fmt::format("    cell: increment {} stress", k + 1);
+      for (int place = 0; place < 9; ++place)
+        text += fmt::format(" {:.17g}", replay.answers[k].components()(place));
+      text += '\n';
+      continue;
+    }
     const Vector7 s = in_plane(replay.answers[k]).stress;
     text += fmt::format(
         "    cell: increment {} stress {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} couple_stress "

@@ -36,7 +36,9 @@ double mean(std::span<const Contact> contacts, Quantity quantity) {
 }  // namespace
 
 double mean_contact_force(std::span<const Contact> contacts) {
-  return mean(contacts, [](const Contact& contact) { return contact.force.norm(); });
+  return mean(contacts, [](const Contact& contact) {
+    return std::sqrt(contact.force.squaredNorm() + contact.force_3 * contact.force_3);
+  });
 }
 
 double mean_normal_stiffness(std::span<const Contact> contacts) {

@@ -18,6 +18,7 @@
 #include "dem/cell/tangents.hpp"
 #include "dem/discs/disc_box.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/spheres/sphere_cell.hpp"
 
 namespace polargrain::dem {
 
@@ -304,6 +305,7 @@ Matrix7 Cell::tangent() {
 }  // namespace
 
 std::unique_ptr<CellOfGrains> make_cell_service(const CellDefinition& definition) {
+  if (definition.packing.dimension == 3) return make_sphere_cell(definition);
   return std::make_unique<Cell>(definition);
 }
 

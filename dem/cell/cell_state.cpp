@@ -66,6 +66,7 @@ GrainLayout layout_of(LAMMPS_NS::LAMMPS& lammps) {
   layout.has_history = false;
   layout.history_values = static_cast<std::size_t>(granular_pair(lammps).dnum());
   layout.time_step = lammps.update->dt;
+  layout.space = lammps.domain->dimension == 3;
   std::size_t before = 0;
   for (int k = 0; k < atom.nextra_grow; ++k) {
     LAMMPS_NS::Fix& fix = *lammps.modify->fix[atom.extra_grow[k]];
@@ -102,22 +103,35 @@ GrainLayout layout_of(LAMMPS_NS::LAMMPS& lammps) {
 
 }  // namespace
 
-StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations) {
+namespace {
+/// The grains of the engine; their box and rotations are still to be set.
+PackedGrains packed_grains(LAMMPS_NS::LAMMPS& lammps) {
   gather_histories(lammps);
   LAMMPS_NS::Atom& atom = *lammps.atom;
   std::vector<double> grain = room_for_a_grain(lammps);
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(atom.nlocal) * 48);
+  PackedGrains packed;
+  packed.history_values = static_cast<std::size_t>(granular_pair(lammps).dnum());
+  packed.values.reserve(static_cast<std::size_t>(atom.nlocal) * 48);
   for (int k = 0; k < atom.nlocal; ++k) {
     const int count = atom.avec->pack_exchange(k, grain.data());
-    values.insert(values.end(), grain.begin(), grain.begin() + count);
+    packed.values.insert(packed.values.end(), grain.begin(), grain.begin() + count);
   }
-  const PackedGrains packed{box,
-                            static_cast<std::size_t>(granular_pair(lammps).dnum()),
-                            std::move(values),
-                            {},
-                            {rotations.begin(), rotations.end()}};
-  return encode(packed, static_cast<std::size_t>(atom.nlocal));
+  return packed;
+}
+}  // namespace
+
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations) {
+  PackedGrains packed = packed_grains(lammps);
+  packed.box = box;
+  packed.rotations.assign(rotations.begin(), rotations.end());
+  return encode(packed, static_cast<std::size_t>(lammps.atom->nlocal));
+}
+
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const SpaceBox& box, std::span<const double> rotations) {
+  PackedGrains packed = packed_grains(lammps);
+  packed.space = box;
+  packed.rotations.assign(rotations.begin(), rotations.end());
+  return encode(packed, static_cast<std::size_t>(lammps.atom->nlocal));
 }
 
 namespace {
@@ -127,7 +141,7 @@ RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   if (!models.combination) throw RunError("this state belongs to a cell of another input script");
   const DiscSnapshot snapshot = decode_discs(state);
   put_discs(lammps, *models.combination, snapshot);
-  RestoredState restored{snapshot.box, {}};
+  RestoredState restored{snapshot.box, {}, {}};
   for (const DiscSnapshot::Motion& disc : snapshot.discs) restored.rotations.push_back(disc.turned);
   return restored;
 }
@@ -138,14 +152,15 @@ bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   try {
     const PackedGrains packed = decode_grains(state);
     return packed.grains() == static_cast<std::size_t>(lammps.atom->natoms) &&
-           packed.history_values == static_cast<std::size_t>(granular_pair(lammps).dnum());
+           packed.history_values == static_cast<std::size_t>(granular_pair(lammps).dnum()) &&
+           packed.space.has_value() == (lammps.domain->dimension == 3);
   } catch (const RunError&) {
     return false;
   }
 }
 
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  if (is_disc_state(state)) return restore_discs(lammps, state);
+  if (is_disc_state(state) && lammps.domain->dimension == 2) return restore_discs(lammps, state);
   PackedGrains packed = decode_grains(state);
   gather_histories(lammps);
   check_records(packed, layout_of(lammps));
@@ -156,8 +171,8 @@ RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   for (std::size_t k = 0; k < packed.grains(); ++k)
     atom.avec->unpack_exchange(&packed.values[packed.starts[k]]);
   masses.put_back(atom);
-  packed.rotations.resize(packed.grains(), 0.0);
-  return {packed.box, std::move(packed.rotations)};
+  packed.rotations.resize(packed.grains() * (packed.space ? 3 : 1), 0.0);
+  return {packed.box, std::move(packed.rotations), packed.space};
 }
 
 }  // namespace polargrain::dem

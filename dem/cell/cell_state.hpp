@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/state.hpp"
 #include "dem/cell/box.hpp"
+#include "dem/spheres/space_box.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -16,10 +18,14 @@ namespace polargrain::dem {
 /// history, as the engine packs a grain that leaves for another process. Bits survive.
 /// @param rotations of the grains so far, rad, one a grain or none (FixCellStrain)
 StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations = {});
+/// The same of spheres in space. @param rotations three a grain (FixSpaceStrain), or none
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const SpaceBox& box,
+                        std::span<const double> rotations = {});
 
 struct RestoredState {
-  Box box;
-  std::vector<double> rotations;  ///< rad, one a grain; zero when the state has none
+  Box box;                        ///< of a plane state
+  std::vector<double> rotations;  ///< rad, one a grain or, in space, three; zero when the state has none
+  std::optional<SpaceBox> space;  ///< of a state in space
 };
 
 /// Puts a state into the engine in place of what is there; the grains keep the masses they have in the

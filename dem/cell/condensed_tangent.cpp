@@ -12,14 +12,14 @@ namespace {
 /// The largest force that may stay unbalanced on a grain, over the largest affine force of a contact.
 constexpr double kLargestUnbalance = 1e-9;
 
-constexpr int kStride = NetworkSolver::kStride;
+constexpr int kStride = PlaneNetworkSolver::kStride;
 
 /// Rows of a grain in memory: displacements, and rotation as an arc length.
 template <int Strains>
 using GrainRows = Eigen::Matrix<double, 3, Strains, Eigen::RowMajor>;
 
 template <int Strains>
-auto fluctuation(const NetworkSolver& solver, int grain) {
+auto fluctuation(const PlaneNetworkSolver& solver, int grain) {
   return Eigen::Map<const GrainRows<Strains>, 0, Eigen::OuterStride<kStride>>(solver.solution(grain));
 }
 
@@ -101,7 +101,7 @@ bool CondensedTangent::find_fluctuations(const ContactNetwork& network, std::spa
   const auto equations = [this, &strains](int c) {
     const LinearContact& law = laws_[c];
     const Eigen::Matrix<double, 6, 3> forces = law.motions.transpose() * law.stiffness;
-    ContactEquations added;
+    PlaneNetworkSolver::Equations added;
     added.stiffness.noalias() = forces * law.motions;
     added.right_sides.template leftCols<Strains>().noalias() = -forces * (law.affine * strains);
     added.right_sides.col(Strains).setZero();

@@ -60,7 +60,7 @@ class CondensedTangent {
   template <int Strains>
   Eigen::RowVector<double, Strains> hold_mean_rotation(std::span<const double> weights);
 
-  NetworkSolver solver_;
+  PlaneNetworkSolver solver_;
   std::vector<LinearContact> laws_;
   std::vector<double> unbalanced_;  // N: forces that the fluctuations leave, by grain, component and strain
   int fallbacks_ = 0;

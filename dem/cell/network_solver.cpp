@@ -19,7 +19,9 @@ int stride_of(int columns) {
 }  // namespace
 
 /// Plans the elimination and makes room for all that it will write.
-void NetworkSolver::start(std::span<const Contact> contacts, int grains, int right_sides) {
+template <int Motions, int MostRightSides>
+void NetworkSolver<Motions, MostRightSides>::start(std::span<const Contact> contacts, int grains,
+                                                   int right_sides) {
   right_sides_ = right_sides;
   plan_.make(contacts, grains);
   places_.clear();
@@ -32,12 +34,12 @@ void NetworkSolver::start(std::span<const Contact> contacts, int grains, int rig
   std::size_t most_border = 0;
   std::vector<std::size_t>& sizes = waiting_;
   for (const EliminationPlan::Front& front : plan_.fronts()) {
-    const std::size_t rows = 3 * (front.pivots + front.border);
-    const std::size_t border = 3 * front.border;
+    const std::size_t rows = Motions * (front.pivots + front.border);
+    const std::size_t border = Motions * front.border;
     const int stride = stride_of(static_cast<int>(rows) + right_sides);
     places_.push_back({factors, stride});
     most_factors = std::max(most_factors, factors + rows * stride);
-    factors += 3 * front.pivots * static_cast<std::size_t>(stride);
+    factors += Motions * front.pivots * static_cast<std::size_t>(stride);
     for (int child = 0; child < front.children; ++child) {
       passed -= sizes.back();
       sizes.pop_back();
@@ -51,67 +53,71 @@ void NetworkSolver::start(std::span<const Contact> contacts, int grains, int rig
   make_room(factors_, most_factors);
   make_room(passed_, most_passed);
   make_room(known_, most_border * kStride);
-  make_room(solution_, 3 * static_cast<std::size_t>(grains) * kStride);
+  make_room(solution_, Motions * static_cast<std::size_t>(grains) * kStride);
   local_.resize(grains);
 }
 
 /// The equations of a front with what its grains have without contacts.
-FrontMatrix NetworkSolver::open(std::size_t front, double spring, std::span<const double> last_right_side) {
+template <int Motions, int MostRightSides>
+FrontMatrix NetworkSolver<Motions, MostRightSides>::open(std::size_t front, double spring,
+                                                         std::span<const double> torques) {
   const auto& [pivots_begin, pivots, border_begin, border, contacts_begin, contacts, children] =
       plan_.fronts()[front];
-  const int rows = 3 * (pivots + border);
+  const int rows = Motions * (pivots + border);
   const FrontMatrix matrix{factors_.data() + places_[front].factors, rows, rows + right_sides_,
-                           places_[front].stride, 3 * pivots};
+                           places_[front].stride, Motions * pivots};
   std::fill_n(matrix.values, static_cast<std::size_t>(rows) * matrix.stride, 0.0);
   int row = 0;
   for (const int grain : plan_.order().subspan(pivots_begin, pivots)) {
     local_[grain] = row;
-    for (int k = 0; k < 3; ++k) matrix.values[(row + k) * (matrix.stride + 1)] = spring;
-    if (!last_right_side.empty())
-      matrix.values[(row + 2) * matrix.stride + matrix.columns - 1] = last_right_side[grain];
-    row += 3;
+    for (int k = 0; k < Motions; ++k) matrix.values[(row + k) * (matrix.stride + 1)] = spring;
+    for (int axis = 0; axis < kRotations && !torques.empty(); ++axis)
+      matrix.values[(row + kFirstRotation + axis) * matrix.stride + matrix.columns - kRotations + axis] =
+          torques[grain];
+    row += Motions;
   }
   for (const int grain : plan_.borders().subspan(border_begin, border)) {
     local_[grain] = row;
-    row += 3;
+    row += Motions;
   }
   return matrix;
 }
 
-void NetworkSolver::add_contact(const FrontMatrix& matrix, const Contact& contact,
-                                const ContactEquations& added) const {
+template <int Motions, int MostRightSides>
+void NetworkSolver<Motions, MostRightSides>::add_contact(const FrontMatrix& matrix, const Contact& contact,
+                                                         const Equations& added) const {
   const int grains[2] = {local_[contact.first], local_[contact.second]};
-  for (int row = 0; row < 6; ++row) {
-    double* to = matrix.values + (grains[row / 3] + row % 3) * matrix.stride;
+  for (int row = 0; row < 2 * Motions; ++row) {
+    double* to = matrix.values + (grains[row / Motions] + row % Motions) * matrix.stride;
     for (int side = 0; side < 2; ++side)
-      for (int k = 0; k < 3; ++k) to[grains[side] + k] += added.stiffness(row, 3 * side + k);
+      for (int k = 0; k < Motions; ++k) to[grains[side] + k] += added.stiffness(row, Motions * side + k);
     for (int k = 0; k < right_sides_; ++k) to[matrix.rows + k] += added.right_sides(row, k);
   }
 }
 
 /// Adds what the front closed last, of those still waiting, has left.
-void NetworkSolver::take_child(const FrontMatrix& matrix) {
+template <int Motions, int MostRightSides>
+void NetworkSolver<Motions, MostRightSides>::take_child(const FrontMatrix& matrix) {
   const EliminationPlan::Front& child = plan_.fronts()[waiting_.back()];
   waiting_.pop_back();
   const auto border = plan_.borders().subspan(child.border_begin, child.border);
-  const int width = 3 * child.border + right_sides_;
-  passed_end_ -= 3 * static_cast<std::size_t>(child.border) * width;
+  const int width = Motions * child.border + right_sides_;
+  passed_end_ -= Motions * static_cast<std::size_t>(child.border) * width;
   const double* from = passed_.data() + passed_end_;
   for (const int grain : border)
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < Motions; ++k) {
       double* to = matrix.values + (local_[grain] + k) * matrix.stride;
       for (const int other : border) {
         double* place = to + local_[other];
-        place[0] += from[0];
-        place[1] += from[1];
-        place[2] += from[2];
-        from += 3;
+        for (int unknown = 0; unknown < Motions; ++unknown) place[unknown] += from[unknown];
+        from += Motions;
       }
       for (int side = 0; side < right_sides_; ++side) to[matrix.rows + side] += *from++;
     }
 }
 
-bool NetworkSolver::close(std::size_t front, const FrontMatrix& matrix) {
+template <int Motions, int MostRightSides>
+bool NetworkSolver<Motions, MostRightSides>::close(std::size_t front, const FrontMatrix& matrix) {
   if (!eliminate(matrix, set_)) return false;
   if (matrix.rows == matrix.pivots) return true;
   const int width = matrix.columns - matrix.pivots;
@@ -123,21 +129,25 @@ bool NetworkSolver::close(std::size_t front, const FrontMatrix& matrix) {
   return true;
 }
 
-void NetworkSolver::substitute() {
+template <int Motions, int MostRightSides>
+void NetworkSolver<Motions, MostRightSides>::substitute() {
   for (std::size_t k = plan_.fronts().size(); k-- > 0;) {
     const EliminationPlan::Front& front = plan_.fronts()[k];
     double* known = known_.data();
     for (const int grain : plan_.borders().subspan(front.border_begin, front.border))
-      known = std::copy_n(solution(grain), 3 * kStride, known);
-    const int rows = 3 * (front.pivots + front.border);
+      known = std::copy_n(solution(grain), Motions * kStride, known);
+    const int rows = Motions * (front.pivots + front.border);
     const FrontMatrix factors{factors_.data() + places_[k].factors, rows, rows + right_sides_,
-                              places_[k].stride, 3 * front.pivots};
+                              places_[k].stride, Motions * front.pivots};
     substitute_back(factors, known_.data(), kStride, set_);
     const double* solved = factors.values + factors.rows;
     for (const int grain : plan_.order().subspan(front.pivots_begin, front.pivots))
-      for (int unknown = 0; unknown < 3; ++unknown, solved += factors.stride)
-        std::copy_n(solved, right_sides_, solution_.data() + (3 * grain + unknown) * kStride);
+      for (int unknown = 0; unknown < Motions; ++unknown, solved += factors.stride)
+        std::copy_n(solved, right_sides_, solution_.data() + (Motions * grain + unknown) * kStride);
   }
 }
+
+template class NetworkSolver<kPlaneMotions, 8>;
+template class NetworkSolver<kSpaceMotions, 24>;
 
 }  // namespace polargrain::dem

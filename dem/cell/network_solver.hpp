@@ -9,38 +9,55 @@
 
 namespace polargrain::dem {
 
+/// Unknowns of a grain: two displacements and a rotation in the plane, three of both in space.
+inline constexpr int kPlaneMotions = 3;
+inline constexpr int kSpaceMotions = 6;
+
 /// What one contact adds to the equations of a network: unknowns and equations are those of its first, then
-/// of its second grain, three each.
+/// of its second grain.
+template <int Motions, int MostRightSides>
 struct ContactEquations {
-  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness;
-  Eigen::Matrix<double, 6, 8, Eigen::RowMajor> right_sides;  ///< columns beyond those in use: anything
+  Eigen::Matrix<double, 2 * Motions, 2 * Motions, Eigen::RowMajor> stiffness;
+  /// Columns beyond those in use: anything.
+  Eigen::Matrix<double, 2 * Motions, MostRightSides, Eigen::RowMajor> right_sides;
 };
 
-/// Direct solution of the equations of a network of grains with three unknowns each, without symmetry:
+/// Direct solution of the equations of a network of grains with `Motions` unknowns each, without symmetry:
 /// multifrontal elimination (EliminationPlan) with dense kernels (dense_elimination.hpp). Pivots are
 /// exchanged within a front only, so the solution of a bad network may be poor: whoever asks checks the
 /// residual.
 ///
 /// The solver keeps its memory for the next network and nothing else: the same contacts give the same bits.
+///
+/// @tparam Motions kPlaneMotions or kSpaceMotions @tparam MostRightSides a multiple of eight
+template <int Motions, int MostRightSides>
 class NetworkSolver {
  public:
-  static constexpr int kMostRightSides = 8;
+  using Equations = ContactEquations<Motions, MostRightSides>;
+  static constexpr int kMostRightSides = MostRightSides;
+  static constexpr int kRotations = Motions == kPlaneMotions ? 1 : 3;
+  static constexpr int kFirstRotation = Motions - kRotations;
 
   /// @param set for tests; results do not depend on it
   explicit NetworkSolver(InstructionSet set = best_instruction_set()) : set_(set) {}
 
   /// @param grains contacts refer to 0 .. grains - 1
-  /// @param equations equations(c) returns the ContactEquations of contacts[c]; asked once for each
+  /// @param equations equations(c) returns the Equations of contacts[c]; asked once for each
   /// @param spring added to the diagonal
-  /// @param last_right_side empty, or the last right-hand side: a value for each grain's third equation
+  /// @param torques empty, or a value for each grain: the last kRotations right-hand sides, each with these in the
+  /// equations of one rotation
   /// @returns false when a pivot vanishes or is not finite
-  template <typename Equations>
+  template <typename EquationsOf>
   bool solve(std::span<const Contact> contacts, int grains, int right_sides, double spring,
-             std::span<const double> last_right_side, const Equations& equations);
+             std::span<const double> torques, const EquationsOf& equations);
 
-  /// Of the last solve(): three rows, in each the right-hand sides' values.
-  [[nodiscard]] double* solution(int grain) { return solution_.data() + 3 * grain * kStride; }
-  [[nodiscard]] const double* solution(int grain) const { return solution_.data() + 3 * grain * kStride; }
+  /// Of the last solve(): a row for each motion, in each the right-hand sides' values.
+  [[nodiscard]] double* solution(int grain) {
+    return solution_.data() + static_cast<std::ptrdiff_t>(Motions) * grain * kStride;
+  }
+  [[nodiscard]] const double* solution(int grain) const {
+    return solution_.data() + static_cast<std::ptrdiff_t>(Motions) * grain * kStride;
+  }
   static constexpr int kStride = kMostRightSides;  ///< of rows, one for each unknown
 
  private:
@@ -50,8 +67,8 @@ class NetworkSolver {
   };
 
   void start(std::span<const Contact> contacts, int grains, int right_sides);
-  [[nodiscard]] FrontMatrix open(std::size_t front, double spring, std::span<const double> last_right_side);
-  void add_contact(const FrontMatrix& matrix, const Contact& contact, const ContactEquations& added) const;
+  [[nodiscard]] FrontMatrix open(std::size_t front, double spring, std::span<const double> torques);
+  void add_contact(const FrontMatrix& matrix, const Contact& contact, const Equations& added) const;
   void take_child(const FrontMatrix& matrix);
   bool close(std::size_t front, const FrontMatrix& matrix);
   void substitute();
@@ -69,13 +86,19 @@ class NetworkSolver {
   std::vector<double> solution_;
 };
 
-template <typename Equations>
-bool NetworkSolver::solve(std::span<const Contact> contacts, int grains, int right_sides, double spring,
-                          std::span<const double> last_right_side, const Equations& equations) {
+using PlaneNetworkSolver = NetworkSolver<kPlaneMotions, 8>;
+using SpaceNetworkSolver = NetworkSolver<kSpaceMotions, 24>;
+
+template <int Motions, int MostRightSides>
+template <typename EquationsOf>
+bool NetworkSolver<Motions, MostRightSides>::solve(std::span<const Contact> contacts, int grains,
+                                                   int right_sides, double spring,
+                                                   std::span<const double> torques,
+                                                   const EquationsOf& equations) {
   start(contacts, grains, right_sides);
   for (std::size_t k = 0; k < plan_.fronts().size(); ++k) {
     const EliminationPlan::Front& front = plan_.fronts()[k];
-    const FrontMatrix matrix = open(k, spring, last_right_side);
+    const FrontMatrix matrix = open(k, spring, torques);
     for (const int c : plan_.contacts().subspan(front.contacts_begin, front.contacts))
       add_contact(matrix, contacts[c], equations(c));
     for (int child = 0; child < front.children; ++child) take_child(matrix);
@@ -84,5 +107,8 @@ bool NetworkSolver::solve(std::span<const Contact> contacts, int grains, int rig
   substitute();
   return true;
 }
+
+extern template class NetworkSolver<kPlaneMotions, 8>;
+extern template class NetworkSolver<kSpaceMotions, 24>;
 
 }  // namespace polargrain::dem

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/state.hpp"
 #include "dem/cell/box.hpp"
+#include "dem/spheres/space_box.hpp"
 
 namespace polargrain::dem {
 
@@ -17,11 +19,12 @@ namespace polargrain::dem {
 /// The engine believes every length and every partner in it. What is unpacked there has to pass both checks
 /// below.
 struct PackedGrains {
-  Box box;
+  Box box;                          ///< of a plane state
   std::size_t history_values = 0;   ///< springs of a contact
   std::vector<double> values;       ///< the records
   std::vector<std::size_t> starts;  ///< where each record begins, and where the last ends
-  std::vector<double> rotations;    ///< rad, one a grain, or none
+  std::vector<double> rotations;    ///< rad, one a grain or, in space, three; or none
+  std::optional<SpaceBox> space;    ///< the box of a state in space; nothing: a plane state
 
   [[nodiscard]] std::size_t grains() const { return starts.size() - 1; }
   [[nodiscard]] std::span<const double> record(std::size_t grain) const {
@@ -49,6 +52,7 @@ struct GrainLayout {
   std::vector<std::size_t> fixed;  ///< places in the head that hold the bits of the engine's own grain
   std::vector<std::vector<double>> heads;  ///< of the engine's own grains, by their tags
   std::vector<double> radii;               ///< m, by tags
+  bool space = false;                      ///< spheres in a box that is periodic in x3 too
   double time_step = 0.0;                  ///< s
 };
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -39,22 +40,26 @@ Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> 
 
 namespace {
 
-/// Grains by the bins they lie in; bins divide the box evenly and are wider than any two grains that touch.
+/// Grains by the bins they lie in; bins divide the box evenly and are wider than any two grains that touch. A plane
+/// packing has one layer of them.
 class Bins {
  public:
-  explicit Bins(const Packing& packing) : packing_(packing), inverse_(packing.box.inverse()) {
-    for (const Grain& grain : packing.grains) largest_ = std::max(largest_, grain.radius);
-    const double area = packing.box.determinant();
-    const auto bins_along = [&](int side) {
-      const double width = area / packing.box.col(1 - side).norm();
-      return static_cast<int>(std::clamp(width / (2.0 * largest_), 1.0, 1e4));
-    };
-    columns_ = bins_along(0);
-    rows_ = bins_along(1);
+  explicit Bins(const Packing& packing) : base_(packing.base_vectors()), axes_(packing.dimension) {
+    double largest = 0.0;
+    for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+    const Eigen::Matrix3d inverse = base_.inverse();
+    for (int axis = 0; axis < axes_; ++axis) {
+      const double width = 1.0 / inverse.row(axis).norm();  // between two faces
+      counts_[static_cast<std::size_t>(axis)] =
+          static_cast<int>(std::clamp(width / (2.0 * largest), 1.0, 1e4));
+    }
     for (std::size_t k = 0; k < packing.grains.size(); ++k) {
-      const Eigen::Vector2d part = inverse_ * packing.grains[k].position;
-      places_.emplace_back(part.x() - std::floor(part.x()), part.y() - std::floor(part.y()));
-      bins_[bin_of(k, 0, 0)].push_back(k);
+      const Grain& grain = packing.grains[k];
+      Eigen::Vector3d part =
+          inverse * Eigen::Vector3d(grain.position.x(), grain.position.y(), axes_ == 3 ? grain.height : 0.0);
+      for (int axis = 0; axis < 3; ++axis) part(axis) -= std::floor(part(axis));
+      places_.push_back(part);
+      bins_[bin_of(k, {0, 0, 0})].push_back(k);
     }
   }
 
@@ -62,10 +67,9 @@ class Bins {
   template <class Visit>
   void for_near_pairs(Visit visit) const {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      std::set<std::pair<int, int>> near;  // in a small box one bin lies on several sides
-      for (const int row : {-1, 0, 1})
-        for (const int column : {-1, 0, 1}) near.insert(bin_of(i, column, row));
-      for (const auto& bin : near) {
+      std::set<Steps> near;  // in a small box one bin lies on several sides
+      for_steps([&](const Steps& steps) { near.insert(bin_of(i, steps)); });
+      for (const Steps& bin : near) {
         const auto found = bins_.find(bin);
         if (found == bins_.end()) continue;
         for (const std::size_t j : found->second)
@@ -74,46 +78,66 @@ class Bins {
     }
   }
 
- private:
-  [[nodiscard]] std::pair<int, int> bin_of(std::size_t k, int columns_away, int rows_away) const {
-    const int column = std::min(columns_ - 1, static_cast<int>(places_[k].x() * columns_));
-    const int row = std::min(rows_ - 1, static_cast<int>(places_[k].y() * rows_));
-    return {(column + columns_away + columns_) % columns_, (row + rows_away + rows_) % rows_};
-  }
-  /// Of the nearest images.
-  [[nodiscard]] double distance(std::size_t i, std::size_t j) const {
-    Eigen::Vector2d part = places_[i] - places_[j];
-    part -= Eigen::Vector2d(std::round(part.x()), std::round(part.y()));
-    double least = packing_.box.norm();
-    for (const double p : {-1.0, 0.0, 1.0})
-      for (const double q : {-1.0, 0.0, 1.0})
-        least = std::min(least, (packing_.box * (part + Eigen::Vector2d(p, q))).norm());
+  /// The shortest way from a grain to its own image, m.
+  [[nodiscard]] double period() const {
+    double least = base_.norm();
+    for_steps([&](const Steps& steps) {
+      if (steps != Steps{}) least = std::min(least, (base_ * vector(steps)).norm());
+    });
     return least;
   }
 
-  const Packing& packing_;
-  Eigen::Matrix2d inverse_;
-  double largest_ = 0.0;
-  int columns_ = 1;
-  int rows_ = 1;
-  std::vector<Eigen::Vector2d> places_;  ///< as parts of the base vectors, in [0, 1)
-  std::map<std::pair<int, int>, std::vector<std::size_t>> bins_;
+ private:
+  using Steps = std::array<int, 3>;
+
+  static Eigen::Vector3d vector(const Steps& steps) {
+    return Eigen::Vector3i(steps[0], steps[1], steps[2]).cast<double>();
+  }
+  /// All ways by at most one box, or one bin, along each axis.
+  template <class Visit>
+  void for_steps(Visit visit) const {
+    const int up = axes_ == 3 ? 1 : 0;
+    for (int layer = -up; layer <= up; ++layer)
+      for (int row = -1; row <= 1; ++row)
+        for (int column = -1; column <= 1; ++column) visit(Steps{column, row, layer});
+  }
+  [[nodiscard]] Steps bin_of(std::size_t k, const Steps& away) const {
+    Steps bin{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int count = counts_[axis];
+      const double part = places_[k](static_cast<Eigen::Index>(axis));
+      bin[axis] = (std::min(count - 1, static_cast<int>(part * count)) + away[axis] + count) % count;
+    }
+    return bin;
+  }
+  /// Of the nearest images.
+  [[nodiscard]] double distance(std::size_t i, std::size_t j) const {
+    Eigen::Vector3d part = places_[i] - places_[j];
+    for (int axis = 0; axis < axes_; ++axis) part(axis) -= std::round(part(axis));
+    double least = base_.norm();
+    for_steps([&](const Steps& steps) { least = std::min(least, (base_ * (part + vector(steps))).norm()); });
+    return least;
+  }
+
+  Eigen::Matrix3d base_;
+  int axes_;
+  Steps counts_{1, 1, 1};
+  std::vector<Eigen::Vector3d> places_;  ///< as parts of the base vectors, in [0, 1)
+  std::map<Steps, std::vector<std::size_t>> bins_;
 };
 
 }  // namespace
 
 std::string geometry_fault(const Packing& packing) {
   std::string fault;
-  double period = packing.box.norm();  // shortest way to an image
+  const Bins bins(packing);
+  const double period = bins.period();
   double largest = 0.0;
-  for (const Eigen::Vector2d& steps :
-       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1), Eigen::Vector2d(1, -1)})
-    period = std::min(period, (packing.box * steps).norm());
   for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
   if (2.0 * largest - period > kMostOverlapToStart * largest)
     return fmt::format("a grain of radius {:.3g} m has no room in a box of period {:.3g} m", largest, period);
   bool some_touch = 2.0 * largest > period;  // its own image
-  Bins(packing).for_near_pairs([&](std::size_t i, std::size_t j, double distance) {
+  bins.for_near_pairs([&](std::size_t i, std::size_t j, double distance) {
     const Grain& first = packing.grains[i];
     const Grain& second = packing.grains[j];
     const double overlap = (first.radius + second.radius - distance) / std::min(first.radius, second.radius);
@@ -133,6 +157,7 @@ std::string geometry_fault(const Packing& packing) {
 std::string packing_fault(const PackingAtRest& packing, double unrest, const std::string& script) {
   const double allowed = std::max(kMostUnrest, 10.0 * unrest);
   const Equilibrium& rest = packing.equilibrium;
+  const char* const level = packing.space ? "k_n / (p d)" : "k_n / (p t)";
   std::string fault;
   if (!(packing.pressure > 0.0))
     fault = "the packing carries no pressure at rest: its grains do not touch";
@@ -150,24 +175,24 @@ std::string packing_fault(const PackingAtRest& packing, double unrest, const std
         rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio, allowed);
   else if (too_large(packing.overlaps))
     return fmt::format(
-        "Under {}: {}: the contacts are too soft for the pressure (k_n / (p t) is {:.3g}); take a stiffer "
+        "Under {}: {}: the contacts are too soft for the pressure ({} is {:.3g}); take a stiffer "
         "script or a lower pressure, and bring the packing to rest with it: 'polargrain pack --settle "
         "PACKING SCRIPT -o NEW.h5'",
-        script, description(packing.overlaps), packing.stiffness_level);
+        script, description(packing.overlaps), level, packing.stiffness_level);
   if (fault.empty()) return {};
   return fmt::format(
-      "Under {}: {} (coordination number {:.2f}, k_n / (p t) {:.3g}, mean overlap {:.2g} of the radius). The "
+      "Under {}: {} (coordination number {:.2f}, {} {:.3g}, mean overlap {:.2g} of the radius). The "
       "script is not the one the packing was made with, or the grains were moved; bring it to rest with "
       "'polargrain pack --settle PACKING SCRIPT -o NEW.h5'",
-      script, fault, rest.coordination_number, packing.stiffness_level, packing.overlaps.mean);
+      script, fault, rest.coordination_number, level, packing.stiffness_level, packing.overlaps.mean);
 }
 
-std::string answer_fault(const Overlaps& overlaps, double void_ratio) {
+std::string answer_fault(const Overlaps& overlaps, double void_ratio, double most_void_ratio) {
   if (too_large(overlaps))
     return fmt::format("{}: the contacts are too soft for this stress", description(overlaps));
-  if (!(void_ratio <= kMostVoidRatio))
+  if (!(void_ratio <= most_void_ratio))
     return fmt::format("the void ratio is {:.3g}: beyond {:.1f} the grains are no packing any more",
-                       void_ratio, kMostVoidRatio);
+                       void_ratio, most_void_ratio);
   return {};
 }
 

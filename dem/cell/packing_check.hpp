@@ -20,6 +20,8 @@ inline constexpr double kMostMeanOverlap = 0.05;
 inline constexpr double kMostOverlap = 0.25;
 /// Void ratio beyond which discs are no packing: loose ones with friction have 0.3.
 inline constexpr double kMostVoidRatio = 1.0;
+/// The same of spheres: loose sand has 1.0, and rolling resistance holds looser ones.
+inline constexpr double kMostVoidRatioInSpace = 1.5;
 /// Relative difference between the pressure that a packing was recorded with and the one it has under its
 /// script.
 inline constexpr double kPressureTolerance = 0.01;
@@ -58,7 +60,8 @@ struct PackingAtRest {
   double stiffness_level = 0.0;  ///< mean k_n / (pressure * thickness)
   Equilibrium equilibrium;
   Overlaps overlaps;
-  bool turns = true;  ///< some grain has two contacts or more: there is a mean rotation to control
+  bool turns = true;   ///< some grain has two contacts or more: there is a mean rotation to control
+  bool space = false;  ///< of spheres: the stiffness level is mean k_n / (pressure * mean diameter)
 };
 
 /// Why a packing does not fit its script, with the numbers and what to do; nothing when it does.
@@ -67,6 +70,8 @@ struct PackingAtRest {
 std::string packing_fault(const PackingAtRest& packing, double unrest, const std::string& script);
 
 /// Why the answer of a cell means nothing although it is at rest; nothing when it does.
-std::string answer_fault(const Overlaps& overlaps, double void_ratio);
+/// @param most_void_ratio beyond which grains are no packing
+std::string answer_fault(const Overlaps& overlaps, double void_ratio,
+                         double most_void_ratio = kMostVoidRatio);
 
 }  // namespace polargrain::dem

@@ -32,11 +32,12 @@ double largest_principal(const Eigen::Matrix2d& strain) {
 
 }  // namespace
 
-std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains) {
+std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains,
+                                     double (*normal_force)(const Contact&)) {
   std::vector<double> weights(static_cast<std::size_t>(grains), 0.0);
   std::vector<int> count(weights.size(), 0);
   for (const Contact& contact : contacts) {
-    const double force = std::max(0.0, contact.normal_force());
+    const double force = std::max(0.0, normal_force(contact));
     weights[contact.first] += contact.arm_first * force;
     weights[contact.second] += contact.arm_second * force;
     ++count[contact.first];
@@ -93,11 +94,15 @@ BoxPath QuasiStatic::begin(const Box& box, const Increment& increment, double ti
     size = std::max(
         {size, std::abs(increment.micro_rotation - whole.rotation()), increment.curvature.norm() * distance});
   }
+  begin(size, time_step);
+  return {box, increment.displacement_gradient, loading_};
+}
+
+void QuasiStatic::begin(double size, double time_step) {
   const double steps = std::ceil(size * time_of_grain_ / (control_.inertial_number * time_step));
   if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
   loading_ = std::max(control_.least_steps, static_cast<int>(steps));
   done_ = 0;
-  return {box, increment.displacement_gradient, loading_};
 }
 
 std::optional<RotationLoading> QuasiStatic::rotation_of(const Increment& increment) const {

@@ -15,7 +15,10 @@ namespace polargrain::dem {
 /// Weights of the grains in the mean rotation (mode 2), W_p over the volume: the torque that the contacts of each
 /// can carry, up to the coefficient of friction, over the sum of all. Zero with fewer than two contacts, or the
 /// multiplier would spin up the grains that nothing holds. Empty when nothing carries any.
-std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains);
+/// @param normal_force of a contact, compressive: between discs, or spheres (space_normal_force)
+std::vector<double> rotation_weights(
+    std::span<const Contact> contacts, int grains,
+    double (*normal_force)(const Contact&) = [](const Contact& contact) { return contact.normal_force(); });
 
 /// Resultants of the contacts of the grains, and of what holds their mean rotation, before damping.
 struct Imbalance {
@@ -81,6 +84,9 @@ class QuasiStatic {
   /// diameter @returns the path of the box, of as many steps as the loading has
   /// @throws RunError when that is more than 1e9
   BoxPath begin(const Box& box, const Increment& increment, double time_step, double reach = 0.0);
+  /// Begins an increment of any box. @param size largest strain or rotation of it that grains have to follow
+  /// @throws RunError when that is more than 1e9 steps
+  void begin(double size, double time_step);
   /// What is prescribed of the rotations; nothing where they are free.
   [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment& increment) const;
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }

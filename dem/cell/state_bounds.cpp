@@ -13,8 +13,9 @@ namespace {
 constexpr double kLeastArea = 0.3;
 constexpr double kMostArea = 1e3;
 constexpr double kMostTurns = 1e6;
+constexpr double kMostTilt = 0.6;  // in space, of the side it leans along
 
-/// In the plane grains that do not overlap have three contacts each on average.
+/// Grains that do not overlap have three contacts each on average in the plane, and six in space.
 constexpr std::size_t kMostContactsPerGrain = 24;
 /// Partner, image and sixteen springs of a contact.
 constexpr std::size_t kBytesPerContact = 16 + 16 * sizeof(double);
@@ -49,6 +50,39 @@ std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& m
       "this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}) m and moves at ({:.3g}, {:.3g}) "
       "m/s and {:.3g} rad/s, turned by {:.3g} rad",
       grain, motion.x, motion.y, motion.vx, motion.vy, motion.spin, motion.turned);
+}
+
+std::string box_fault(const SpaceBox& box, double grain_volume) {
+  const Eigen::Vector3d sides = box.base.diagonal();
+  bool is_sound = box.base.allFinite() && box.frame.allFinite() && sides.minCoeff() > 0.0 &&
+                  sides.maxCoeff() < kMostArea * sides.minCoeff() &&
+                  box.volume() > kLeastArea * grain_volume && box.volume() < kMostArea * grain_volume;
+  is_sound = is_sound && std::abs(box.base(0, 1)) <= kMostTilt * sides(0) &&
+             std::abs(box.base(0, 2)) <= kMostTilt * sides(0) &&
+             std::abs(box.base(1, 2)) <= kMostTilt * sides(1);
+  constexpr double kSkewed = 1e-6;  // of a frame that has been turned a million times and more
+  is_sound = is_sound && (box.frame.transpose() * box.frame - Eigen::Matrix3d::Identity()).norm() < kSkewed;
+  if (is_sound) return {};
+  return fmt::format(
+      "this state of a cell is damaged: its box has sides of {:.3g}, {:.3g} and {:.3g} m, tilts of {:.3g}, "
+      "{:.3g} and {:.3g} m, or a frame that is no rotation",
+      sides(0), sides(1), sides(2), box.base(0, 1), box.base(0, 2), box.base(1, 2));
+}
+
+std::string motion_fault(const SpaceBox& box, std::size_t grain, const SpaceMotionOfGrain& motion,
+                         double radius, double time_step) {
+  // A grain may have left the box by a little, and a box that is tilted holds more than its sides tell.
+  const double reach = 2.0 * box.base.diagonal().sum() + radius;
+  const bool is_sound =
+      motion.place.cwiseAbs().maxCoeff() <= reach && motion.velocity.allFinite() && motion.spin.allFinite() &&
+      motion.velocity.cwiseAbs().maxCoeff() * time_step < radius &&
+      motion.spin.cwiseAbs().maxCoeff() * time_step < 1.0 && motion.turned.cwiseAbs().maxCoeff() < kMostTurns;
+  if (is_sound) return {};
+  return fmt::format(
+      "this state of a cell is damaged: grain {} lies at ({:.3g}, {:.3g}, {:.3g}) m and moves at {:.3g} m/s and "
+      "{:.3g} rad/s, turned by {:.3g} rad",
+      grain, motion.place.x(), motion.place.y(), motion.place.z(), motion.velocity.norm(), motion.spin.norm(),
+      motion.turned.norm());
 }
 
 std::size_t most_state_contacts(std::size_t grains) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "dem/cell/box.hpp"
+#include "dem/spheres/space_box.hpp"
 
 namespace polargrain::dem {
 
@@ -15,19 +16,31 @@ struct GrainMotion {
   double turned = 0.0;        ///< rotation since the packing, rad
 };
 
+/// The same of a sphere in space.
+struct SpaceMotionOfGrain {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< rad/s
+  Eigen::Vector3d turned = Eigen::Vector3d::Zero();    ///< rotation since the packing, rad
+};
+
 // Bounds of what a state may say. Numbers that no evaluation leaves behind would make lists without end, not
 // answers.
 
 /// What is wrong with the box of a state; empty when it is sound. @param grain_area of all grains, m^2
 std::string box_fault(const Box& box, double grain_area);
+/// The same in space. @param grain_volume of all grains, m^3
+std::string box_fault(const SpaceBox& box, double grain_volume);
 
 /// What is wrong with a grain; empty when it is sound. @param grain its number, for the message
 /// @param radius m @param time_step s; 0: not known, motions need only be finite
 std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& motion, double radius,
                          double time_step);
+std::string motion_fault(const SpaceBox& box, std::size_t grain, const SpaceMotionOfGrain& motion,
+                         double radius, double time_step);
 
-/// Most bytes that the state of so many grains may have, and the fewest: many times what contacts of grains
-/// in a plane take, and the places and motions alone.
+/// Most bytes that the state of so many grains may have, and the fewest: many times what their contacts
+/// take, and the places and motions alone.
 std::size_t most_state_bytes(std::size_t grains);
 std::size_t least_state_bytes(std::size_t grains);
 /// Most contacts of so many grains whose springs a state may hold.

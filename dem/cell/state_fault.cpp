@@ -31,7 +31,12 @@ void check_grains(const Packing& packing, double area, const State& state) {
   if (packed.grains() != packing.grains.size())
     throw RunError(
         fmt::format("this state is of {} grains; the cell has {}", packed.grains(), packing.grains.size()));
-  if (const std::string fault = box_fault(packed.box, area); !fault.empty()) throw RunError(fault);
+  if (packed.space.has_value() != (packing.dimension == 3))
+    throw RunError("this state is of another dimension than the cell");
+  if (const std::string fault =
+          packed.space ? box_fault(*packed.space, packing.grain_volume()) : box_fault(packed.box, area);
+      !fault.empty())
+    throw RunError(fault);
 }
 
 }  // namespace
@@ -49,6 +54,8 @@ std::string state_fault(const CellDefinition& definition, const State& state) {
   double area = 0.0;
   for (const Grain& grain : packing.grains) area += std::numbers::pi * grain.radius * grain.radius;
   try {
+    if (packing.dimension == 3 && is_disc_state(state))
+      throw RunError("this state is of discs, and the cell is of spheres in space");
     is_disc_state(state) ? check_discs(packing, area, state) : check_grains(packing, area, state);
   } catch (const RunError& error) {
     return error.what();

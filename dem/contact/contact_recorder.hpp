@@ -29,6 +29,10 @@ struct Contact {
   bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling models li_chu, epsd2)
   double branch_3 = 0.0;           ///< component of the branch along e_3, m; 0 between discs
   double force_3 = 0.0;            ///< component of the force along e_3, N; 0 between discs
+  /// The rolling resistance moment about e_1 and e_2, N m; 0 between discs.
+  Eigen::Vector2d moment_12 = Eigen::Vector2d::Zero();
+  double torsion_stiffness =
+      0.0;  ///< against twisting about the normal, N m/rad; known for li_chu, otherwise 0
 
   [[nodiscard]] Eigen::Vector2d normal() const { return branch.normalized(); }  ///< from first to second
   /// Compressive normal force, positive when the grains push each other.
@@ -57,6 +61,7 @@ struct ContactRecorder {
   struct Rolling {
     double stiffness = 0.0;
     bool at_limit = false;
+    double torsion_stiffness = 0.0;
   };
 
   bool on = false;

@@ -6,6 +6,7 @@
 
 #include "dem/contact/cell_loading.hpp"
 #include "dem/contact/contact_recorder.hpp"
+#include "dem/contact/rolling_kinematics.hpp"
 #include "dem/contact/spoken_settings.hpp"
 #include "dem/engine/liggghts.hpp"
 
@@ -77,7 +78,8 @@ class RecordedModel : public Model {
     if (recorder_.on)
       record(data.i, data.j, {data.delta[0], data.delta[1], data.delta[2]},
              {force_i.delta_F[0], force_i.delta_F[1], force_i.delta_F[2]}, data.kn, data.kt, data.cri,
-             data.crj, force_i.delta_torque[2], data.gamman, data.gammat);
+             data.crj, {force_i.delta_torque[0], force_i.delta_torque[1], force_i.delta_torque[2]},
+             data.gamman, data.gammat);
   }
 
  private:
@@ -85,7 +87,8 @@ class RecordedModel : public Model {
   __attribute__((noinline)) void record(int i, int j, std::array<double, 3> delta,
                                         std::array<double, 3> force, double normal_stiffness,
                                         double tangential_stiffness, double arm_i, double arm_j,
-                                        double torque, double normal_viscosity, double tangential_viscosity) {
+                                        std::array<double, 3> torque, double normal_viscosity,
+                                        double tangential_viscosity) {
     const ContactRecorder::Rolling rolling = std::exchange(recorder_.rolling, {});
     LAMMPS_NS::Atom& atom = *lammps_.atom;
     if (j >= atom.nlocal && !lammps_.force->newton_pair) {
@@ -94,7 +97,7 @@ class RecordedModel : public Model {
       const int tag_i = atom.tag[i];
       const int tag_j = atom.tag[j];
       if (tag_i > tag_j) return;
-      if (tag_i == tag_j && (delta[1] < 0.0 || (delta[1] == 0.0 && delta[0] < 0.0))) return;
+      if (tag_i == tag_j && !points_up(delta.data())) return;
     }
     Contact contact;
     contact.first = i;
@@ -112,9 +115,12 @@ class RecordedModel : public Model {
     contact.friction = friction_ ? friction_->compute_array(atom.type[i] - 1, atom.type[j] - 1) : 0.0;
     // The force turns the grain by its arm towards the contact; the rest of the torque is the rolling law's.
     const double towards = arm_i / std::hypot(delta[0], delta[1], delta[2]);
-    contact.moment = torque + towards * (delta[0] * force[1] - delta[1] * force[0]);
+    contact.moment = torque[2] + towards * (delta[0] * force[1] - delta[1] * force[0]);
+    contact.moment_12 = {torque[0] + towards * (delta[1] * force[2] - delta[2] * force[1]),
+                         torque[1] + towards * (delta[2] * force[0] - delta[0] * force[2])};
     contact.rolling_stiffness = rolling.stiffness;
     contact.rolling_at_limit = rolling.at_limit;
+    contact.torsion_stiffness = rolling.torsion_stiffness;
     recorder_.contacts.push_back(contact);
   }
 

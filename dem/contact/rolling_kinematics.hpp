@@ -31,13 +31,19 @@ inline double reduced_radius(const LIGGGHTS::ContactModels::SurfacesIntersectDat
   return contact.is_wall ? contact.radi : contact.radi * contact.radj / (contact.radi + contact.radj);
 }
 
+/// One of the two directions of a branch between a grain and its own image, told from its components alone.
+inline bool points_up(const double* delta) {
+  if (delta[1] != 0.0) return delta[1] > 0.0;
+  return delta[0] > 0.0 || (delta[0] == 0.0 && delta[2] > 0.0);
+}
+
 /// +1 where i is the grain A of docs/theory/grains.md, D, -1 where it is B: A is the one with the lower id. The
 /// rolling friction force changes its sign when A and B are exchanged (D.3), so both grains of a contact across
 /// a periodic face, which compute it separately, must agree on who is who.
 inline double side(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact, const int* tag) {
   if (contact.is_wall || tag[contact.i] < tag[contact.j]) return 1.0;
   if (tag[contact.i] > tag[contact.j]) return -1.0;
-  return contact.delta[1] > 0.0 || (contact.delta[1] == 0.0 && contact.delta[0] > 0.0) ? 1.0 : -1.0;
+  return points_up(contact.delta) ? 1.0 : -1.0;
 }
 
 /// Rate of the rotation of i relative to j, rad/s, the curvature of the cell included (RecordedModel). Walls do

@@ -35,10 +35,10 @@ Eigen::Vector3d force_of(const Contact& contact) {
   return {contact.force.x(), contact.force.y(), contact.force_3};
 }
 
-class SpaceBox final : public PressedBox {
+class PressedSpheres final : public PressedBox {
  public:
-  SpaceBox(const PackingSpecification& specification, const Packing& packing, std::optional<double> friction,
-           bool probe = false)
+  PressedSpheres(const PackingSpecification& specification, const Packing& packing,
+                 std::optional<double> friction, bool probe = false)
       : packing_(packing),
         script_file_(specification.script_file),
         recorder_(contact_recorder(engine_.lammps())) {
@@ -67,7 +67,7 @@ class SpaceBox final : public PressedBox {
     radii_ = inertia_of(lammps).radii;
     stiffest_.see(recorder_.contacts);
     if (!recorder_.contacts.empty() || script_time_step_->given() || probe) return;
-    const SpaceBox pressed(specification, pressed_together(packing), friction, true);
+    const PressedSpheres pressed(specification, pressed_together(packing), friction, true);
     stiffest_ = pressed.stiffest_;
     // Grains are folded back into the box once more: packings have the last bits that they always had.
     set_up();
@@ -147,11 +147,7 @@ class SpaceBox final : public PressedBox {
       grain.position = position.head<2>();
       grain.height = position.z();
     }
-    Box plane;
-    plane.length_x = box(0, 0);
-    plane.length_y = box(1, 1);
-    plane.tilt = box(0, 1);
-    packing.state = keep_contacts ? save_state(lammps, plane) : nullptr;
+    packing.state = keep_contacts ? save_state(lammps, SpaceBox{box}) : nullptr;
     return packing;
   }
 
@@ -200,7 +196,7 @@ class SpaceBox final : public PressedBox {
 
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
                                            std::optional<double> friction) {
-  return std::make_unique<SpaceBox>(specification, packing, friction);
+  return std::make_unique<PressedSpheres>(specification, packing, friction);
 }
 
 }  // namespace polargrain::dem

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -19,25 +16,14 @@
 #include "dem/cell/stock_rolling.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/extension.hpp"
+#include "dem/standalone/cell_load_words.hpp"
+#include "dem/standalone/fix_space_load.hpp"
 
 namespace polargrain::dem {
 
 using LAMMPS_NS::Fix;
 using LAMMPS_NS::LAMMPS;
 namespace FixConst = LAMMPS_NS::FixConst;
-
-namespace {
-
-StatePointer read_state(const std::string& file, LAMMPS_NS::Error& error) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    error.all(FLERR, fmt::format("Fix cell/load: there is no file {} to take the state from", file).c_str());
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  const auto view = std::as_bytes(std::span(bytes));
-  return std::make_shared<const State>(std::vector<std::byte>(view.begin(), view.end()));
-}
-
-}  // namespace
 
 FixCellLoad::FixCellLoad(LAMMPS* lammps, int count, char** words)
     : FixCellStrain(lammps, 3, words), recorder_(contact_recorder(*lammps)), protocol_(CellControl{}) {
@@ -46,68 +32,15 @@ FixCellLoad::FixCellLoad(LAMMPS* lammps, int count, char** words)
   global_freq = 1;
   extscalar = extvector = 0;
   atom->sortfreq = 0;  // the order of the grains is part of a state
-  read(count, words);
-  protocol_ = QuasiStatic(control_);
-}
-
-void FixCellLoad::read(int count, char** words) {
-  int at = 3;
-  const auto number = [&] {
-    if (++at >= count)
-      error->all(FLERR, fmt::format("Illegal fix cell/load command: a value is missing at the end").c_str());
-    return force->numeric(FLERR, words[at]);
-  };
-  const auto positive = [&](const char* what) {
-    const double value = number();
-    if (!(value > 0.0))
-      error->all(FLERR, fmt::format("Illegal fix cell/load command: {} must be positive", what).c_str());
-    return value;
-  };
-  for (; at < count; ++at) {
-    const std::string word = words[at];
-    if (word == "inertial_number") {
-      control_.inertial_number = positive("inertial_number");
-    } else if (word == "damping") {
-      control_.damping = number();
-      if (!(control_.damping >= 0.0 && control_.damping < 1.0))
-        error->all(FLERR, "Illegal fix cell/load command: damping must be at least 0 and less than 1");
-    } else if (word == "least_steps") {
-      control_.least_steps = static_cast<int>(positive("least_steps"));
-    } else if (word == "unbalanced") {
-      control_.unbalanced_force_ratio = positive("unbalanced");
-      control_.unbalanced_moment_ratio = positive("unbalanced");
-    } else if (word == "most_relaxation_steps") {
-      control_.most_relaxation_steps = static_cast<int>(positive("most_relaxation_steps"));
-    } else if (word == "rotations" && at + 1 < count && std::strcmp(words[at + 1], "free") == 0) {
-      control_.rotations = CellRotations::free;
-      ++at;
-    } else if (word == "rotations" && at + 1 < count && std::strcmp(words[at + 1], "controlled") == 0) {
-      control_.rotations = CellRotations::controlled;
-      ++at;
-    } else if (word == "mean_grain") {
-      mean_mass_ = positive("mean_grain");
-      mean_radius_ = positive("mean_grain");
-      density_ = positive("mean_grain");
-    } else if (word == "turned") {
-      turned_ = number();
-    } else if (word == "version") {
-      if (const double version = number(); version != 1.0 && version != kReplayVersion)
-        error->all(FLERR, fmt::format(
-                              "Fix cell/load: this script is of version {}, and this program reads 1 and {}: "
-                              "write the replay anew",
-                              version, kReplayVersion)
-                              .c_str());
-    } else if (word == "packing_state" && at + 1 < count) {
-      packing_state_ = words[++at];
-    } else {
-      error->all(FLERR, fmt::format("Illegal fix cell/load command: unknown or incomplete keyword '{}'; "
-                                    "expected inertial_number, damping, least_steps, unbalanced, "
-                                    "most_relaxation_steps, rotations free|controlled, mean_grain, turned, "
-                                    "packing_state or version",
-                                    word)
-                            .c_str());
-    }
-  }
+  const CellLoadWords read = read_cell_load_words(*lammps, count, words);
+  if (read.frame)
+    error->all(FLERR, "Illegal fix cell/load command: frame is for spheres in space; discs are turned");
+  mean_mass_ = read.mean_grain.mass;
+  mean_radius_ = read.mean_grain.radius;
+  density_ = read.mean_grain.density;
+  turned_ = read.turned;
+  packing_state_ = read.packing_state;
+  protocol_ = QuasiStatic(read.control);
 }
 
 int FixCellLoad::setmask() {
@@ -129,7 +62,7 @@ void FixCellLoad::post_create() {
   update->whichflag = 1;  // dynamics
   const ScriptTimeStep time_step(*lmp);
   lmp->init();
-  if (!packing_state_.empty()) go_on_from(read_state(packing_state_, *error));
+  if (!packing_state_.empty()) go_on_from(read_state_file(packing_state_, *error));
   update->integrate->setup_minimal(1);
   update->whichflag = 0;
 
@@ -172,7 +105,7 @@ RestoredState FixCellLoad::go_on_from(StatePointer state) try {
 int FixCellLoad::modify_param(int count, char** words) {
   const std::string word = words[0];
   if (word == "state" && count > 1) {
-    go_on_from(read_state(words[1], *error));
+    go_on_from(read_state_file(words[1], *error));
     return 2;
   }
   if (word == "report" && count > 1) {
@@ -279,7 +212,12 @@ double FixCellLoad::compute_vector(int place) {
 }
 
 namespace {
-const Extension kCellLoad = fix_extension<FixCellLoad>("cell/load");
+/// One name for both; the dimension of the script decides.
+LAMMPS_NS::Fix* make_cell_load(LAMMPS* lammps, int count, char** words) {
+  if (lammps->domain->dimension == 3) return new FixSpaceLoad(lammps, count, words);
+  return new FixCellLoad(lammps, count, words);
+}
+const Extension kCellLoad([](LAMMPS& engine) { fix_table(*engine.modify)["cell/load"] = &make_cell_load; });
 }  // namespace
 
 }  // namespace polargrain::dem

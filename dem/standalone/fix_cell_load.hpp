@@ -38,6 +38,8 @@ namespace polargrain::dem {
 /// f_ID: DEM steps of the loading. f_ID[1..11]: s11 s22 s33 s12 s21 (Pa), m1 m2 (N/m), unbalanced force and
 /// moment ratio, 1 when the increment is done, number of contacts; of the last step with output or of the
 /// last full chunk of 20 steps.
+///
+/// In a script of dimension 3 the same words make a FixSpaceLoad, of spheres.
 class FixCellLoad final : public FixCellStrain {
  public:
   FixCellLoad(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
@@ -53,7 +55,6 @@ class FixCellLoad final : public FixCellStrain {
   double compute_vector(int place) override;
 
  private:
-  void read(int count, char** words);
   void find_mean_grain();
   /// Puts a state into the engine and the box to where it was.
   RestoredState go_on_from(StatePointer state);
@@ -65,7 +66,6 @@ class FixCellLoad final : public FixCellStrain {
   void start_recording();
 
   ContactRecorder& recorder_;
-  CellControl control_;
   double mean_mass_ = 0.0;
   double mean_radius_ = 0.0;
   double density_ = 0.0;

@@ -50,23 +50,6 @@ TEST(PackCommand, ExportsSpheresThatTheEngineFindsUnderTheirPressure) {
   EXPECT_TRUE(found) << looked.out;
 }
 
-TEST(PackCommand, ACellRefusesSpheresInSpace) {
-  const Scratch scratch("pack_refused");
-  write(scratch.path() / "spheres.yaml",
-        "grains: 8\nsizes: {law: uniform, radius: [4 mm, 5 mm]}\ndensity: 2650\ndimension: "
-        "3\nunbalanced_force_ratio: "
-        "0.1\npressure_tolerance: 0.1\nscript: cells/spheres_hooke_radii.in\npressure: 100 kPa\nfriction: "
-        "0\nseed: 5\n");
-  ASSERT_EQ(run_in(scratch.path(), kProgram + " pack spheres.yaml -o spheres.h5").status, 0);
-  const Outcome checked =
-      run_in(scratch.path(), kProgram + " check " + std::filesystem::current_path().string() +
-                                 "/cases/biaxial/case.yaml --set materials.sand.packing=" +
-                                 (scratch.path() / "spheres.h5").string());
-  EXPECT_EQ(checked.status, 2);
-  EXPECT_NE(checked.errors.find("holds spheres in space; cells are plane"), std::string::npos)
-      << checked.errors;
-}
-
 /// A case of one material with that script and packing, for `polargrain point`.
 void write_material(const Scratch& scratch, const std::string& script, const std::string& packing) {
   write(scratch.path() / "case.yaml",

@@ -50,7 +50,7 @@ TEST_F(PackingFile, FaultsNameTheLineAndWhatIsExpected) {
   EXPECT_EQ(fault("# cell xx=0.2 xy=0 yx=0 yy=0 z=0.1\nid,x,y,r,mass,Izz\n"),
             ":1: the base vectors span no area (or are left-handed)");
   EXPECT_EQ(fault("# cell xx=0.2 xy=0 yx=0 yy=0.2 z=0.1\nx,y\n"),
-            ":2: expected the column names 'id,x,y,r,mass,Izz'");
+            ":2: expected the column names 'id,x,y,r,mass,Izz', of spheres in space 'id,x,y,z,r,mass,Izz'");
   EXPECT_EQ(fault(kHeader), ":2: the packing has no grains");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0.02\n"),
             ":3: there are 6 columns ('id,x,y,r,mass,Izz') and 5 values here");
@@ -60,6 +60,27 @@ TEST_F(PackingFile, FaultsNameTheLineAndWhatIsExpected) {
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0,1e-7\n"), ":3: the mass must be positive");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0.02,1e-7\n0,0.05,0.02,0.005,0.02,1e-7\n"),
             ":4: grain 0 stands here a second time");
+}
+
+TEST_F(PackingFile, SpheresInSpaceHaveThreeBaseVectors) {
+  const std::string columns = "\nid,x,y,z,r,mass,Izz\n7,0.01,0.02,0.03,0.005,0.02,2.5e-7\n";
+  const Packing packing =
+      read("# cell xx=0.2 xy=0.01 xz=0.02 yx=0 yy=0.1 yz=-0.03 zx=0 zy=0 zz=0.3 p=1e5" + columns);
+  EXPECT_EQ(packing.dimension, 3);
+  EXPECT_EQ(packing.grains.front().height, 0.03);
+  EXPECT_EQ(packing.grains.front().radius, 0.005);
+  Eigen::Matrix3d base;
+  base << 0.2, 0.01, 0.02, 0.0, 0.1, -0.03, 0.0, 0.0, 0.3;
+  EXPECT_EQ(packing.base_vectors(), base);
+  EXPECT_NEAR(packing.grain_volume(), 5.235987755982988e-7, 1e-21);  // 4/3 pi r^3
+  EXPECT_EQ(
+      fault("# cell xx=0.2 xy=0 xz=0 yx=0 yy=0.1 yz=0 zx=0.1 zy=0 zz=0.3" + columns),
+      ":1: the first two base vectors of a packing in space must lie in the plane of x and y: zx and zy "
+      "must be 0; turn the packing");
+  EXPECT_EQ(
+      fault("# cell xx=0.2 xy=0 yx=0 yy=0.1 z=0.1" + columns),
+      ":1: expected the cell's base vectors as '# cell xx=... xy=... xz=... yx=... yy=... yz=... zx=... "
+      "zy=... zz=...' in m; 'zz=' is missing or not a number");
 }
 
 TEST(Packing, MissingFileIsAFault) {

@@ -79,11 +79,6 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   definition.control = read_control(section);
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
-      if (definition.packing.dimension != 2)
-        section.fault("packing",
-                      fmt::format("packing: {} holds spheres in space; cells are plane and take packings "
-                                  "made with dimension 2",
-                                  packing.string()));
     } catch (const InputError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
@@ -93,6 +88,11 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
 std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition) {
   if (section.choice_or("rotations", {"free", "controlled"}, "free") != "controlled")
     return read_cosserat_choice(section);
+  if (definition.packing.dimension == 3)
+    section.fault(
+        "rotations",
+        "rotations: those of spheres in space cannot be controlled; set 'rotations: free' with lc (G and "
+        "Gc come from the packing), or take a packing of discs");
   definition.control.rotations = CellRotations::controlled;
   refuse_cosserat_parameters(section);
   return {};

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/cell_response.hpp"
+#include "dem/cell/network_solver.hpp"
+#include "dem/contact/contact_recorder.hpp"
+
+namespace polargrain::dem {
+
+/// The law of one contact of spheres linearised where it stands (docs/theory/grains.md, C.9): from the opening (three
+/// components of the displacement of the second surface against the first, and the rotation vector of the second grain
+/// against the first) to the change of force and moment on the first grain.
+///
+/// A sliding contact keeps |f_t| = mu f_n along the direction in which it slides, a contact at its rolling limit |M| =
+/// (limit / f_n) f_n; across that direction the springs act. The torsion spring acts where the law has one (li_chu), and
+/// the rolling stiffness of models that do not tell it counts as zero.
+struct LinearSpaceContact {
+  Eigen::Matrix<double, 6, 6> stiffness;  ///< N/m, N; N, N m/rad
+  Eigen::Matrix<double, 6, 12> motions;   ///< opening from (u, rotation) of the first, then the second grain
+  Eigen::Matrix<double, 6, 18>
+      affine;  ///< opening from a Cosserat strain; transposed: V stress from the force
+
+  /// @param frame turns vectors of the contact into the frame of the strain
+  LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame);
+};
+
+/// A cell of spheres as its tangents see it; see ContactNetwork.
+struct SpaceNetwork {
+  std::span<const Contact> contacts;
+  int grains = 0;         ///< contacts refer to 0 .. grains - 1
+  Eigen::Matrix3d frame;  ///< turns vectors of the contacts into the frame of the tangent
+  double volume = 0.0;    ///< m^3
+  double hold = 0.0;      ///< spring on each grain, over the mean normal stiffness
+};
+
+// Tangents d stress / d strain of a cell of spheres; rows and columns as in CellResponse::tangent. The classical ones are
+// those of free rotations: the stress symmetrised in shear, a shear strain acting through its symmetric part, no couple
+// stresses. The Cosserat ones have the grains turn with the micro-rotation, on average.
+
+/// Affine (C.7 (i)).
+Matrix18 voigt_space_tangent(const SpaceNetwork& network);
+Matrix18 voigt_cosserat_space_tangent(const SpaceNetwork& network);
+
+/// The condensed tangents (C.7 (ii)) with six motions a grain; see CondensedTangent. An object keeps memory between calls,
+/// never a result.
+class CondensedSpaceTangent {
+ public:
+  explicit CondensedSpaceTangent(InstructionSet set = best_instruction_set()) : solver_(set) {}
+
+  /// Rotations free. Empty when the network has no solution that balances its forces.
+  std::optional<Matrix18> classical(const SpaceNetwork& network);
+  /// The weighted means of the rotations about the three axes prescribed. @param weights one a grain, adding up to 1, or
+  /// none: then the mean is free too
+  std::optional<Matrix18> cosserat(const SpaceNetwork& network, std::span<const double> weights);
+
+ private:
+  template <int Strains>
+  using Columns = Eigen::Matrix<double, 18, Strains>;  // a strain, or a stress, a column
+
+  template <int Strains>
+  std::optional<Columns<Strains>> relaxed_stresses(const SpaceNetwork& network,
+                                                   std::span<const double> weights,
+                                                   const Columns<Strains>& strains);
+
+  SpaceNetworkSolver solver_;
+  std::vector<LinearSpaceContact> laws_;
+  std::vector<double> unbalanced_;
+};
+
+}  // namespace polargrain::dem

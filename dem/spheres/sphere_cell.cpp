@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/spheres/sphere_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/seconds.hpp"
+#include "dem/cell/averages.hpp"
+#include "dem/cell/cell_state.hpp"
+#include "dem/cell/grain_engine.hpp"
+#include "dem/cell/packing_check.hpp"
+#include "dem/cell/quasi_static.hpp"
+#include "dem/engine/liggghts.hpp"
+#include "dem/spheres/fix_space_strain.hpp"
+#include "dem/spheres/space_contact.hpp"
+#include "dem/spheres/space_tangents.hpp"
+#include "grains_io/packing_data.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+
+/// Spring that holds each grain in the condensed tangent, over the mean normal stiffness, as for discs.
+constexpr double kHold = 1e-4;
+
+/// The largest component of a displacement gradient that a cell takes in one increment.
+constexpr double kLargestIncrement = 0.25;
+
+/// @throws RunError when this cannot be a cell of spheres
+const CellDefinition& sound(const CellDefinition& definition) {
+  if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
+  if (definition.control.rotations == CellRotations::controlled)
+    throw RunError(
+        "the rotations of spheres in space cannot be controlled: leave out 'rotations: controlled', or take a "
+        "packing of discs");
+  return definition;
+}
+
+class SphereEngine : public GrainEngine {
+ public:
+  explicit SphereEngine(const CellDefinition& definition)
+      : GrainEngine(definition.packing, definition.script, definition.script_file, definition.contact_library,
+                    {}, "cell/space_strain"),
+        strain_(dynamic_cast<FixSpaceStrain*>(strain_fix())) {
+    // The engine's own box, to the bit: who starts from its data file starts from the same.
+    SpaceBox box = strain_->engine_box();
+    box.frame = frame_of_packing_data(definition.packing);
+    strain_->begin(SpacePath(box, Eigen::Matrix3d::Zero(), 0), 0.0);
+    start();
+    if (definition.packing.state) restore(*definition.packing.state);
+  }
+  FixSpaceStrain& strain() { return *strain_; }
+  [[nodiscard]] const FixSpaceStrain& strain() const { return *strain_; }
+
+  void restore(const State& state) {
+    lammps().update->ntimestep = 0;  // nothing of an earlier path may show in this one
+    const RestoredState restored = restore_state(lammps(), state);
+    strain_->begin(SpacePath(restored.space.value(), Eigen::Matrix3d::Zero(), 0), 0.0);
+    strain_->set_rotations(restored.rotations);
+  }
+  StatePointer save() {
+    strain_->fold();
+    return save_state(lammps(), strain_->box(), strain_->rotations());
+  }
+
+ private:
+  FixSpaceStrain* strain_;
+};
+
+class SphereCell final : public CellOfGrains {
+ public:
+  explicit SphereCell(const CellDefinition& definition);
+  CellReply initial() override { return initial_; }
+  CellReply evaluate(const CellRequest& request) override;
+  [[nodiscard]] std::span<const Contact> contacts() const override { return engine_.contacts(); }
+
+ private:
+  CellReply follow(const StatePointer& start, const CellIncrement& increment);
+  /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
+  void check(const Packing& packing, double pressure, const std::string& script_file);
+  void run();
+  [[nodiscard]] const SpaceBox& box() const { return engine_.strain().box(); }
+  [[nodiscard]] Equilibrium equilibrium() const;
+  [[nodiscard]] CellDiagnostics measure() const;
+  /// Stress of the recorded contacts, in the laboratory.
+  [[nodiscard]] CellResponse respond(const Matrix18& tangent) const;
+  /// Tangent of the recorded contacts, in the laboratory.
+  [[nodiscard]] Matrix18 tangent();
+
+  CellControl control_;
+  QuasiStatic protocol_;
+  double grain_volume_ = 0.0;  // m^3
+  SphereEngine engine_;
+  Inertia inertia_;
+  CondensedSpaceTangent condensed_tangent_;
+  CellReply initial_;
+};
+
+SphereCell::SphereCell(const CellDefinition& definition)
+    : control_(definition.control),
+      protocol_(definition.control),
+      grain_volume_(definition.packing.grain_volume()),
+      engine_(sound(definition)) {
+  engine_.progress = [this] {
+    if (progress) progress();
+  };
+  engine_.set_up();
+  const std::string remark = engine_.settle_time_step(control_.damping);
+  inertia_ = inertia_of(engine_.lammps());
+  initial_.response = respond(tangent());
+  initial_.response.message = remark;
+  initial_.diagnostics = measure();
+  const double pressure = -initial_.response.stress.trace() / 3.0;
+  check(definition.packing, pressure, definition.script_file);
+  const double density = engine_.grains() * engine_.mean_mass() / grain_volume_;
+  protocol_.take_scales({engine_.mean_mass(), engine_.mean_radius(), density}, engine_.contacts(), pressure);
+  initial_.state = engine_.save();
+}
+
+void SphereCell::check(const Packing& packing, double pressure, const std::string& script_file) {
+  PackingAtRest found{
+      pressure, packing.pressure, 0.0, equilibrium(), overlaps_of(engine_.contacts(), inertia_.radii), true,
+      true};
+  if (pressure > 0.0)
+    found.stiffness_level =
+        mean_normal_stiffness(engine_.contacts()) / (pressure * 2.0 * engine_.mean_radius());
+  const double unrest = std::max(control_.unbalanced_force_ratio, control_.unbalanced_moment_ratio);
+  if (const std::string fault = packing_fault(found, unrest, script_file); !fault.empty())
+    engine_.lammps().error->all(FLERR, fault.c_str());
+}
+
+CellReply SphereCell::evaluate(const CellRequest& request) {
+  const auto start = Clock::now();
+  CellReply reply = follow(request.state, request.increment);
+  reply.diagnostics.engine_seconds = seconds_since(start);
+  return reply;
+}
+
+CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& increment) {
+  const Eigen::Matrix3d& gradient = increment.displacement_gradient;
+  if (const double size = gradient.cwiseAbs().maxCoeff(); !(size <= kLargestIncrement)) {
+    // An iteration gone astray; running it would cost hours and answer nothing.
+    CellReply reply;
+    reply.response.quality = Quality::failed;
+    reply.response.step_factor = 0.5;
+    reply.response.message =
+        fmt::format("the increment strains or turns the cell by {:.2g} at once; at most {} is taken", size,
+                    kLargestIncrement);
+    return reply;
+  }
+  engine_.restore(start ? *start : *initial_.state);
+  protocol_.begin(largest_principal_strain(gradient), engine_.strain().time_step());
+  engine_.strain().begin(SpacePath(box(), gradient, protocol_.loading()), protocol_.damping_rate());
+  engine_.set_up();
+
+  while (!protocol_.loaded()) run();
+  // Taken while the box still moves: see the cell of discs.
+  const Matrix18 loading_tangent = tangent();
+  Equilibrium rest = equilibrium();
+  while (!protocol_.ended(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
+    run();
+    rest = equilibrium();
+  }
+  CellReply reply;
+  reply.diagnostics = measure();
+  reply.response = respond(loading_tangent);
+  const auto unreliable = [&reply](std::string message) {
+    reply.response.quality = Quality::unreliable;
+    reply.response.step_factor = 0.5;
+    reply.response.message = std::move(message);
+  };
+  if (!protocol_.at_rest(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio))
+    unreliable(fmt::format(
+        "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
+        "moment ratio {:.2e} (asked {:.2e})",
+        protocol_.relaxed(), rest.unbalanced_force_ratio, control_.unbalanced_force_ratio,
+        rest.unbalanced_moment_ratio, control_.unbalanced_moment_ratio));
+  std::string fault =
+      answer_fault(overlaps_of(engine_.contacts(), inertia_.radii), rest.void_ratio, kMostVoidRatioInSpace);
+  if (fault.empty())
+    fault = step_fault(engine_.contacts(), inertia_, protocol_.damping_rate(), engine_.strain().time_step());
+  if (!fault.empty()) unreliable(fault);
+  reply.diagnostics.dem_steps = protocol_.done();
+  reply.state = engine_.save();
+  return reply;
+}
+
+void SphereCell::run() {
+  const int steps = protocol_.steps_to_next_look();
+  engine_.run(steps);
+  protocol_.advance(steps);
+}
+
+Equilibrium SphereCell::equilibrium() const {
+  return equilibrium_of(engine_.contacts(), engine_.strain().imbalance(), engine_.mean_radius(),
+                        protocol_.least_force(), box().volume(), grain_volume_);
+}
+
+CellDiagnostics SphereCell::measure() const {
+  const Equilibrium rest = equilibrium();
+  CellDiagnostics diagnostics;
+  diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
+  diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
+  diagnostics.void_ratio = rest.void_ratio;
+  diagnostics.coordination_number = rest.coordination_number;
+  diagnostics.rattlers = rest.rattlers;
+
+  const std::span<const Contact> contacts = engine_.contacts();
+  const auto fraction = [&contacts](auto property) {
+    const auto count = std::count_if(contacts.begin(), contacts.end(), property);
+    return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());
+  };
+  diagnostics.contacts = static_cast<std::int64_t>(contacts.size());
+  diagnostics.sliding_fraction = fraction(slides_in_space);
+  diagnostics.rolling_fraction = fraction([](const Contact& contact) { return contact.rolling_at_limit; });
+  const Eigen::Matrix3d fabric = box().frame * space_fabric(contacts) * box().frame.transpose();
+  diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
+
+  const std::span<const double> rotations = engine_.strain().rotations();
+  if (rotations.empty()) return diagnostics;
+  const auto grains = static_cast<Eigen::Index>(rotations.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xd> turned(rotations.data(), 3, grains);
+  diagnostics.mean_rotation = turned.row(2).mean();
+  diagnostics.rotation_spread =
+      std::sqrt((turned.row(2).array() - diagnostics.mean_rotation).square().mean());
+  return diagnostics;
+}
+
+CellResponse SphereCell::respond(const Matrix18& tangent) const {
+  CellResponse response;
+  response.known = KnownComponents::all;
+  response.stress = box().frame * space_stress(engine_.contacts(), box().volume()) * box().frame.transpose();
+  response.tangent = tangent;
+  return response;
+}
+
+Matrix18 SphereCell::tangent() {
+  if (control_.tangent == CellTangent::none) return Matrix18::Zero();
+  const SpaceNetwork network{engine_.contacts(), engine_.grains(), box().frame, box().volume(), kHold};
+  if (control_.tangent == CellTangent::voigt) return voigt_space_tangent(network);
+  if (control_.tangent == CellTangent::condensed)
+    return condensed_tangent_.classical(network).value_or(voigt_space_tangent(network));
+  std::optional<Matrix18> condensed;
+  // Grains that have no neighbours but one each have no mean rotation that could be held.
+  const std::vector<double> weights = rotation_weights(network.contacts, network.grains, space_normal_force);
+  if (!weights.empty()) condensed = condensed_tangent_.cosserat(network, weights);
+  return condensed.value_or(voigt_cosserat_space_tangent(network));
+}
+
+}  // namespace
+
+std::unique_ptr<CellOfGrains> make_sphere_cell(const CellDefinition& definition) {
+  return std::make_unique<SphereCell>(definition);
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+
+#include "dem/cell/cell_service.hpp"
+
+namespace polargrain::dem {
+
+/// The engine that stands in for the cells of spheres of a definition: what make_cell_service makes of a packing of
+/// dimension 3. @throws RunError where its rotations are to be controlled, which only discs know
+std::unique_ptr<CellOfGrains> make_sphere_cell(const CellDefinition& definition);
+
+}  // namespace polargrain::dem

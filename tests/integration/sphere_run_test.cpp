@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A packing of spheres in space through the commands: pack, check, point, run, and a run that is killed and goes on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "common/csv_table.hpp"
+#include "tests/faults/checkpoint_runs.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kProgram = POLARGRAIN;
+
+/// A hundred spheres, made with friction, so that tangential forces lie ready in them.
+constexpr const char* kSpecification =
+    "grains: 100\nsizes: {law: uniform, radius: [4 mm, 6 mm]}\ndensity: 2650\ndimension: 3\n"
+    "script: cells/spheres_hooke_radii.in\npressure: 100 kPa\nfriction: 0.2\nseed: 5\n";
+
+/// One element in plane strain between smooth plates.
+std::string case_text(const std::string& material) {
+  return "title: One element of spheres\n"
+         "mesh: {rectangle: {size: [0.4 m, 0.4 m], elements: [1, 1]}}\n"
+         "materials: {sand: {script: cells/spheres_hooke_radii.in, packing: spheres.h5, " +
+         material +
+         "}}\n"
+         "regions: {all: sand}\n"
+         "boundary:\n"
+         "  - {on: bottom, fix: [u2]}\n"
+         "  - {on: bottom_left, fix: [u1]}\n"
+         "  - {on: top, move: {u2: -2 mm}}\n"
+         "  - {on: [left, right], pressure: 100 kPa}\n"
+         "steps: {count: 5, tolerance: 1e-2}\n"
+         "monitors: {top_force: {on: top, reaction: u2}}\n"
+         "output: {every: 1}\n";
+}
+
+class SphereRun : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new Scratch("sphere_run");
+    write(scratch_->path() / "spheres.yaml", kSpecification);
+    made_ = run_in(scratch_->path(), kProgram + " pack spheres.yaml -o spheres.h5");
+  }
+  static void TearDownTestSuite() {
+    delete scratch_;
+    scratch_ = nullptr;
+  }
+  void SetUp() override {
+    ASSERT_EQ(made_.status, 0) << made_.errors;
+    write(folder() / "case.yaml", case_text("model: cell, lc: 20 mm"));
+  }
+  static const std::filesystem::path& folder() { return scratch_->path(); }
+
+  static Scratch* scratch_;
+  static Outcome made_;
+};
+Scratch* SphereRun::scratch_ = nullptr;
+Outcome SphereRun::made_;
+
+TEST_F(SphereRun, CheckNamesTheModuliOfThePacking) {
+  EXPECT_NE(made_.out.find("moduli of the packing at rest: G "), std::string::npos) << made_.out;
+  const Outcome checked = run_in(folder(), kProgram + " check case.yaml");
+  EXPECT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_NE(checked.out.find("moduli of the packing at rest: G "), std::string::npos) << checked.out;
+}
+
+TEST_F(SphereRun, PointKnowsTheStressNormalToThePlane) {
+  write(folder() / "path.csv", "h11,h22\n5e-4,-5e-4\n5e-4,-5e-4\n");
+  const Outcome walked = run_in(folder(), kProgram + " point case.yaml sand path.csv -o answers.csv");
+  ASSERT_EQ(walked.status, 0) << walked.errors;
+  const CsvTable answers(folder() / "answers.csv");
+  ASSERT_EQ(answers.rows(), 3u);
+  // At rest an isotropic pressure, to the tolerance of the packing; then the intermediate stress of plane strain.
+  EXPECT_NEAR(answers.number(0, 3) / -100e3, 1.0, 2e-3);
+  const double s11 = answers.number(2, 1);
+  const double s22 = answers.number(2, 2);
+  const double s33 = answers.number(2, 3);
+  EXPECT_LT(s22, s33);
+  EXPECT_LT(s33, s11);
+}
+
+TEST_F(SphereRun, AReplayPrintsTheSameDigits) {
+  write(folder() / "path.csv", "h11,h12,h22\n5e-4,2e-4,-5e-4\n-5e-4,0,5e-4\n");
+  const Outcome walked =
+      run_in(folder(), kProgram + " point case.yaml sand path.csv -o answers.csv --replay way");
+  ASSERT_EQ(walked.status, 0) << walked.errors;
+  const Outcome replayed = run_in(folder() / "way", POLARGRAIN_LIGGGHTS " -in in.replay -log none");
+  ASSERT_EQ(replayed.status, 0) << replayed.out << replayed.errors;
+  std::istringstream expected(content(folder() / "way/README.md"));
+  int found = 0;
+  for (std::string line; std::getline(expected, line);) {
+    const std::size_t place = line.find("cell: increment ");
+    if (line.find(" stress ") == std::string::npos || place == std::string::npos) continue;
+    ++found;
+    EXPECT_NE(replayed.out.find(line.substr(place) + " unbalanced"), std::string::npos)
+        << line << replayed.out;
+  }
+  EXPECT_EQ(found, 2);
+}
+
+TEST_F(SphereRun, ARunThatWasKilledGoesOnToTheSameBytes) {
+  const Outcome whole = run_in(folder(), kProgram + " run case.yaml -o whole -w 2 --quiet");
+  ASSERT_EQ(whole.status, 0) << whole.errors;
+  {
+    RunningProgram program(folder(), "run case.yaml -o killed -w 1 --quiet --checkpoint-minutes 0");
+    for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder() / "killed/checkpoint.h5"); ++wait)
+      sleep_for(0.01);
+    program.end(SIGKILL);
+  }
+  ASSERT_TRUE(std::filesystem::exists(folder() / "killed/checkpoint.h5"));
+  const Outcome resumed = run_in(folder(), kProgram + " run case.yaml -o killed -w 2 --quiet --resume");
+  ASSERT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_TRUE(results_of(folder() / "whole") == results_of(folder() / "killed"));
+}
+
+TEST_F(SphereRun, AdaptiveAndInformedTakeSpheresToo) {
+  for (const char* model : {"adaptive", "informed"}) {
+    write(folder() / "case.yaml", case_text(std::string("model: ") + model + ", lc: 20 mm"));
+    const Outcome run = run_in(folder(), kProgram + " run case.yaml -w 2 --quiet -o " + model);
+    EXPECT_EQ(run.status, 0) << model << ": " << run.errors;
+  }
+}
+
+TEST_F(SphereRun, WhatSpheresCannotDoIsRefused) {
+  write(folder() / "case.yaml", case_text("model: cell, rotations: controlled"));
+  const Outcome controlled = run_in(folder(), kProgram + " check case.yaml");
+  EXPECT_EQ(controlled.status, 2);
+  EXPECT_NE(controlled.errors.find(
+                "case.yaml:3: material 'sand': rotations: those of spheres in space cannot be controlled"),
+            std::string::npos)
+      << controlled.errors;
+  // A script for discs: the engine itself has the word.
+  write(folder() / "case.yaml", case_text("model: cell, lc: 20 mm"));
+  const Outcome plane = run_in(folder(), kProgram +
+                                             " run case.yaml -o plane -w 1 --quiet --set "
+                                             "materials.sand.script=cells/hooke_radii.in");
+  EXPECT_EQ(plane.status, 1);
+  EXPECT_NE(plane.errors.find("hooke_radii.in:15: read_data"), std::string::npos) << plane.errors;
+  EXPECT_NE(plane.errors.find("for 2d simulation"), std::string::npos) << plane.errors;
+}
+
+}  // namespace
+}  // namespace polargrain::testing

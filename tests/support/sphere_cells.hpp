@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/cell_fixture.hpp"
+
+namespace polargrain::test {
+
+/// The spheres of cases/spheres under their script; tests run in the root of the project.
+inline CellDefinition linear_spheres() {
+  CellDefinition definition;
+  definition.name = "spheres";
+  definition.script_file = "liggghts_inputs/cells/spheres_hooke_radii.in";
+  definition.script = file_text(definition.script_file);
+  definition.packing = read_packing("cases/spheres/packing1000.csv");
+  return definition;
+}
+
+inline CellDefinition hertz_spheres() {
+  CellDefinition definition;
+  definition.name = "spheres";
+  definition.script_file = "liggghts_inputs/cells/spheres_hertz.in";
+  definition.script = file_text(definition.script_file);
+  definition.packing = read_packing("tests/data/packing500_hertz.csv");
+  return definition;
+}
+
+/// A row of a path of the independent code (tests/data/README.md).
+struct SpacePathRow {
+  std::string path;
+  int row = 0;
+  Eigen::Matrix3d gradient;  ///< increment of L of the row
+  Eigen::Matrix3d stress;    ///< after it, Pa
+};
+
+inline std::vector<SpacePathRow> space_paths(const std::string& file) {
+  std::istringstream lines(file_text(file));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<SpacePathRow> rows;
+  while (std::getline(lines, line)) {
+    for (char& letter : line)
+      if (letter == ',') letter = ' ';
+    std::istringstream values(line);
+    SpacePathRow row;
+    values >> row.path >> row.row;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) values >> row.gradient(i, j);
+    Eigen::Matrix3d& s = row.stress;
+    values >> s(0, 0) >> s(1, 1) >> s(2, 2) >> s(0, 1) >> s(1, 0) >> s(0, 2) >> s(2, 0) >> s(1, 2) >> s(2, 1);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace polargrain::test
