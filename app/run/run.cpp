@@ -326,6 +326,10 @@ class Run {
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
+      if (std::string doubt = material->doubt(); !doubt.empty()) {
+        warn(fmt::format("region '{}': {}", region, doubt));
+        record_.doubts[region] = std::move(doubt);
+      }
     }
     if (pool_) record_.worker_records = pool_->worker_records();
     log_.info("{}", record_.status);

@@ -35,6 +35,7 @@ struct RunRecord {
   Costs costs;
   /// What materials tell of their cost and error, by region; only of those that do.
   std::map<std::string, std::vector<fem::Figure>> figures;
+  std::map<std::string, std::string> doubts;   ///< what materials cannot vouch for, by region
   std::vector<std::string> settings;           ///< of --set
   std::map<std::string, std::string> results;  ///< names of contents, see names_of_results
   std::map<std::string, coupler::WorkerRecord>

@@ -3,106 +3,130 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "common/record_table.hpp"
 #include "coupler/adaptivity/adaptive_material.hpp"
-#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/adaptivity/error_bound.hpp"
 #include "coupler/cells/cell_increment.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
-/// Steps do not count from here, so that a point can be drawn for all of them.
-constexpr std::uint64_t kEveryStep = ~std::uint64_t{0};
-/// Of fewer audits the 95th percentile is their maximum.
-constexpr std::size_t kFewestAudits = 20;
-constexpr double kAuditedShare = 0.95;
-/// A point that is followed costs a run in every step.
-constexpr double kFollowedShare = 0.25;
+/// Points that are followed at the start, while nothing is known, and at least (docs/adaptivity.md, 4).
+constexpr std::size_t kFollowedFirst = 12;
+constexpr std::size_t kFollowedLeast = 6;
+/// One point less is followed when the bound that the others give is below this share of the tolerance.
+constexpr double kMuchRoom = 0.5;
+constexpr double kShare = 0.95;
+
+bool are_equal(const Increment& a, const Increment& b) {
+  return a.displacement_gradient == b.displacement_gradient && a.micro_rotation == b.micro_rotation &&
+         a.curvature == b.curvature;
+}
 
 }  // namespace
 
+std::size_t AdaptiveMaterial::fewest_followed() const {
+  const double share = std::ceil(options_.audit * static_cast<double>(points_.size()));
+  return std::min(points_.size(), std::max(kFollowedLeast, static_cast<std::size_t>(share)));
+}
+
 void AdaptiveMaterial::choose_followed() {
   followed_.clear();
-  if (options_.audit == 0.0 || points_.empty()) return;
-  const auto draw = [&](std::size_t point) { return hashed_share(options_.seed, point, kEveryStep); };
-  std::size_t lowest = 0;
-  for (std::size_t point = 0; point < points_.size(); ++point) {
-    if (draw(point) < draw(lowest)) lowest = point;
-    if (draw(point) < kFollowedShare * options_.audit)
-      followed_.push_back({point, cells_.front().answer.state});
-  }
-  if (followed_.empty()) followed_.push_back({lowest, cells_.front().answer.state});
+  if (!audits()) return;
+  constexpr std::uint64_t kEveryStep = ~std::uint64_t{0};
+  std::vector<std::size_t> drawn(points_.size());
+  std::iota(drawn.begin(), drawn.end(), std::size_t{0});
+  std::ranges::sort(drawn, {},
+                    [&](std::size_t point) { return hashed_share(options_.seed, point, kEveryStep); });
+  drawn.resize(std::min(drawn.size(), std::max(kFollowedFirst, fewest_followed())));
+  for (const std::size_t point : drawn) followed_.push_back({point, cells_.front().answer.state});
 }
 
-void AdaptiveMaterial::audit() {
-  if (options_.audit == 0.0) return;
-  audit_offsets();
-  audit_histories();
-  tighten();
-}
-
-void AdaptiveMaterial::audit_offsets() {
+void AdaptiveMaterial::run_followed() {
   std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
-  std::vector<Vector7> given;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Point& point = points_[p];
-    if (is_zero(point.offset)) continue;
-    if (hashed_share(options_.seed, p, static_cast<std::uint64_t>(step_)) >= options_.audit) continue;
-    const PlaneReply& answer = cells_[point.cell].answer;
-    requests.push_back({answer.state, point.offset});
-    points.push_back(p);
-    given.push_back(linearised_stress(answer.response, point.offset));
+  std::vector<Followed*> running;
+  for (Followed& followed : followed_) {
+    const Increment increment = increment_of_step(followed.point);
+    if (followed.reply.state && are_equal(increment, followed.increment)) continue;
+    followed.increment = increment;
+    requests.push_back({followed.state, increment});
+    points.push_back(followed.point);
+    running.push_back(&followed);
   }
   if (requests.empty()) return;
-  const std::vector<PlaneReply> replies = run(requests, points);
-  audits_ += static_cast<std::int64_t>(requests.size());
-  for (std::size_t k = 0; k < replies.size(); ++k) {
-    if (replies[k].response.quality != Quality::good) continue;
-    offset_errors_.add(share_of(replies[k].response.stress - given[k]));
-  }
+  std::vector<PlaneReply> replies = run(requests, points, costs_.audit_steps);
+  costs_.audits += static_cast<std::int64_t>(requests.size());
+  for (std::size_t k = 0; k < replies.size(); ++k) running[k]->reply = std::move(replies[k]);
 }
 
-void AdaptiveMaterial::audit_histories() {
-  std::vector<PlaneRequest> requests;
-  std::vector<std::size_t> points;
+std::vector<double> AdaptiveMaterial::measured_errors() const {
+  std::vector<double> errors;
   for (const Followed& followed : followed_) {
-    requests.push_back({followed.state, increment_of_step(followed.point)});
-    points.push_back(followed.point);
+    if (followed.reply.response.quality != Quality::good || !followed.reply.state) continue;
+    errors.push_back(share_of(followed.reply.response.stress - stress_of_cells(followed.point)));
   }
-  if (std::all_of(requests.begin(), requests.end(),
-                  [](const PlaneRequest& request) { return is_zero(request.increment); })) {
-    return;
-  }
-  const std::vector<PlaneReply> replies = run(requests, points);
-  audits_ += static_cast<std::int64_t>(requests.size());
-  std::vector<Followed> going_on;
-  for (std::size_t k = 0; k < replies.size(); ++k) {
-    // A cell that cannot follow is let go; its point goes on by what serves it.
-    if (replies[k].response.quality != Quality::good) continue;
-    const Point& point = points_[followed_[k].point];
-    const Vector7 given = linearised_stress(cells_[point.cell].answer.response, point.offset);
-    history_errors_.add(share_of(replies[k].response.stress - given));
-    going_on.push_back({followed_[k].point, replies[k].state});
-  }
-  std::vector<StatePointer*> states;
-  for (Followed& followed : going_on) states.push_back(&followed.state);
-  collect(calls_, states);
-  followed_ = std::move(going_on);
+  return errors;
 }
 
-void AdaptiveMaterial::tighten() {
-  const MeasuredErrors fresh = offset_errors_.since(judged_);
-  if (fresh.count() < kFewestAudits) return;
-  const double measured = fresh.percentile(kAuditedShare);
-  if (measured <= options_.tolerance) return;
-  tightening_ *= 2.0;
-  judged_ = offset_errors_.count();
+double AdaptiveMaterial::bound_of(std::span<const double> errors) const {
+  return mean_at_most(errors, points_.size()) * neglected(errors);
+}
+
+double AdaptiveMaterial::neglected(std::span<const double> errors) const {
+  if (errors.empty()) return 1.0;
+  const auto estimate_now = [&](std::size_t point) {
+    return estimate(point, branches_[branch_of_point_[point]]) / confining_;
+  };
+  double all = 0.0;
+  for (std::size_t point = 0; point < points_.size(); ++point) all += estimate_now(point);
+  all /= static_cast<double>(points_.size());
+  double followed = 0.0;
+  for (std::size_t k = 0; k < errors.size(); ++k) followed += estimate_now(followed_[k].point);
+  followed /= static_cast<double>(errors.size());
+  const double mean = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+  return mean > 0.0 ? std::max(1.0, (all + mean) / (followed + mean)) : 1.0;
+}
+
+void AdaptiveMaterial::note_tightening(double bound_before, double bound) {
   notes_.push_back(fmt::format(
-      "audits measured an error of {:.3g} of the confining pressure (95th percentile of {}), more than the "
-      "tolerance of {:.3g}: from here on estimates must stay below {:.3g}",
-      measured, fresh.count(), options_.tolerance, options_.tolerance / tightening_));
+      "step {}: the mean error is at most {:.3g} of the confining pressure (95 % confidence, {} points followed), more "
+      "than the tolerance of {:.3g}; with estimates below {:.3g} it is {:.3g}",
+      step_ + 1, bound_before, followed_.size(), options_.tolerance, options_.tolerance / tightening_,
+      bound));
+}
+
+void AdaptiveMaterial::keep_audit() {
+  run_followed();
+  const std::vector<double> errors = measured_errors();
+  for (const double error : errors) errors_.add(error);
+  bounds_.last = bound_of(errors);
+  bounds_.largest = std::max(bounds_.largest, bounds_.last);
+  if (bounds_.last > options_.tolerance) {
+    if (bounds_.steps_beyond == 0.0) bounds_.first_beyond = static_cast<double>(step_);
+    bounds_.steps_beyond += 1.0;
+  }
+  // A cell that cannot follow is let go; its point goes on by what serves it.
+  std::erase_if(followed_, [](const Followed& item) {
+    return item.reply.response.quality != Quality::good || !item.reply.state;
+  });
+  for (Followed& followed : followed_) followed.state = followed.reply.state;
+  if (followed_.size() <= fewest_followed()) return;
+  if (bound_of(std::span(errors).first(errors.size() - 1)) < kMuchRoom * options_.tolerance)
+    followed_.pop_back();
+}
+
+std::string AdaptiveMaterial::doubt() const {
+  if (options_.tolerance == 0.0 || step_ == 0) return {};
+  if (!audits()) return "without audits (audit: 0) nothing is known of the error of its stresses";
+  if (bounds_.steps_beyond == 0.0) return {};
+  return fmt::format(
+      "its stresses cannot be vouched for: in {:.0f} of {} steps, from step {:.0f} on, the mean error may be above the "
+      "tolerance of {:.3g} of the confining pressure; with 95 % confidence it is at most {:.3g}, at the end {:.3g}",
+      bounds_.steps_beyond, step_, bounds_.first_beyond, options_.tolerance, bounds_.largest, bounds_.last);
 }
 
 std::vector<fem::Figure> AdaptiveMaterial::figures() const {
@@ -110,22 +134,31 @@ std::vector<fem::Figure> AdaptiveMaterial::figures() const {
   std::vector<fem::Figure> figures{
       {"points", count(points_.size())},
       {"cells", count(cells_.size())},
-      {"cell_runs", count(runs_)},
+      {"cell_runs", count(costs_.runs)},
+      {"cell_runs_unused", count(costs_.unused_runs)},
+      {"audit_runs", count(costs_.audits)},
+      {"cell_dem_steps", count(costs_.steps)},
+      {"cell_dem_steps_unused", count(costs_.unused_steps)},
+      {"audit_dem_steps", count(costs_.audit_steps)},
+      {"steps_answered_anew", count(costs_.redone)},
+      {"decision_seconds", seconds_},
+      {"shares", shares_ ? 1.0 : 0.0},
       {"point_steps_by_tangent", count(sources_[0])},
       {"point_steps_by_neighbour", count(sources_[1])},
       {"point_steps_by_own_cell", count(sources_[2])},
       {"tolerance", options_.tolerance},
       {"tolerance_worked_with", options_.tolerance / tightening_},
-      {"audit_runs", count(audits_)},
   };
-  const auto errors = [&](const std::string& what, const MeasuredErrors& measured) {
-    figures.push_back({what + "_errors", count(measured.count())});
-    figures.push_back({what + "_error_mean", measured.mean()});
-    figures.push_back({what + "_error_95_percent", measured.percentile(kAuditedShare)});
-    figures.push_back({what + "_error_largest", measured.largest()});
-  };
-  errors("offset", offset_errors_);
-  errors("history", history_errors_);
+  if (!audits()) return figures;
+  figures.push_back({"points_followed", count(followed_.size())});
+  figures.push_back({"history_errors", count(errors_.count())});
+  figures.push_back({"history_error_mean", errors_.mean()});
+  figures.push_back({"history_error_95_percent", errors_.percentile(kShare)});
+  figures.push_back({"history_error_largest", errors_.largest()});
+  figures.push_back({"error_bound", bounds_.largest});
+  figures.push_back({"error_bound_last", bounds_.last});
+  figures.push_back({"steps_beyond_tolerance", bounds_.steps_beyond});
+  figures.push_back({"vouched_for", bounds_.steps_beyond == 0.0 ? 1.0 : 0.0});
   return figures;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/seconds.hpp"
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/adaptivity/strain_path.hpp"
@@ -16,11 +17,20 @@ namespace polargrain::coupler {
 namespace {
 
 /// Of a cell with free rotations only the symmetric part of stress and tangent is meant.
-void make_symmetric(PlaneReply& reply) {
-  Response& response = reply.response;
-  response.stress[k12] = response.stress[k21] = 0.5 * (response.stress[k12] + response.stress[k21]);
+void keep_symmetric(Response& response) {
+  response.stress = symmetric_part(response.stress);
   response.tangent = symmetric_tangent(response.tangent);
 }
+
+/// Until a step is balanced, its answers are held to this many times the tolerance: what cells are run to meanwhile is not
+/// where the points will be.
+constexpr double kUnderWay = 1.0;
+/// Of the points, that have cells of their own when sharing is given up.
+constexpr double kNothingToShare = 0.9;
+/// A smaller tolerance helps when the bound falls below this share of what it was.
+constexpr double kHelps = 0.9;
+/// The error grows when its bound is above that of the step before by more than this.
+constexpr double kGrows = 1.1;
 
 }  // namespace
 
@@ -34,7 +44,7 @@ AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const std::optional<Cosserat
 
 void AdaptiveMaterial::allocate(std::size_t points) {
   Cell packing{packing_at_rest(calls_, notes_), {}};
-  if (!measure_.controlled()) make_symmetric(packing.answer);
+  if (!measure_.controlled()) keep_symmetric(packing.answer.response);
   const Vector7& stress = packing.answer.response.stress;
   confining_ = -0.5 * (stress[k11] + stress[k22]);
   if (!(confining_ > 0.0)) {
@@ -62,13 +72,16 @@ void AdaptiveMaterial::begin_step() {
 }
 
 void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+  const Clock::time_point start = Clock::now();
+  const double cells_before = seconds_of_cells_;
   if (branches_.empty()) begin_step();
   increments_.assign(increments.begin(), increments.end());
   for (std::size_t point = 0; point < points_.size(); ++point) {
     target_[point] = followed_by(points_[point].offset, increment_of_step(point));
   }
-  settle();
+  settle(kUnderWay * tolerance());
   for (std::size_t point = 0; point < points_.size(); ++point) responses[point] = response_of(point);
+  seconds_ += seconds_since(start) - (seconds_of_cells_ - cells_before);
 }
 
 Increment AdaptiveMaterial::increment_of_step(std::size_t point) const {
@@ -94,15 +107,15 @@ std::size_t AdaptiveMaterial::best_branch(std::size_t point) const {
   return best;
 }
 
-bool AdaptiveMaterial::settle() {
+bool AdaptiveMaterial::settle(double allowed) {
   for (;;) {
     std::vector<std::vector<std::size_t>> unserved(cells_.size());
     bool served = true;
     for (std::size_t point = 0; point < points_.size(); ++point) {
       std::size_t& branch = branch_of_point_[point];
-      if (estimate(point, branches_[branch]) <= tolerance()) continue;
+      if (estimate(point, branches_[branch]) <= allowed) continue;
       branch = best_branch(point);
-      if (estimate(point, branches_[branch]) <= tolerance()) continue;
+      if (estimate(point, branches_[branch]) <= allowed) continue;
       unserved[points_[point].cell].push_back(point);
       served = false;
     }
@@ -120,12 +133,12 @@ bool AdaptiveMaterial::settle() {
 std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
                                                        const std::vector<std::size_t>& points) const {
   const Branch& unmoved = branches_[cell];
+  if (!shares_) return points;
   if (!unmoved.departure.known()) {
-    // Nothing can be said before one run has shown how the response departs from its tangent: the farthest point
-    // goes ahead.
-    return {*std::max_element(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
-      return measure_.size(target_[a]) < measure_.size(target_[b]);
-    })};
+    // Nothing can be said before runs have shown how the response departs from its tangent, in the directions that
+    // occur.
+    return span_directions(
+        points, [&](std::size_t point) { return measure_.strain(target_[point]); }, turn_tolerance_);
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
     Departure expected = unmoved.departure;
@@ -147,8 +160,8 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
   for (const Branch& start : starts) {
     requests.push_back({start.answer.state, offset_between(start.place, target_[start.leader])});
   }
-  std::vector<PlaneReply> replies = run(requests, leaders);
-  runs_ += static_cast<std::int64_t>(requests.size());
+  std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
+  costs_.runs += static_cast<std::int64_t>(requests.size());
   bool all_good = true;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const std::size_t leader = starts[k].leader;
@@ -197,8 +210,8 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
       moving.push_back(&starts[k]);
       leaders.push_back(starts[k].leader);
     }
-    std::vector<PlaneReply> replies = run(requests, leaders);
-    runs_ += static_cast<std::int64_t>(requests.size());
+    std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
+    costs_.runs += static_cast<std::int64_t>(requests.size());
     for (std::size_t k = 0; k < replies.size(); ++k) {
       moving[k]->answer = std::move(replies[k]);
       if (moving[k]->answer.response.quality != Quality::failed) continue;
@@ -211,31 +224,66 @@ bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
 }
 
 std::vector<PlaneReply> AdaptiveMaterial::run(std::span<const PlaneRequest> requests,
-                                              std::span<const std::size_t> points) const {
+                                              std::span<const std::size_t> points, std::int64_t& steps) {
+  const Clock::time_point start = Clock::now();
   std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
-  if (measure_.controlled()) return replies;
-  for (PlaneReply& reply : replies) make_symmetric(reply);
+  seconds_of_cells_ += seconds_since(start);
+  for (PlaneReply& reply : replies) {
+    steps += static_cast<std::int64_t>(reply.diagnostics.dem_steps);
+    if (!measure_.controlled()) keep_symmetric(reply.response);
+  }
   return replies;
 }
 
-Response AdaptiveMaterial::response_of(std::size_t point) const {
+Vector7 AdaptiveMaterial::stress_of_cells(std::size_t point) const {
   const Branch& branch = branches_[branch_of_point_[point]];
-  Response response = branch.answer.response;
+  return linearised_stress(branch.answer.response, offset_between(branch.place, target_[point]));
+}
+
+Response AdaptiveMaterial::response_of(std::size_t point) const {
+  Response response = branches_[branch_of_point_[point]].answer.response;
   if (response.quality == Quality::failed) return response;
-  response.stress = linearised_stress(response, offset_between(branch.place, target_[point]));
+  response.stress = stress_of_cells(point);
   if (!cosserat_) return response;
   CosseratPart part = points_[point].cosserat;
   part.add(increments_[point], *cosserat_);
   return part.joined_to(response, *cosserat_);
 }
 
+bool AdaptiveMaterial::confirm() {
+  if (branches_.empty()) return true;
+  const std::vector<std::size_t> before = branch_of_point_;
+  if (!settle(tolerance())) return false;
+  if (audits()) {
+    run_followed();
+    for (double bound = bound_of(measured_errors()); bound > options_.tolerance && tightening_helps_;) {
+      const double bound_before = bound;
+      tightening_ *= 2.0;
+      if (!settle(tolerance())) return false;
+      bound = bound_of(measured_errors());
+      note_tightening(bound_before, bound);
+      tightening_helps_ = bound < kHelps * bound_before;
+      // What is left has entered the histories and no answer of this step mends it. Where it does not grow, a smaller
+      // tolerance would be paid for nothing.
+      if (!tightening_helps_ && bound < kGrows * bounds_.last) tightening_ *= 0.5;
+    }
+  }
+  const bool stands = branch_of_point_ == before;
+  costs_.redone += stands ? 0 : 1;
+  return stands;
+}
+
 void AdaptiveMaterial::commit() {
   if (branches_.empty()) return;
+  ++step_;
+  if (audits()) keep_audit();
   constexpr std::size_t kUnused = static_cast<std::size_t>(-1);
   std::vector<std::size_t> cell_of_branch(branches_.size(), kUnused);
   std::vector<Cell> kept;
+  std::vector<char> in_use(branches_.size(), 0);
+  for (const std::size_t b : branch_of_point_) in_use[b] = 1;
   for (std::size_t b = 0; b < branches_.size(); ++b) {
-    if (std::find(branch_of_point_.begin(), branch_of_point_.end(), b) == branch_of_point_.end()) continue;
+    if (in_use[b] == 0) continue;
     cell_of_branch[b] = kept.size();
     kept.push_back({branches_[b].answer, branches_[b].departure});
   }
@@ -255,14 +303,41 @@ void AdaptiveMaterial::commit() {
   }
   std::vector<StatePointer*> states;
   for (Cell& cell : kept) states.push_back(&cell.answer.state);
+  for (Followed& followed : followed_) states.push_back(&followed.state);
   collect(calls_, states);
+  count_unused(in_use);
+  notice_sharing(kept.size());
   cells_ = std::move(kept);
-  ++step_;
-  audit();
-  revert();
+  forget_step();
+}
+
+void AdaptiveMaterial::count_unused(const std::vector<char>& in_use) {
+  for (std::size_t b = cells_.size(); b < branches_.size(); ++b) {
+    if (in_use[b] != 0) continue;
+    ++costs_.unused_runs;
+    costs_.unused_steps += static_cast<std::int64_t>(branches_[b].answer.diagnostics.dem_steps);
+  }
+}
+
+void AdaptiveMaterial::notice_sharing(std::size_t cells) {
+  const auto count = static_cast<double>(points_.size());
+  if (!shares_ || points_.size() < 2 || static_cast<double>(cells) < kNothingToShare * count) return;
+  shares_ = false;
+  if (options_.tolerance == 0.0) return;
+  notes_.push_back(fmt::format(
+      "{} of {} points have cells of their own: there is nothing left to share, and from here on no point "
+      "is sent ahead of others",
+      cells, points_.size()));
 }
 
 void AdaptiveMaterial::revert() {
+  if (!branches_.empty()) count_unused(std::vector<char>(branches_.size(), 0));
+  forget_step();
+}
+
+void AdaptiveMaterial::forget_step() {
+  tightening_helps_ = true;
+  for (Followed& followed : followed_) followed.reply = {};
   branches_.clear();
   branches_of_cell_.clear();
   branch_of_point_.clear();

@@ -17,8 +17,8 @@ struct AdaptivityOptions {
   /// Error in the in-plane norm of stress that a point may have, as a share of the confining pressure of the
   /// packing. 0: every point has a cell of its own.
   double tolerance = 0.02;
-  /// Share of the saved evaluations that are run in full anyway; a quarter of it of the points, one at least,
-  /// is followed in full.
+  /// Share of the points that are followed by a cell of their own through all steps, which measures the error; at
+  /// least six, twelve at the start. 0: none, and nothing is known of the error.
   double audit = 0.01;
   std::uint64_t seed = 1;
   /// Of grains whose rotations are controlled, m: what makes curvatures and couple stresses comparable with strains and
@@ -49,6 +49,10 @@ constexpr Choices choices_of(Source) {
 /// Within a step a cell that was run stays where it is until the estimate says otherwise, so that Newton's
 /// method meets a function that is linear in each branch. evaluate therefore depends on the evaluations
 /// before it since the last commit or revert, though never by more than the tolerance.
+///
+/// Some points, drawn by chance, are followed by cells of their own from the first step on. What they miss bounds the mean
+/// error of all points (error_bound.hpp), and a step whose bound exceeds the tolerance is answered anew, with a
+/// smaller tolerance for estimates, before it is committed.
 class AdaptiveMaterial : public fem::Material {
  public:
   /// @param calls must live as long as the material
@@ -60,7 +64,9 @@ class AdaptiveMaterial : public fem::Material {
 
   void allocate(std::size_t points) override;
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
-  /// Runs the audits of the step; tightens the tolerance worked with when they break the one asked for.
+  /// Brings all estimates within the tolerance and measures the error of the step; where its bound exceeds the tolerance,
+  /// tightens the one that estimates are held to, as long as that helps.
+  [[nodiscard]] bool confirm() override;
   void commit() override;
   void revert() override;
   void save(ArchiveWriter& archive) const override;
@@ -72,6 +78,7 @@ class AdaptiveMaterial : public fem::Material {
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
+  [[nodiscard]] std::string doubt() const override;
   [[nodiscard]] std::vector<std::string> take_notes() override;
 
  private:
@@ -116,11 +123,13 @@ class AdaptiveMaterial : public fem::Material {
   struct Followed {
     std::size_t point;
     StatePointer state;
+    PlaneReply reply = {};  ///< to the increment below, of the step at work
+    Increment increment = {};
   };
 
   void begin_step();
-  /// Runs branches until every point is served. @returns false when a cell has failed
-  bool settle();
+  /// Runs branches until the estimate of every point is within `allowed` (Pa). @returns false when a cell has failed
+  bool settle(double allowed);
   [[nodiscard]] double estimate(std::size_t point, const Branch& branch) const;
   /// The branch of a point's cell with the smallest estimate.
   [[nodiscard]] std::size_t best_branch(std::size_t point) const;
@@ -131,18 +140,33 @@ class AdaptiveMaterial : public fem::Material {
   /// the path that the point has gone without it. @returns false when a cell has failed
   bool replay_paths(std::vector<Branch>& starts);
   [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
-                                            std::span<const std::size_t> points) const;
+                                            std::span<const std::size_t> points, std::int64_t& steps);
   /// What takes the cell of a point through the step.
   [[nodiscard]] Increment increment_of_step(std::size_t point) const;
   /// Size of an error of a stress, as a share of the confining pressure.
   [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / confining_; }
   [[nodiscard]] Response response_of(std::size_t point) const;
+  /// What the cells say of a point, carried to it; without the Cosserat part of the case.
+  [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * confining_; }
   void choose_followed();
-  void audit();
-  void audit_offsets();
-  void audit_histories();
-  void tighten();
+  /// Runs the cells that follow points through the step at work, those that have not been. One that fails is let go.
+  void run_followed();
+  /// What the answers to the followed points miss, shares of the confining pressure.
+  [[nodiscard]] std::vector<double> measured_errors() const;
+  /// What the mean error of all points is at most, a share of the confining pressure, with 95 % confidence.
+  [[nodiscard]] double bound_of(std::span<const double> errors) const;
+  /// By how much the estimates of all points, on the average, are above those of the points that are followed, which may
+  /// happen to be calm ones: at least 1.
+  [[nodiscard]] double neglected(std::span<const double> errors) const;
+  void note_tightening(double bound_before, double bound);
+  /// Ends the audit of a step: what was measured is kept, and where it leaves much room one point less is followed.
+  void keep_audit();
+  [[nodiscard]] std::size_t fewest_followed() const;
+  [[nodiscard]] bool audits() const { return options_.audit > 0.0 && options_.tolerance > 0.0; }
+  void notice_sharing(std::size_t cells);
+  void count_unused(const std::vector<char>& in_use);
+  void forget_step();
 
   CellCalls calls_;
   std::optional<CosseratParameters> cosserat_;
@@ -164,14 +188,29 @@ class AdaptiveMaterial : public fem::Material {
   std::vector<Increment> target_;  ///< from the cell's place to the point's
   std::vector<Increment> increments_;
 
-  std::vector<Followed> followed_;
-  MeasuredErrors offset_errors_;   ///< of carrying answers along offsets, shares of the confining pressure
-  MeasuredErrors history_errors_;  ///< of whole histories, the same
-  double tightening_ = 1.0;        ///< the tolerance asked for is divided by it
-  std::size_t judged_ = 0;         ///< offset errors that a tightening has answered
+  std::vector<Followed> followed_;  ///< in the order they were drawn
+  MeasuredErrors errors_;           ///< of the points followed, shares of the confining pressure
+  double tightening_ = 1.0;         ///< the tolerance asked for is divided by it
+  bool tightening_helps_ = true;    ///< in this step
+  bool shares_ = true;              ///< points may follow others; false: there was nothing left to share
+  struct Bounds {
+    double last = 0.0;          ///< of the mean error of the last step, with 95 % confidence
+    double largest = 0.0;       ///< of all steps
+    double steps_beyond = 0.0;  ///< steps whose bound was beyond the tolerance,
+    double first_beyond = 0.0;  ///< and the first of them; 0: none
+  } bounds_;
   std::array<std::int64_t, 3> sources_{};  ///< committed point steps by Source
-  std::int64_t runs_ = 0;                  ///< of cells, audits not counted
-  std::int64_t audits_ = 0;
+  struct Costs {
+    std::int64_t runs = 0;          ///< of cells, audits not counted
+    std::int64_t steps = 0;         ///< DEM steps of these
+    std::int64_t unused_runs = 0;   ///< those of them that no point used in the end,
+    std::int64_t unused_steps = 0;  ///< and their DEM steps
+    std::int64_t audits = 0;        ///< runs of cells that follow points
+    std::int64_t audit_steps = 0;   ///< DEM steps of these
+    std::int64_t redone = 0;        ///< times that a step was answered anew
+  } costs_;
+  double seconds_ = 0.0;  ///< spent in decisions since the run was started, or resumed, last
+  double seconds_of_cells_ = 0.0;
   std::vector<std::string> notes_;
 };
 

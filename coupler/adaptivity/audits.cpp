@@ -35,9 +35,4 @@ double MeasuredErrors::percentile(double share) const {
   return sorted[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
 }
 
-MeasuredErrors MeasuredErrors::since(std::size_t first) const {
-  const auto begin = errors_.begin() + static_cast<std::ptrdiff_t>(std::min(first, errors_.size()));
-  return MeasuredErrors(std::vector<double>(begin, errors_.end()));
-}
-
 }  // namespace polargrain::coupler

@@ -21,8 +21,6 @@ class MeasuredErrors {
   /// The smallest error that at least this share of all do not exceed; 0 without any.
   [[nodiscard]] double percentile(double share) const;
   [[nodiscard]] double largest() const { return percentile(1.0); }
-  /// The same of those from number `first` on.
-  [[nodiscard]] MeasuredErrors since(std::size_t first) const;
   [[nodiscard]] const std::vector<double>& all() const { return errors_; }
 
  private:

@@ -7,6 +7,8 @@ namespace polargrain::coupler {
 namespace {
 
 constexpr std::size_t kMostCandidates = 500;
+constexpr std::size_t kMostDirections = 6;
+constexpr double kSameDirection = 0.5;  // cosine of 60 degrees
 
 /// Which of the points left a candidate covers.
 struct Candidate {
@@ -60,6 +62,27 @@ std::vector<std::size_t> choose_leaders(const std::vector<std::size_t>& points,
     left = std::move(rest);
   }
   return leaders;
+}
+
+std::vector<std::size_t> span_directions(const std::vector<std::size_t>& points,
+                                         const std::function<Vector7(std::size_t)>& strain, double least) {
+  std::vector<std::size_t> left = points;
+  std::stable_sort(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
+    return strain(a).squaredNorm() > strain(b).squaredNorm();
+  });
+  std::vector<std::size_t> chosen;
+  std::vector<Vector7> directions;
+  for (const std::size_t point : left) {
+    const Vector7 own = strain(point);
+    if (!chosen.empty() && (own.norm() < least || chosen.size() == kMostDirections)) break;
+    const bool is_new = std::ranges::all_of(directions, [&](const Vector7& direction) {
+      return own.dot(direction) < kSameDirection * own.norm();
+    });
+    if (!is_new) continue;
+    chosen.push_back(point);
+    directions.push_back(own.normalized());
+  }
+  return chosen;
 }
 
 }  // namespace polargrain::coupler

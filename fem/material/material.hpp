@@ -23,7 +23,7 @@ struct Figure {
 ///
 /// Order of calls: allocate once; then per step any number of evaluate, ended by commit (trial becomes
 /// committed) or revert (trial is dropped). evaluate always starts from the committed states, so calling it
-/// twice with the same increments gives the same bits.
+/// twice with the same increments gives the same bits. Before a commit a material may be asked to confirm its answers.
 class Material {
  public:
   virtual ~Material() = default;
@@ -52,6 +52,11 @@ class Material {
   /// A point that cannot answer says so in its Response (Quality::failed); no exception for that.
   virtual void evaluate(std::span<const Increment> increments, std::span<Response> responses) = 0;
 
+  /// Asked when a step is balanced, before commit: whether the answers to the last increments stand. A material that
+  /// finds that it has to answer better says false; evaluate then gives other answers to the same increments, the
+  /// iteration of the step goes on with them, and confirm is asked again when they are balanced.
+  [[nodiscard]] virtual bool confirm() { return true; }
+
   virtual void commit() = 0;
   virtual void revert() = 0;
 
@@ -79,6 +84,8 @@ class Material {
 
   /// What the material has to tell of its cost and its error since it was allocated; empty for most.
   [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
+  /// What of its committed answers the material cannot vouch for, in a sentence; empty: nothing. For the end of a run.
+  [[nodiscard]] virtual std::string doubt() const { return {}; }
   /// What happened in the last commits that a user should read in the log, a sentence each; then forgotten.
   [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
 };

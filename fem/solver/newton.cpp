@@ -350,6 +350,16 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
       if (worst.quality != Quality::good) {
         return {false, "a material's answer is unreliable: " + worst.message, worst.step_factor};
       }
+      if (!materials.confirm()) {
+        // Other answers from here on: what was learned of the former ones is void.
+        evaluate(iterate, report);
+        if (const Response& again = worst_response(); again.quality == Quality::failed)
+          return {false, "a material failed: " + again.message, again.step_factor};
+        right_side = iterate.unbalanced;
+        anderson_.clear();
+        watch = StagnationWatch(options.stagnation_window);
+        continue;
+      }
       commit(iterate, balance, report);
       return {true, ""};
     }

@@ -71,6 +71,12 @@ double PointMaterials::moment_length(double otherwise) const {
   return least;
 }
 
+bool PointMaterials::confirm() {
+  bool all = true;
+  for (Batch& batch : batches_) all = batch.material->confirm() && all;
+  return all;
+}
+
 void PointMaterials::commit() {
   for (Batch& batch : batches_) batch.material->commit();
 }

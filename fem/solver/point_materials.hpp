@@ -22,6 +22,8 @@ class PointMaterials {
   [[nodiscard]] bool can_turn() const;
   /// The least of what the materials say (Material::moment_length); `otherwise` where none does.
   [[nodiscard]] double moment_length(double otherwise) const;
+  /// Whether all materials stand by their answers (Material::confirm).
+  [[nodiscard]] bool confirm();
   void commit();
   void revert();
   /// The committed states of all materials, each under a number of its own.

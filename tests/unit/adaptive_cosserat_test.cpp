@@ -77,6 +77,7 @@ class AdaptiveCosseratTest : public ::testing::Test {
     for (std::size_t p = 0; p < increments.size(); ++p) strain_[p] += kMeasure.strain(increments[p]);
     std::vector<Response> responses(increments.size());
     sand.evaluate(increments, responses);
+    while (!sand.confirm()) sand.evaluate(increments, responses);
     sand.commit();
     return responses;
   }
@@ -195,9 +196,12 @@ TEST_F(AdaptiveCosseratTest, AuditsSeeCoupleStressesAndAllGoesOnFromACheckpointB
   }
   const std::vector<fem::Figure> a = whole.figures();
   const std::vector<fem::Figure> b = second.figures();
-  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
-  EXPECT_GT(figure(whole, "offset_errors"), 5.0);
-  EXPECT_GT(figure(whole, "offset_error_largest"), 0.0);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].name == "decision_seconds") continue;
+    EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
+  }
+  EXPECT_GT(figure(whole, "history_errors"), 50.0);
+  EXPECT_GT(figure(whole, "history_error_largest"), 0.0);
   EXPECT_LE(figure(whole, "history_error_95_percent"), 0.02);
 }
 

@@ -220,40 +220,127 @@ TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
   for (const Response& response : responses) EXPECT_EQ(response.quality, Quality::good);
 }
 
-TEST_F(AdaptiveMaterialTest, AuditsMeasureAPlantedErrorAndTighten) {
-  // A wrong answer to short increments: what leaders are asked is long, so no estimate can see it.
-  cells_.short_increment = 5e-4;
-  cells_.planted = 0.05 * kConfining;
-  AdaptiveMaterial sand = material(200, 0.02, 0.1);
-  for (int k = 0; k < 6; ++k) {
+// All points alike, all followed (audit: 100 %), so that the bound is the mean error itself. A cell of its own is run in every
+// step and creeps each time; the points' cell is run now and then.
+TEST_F(AdaptiveMaterialTest, AuditsMeasureWhatNoEstimateSeesAndItStaysPartOfTheError) {
+  cells_.creep = 0.001 * kConfining;
+  AdaptiveMaterial sand = material(4, 0.05, 1.0);
+  step(sand, std::vector<Eigen::Matrix2d>(4, compression(1e-3)));
+  const double first = figure(sand, "error_bound_last");
+  EXPECT_LT(first, 1e-9) << "the cell was run to where all points are";
+  int carried = 0;
+  for (int k = 0; k < 4; ++k) {
+    const double runs = figure(sand, "cell_runs");
+    step(sand, std::vector<Eigen::Matrix2d>(4, compression(1e-5)));
+    carried += figure(sand, "cell_runs") == runs ? 1 : 0;
+  }
+  ASSERT_EQ(carried, 4) << "nothing was carried, the test shows nothing";
+  // Four runs' creep, and the true error of carrying over 4e-5 of strain: its curvature makes
+  // kModulus (4.3e-5)^2 / kHalf = 14 Pa, 1.4e-4 of the pressure.
+  EXPECT_NEAR(figure(sand, "error_bound_last"), 0.004, 2e-4);
+  EXPECT_EQ(figure(sand, "history_errors"), 20.0);
+  EXPECT_EQ(figure(sand, "vouched_for"), 1.0);
+  EXPECT_EQ(sand.doubt(), "");
+}
+
+TEST_F(AdaptiveMaterialTest, AStepBeyondTheToleranceIsAnsweredAnewAndWhatCannotBeMendedIsSaid) {
+  cells_.creep = 0.008 * kConfining;
+  AdaptiveMaterial sand = material(40, 0.02, 0.1);
+  for (int k = 0; k < 12; ++k) {
     std::vector<Eigen::Matrix2d> gradients;
-    for (int p = 0; p < 200; ++p) gradients.push_back(compression(1e-3 * (1.0 + 0.05 * (p % 11) / 11.0)));
+    for (int p = 0; p < 40; ++p) gradients.push_back(compression(4e-5 * (1.0 + 0.05 * (p % 11) / 11.0)));
     step(sand, gradients);
   }
-  std::cout << "[figure] planted 0.05, audits measured " << figure(sand, "offset_error_mean") << " from "
-            << figure(sand, "offset_errors") << '\n';
-  // What is measured besides is the true error of carrying, below the tolerance.
-  EXPECT_NEAR(figure(sand, "offset_error_mean"), 0.05, 0.005);
-  EXPECT_GT(figure(sand, "offset_errors"), 50.0);
+  // Without audits the cell is run once or twice in twelve steps; the creep of ten runs is 0.08.
+  std::cout << "[figure] bound " << figure(sand, "error_bound") << ", at the end "
+            << figure(sand, "error_bound_last") << ", worked with " << figure(sand, "tolerance_worked_with")
+            << '\n';
   EXPECT_LT(figure(sand, "tolerance_worked_with"), 0.02);
+  EXPECT_GT(figure(sand, "steps_answered_anew"), 0.0);
+  EXPECT_EQ(figure(sand, "vouched_for"), 0.0);
+  EXPECT_GE(figure(sand, "error_bound"), figure(sand, "error_bound_last"));
   const std::vector<std::string> notes = sand.take_notes();
   ASSERT_FALSE(notes.empty());
   EXPECT_NE(notes.front().find("more than the tolerance of 0.02"), std::string::npos) << notes.front();
   EXPECT_TRUE(sand.take_notes().empty());
+  EXPECT_NE(sand.doubt().find("cannot be vouched for"), std::string::npos) << sand.doubt();
 }
 
-TEST_F(AdaptiveMaterialTest, AuditsOfAGoodRunStayWithinTheTolerance) {
-  AdaptiveMaterial sand = material(90, 0.02, 0.1);
+TEST_F(AdaptiveMaterialTest, AuditsAreDenseAtFirstAndThinWithEvidence) {
+  AdaptiveMaterial sand = material(90, 0.02, 0.01);
+  step(sand, three_bands(90));
+  EXPECT_GE(figure(sand, "points_followed"), 11.0);
   for (int k = 0; k < 20; ++k) step(sand, three_bands(90));
-  std::cout << "[figure] audits: 95th percentile " << figure(sand, "offset_error_95_percent")
-            << ", of whole histories " << figure(sand, "history_error_95_percent") << '\n';
-  EXPECT_GT(figure(sand, "offset_errors"), 100.0);
-  EXPECT_GE(figure(sand, "history_errors"), 20.0);
-  EXPECT_LE(figure(sand, "offset_error_95_percent"), 0.02);
-  EXPECT_GT(figure(sand, "offset_error_largest"), 0.0);
+  std::cout << "[figure] audits: bound " << figure(sand, "error_bound") << ", 95th percentile "
+            << figure(sand, "history_error_95_percent") << '\n';
+  EXPECT_EQ(figure(sand, "points_followed"), 6.0);
+  EXPECT_GT(figure(sand, "history_error_largest"), 0.0);
   EXPECT_LE(figure(sand, "history_error_95_percent"), 0.02);
   EXPECT_EQ(figure(sand, "tolerance_worked_with"), 0.02);
+  EXPECT_EQ(figure(sand, "vouched_for"), 1.0);
   EXPECT_TRUE(sand.take_notes().empty());
+  AdaptiveMaterial none = material(90, 0.02, 0.0);
+  step(none, three_bands(90));
+  EXPECT_NE(none.doubt().find("nothing is known"), std::string::npos);
+}
+
+// What the true mean error is, is known here: of 400 draws of the points followed the bound covers it in as many as it says.
+TEST_F(AdaptiveMaterialTest, TheBoundCoversTheTrueMeanErrorFromTheFirstStep) {
+  constexpr int kDraws = 400;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> size(-2e-4, 6e-4);
+  std::vector<Eigen::Matrix2d> own;
+  for (int p = 0; p < 200; ++p) own.push_back(compression(size(random)));
+  for (const int steps : {1, 3}) {
+    int covered = 0;
+    for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
+      AdaptiveMaterial sand(cells_.calls(), kCosserat, {0.05, 0.01, seed});
+      sand.allocate(200);
+      strain_.assign(200, Eigen::Matrix2d::Zero());
+      std::vector<Response> responses;
+      for (int k = 0; k < steps; ++k) responses = step(sand, own);
+      double mean = 0.0;
+      for (std::size_t p = 0; p < 200; ++p)
+        mean +=
+            GrainMeasure().stress(responses[p].stress - KnownCells::stress(strain_[p])) / kConfining / 200.0;
+      covered += mean <= figure(sand, "error_bound_last") ? 1 : 0;
+    }
+    const double share = static_cast<double>(covered) / kDraws;
+    std::cout << "[figure] after " << steps << " steps the bound covers the true mean error in " << share
+              << " of the draws\n";
+    // Three standard deviations of 400 draws of 95 % are 3.3 %.
+    EXPECT_GE(share, 0.95 - 0.033);
+  }
+}
+
+TEST_F(AdaptiveMaterialTest, SharingEndsWhereThereIsNothingToShare) {
+  AdaptiveMaterial sand = material(8, 0.002);
+  std::vector<Eigen::Matrix2d> gradients;
+  for (int p = 0; p < 8; ++p) gradients.push_back(compression((p % 2 == 0 ? 1.0 : -1.0) * 5e-4 * (p + 1)));
+  for (int k = 0; k < 3; ++k) step(sand, gradients);
+  EXPECT_EQ(figure(sand, "cells"), 8.0);
+  EXPECT_EQ(figure(sand, "shares"), 0.0);
+  const std::vector<std::string> notes = sand.take_notes();
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes.front().find("nothing left to share"), std::string::npos) << notes.front();
+  AdaptiveMaterial alike = material(8, 0.02);
+  step(alike, std::vector<Eigen::Matrix2d>(8, compression(1e-3)));
+  EXPECT_EQ(figure(alike, "shares"), 1.0);
+}
+
+// Runs by part: a step that is given up leaves runs that nobody used.
+TEST_F(AdaptiveMaterialTest, RunsOfNoUseAreCounted) {
+  AdaptiveMaterial sand = material(2, 0.02);
+  std::vector<Response> responses(2);
+  sand.evaluate(std::vector<Increment>(2, increment_of(compression(3e-3))), responses);
+  const double runs = figure(sand, "cell_runs");
+  EXPECT_GE(runs, 1.0);
+  EXPECT_EQ(figure(sand, "cell_dem_steps"), 10.0 * runs);
+  sand.revert();
+  EXPECT_EQ(figure(sand, "cell_runs_unused"), runs);
+  EXPECT_EQ(figure(sand, "cell_dem_steps_unused"), 10.0 * runs);
+  step(sand, std::vector<Eigen::Matrix2d>(2, compression(1e-3)));
+  EXPECT_EQ(figure(sand, "cell_runs_unused"), runs);
 }
 
 TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
@@ -280,7 +367,10 @@ TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
   }
   const std::vector<fem::Figure> a = whole.figures();
   const std::vector<fem::Figure> b = second.figures();
-  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].name == "decision_seconds") continue;
+    EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
+  }
   EXPECT_GT(figure(whole, "cells"), 3.0) << "too simple a path to show anything";
   AdaptiveMaterial other = material(31, 0.02, 0.1);
   EXPECT_THROW(other.restore(archive), RunError);

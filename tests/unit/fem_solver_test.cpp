@@ -61,6 +61,52 @@ TEST(solver, finds_the_balance_of_stresses_that_do_not_fit_the_loads) {
   }
 }
 
+/// Elastic, and once, when it is asked to confirm its answers, twice as stiff from the start of the step.
+class SecondThoughts : public Material {
+ public:
+  int asked = 0;
+  int committed_after = 0;  ///< times it had been asked at the last commit
+
+  void allocate(std::size_t points) override { strain_.assign(points, Vector7::Zero()); }
+  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
+    trial_.clear();
+    for (std::size_t point = 0; point < strain_.size(); ++point) {
+      trial_.push_back(strain_[point] + increments[point].strain());
+      const Matrix7 stiffness = (asked > 0 ? 2.0 : 1.0) * elastic_stiffness(sand());
+      responses[point] = {};
+      responses[point].tangent = stiffness;
+      responses[point].stress = stiffness * trial_.back();
+      for (const int i : {k11, k22, k33}) responses[point].stress[i] -= 100e3;
+    }
+  }
+  bool confirm() override { return ++asked > 1; }
+  void commit() override {
+    strain_ = trial_;
+    committed_after = asked;
+  }
+  void revert() override {}
+
+ private:
+  std::vector<Vector7> strain_;
+  std::vector<Vector7> trial_;
+};
+
+TEST(solver, a_step_is_committed_only_when_its_materials_confirm_it) {
+  const auto material = std::make_shared<SecondThoughts>();
+  Solver solver(biaxial(material), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  EXPECT_EQ(material->asked, 0) << "the initial state is no step";
+  const StepReport report = solver.advance(1.0);
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_EQ(material->committed_after, 2);
+  // As below, with twice the stiffness: the first answers have left nothing behind.
+  const double axial = -100e3 + 2 * 40e6 / (1 - 0.09) * -0.01;
+  for (const Response& response : solver.state().responses) {
+    EXPECT_NEAR(response.stress(k22), axial, 1e-6 * std::abs(axial));
+    EXPECT_NEAR(response.stress(k11), -100e3, 1e-6 * std::abs(axial));
+  }
+}
+
 TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answer) {
   Solver solver(biaxial(elastic(100e3)), {});
   ASSERT_TRUE(solver.equilibrate().converged);
