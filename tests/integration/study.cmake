@@ -11,4 +11,8 @@ if(TARGET polargrain)
   gtest_discover_tests(study_test PROPERTIES LABELS integration TIMEOUT 600 DISCOVERY_TIMEOUT 60)
   # Ten minutes on two cores: on request.
   gtest_discover_tests(study_long PROPERTIES LABELS long TIMEOUT 7200 DISCOVERY_TIMEOUT 60)
+  # Layers of grains and a column of cells, reduced: bands as docs/studies/internal_length.md has them (two minutes).
+  add_test(NAME LayerStudy.BandsAreAsThePageSays COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/layer_study.py --check
+           -o ${CMAKE_CURRENT_BINARY_DIR}/layer_study --programs ${PROJECT_BINARY_DIR}/app)
+  set_tests_properties(LayerStudy.BandsAreAsThePageSays PROPERTIES LABELS long TIMEOUT 3600)
 endif()
