@@ -46,7 +46,10 @@ class Charts {
     for (const ElementCurve& curve : curves_)
       series.push_back(line(curve.name, curve.rows, {}, 0.0, picture));
     if (!mean_.mean.empty()) {
+      // Of two curves the interval is 13 standard deviations of their mean wide to each side, and nothing else is seen.
+      const bool interval = curves_.size() > 2;
       for (const double side : {0.0, -1.0, 1.0}) {
+        if (side != 0.0 && !interval) continue;
         const std::string name = side == 0.0 ? "mean" : side < 0.0 ? "mean, 95 % below" : "mean, 95 % above";
         series.push_back(line(name, mean_.mean, mean_.half_width, side, picture));
         series.back().colour = kMeanColour;
