@@ -109,7 +109,8 @@ int run_test(const ElementOptions& options) {
   if (!std::filesystem::is_directory(folder))
     throw InputError(
         {"", 0, fmt::format("-o {}: there is no folder {}", options.output.string(), folder.string())});
-  const ElementResult result = run_elements({&specification, 1}, options.workers, options.scripts.trusted).front();
+  const ElementResult result =
+      run_elements({&specification, 1}, options.workers, options.scripts.trusted).front();
   const ElementMean mean = mean_of(result.curves);
   write_file(with_ending(options.output, ".csv"), table_of(result));
   if (!mean.mean.empty())

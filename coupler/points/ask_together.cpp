@@ -17,34 +17,38 @@ struct Desk {
   std::optional<CellReply> reply;
 };
 
-/// Tests put their requests down here; when all that still run have, they are answered.
+/// Tests put their requests down here; when all that still run have, they are answered. One thread at a time is at work,
+/// a test or the pool, and holds the floor: pointers to states tell the pool when they go, wherever that is.
 class Office {
  public:
+  using Floor = std::unique_lock<std::mutex>;
+
   explicit Office(std::size_t tests) : desks_(tests), running_(tests) {}
 
-  CellReply ask(std::size_t test, const CellRequest& request) {
-    std::unique_lock lock(mutex_);
+  [[nodiscard]] Floor take_floor() { return Floor(mutex_); }
+
+  CellReply ask(Floor& floor, std::size_t test, const CellRequest& request) {
     desks_[test].request = request;
     ++waiting_;
     changed_.notify_all();
-    changed_.wait(lock, [&] { return closed_ || desks_[test].reply.has_value(); });
+    changed_.wait(floor, [&] { return closed_ || desks_[test].reply.has_value(); });
     if (closed_) throw RunError("the test was ended by the failure of another");
     CellReply reply = std::move(*desks_[test].reply);
     desks_[test].reply.reset();
     return reply;
   }
 
+  /// By who holds the floor.
   void leave() {
-    const std::scoped_lock lock(mutex_);
     --running_;
     changed_.notify_all();
   }
 
   /// Answers until all have left.
   void serve(Pool& pool, const std::vector<std::uint32_t>& definitions) {
+    Floor floor = take_floor();
     for (;;) {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return waiting_ == running_; });
+      changed_.wait(floor, [&] { return waiting_ == running_; });
       if (running_ == 0) return;
       std::vector<PoolRequest> requests;
       std::vector<std::size_t> askers;
@@ -54,9 +58,7 @@ class Office {
         desks_[test].request.reset();
         askers.push_back(test);
       }
-      lock.unlock();  // nobody comes: all that run wait
       std::vector<CellReply> replies = pool.evaluate(requests);
-      lock.lock();
       for (std::size_t k = 0; k < askers.size(); ++k) desks_[askers[k]].reply = std::move(replies[k]);
       waiting_ = 0;
       changed_.notify_all();
@@ -64,13 +66,13 @@ class Office {
   }
 
   void close() {
-    const std::scoped_lock lock(mutex_);
+    const Floor floor = take_floor();
     closed_ = true;
     changed_.notify_all();
   }
 
  private:
-  std::mutex mutex_;
+  std::mutex mutex_;  ///< the floor
   std::condition_variable changed_;
   std::vector<Desk> desks_;
   std::size_t running_;
@@ -87,8 +89,9 @@ void ask_together(Pool& pool, const std::vector<std::uint32_t>& definitions,
   std::vector<std::thread> threads;
   for (std::size_t test = 0; test < definitions.size(); ++test) {
     threads.emplace_back([&, test] {
+      Office::Floor floor = office.take_floor();
       try {
-        run(test, [&office, test](const CellRequest& request) { return office.ask(test, request); });
+        run(test, [&](const CellRequest& request) { return office.ask(floor, test, request); });
       } catch (...) {
         errors[test] = std::current_exception();
       }

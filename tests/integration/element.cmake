@@ -14,3 +14,7 @@ polargrain_test(calibrate_command_test integration integration/calibrate_command
 target_compile_definitions(calibrate_command_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"
                                                           POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 add_dependencies(calibrate_command_test fake_polargrain)
+
+polargrain_test(ask_together_test integration integration/ask_together_test.cpp LIBS polargrain_coupler polargrain_fake_engine)
+target_compile_definitions(ask_together_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>")
+add_dependencies(ask_together_test fake_worker)
