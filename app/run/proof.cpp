@@ -36,7 +36,7 @@ std::string name_of_file(const fs::path& file) {
 
 std::map<std::string, std::string> names_of_results(const fs::path& directory) {
   std::map<std::string, std::string> names;
-  for (const char* const file : {"history.csv", "fields.pvd", kSampleFile}) {
+  for (const char* const file : {"history.csv", "fields.pvd", "points.pvd", kSampleFile}) {
     if (std::string name = name_of_file(directory / file); !name.empty()) names[file] = std::move(name);
   }
   std::error_code error;

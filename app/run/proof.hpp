@@ -11,7 +11,7 @@ namespace polargrain::app {
 /// The file with a run's sample of answers, in its result directory.
 constexpr const char* kSampleFile = "sample.h5";
 
-/// Names (XXH3, 128 bits, 32 hexadecimal digits) of what a run has come to: history.csv, fields.pvd, all of fields/ as one,
+/// Names (XXH3, 128 bits, 32 hexadecimal digits) of what a run has come to: history.csv, fields.pvd, points.pvd, all of fields/ as one,
 /// the sample; of those that are there.
 std::map<std::string, std::string> names_of_results(const std::filesystem::path& directory);
 

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
+#include "common/cell.hpp"
 #include "common/error.hpp"
+#include "common/record_table.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -34,6 +37,21 @@ std::filesystem::path fields_file(int step) {
   return std::filesystem::path("fields") / fmt::format("step-{:05}.vtu", step);
 }
 
+/// Not step-...: that is what fields of elements are called.
+std::filesystem::path points_file(int step) {
+  return std::filesystem::path("fields") / fmt::format("points-{:05}.vtu", step);
+}
+
+/// Gives what cells show the units that their record tells; other fields of materials are pure numbers.
+void name_units(std::vector<fem::Field>& fields) {
+  static const std::vector<Column> of_cells = columns_of<CellDiagnostics>();
+  for (fem::Field& field : fields) {
+    if (!field.unit.empty()) continue;
+    const auto found = std::ranges::find(of_cells, field.name, &Column::name);
+    field.unit = found == of_cells.end() ? "1" : found->unit;
+  }
+}
+
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream in(line);
@@ -51,7 +69,8 @@ RunFiles::RunFiles(const coupler::Case& the_case, std::filesystem::path director
                                : CsvFile(directory_ / "history.csv", from->history)),
       costs_(from == nullptr ? CsvFile(directory_ / "costs.csv", kCostColumns)
                              : CsvFile(directory_ / "costs.csv", from->costs)),
-      collection_(directory_ / "fields.pvd") {
+      collection_(directory_ / "fields.pvd"),
+      points_collection_(directory_ / "points.pvd") {
   if (from != nullptr) go_on(*from);
 }
 
@@ -61,11 +80,13 @@ void RunFiles::go_on(const coupler::Checkpoint& from) {
     // Behind the last step nothing is left to be lost.
     if (has_fields(step.step) && (step.step < from.step || from.step == case_.steps())) {
       collection_.add(step.report.time, fields_file(step.step));
+      if (case_.output_points) points_collection_.add(step.report.time, points_file(step.step));
     }
   }
   std::error_code error;
   for (int step = from.step; step <= case_.steps() && from.step < case_.steps(); ++step) {
     std::filesystem::remove(directory_ / fields_file(step), error);
+    std::filesystem::remove(directory_ / points_file(step), error);
   }
 }
 
@@ -122,8 +143,16 @@ void RunFiles::write_fields(int step, const fem::Solver& solver) {
   std::error_code error;
   // Not the result directory itself: when that was removed, somebody has to be told.
   std::filesystem::create_directory(directory_ / "fields", error);  // write_vtu says when it is not there
-  fem::write_vtu(directory_ / fields_file(step), case_.problem.mesh, fem::collect_fields(solver));
+  fem::Fields fields = fem::collect_fields(solver);
+  name_units(fields.points);
+  name_units(fields.cells);
+  fem::write_vtu(directory_ / fields_file(step), case_.problem.mesh, fields);
   collection_.add(solver.state().time, fields_file(step));
+  if (!case_.output_points) return;
+  fem::PlacedFields at_points = fem::collect_point_fields(solver);
+  name_units(at_points.fields);
+  fem::write_vtu(directory_ / points_file(step), at_points);
+  points_collection_.add(solver.state().time, points_file(step));
 }
 
 std::vector<CommittedStep> steps_of_history(const std::string& history, const coupler::Case& the_case) {

@@ -27,7 +27,7 @@ class RunFiles {
   void write(const CommittedStep& step, const fem::Solver& solver);
   /// Writes the rows added. @throws RunError
   void write_rows();
-  /// Writes the fields of a step. @throws RunError
+  /// Writes the fields of a step, at the integration points too where the case wants them. @throws RunError
   void write_fields(int step, const fem::Solver& solver);
 
   [[nodiscard]] const std::string& history() const { return history_.text(); }
@@ -42,6 +42,7 @@ class RunFiles {
   CsvFile history_;
   CsvFile costs_;
   fem::PvdCollection collection_;
+  fem::PvdCollection points_collection_;
 };
 
 /// The committed steps of a history.csv of this case, for the table and the summary.

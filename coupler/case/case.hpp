@@ -56,6 +56,7 @@ struct Case {
   std::vector<Monitor> monitors;
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
+  bool output_points = true;       ///< whether there is one of the integration points beside each
   PatienceLimits patience;         ///< with workers
   double check_share = 0.0;        ///< of the evaluations: made by two workers, 0 to 1
 

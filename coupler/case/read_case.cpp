@@ -186,6 +186,7 @@ class CaseReader {
     case_.output_every = output.whole_or("every", 1, 1);
     case_.checkpoint_minutes = output.quantity_or("checkpoint_minutes", Dimension::number,
                                                   Limit::not_negative, case_.checkpoint_minutes);
+    case_.output_points = output.choice_or("points", {"yes", "no"}, "yes") == "yes";
     if (output.find("table") != nullptr) {
       case_.table = output.words("table", "a list of monitors");
       const std::vector<std::string> known = known_values();

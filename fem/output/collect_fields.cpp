@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "fem/output/smooth.hpp"
+#include "fem/output/stress_measures.hpp"
 #include "fem/output/vtu.hpp"
 
 namespace polargrain::fem {
@@ -17,18 +20,42 @@ double deviatoric_strain(const Vector7& strain) {
   return std::sqrt(2.0 / 3.0 * square);
 }
 
-/// Averages over the volume of each element of a quantity with several components at each point.
+const std::vector<std::string> kTensor{"11", "22", "33", "12", "21"};
+const std::vector<std::string> kPlaneVector{"1", "2"};
+const std::vector<std::string> kVector{"1", "2", "3"};
+
+/// Of what materials show: what is a quantity in space, so that it can be smoothed. The others count things, or say
+/// what an integration point is or does.
+const std::vector<std::string> kSmoothed{"void_ratio",    "coordination_number", "sliding_fraction",
+                                         "mean_rotation", "plastic_shear",       "friction",
+                                         "dilatancy",     "error_estimate"};
+
+/// A field at the integration points, and where it is known.
+struct PointField {
+  Field field;
+  std::vector<bool> known;  ///< by point; empty: at all of them
+};
+
+/// What `quantity` says of each point, component by component.
 template <class Quantity>
-Field element_averages(const Solver& solver, std::string name, int components, Quantity quantity) {
+Field point_field(const Solver& solver, Field field, Quantity quantity) {
+  for (std::size_t point = 0; point < solver.points(); ++point)
+    for (int i = 0; i < field.components; ++i) field.values.push_back(quantity(point, i));
+  return field;
+}
+
+/// Averages over the volume of each element.
+Field element_averages(const Solver& solver, const Field& at_points) {
   const std::size_t elements = solver.problem().mesh.elements.size();
-  const auto width = static_cast<std::size_t>(components);
-  Field field{std::move(name), components, std::vector<double>(elements * width, 0.0)};
+  const auto width = static_cast<std::size_t>(at_points.components);
+  Field field = at_points;
+  field.values.assign(elements * width, 0.0);
   std::vector<double> volume(elements, 0.0);
   for (std::size_t point = 0; point < solver.points(); ++point) {
     const auto e = static_cast<std::size_t>(solver.element_of_point(point));
     volume[e] += solver.volume_of_point(point);
     for (std::size_t i = 0; i < width; ++i) {
-      field.values[e * width + i] += solver.volume_of_point(point) * quantity(point, static_cast<int>(i));
+      field.values[e * width + i] += solver.volume_of_point(point) * at_points.values[point * width + i];
     }
   }
   for (std::size_t i = 0; i < field.values.size(); ++i) field.values[i] /= volume[i / width];
@@ -36,14 +63,16 @@ Field element_averages(const Solver& solver, std::string name, int components, Q
 }
 
 std::vector<Field> nodal_fields(const Solver& solver) {
-  Field displacement{"displacement", 3, {}};
-  Field rotation{"micro_rotation", 1, {}};
+  Field displacement{"displacement", 3, {}, "m", kVector};
+  Field rotation{"micro_rotation", 1, {}, "rad"};
+  Field axis{"micro_rotation_vector", 3, {}, "rad", kVector};
   const Eigen::VectorXd& values = solver.state().displacement;
   for (Eigen::Index i = 0; i < values.size(); i += 3) {
     displacement.values.insert(displacement.values.end(), {values(i), values(i + 1), 0.0});
     rotation.values.push_back(values(i + 2));
+    axis.values.insert(axis.values.end(), {0.0, 0.0, values(i + 2)});
   }
-  return {std::move(displacement), std::move(rotation)};
+  return {std::move(displacement), std::move(rotation), std::move(axis)};
 }
 
 /// All names that some material shows, each once, in the order of the points.
@@ -61,45 +90,135 @@ std::vector<std::string> material_field_names(const Solver& solver) {
   return names;
 }
 
-/// Value by point of each named field; 0 where the material does not have it.
-std::map<std::string, std::vector<double>> material_values(const Solver& solver,
-                                                           const std::vector<std::string>& names) {
-  std::map<std::string, std::vector<double>> values;
-  for (const std::string& name : names) values[name].assign(solver.points(), 0.0);
+/// What materials show; 0 where the material of a point does not have a field.
+std::vector<PointField> material_fields(const Solver& solver) {
+  const std::vector<std::string> names = material_field_names(solver);
+  std::map<std::string, std::size_t> places;
+  std::vector<PointField> fields;
+  for (const std::string& name : names) {
+    places[name] = fields.size();
+    fields.push_back(
+        {{name, 1, std::vector<double>(solver.points(), 0.0)}, std::vector<bool>(solver.points(), false)});
+  }
   for (std::size_t point = 0; point < solver.points(); ++point) {
     const auto [material, number] = solver.material_of_point(point);
     const std::vector<std::string> own = material->field_names();
     std::vector<double> own_values(own.size(), 0.0);
     material->fields(number, own_values);
-    for (std::size_t i = 0; i < own.size(); ++i) values[own[i]][point] = own_values[i];
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      PointField& field = fields[places.at(own[i])];
+      field.field.values[point] = own_values[i];
+      field.known[point] = true;
+    }
   }
-  return values;
+  return fields;
+}
+
+/// Stresses, strains and what materials show, at the integration points.
+std::vector<PointField> basic_fields(const Solver& solver) {
+  const SolverState& state = solver.state();
+  const auto stress = [&](std::size_t point, int i) { return state.responses[point].stress(i); };
+  const auto strain = [&](std::size_t point, int i) { return state.strain[point](i); };
+  std::vector<PointField> fields;
+  const auto add = [&](Field field, auto quantity) {
+    fields.push_back({point_field(solver, std::move(field), quantity), {}});
+  };
+  add({"stress", 5, {}, "Pa", kTensor}, stress);
+  add({"couple_stress", 2, {}, "N/m", kPlaneVector},
+      [&](std::size_t point, int i) { return stress(point, kCurvature1 + i); });
+  add({"strain", 5, {}, "1", kTensor}, strain);
+  add({"curvature", 2, {}, "rad/m", kPlaneVector},
+      [&](std::size_t point, int i) { return strain(point, kCurvature1 + i); });
+  add({"deviatoric_strain", 1, {}, "1"},
+      [&](std::size_t point, int) { return deviatoric_strain(state.strain[point]); });
+  add({"volume_strain", 1, {}, "1"},
+      [&](std::size_t point, int) { return state.strain[point].head<3>().sum(); });
+  for (PointField& field : material_fields(solver)) fields.push_back(std::move(field));
+  return fields;
+}
+
+/// Adds what can be read off the stress, the first of the fields.
+void add_stress_measures(std::vector<Field>& fields, const Field& stress) {
+  Field p{"p", 1, {}, "Pa"};
+  Field q{"q", 1, {}, "Pa"};
+  Field ratio{"stress_ratio", 1, {}, "1"};
+  Field friction{"mobilised_friction_angle", 1, {}, "degree"};
+  Field principal{"principal_stress", 3, {}, "Pa", {"1", "2", "33"}};
+  Field first{"principal_direction_1", 3, {}, "1", kVector};
+  Field second{"principal_direction_2", 3, {}, "1", kVector};
+  for (std::size_t k = 0; k < stress.values.size(); k += 5) {
+    Vector7 of_entity = Vector7::Zero();
+    for (int i = 0; i < 5; ++i) of_entity(i) = stress.values[k + static_cast<std::size_t>(i)];
+    const StressMeasures found = measures_of(of_entity);
+    p.values.push_back(found.pressure);
+    q.values.push_back(found.deviatoric);
+    ratio.values.push_back(found.ratio);
+    friction.values.push_back(found.mobilised_friction);
+    principal.values.insert(principal.values.end(), found.principal.begin(), found.principal.end());
+    for (const auto& [field, direction] :
+         {std::pair(&first, found.first_direction), std::pair(&second, found.second_direction)})
+      field->values.insert(field->values.end(), {direction(0), direction(1), 0.0});
+  }
+  for (Field* const field : {&p, &q, &ratio, &friction, &principal, &first, &second})
+    fields.push_back(std::move(*field));
+}
+
+/// A nodal field where the integration points are, as the elements interpolate it.
+Field interpolated(const Solver& solver, const Field& at_nodes) {
+  const Mesh& mesh = solver.problem().mesh;
+  const auto width = static_cast<std::size_t>(at_nodes.components);
+  Field field = at_nodes;
+  field.values.clear();
+  for (const Element& element : mesh.elements) {
+    for (const QuadraturePoint& point : element.type->quadrature) {
+      const Eigen::VectorXd shape = element.type->shape_functions(point.position).value;
+      for (std::size_t i = 0; i < width; ++i) {
+        double value = 0.0;
+        for (std::size_t a = 0; a < element.nodes.size(); ++a)
+          value += shape(static_cast<Eigen::Index>(a)) *
+                   at_nodes.values[static_cast<std::size_t>(element.nodes[a]) * width + i];
+        field.values.push_back(value);
+      }
+    }
+  }
+  return field;
 }
 
 }  // namespace
 
 Fields collect_fields(const Solver& solver) {
-  const SolverState& state = solver.state();
-  const auto stress = [&](std::size_t point, int i) { return state.responses[point].stress(i); };
-  const auto strain = [&](std::size_t point, int i) { return state.strain[point](i); };
   Fields fields;
   fields.points = nodal_fields(solver);
-  fields.cells.push_back(element_averages(solver, "stress", 5, stress));
-  fields.cells.push_back(element_averages(
-      solver, "couple_stress", 2, [&](std::size_t point, int i) { return stress(point, kCurvature1 + i); }));
-  fields.cells.push_back(element_averages(solver, "strain", 5, strain));
-  fields.cells.push_back(element_averages(
-      solver, "curvature", 2, [&](std::size_t point, int i) { return strain(point, kCurvature1 + i); }));
-  fields.cells.push_back(element_averages(solver, "deviatoric_strain", 1, [&](std::size_t point, int) {
-    return deviatoric_strain(state.strain[point]);
-  }));
-  const std::vector<std::string> names = material_field_names(solver);
-  const auto values = material_values(solver, names);
-  for (const std::string& name : names) {
-    fields.cells.push_back(
-        element_averages(solver, name, 1, [&](std::size_t point, int) { return values.at(name)[point]; }));
+  for (const PointField& of : basic_fields(solver)) {
+    fields.cells.push_back(element_averages(solver, of.field));
+    if (of.known.empty() || std::ranges::find(kSmoothed, of.field.name) != kSmoothed.end())
+      fields.points.push_back(smoothed(solver, of.field, of.known));
   }
+  const auto stress = [](const std::vector<Field>& of) {
+    return *std::ranges::find(of, "stress", &Field::name);
+  };
+  add_stress_measures(fields.points, stress(fields.points));
+  add_stress_measures(fields.cells, stress(fields.cells));
   return fields;
+}
+
+PlacedFields collect_point_fields(const Solver& solver) {
+  PlacedFields placed;
+  Field nodes{"", 2, {}};
+  for (const Eigen::Vector2d& node : solver.problem().mesh.nodes)
+    nodes.values.insert(nodes.values.end(), {node(0), node(1)});
+  const std::vector<double> places = interpolated(solver, nodes).values;
+  for (std::size_t k = 0; k < places.size(); k += 2) placed.places.emplace_back(places[k], places[k + 1]);
+
+  std::vector<Field>& fields = placed.fields;
+  for (const Field& field : nodal_fields(solver)) fields.push_back(interpolated(solver, field));
+  fields.push_back(point_field(solver, {"volume", 1, {}, "m^2"},
+                               [&](std::size_t point, int) { return solver.volume_of_point(point); }));
+  std::vector<PointField> basic = basic_fields(solver);
+  const Field stress = basic.front().field;
+  for (PointField& of : basic) fields.push_back(std::move(of.field));
+  add_stress_measures(fields, stress);
+  return placed;
 }
 
 }  // namespace polargrain::fem

@@ -114,6 +114,8 @@ class Reader {
       if (field.components < 1 || field.components > kMostComponents ||
           field.values.size() != entities * static_cast<std::size_t>(field.components))
         fail(fmt::format("the array '{}' has not a value for each of {} entities", field.name, entities));
+      field.unit =
+          plain_text(node.find_child_by_attribute("InformationKey", "name", "UNITS_LABEL").child_value());
       fields.push_back(std::move(field));
     }
     return fields;

@@ -15,6 +15,8 @@ struct Field {
   std::string name;
   int components;
   std::vector<double> values;
+  std::string unit = {};                          ///< "1" for a pure number; empty: not said
+  std::vector<std::string> component_names = {};  ///< one a component; empty: none has a name
 };
 
 /// The fields of one output time.
@@ -23,15 +25,30 @@ struct Fields {
   std::vector<Field> cells;   ///< by element
 };
 
-/// Fields of the committed state. By node: displacement (u1, u2, 0), micro_rotation. By element, averages
-/// over the volume: stress and strain (11, 22, 33, 12, 21), couple_stress, curvature, deviatoric_strain
-/// (sqrt(2/3 e_ij e_ij) of the symmetric deviator), and what the materials show (Material::fields; 0 where
-/// the element's material does not have the field).
+/// Fields of the committed state (docs/file_formats.md, fields). By node: displacement (u1, u2, 0), micro_rotation, the
+/// same as a vector; by node smoothed (smooth.hpp) and by element as averages over the volume: stress and strain (11, 22, 33,
+/// 12, 21), couple_stress, curvature, volume_strain, deviatoric_strain (sqrt(2/3 e_ij e_ij) of the symmetric deviator),
+/// what the materials show (Material::fields; 0 where the element's material does not have the field; at nodes only what
+/// is a quantity in space), and what StressMeasures reads off the stress so averaged or smoothed.
 Fields collect_fields(const Solver& solver);
 
-/// Writes a VTK unstructured grid (XML, base64). The file appears complete or not at all.
+/// Fields at places of their own.
+struct PlacedFields {
+  std::vector<Eigen::Vector2d> places;  ///< on the mesh as it was made, m
+  std::vector<Field> fields;
+};
+
+/// The same at the integration points, in the order of the solver, nothing averaged or smoothed; displacement and rotations
+/// as the element has them there; `volume` (per unit thickness, m^2).
+PlacedFields collect_point_fields(const Solver& solver);
+
+/// Writes a VTK unstructured grid (XML, base64), with names of components, and units under VTK's own key
+/// vtkDataArray::UNITS_LABEL. The file appears complete or not at all.
 /// @throws RunError when it cannot be written.
 void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields);
+
+/// The same for places that nothing joins: a vertex for each.
+void write_vtu(const std::filesystem::path& file, const PlacedFields& fields);
 
 /// The list of .vtu files over time that ParaView opens.
 class PvdCollection {

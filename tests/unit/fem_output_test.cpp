@@ -14,6 +14,7 @@
 #include "fem/mesh/rectangle.hpp"
 #include "fem/output/base64.hpp"
 #include "fem/output/read_vtu.hpp"
+#include "fem/output/stress_measures.hpp"
 #include "fem/output/vtu.hpp"
 
 using namespace polargrain;
@@ -92,6 +93,7 @@ TEST_P(Output, is_read_back_by_vtk) {
   ASSERT_NE(find_field(again.fields.cells, "stress"), nullptr);
   for (const Field& field : collect_fields(solver).cells)
     EXPECT_EQ(find_field(again.fields.cells, field.name)->values, field.values) << field.name;
+  EXPECT_EQ(find_field(again.fields.cells, "stress")->unit, "Pa");
 
   auto lines = run("/usr/bin/python3 " VTK_READER " " + file.string());
   const Mesh& mesh = solver.problem().mesh;
@@ -115,6 +117,99 @@ TEST_P(Output, is_read_back_by_vtk) {
   EXPECT_NEAR(number("void_ratio", 4), 0.62, 1e-15);
   EXPECT_EQ(lines["curvature"][0], std::to_string(mesh.elements.size()));
   EXPECT_EQ(lines["micro_rotation"][0], std::to_string(mesh.nodes.size()));
+}
+
+// The displacement u1 = -c x^2 / 2 of all nodes gives stresses that are linear in space: s11 = -120 c x and s22 = s33 = -40 c x
+// (lambda = G = 40), so p = 200/3 c x, q = 80 c x, q / p = 1.2, and sin of the mobilised angle is (120 - 40) / (120 + 40).
+TEST(fields, engineers_read_are_exact_at_points_and_at_nodes) {
+  constexpr double c = 0.01;
+  Problem problem;
+  problem.mesh = rectangle({{2.0, 1.0}, {3, 2}}, "Q8R");
+  problem.materials["all"] = std::make_shared<LocalMaterial<ShowingLaw>>(
+      ShowingLaw(ElasticParameters{100.0, 0.25, 20.0, 0.1, Vector7::Zero()}));
+  problem.prescribed = {
+      {"all", Dof::u1, TimeTable::ramp(-0.5 * c), [](const Eigen::Vector2d& x) { return x(0) * x(0); }},
+      {"all", Dof::u2, TimeTable::constant(0.0), {}},
+      {"all", Dof::w, TimeTable::ramp(0.02), {}}};
+  Solver solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  ASSERT_TRUE(solver.advance(1.0).converged);
+  const std::vector<Eigen::Vector2d>& nodes = solver.problem().mesh.nodes;
+  const Fields fields = collect_fields(solver);
+  const PlacedFields points = collect_point_fields(solver);
+  ASSERT_EQ(points.places.size(), solver.points());
+  const auto check = [&](const std::vector<Field>& of, const std::vector<Eigen::Vector2d>& places) {
+    const auto value = [&](const char* name, std::size_t entity, std::size_t component) {
+      const Field* const field = find_field(of, name);
+      EXPECT_NE(field, nullptr) << name;
+      return field->values.at(entity * static_cast<std::size_t>(field->components) + component);
+    };
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double x = c * places[k](0);
+      // The stiffness is of order 100, strains of 0.02: rounding is some 1e-15.
+      EXPECT_NEAR(value("stress", k, 0), -120.0 * x, 1e-13);
+      EXPECT_NEAR(value("p", k, 0), 200.0 / 3.0 * x, 1e-13);
+      EXPECT_NEAR(value("q", k, 0), 80.0 * x, 1e-13);
+      EXPECT_NEAR(value("principal_stress", k, 0), -120.0 * x, 1e-13);
+      EXPECT_NEAR(value("principal_stress", k, 1), -40.0 * x, 1e-13);
+      EXPECT_NEAR(value("principal_stress", k, 2), -40.0 * x, 1e-13);
+      EXPECT_NEAR(value("volume_strain", k, 0), -x, 1e-15);
+      EXPECT_NEAR(value("micro_rotation_vector", k, 2), 0.02, 1e-15);
+      EXPECT_NEAR(value("void_ratio", k, 0), 0.62, 1e-14);
+      if (places[k](0) == 0.0) continue;  // no stress, no ratio
+      EXPECT_NEAR(value("stress_ratio", k, 0), 1.2, 1e-11);
+      EXPECT_NEAR(value("mobilised_friction_angle", k, 0), 30.0, 1e-9);
+      EXPECT_NEAR(value("principal_direction_1", k, 0), 1.0, 1e-12);
+      EXPECT_NEAR(value("principal_direction_2", k, 1), 1.0, 1e-12);
+    }
+  };
+  check(fields.points, nodes);
+  check(points.fields, points.places);
+  double area = 0.0;
+  for (const double part : find_field(points.fields, "volume")->values) area += part;
+  EXPECT_NEAR(area, 2.0, 1e-14);
+
+  // VTK finds names of components and units in both files.
+  const auto file = std::filesystem::temp_directory_path() / "fem_output_places.vtu";
+  write_vtu(file, points);
+  auto lines = run("/usr/bin/python3 " VTK_READER " " + file.string());
+  EXPECT_EQ(lines["grid"][2], "1");  // VTK_VERTEX
+  EXPECT_EQ(std::stoul(lines["grid"][0]), solver.points());
+  EXPECT_EQ(lines["about:stress"], (std::vector<std::string>{"Pa", "11", "22", "33", "12", "21"}));
+  EXPECT_EQ(lines["about:principal_stress"], (std::vector<std::string>{"Pa", "1", "2", "33"}));
+  EXPECT_EQ(lines["about:displacement"], (std::vector<std::string>{"m", "1", "2", "3"}));
+  EXPECT_EQ(lines["about:mobilised_friction_angle"][0], "degree");
+  write_vtu(file, solver.problem().mesh, fields);
+  lines = run("/usr/bin/python3 " VTK_READER " " + file.string());
+  EXPECT_EQ(lines["about:curvature"], (std::vector<std::string>{"rad/m", "1", "2"}));
+  EXPECT_EQ(lines["about:p"][0], "Pa");
+  std::filesystem::remove(file);
+}
+
+// s11 = -300, s22 = -100, s33 = -150, s12 = 80, s21 = 20: the circle has its centre at -200 and the radius sqrt(100^2 + 50^2).
+TEST(stress_measures, are_those_of_the_circle_by_hand) {
+  Vector7 stress;
+  stress << -300.0, -100.0, -150.0, 80.0, 20.0, 7.0, -3.0;
+  const StressMeasures found = measures_of(stress);
+  const double radius = std::sqrt(12500.0);
+  EXPECT_NEAR(found.pressure, 550.0 / 3.0, 1e-12);
+  EXPECT_NEAR(found.deviatoric,
+              std::sqrt(0.5 * (200.0 * 200.0 + 50.0 * 50.0 + 150.0 * 150.0) + 3.0 * 50.0 * 50.0), 1e-12);
+  EXPECT_NEAR(found.ratio, found.deviatoric / found.pressure, 1e-15);
+  EXPECT_NEAR(found.principal(0), -200.0 - radius, 1e-12);
+  EXPECT_NEAR(found.principal(1), -200.0 + radius, 1e-12);
+  EXPECT_EQ(found.principal(2), -150.0);
+  Eigen::Matrix2d matrix;
+  matrix << -300.0, 50.0, 50.0, -100.0;
+  EXPECT_LT((matrix * found.first_direction - found.principal(0) * found.first_direction).norm(), 1e-11);
+  EXPECT_LT((matrix * found.second_direction - found.principal(1) * found.second_direction).norm(), 1e-11);
+  EXPECT_GT(found.first_direction(0), 0.0);
+  EXPECT_NEAR(found.mobilised_friction, std::asin(radius / 200.0) * 180.0 / M_PI, 1e-12);
+  // No compression: no ratio, no angle. Directions of equal stresses are those of the axes.
+  stress << 10.0, 10.0, 10.0, 0.0, 0.0, 0.0, 0.0;
+  EXPECT_EQ(measures_of(stress).ratio, 0.0);
+  EXPECT_EQ(measures_of(stress).mobilised_friction, 0.0);
+  EXPECT_EQ(measures_of(stress).first_direction, Eigen::Vector2d::UnitX());
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, Output, testing::Values("Q8R", "Q4", "T6"));
