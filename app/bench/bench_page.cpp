@@ -25,23 +25,17 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
                     escaped(reference_of_sizes(sizes)));
 }
 
-std::string table_of(const BenchTable& table) {
-  std::string text = "<div class='table'><table>\n<tr>";
-  for (const std::string& title : titles_of(table)) text += "<th>" + escaped(title) + "</th>";
-  text += "</tr>\n";
-  for (const BenchRow& row : table.rows) {
-    text += row.on_front ? "<tr class='front'>" : "<tr>";
-    for (const std::string& cell : cells_of(table, row)) text += "<td>" + escaped(cell) + "</td>";
-    text += "</tr>\n";
-  }
-  return text + "</table></div>\n";
+std::string table_of(const BenchTable& bench) {
+  std::vector<TableRow> rows;
+  for (const BenchRow& row : bench.rows) rows.push_back({cells_of(bench, row), row.on_front ? "front" : ""});
+  return table(titles_of(bench), rows);
 }
 
 }  // namespace
 
 std::string bench_page(const std::string& title, const BenchAxes& axes,
                        const std::vector<BenchResult>& results, const std::vector<SizeScatter>& sizes,
-                       const BenchTable& table) {
+                       const BenchTable& bench) {
   std::string body = introduction(axes, results, sizes);
   for (std::size_t y = 0; y < axes.y.size(); ++y) {
     const std::string errors = error_chart(y, results, sizes);
@@ -49,8 +43,8 @@ std::string bench_page(const std::string& title, const BenchAxes& axes,
     if (errors.empty() && curves.empty()) continue;
     body += "<h2>" + escaped(axes.y[y]) + "</h2>\n" + errors + curves;
   }
-  body += table_of(table);
-  for (const BenchRow& row : table.rows) {
+  body += table_of(bench);
+  for (const BenchRow& row : bench.rows) {
     const std::string name = row.what + (row.setting.empty() ? "" : ", " + row.setting);
     if (row.steps && row.status != "done")
       body += fmt::format("<p>{}: {}</p>\n", escaped(name), escaped(row.status));

@@ -11,6 +11,6 @@ namespace polargrain::app {
 /// the curves, and the table.
 std::string bench_page(const std::string& title, const BenchAxes& axes,
                        const std::vector<BenchResult>& results, const std::vector<SizeScatter>& sizes,
-                       const BenchTable& table);
+                       const BenchTable& bench);
 
 }  // namespace polargrain::app

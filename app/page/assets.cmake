@@ -8,6 +8,7 @@ function(polargrain_page_assets source)
   # Where a browser would look for a file that is not there.
   string(REGEX REPLACE "//# sourceMappingURL=[^\n]*" "" POLARGRAIN_CHART_LIBRARY "${POLARGRAIN_CHART_LIBRARY}")
   file(READ page/charts.js POLARGRAIN_CHART_SCRIPT)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS page/page.css page/charts.js ${CHART_JS})
+  file(READ page/mesh.js POLARGRAIN_MESH_SCRIPT)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS page/page.css page/charts.js page/mesh.js ${CHART_JS})
   configure_file(page/assets.cpp.in ${source} @ONLY)
 endfunction()

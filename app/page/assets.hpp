@@ -8,5 +8,6 @@ namespace polargrain::app {
 std::string_view style_sheet();
 std::string_view chart_library();
 std::string_view chart_script();
+std::string_view mesh_script();
 
 }  // namespace polargrain::app

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -64,14 +65,73 @@ std::string chart(const ChartAxis& x, const ChartAxis& y, const std::vector<Char
       escaped(y.title), escaped(x.title), in_script(content));
 }
 
-std::string page(const std::string& title, const std::string& body) {
+std::string table(const std::vector<std::string>& titles, const std::vector<TableRow>& rows) {
+  const auto is_number = [](const std::string& cell) {
+    double value = 0.0;
+    const char* const end = cell.data() + cell.size();
+    const auto read = std::from_chars(cell.data(), end, value);
+    return read.ec == std::errc() && (read.ptr == end || std::string_view(read.ptr, end) == " %");
+  };
+  std::string text = "<div class='table'><table>\n<tr>";
+  for (const std::string& title : titles) text += "<th>" + escaped(title) + "</th>";
+  text += "</tr>\n";
+  for (const TableRow& row : rows) {
+    text += row.style.empty() ? "<tr>" : "<tr class='" + row.style + "'>";
+    for (const std::string& cell : row.cells)
+      text += (is_number(cell) ? "<td class='number'>" : "<td>") + escaped(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+std::string details(const std::string& title, const std::string& body) {
+  return "<details><summary>" + escaped(title) + "</summary>\n" + body + "</details>\n";
+}
+
+std::string mesh_picture(const MeshPicture& picture) {
+  // Written with few digits: a picture has no more pixels, and the page stays small.
+  const auto numbers = [](const auto& values, const char* pattern) {
+    std::string text = "[";
+    for (const double value : values) {
+      if (text.size() > 1) text += ',';
+      text += std::isfinite(value) ? fmt::format(fmt::runtime(pattern), value) : "null";
+    }
+    return text + "]";
+  };
+  const auto places = [&](const std::vector<std::pair<double, double>>& pairs) {
+    std::vector<double> flat;
+    for (const auto& [x, y] : pairs) flat.insert(flat.end(), {x, y});
+    return numbers(flat, "{:.6g}");
+  };
+  Json fields = Json::array();
+  for (const MeshPicture::PictureField& field : picture.fields)
+    fields.push_back({{"name", field.name}, {"unit", field.unit}});
+  std::string frames;
+  for (const MeshPicture::Frame& frame : picture.frames) {
+    std::string values;
+    for (const std::vector<double>& of_field : frame.values)
+      values += (values.empty() ? "" : ",") + numbers(of_field, "{:.4g}");
+    frames += fmt::format("{}{{\"name\":{},\"moved\":{},\"values\":[{}]}}", frames.empty() ? "" : ",\n",
+                          in_script(frame.name), places(frame.moved), values);
+  }
+  return fmt::format(
+      "<figure class='mesh'><canvas role='img' aria-label='{}'></canvas>\n"
+      "<script type='application/json'>{{\"title\":{},\"nodes\":{},\n\"outlines\":{},\n\"fields\":{},\n\"frames\":[{}]}}"
+      "</script></figure>\n",
+      escaped(picture.title), in_script(picture.title), places(picture.nodes), Json(picture.outlines).dump(),
+      in_script(fields), frames);
+}
+
+std::string page(const std::string& title, const std::string& body, int refresh_seconds) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>\n"
-      "<meta name='viewport' content='width=device-width, initial-scale=1'>\n<title>{0}</title>\n"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'>\n{5}<title>{0}</title>\n"
       "<style>\n{1}</style></head><body>\n<h1>{0}</h1>\n{2}"
       "<noscript><p>The charts are drawn by a script, which this browser does not run.</p></noscript>\n"
-      "<script>{3}</script>\n<script>\n{4}</script>\n</body></html>\n",
-      escaped(title), style_sheet(), body, chart_library(), chart_script());
+      "<script>{3}</script>\n<script>\n{4}</script>\n<script>\n{6}</script>\n</body></html>\n",
+      escaped(title), style_sheet(), body, chart_library(), chart_script(),
+      refresh_seconds > 0 ? fmt::format("<meta http-equiv='refresh' content='{}'>\n", refresh_seconds) : "",
+      mesh_script());
 }
 
 }  // namespace polargrain::app

@@ -33,7 +33,41 @@ struct ChartSeries {
 std::string chart(const ChartAxis& x, const ChartAxis& y, const std::vector<ChartSeries>& series,
                   bool with_legend);
 
+/// A row of a table.
+struct TableRow {
+  std::vector<std::string> cells;  ///< text, not HTML
+  std::string style = {};          ///< a class of page.css: "front"; empty: none
+};
+
+/// A table that scrolls within the page where it is wider than that; numbers stand on the right.
+std::string table(const std::vector<std::string>& titles, const std::vector<TableRow>& rows);
+
+/// Text that the reader opens with a click. @param body HTML
+std::string details(const std::string& title, const std::string& body);
+
+/// A field on a mesh that moves, drawn in the reader's browser: which field, which frame (or all of them in turn), how many
+/// times the displacement, and the value under the mouse.
+struct MeshPicture {
+  struct PictureField {
+    std::string name;
+    std::string unit;
+  };
+  struct Frame {
+    std::string name;                              ///< "step 5, time 0.1"
+    std::vector<std::pair<double, double>> moved;  ///< displacement by node, m
+    std::vector<std::vector<double>> values;       ///< by field, by element
+  };
+  std::string title;
+  std::vector<std::pair<double, double>> nodes;  ///< places, m
+  std::vector<std::vector<int>> outlines;        ///< of each element: its nodes around it
+  std::vector<PictureField> fields;
+  std::vector<Frame> frames;
+};
+
+std::string mesh_picture(const MeshPicture& picture);
+
 /// An HTML file that needs no other. @param body HTML between the headline and the end
-std::string page(const std::string& title, const std::string& body);
+/// @param refresh_seconds the browser loads it anew so often; 0: never
+std::string page(const std::string& title, const std::string& body, int refresh_seconds = 0);
 
 }  // namespace polargrain::app

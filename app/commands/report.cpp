@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "app/commands/command.hpp"
+#include "app/report/report_page.hpp"
+#include "app/run/interrupt.hpp"
+#include "common/error.hpp"
+#include "common/standard_streams.hpp"
+#include "common/write_file.hpp"
+
+namespace polargrain::app {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::filesystem::path> directories;
+  std::vector<std::filesystem::path> compared;
+  std::filesystem::path output;
+  bool live = false;
+  ReportContent content;
+};
+
+constexpr int kRefreshSeconds = 5;
+
+/// @returns whether one of the runs is still at work
+bool write_report(const ReportOptions& options, const std::filesystem::path& file) {
+  std::vector<RunResult> results;
+  bool at_work = false;
+  for (const std::filesystem::path& directory : options.directories) {
+    results.push_back(read_result(directory));
+    at_work = at_work || results.back().is_at_work;
+  }
+  ReportContent content = options.content;
+  content.refresh_seconds = options.live && at_work ? kRefreshSeconds : 0;
+  write_file(file, report_page(results, content));
+  return at_work;
+}
+
+int report(ReportOptions options) {
+  options.directories.insert(options.directories.end(), options.compared.begin(), options.compared.end());
+  if (options.directories.empty())
+    throw InputError(
+        {"", 0, "report: which result? Name the directory that `polargrain run` has written: report DIR"});
+  const std::filesystem::path file =
+      options.output.empty() ? options.directories.front() / "report.html" : options.output;
+  bool at_work = write_report(options, file);
+  tell(stdout, "{}\n", file.string());
+  if (!options.live) return 0;
+  note_interrupts();
+  while (at_work) {
+    for (int k = 0; k < kRefreshSeconds; ++k) {
+      stop_if_interrupted();
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    at_work = write_report(options, file);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& program, const Grains&) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App& command = *program.add_subcommand(
+      "report", "One HTML page of a result: curves, fields, convergence, cost, warnings");
+  command.add_option("DIR", options->directories, "Result directory of run")->expected(0, 1);
+  command.add_option("--compare", options->compared, "Further results, shown in the same charts")
+      ->type_name("DIR...");
+  command.add_option("-o,--output", options->output, "File to write [report.html in DIR]")->type_name("FILE");
+  command
+      .add_option("--x", options->content.x,
+                  "Value along the curves [a monitor with 'strain' in its name, or time]")
+      ->type_name("NAME");
+  command
+      .add_option("--field", options->content.fields,
+                  "Field to show on the mesh; may be repeated [the usual ones]")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command.add_flag("--live", options->live, "Write the page anew until the runs are done; it reloads itself");
+  return {&command, [options] { return report(*options); }};
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Draws fields on the moved mesh from the JSON beside each canvas (app/page/page.hpp).
+"use strict";
+
+// Viridis, and blue over white to red for what has both signs: both keep their order without colour.
+const sequential = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
+const diverging = ["#2166ac", "#67a9cf", "#d1e5f0", "#f7f7f7", "#fddbc7", "#ef8a62", "#b2182b"];
+
+function parts(colour) {
+  return [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16));
+}
+
+function colourAt(stops, share) {
+  const place = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
+  const k = Math.min(Math.floor(place), stops.length - 2);
+  const low = parts(stops[k]);
+  const high = parts(stops[k + 1]);
+  return `rgb(${low.map((value, i) => Math.round(value + (place - k) * (high[i] - value))).join(",")})`;
+}
+
+// The range of a field over all frames, so that colours mean the same in each; round zero where both signs are there.
+function scaleOf(content, field) {
+  let least = Infinity;
+  let most = -Infinity;
+  for (const frame of content.frames) {
+    for (const value of frame.values[field]) {
+      if (value === null) continue;
+      least = Math.min(least, value);
+      most = Math.max(most, value);
+    }
+  }
+  if (!(least <= most)) return { least: 0, most: 1, stops: sequential };
+  if (least < 0 && most > 0) {
+    const size = Math.max(-least, most);
+    return { least: -size, most: size, stops: diverging };
+  }
+  return { least, most: most > least ? most : least + 1, stops: sequential };
+}
+
+function element(name, attributes, parent) {
+  const made = Object.assign(document.createElement(name), attributes);
+  parent.appendChild(made);
+  return made;
+}
+
+function labelled(text, control, parent) {
+  const label = element("label", { textContent: text + " " }, parent);
+  label.appendChild(control);
+  return control;
+}
+
+function showMesh(figure) {
+  const content = JSON.parse(figure.querySelector("script").textContent);
+  const canvas = figure.querySelector("canvas");
+  const controls = document.createElement("div");
+  controls.className = "controls";
+  figure.insertBefore(controls, canvas);
+  const field = labelled("", document.createElement("select"), controls);
+  content.fields.forEach((of, k) => element("option", { value: k, textContent: of.name }, field));
+  const last = content.frames.length - 1;
+  const frame = document.createElement("input");
+  Object.assign(frame, { type: "range", min: 0, max: last, step: 1, value: last, ariaLabel: "frame" });
+  controls.appendChild(frame);
+  const play = element("button", { type: "button", textContent: "play" }, controls);
+  const factor = document.createElement("input");
+  Object.assign(factor, { type: "number", value: 1, step: "any" });
+  labelled("displacement times", factor, controls);
+  const caption = element("figcaption", {}, figure);
+
+  let scale = scaleOf(content, 0);
+  let shown = []; // paths of the elements as drawn last
+
+  // What the body needs of the plane over all frames, so that it does not jump from one to the next.
+  function bounds(times) {
+    const found = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const of of content.frames) {
+      for (let k = 0; k < content.nodes.length; k += 2) {
+        const x = content.nodes[k] + times * of.moved[k];
+        const y = content.nodes[k + 1] + times * of.moved[k + 1];
+        found[0] = Math.min(found[0], x);
+        found[1] = Math.max(found[1], x);
+        found[2] = Math.min(found[2], y);
+        found[3] = Math.max(found[3], y);
+      }
+    }
+    return found;
+  }
+
+  function draw() {
+    const ratio = window.devicePixelRatio || 1;
+    const width = canvas.clientWidth;
+    const height = canvas.clientHeight;
+    canvas.width = width * ratio;
+    canvas.height = height * ratio;
+    const context = canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    const now = content.frames[frame.value];
+    const times = Number(factor.value) || 0;
+    const [left, right, low, high] = bounds(times);
+    const bar = 90;
+    const size = Math.min((width - bar - 20) / (right - left || 1), (height - 20) / (high - low || 1));
+    const offset = (width - bar - size * (right - left)) / 2;
+    const place = (node) => [
+      offset + size * (content.nodes[2 * node] + times * now.moved[2 * node] - left),
+      10 + size * (high - content.nodes[2 * node + 1] - times * now.moved[2 * node + 1]),
+    ];
+    const values = now.values[field.value];
+    const lines = content.outlines.length < 5000;
+    shown = content.outlines.map((nodes, e) => {
+      const path = new Path2D();
+      nodes.forEach((node, k) => (k === 0 ? path.moveTo(...place(node)) : path.lineTo(...place(node))));
+      path.closePath();
+      const value = values[e];
+      context.fillStyle =
+        value === null ? colourOf("--faint") : colourAt(scale.stops, (value - scale.least) / (scale.most - scale.least));
+      context.fill(path);
+      context.strokeStyle = lines ? "rgba(0,0,0,.35)" : context.fillStyle;
+      context.lineWidth = 0.5;
+      context.stroke(path);
+      return path;
+    });
+    for (let k = 0; k < 100; ++k) {
+      context.fillStyle = colourAt(scale.stops, 1 - k / 99);
+      context.fillRect(width - bar + 10, 20 + ((height - 40) * k) / 100, 14, (height - 40) / 100 + 1);
+    }
+    context.fillStyle = colourOf("--text");
+    context.font = "12px sans-serif";
+    for (const share of [0, 0.25, 0.5, 0.75, 1])
+      context.fillText(short(scale.least + share * (scale.most - scale.least)), width - bar + 28,
+                       24 + (height - 40) * (1 - share));
+    say();
+  }
+
+  function say(number) {
+    const of = content.fields[field.value];
+    const unit = of.unit && of.unit !== "1" ? ", " + of.unit : "";
+    const now = content.frames[frame.value];
+    caption.textContent =
+      `${content.title}: ${of.name}${unit}, ${now.name}` +
+      (number === undefined ? "" : `; element ${number}: ${now.values[field.value][number]}`);
+  }
+
+  canvas.addEventListener("pointermove", (event) => {
+    const box = canvas.getBoundingClientRect();
+    const ratio = window.devicePixelRatio || 1;
+    const context = canvas.getContext("2d");
+    const found = shown.findIndex((path) =>
+      context.isPointInPath(path, (event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio));
+    say(found < 0 ? undefined : found);
+  });
+  field.addEventListener("change", () => {
+    scale = scaleOf(content, field.value);
+    draw();
+  });
+  frame.addEventListener("input", draw);
+  factor.addEventListener("input", draw);
+  let timer = null;
+  play.addEventListener("click", () => {
+    if (timer !== null) {
+      clearInterval(timer);
+      timer = null;
+      play.textContent = "play";
+      return;
+    }
+    play.textContent = "stop";
+    timer = setInterval(() => {
+      frame.value = Number(frame.value) >= last ? 0 : Number(frame.value) + 1;
+      draw();
+    }, 300);
+  });
+  new ResizeObserver(draw).observe(canvas);
+}
+
+for (const figure of document.querySelectorAll("figure.mesh")) showMesh(figure);

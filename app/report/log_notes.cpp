@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/report/log_notes.hpp"
+
+#include <algorithm>
+
+namespace polargrain::app {
+namespace {
+
+struct Kind {
+  const char* part;  ///< of the text
+  const char* meaning;
+};
+
+/// What is said where: run.cpp, run_observer.cpp, and what materials and workers tell.
+constexpr Kind kKinds[] = {
+    {"within the noise of the stresses",
+     "The step is as well balanced as the noise of the cells' stresses lets it be, but not to the tolerance asked for. Results "
+     "are good to that noise (force_noise in history.csv). To get below it: a smaller unbalanced_force_ratio of the material, "
+     "or more grains."},
+    {"nothing but rounding is left",
+     "The step is balanced to the last digits that numbers have; the tolerance asks for more than there are. Harmless; a "
+     "larger steps: tolerance makes it go away."},
+    {"asked for strains beyond",
+     "The tangent asked for a larger strain than steps: largest_strain allows and was not followed so far. Usual at a peak. "
+     "Where it happens in every step: smaller steps."},
+    {"jumps of the stresses were passed",
+     "Grains rearranged however small the step was made, and steps: jumps let the run go on; the step ended in balance. Each "
+     "one is a place where the path is not the only possible one. Cells with more grains jump less."},
+    {"given up:",
+     "A step found no balance and was tried again, smaller. Usual at a peak. Where many steps are cut: a larger count of steps, "
+     "acceleration: 5 where the tangent is not true, or a tolerance above force_noise (history.csv)."},
+    {"may hold false answers",
+     "Two workers gave different answers to the same question; see polargrain verify and docs/trust.md."},
+    {"this result cannot be verified",
+     "The sample of answers could not be written; the result itself is whole."},
+    {"checkpoint was written by version", "The run was begun with another version of the program."},
+    {"cannot be interrupted without loss", "A material of this case cannot be kept in a checkpoint."},
+    {"with one worker no evaluation can be checked", "workers: check needs two workers or more."},
+    {"did not converge",
+     "The run ended here: what was committed before is good. The last lines of the log say what was tried; the causes are most "
+     "often a body that has no balance at this load, steps that are too large, or a tolerance below the noise."},
+    {"small deformation",
+     "Rotations or strains have grown beyond what small deformation describes; deformation: large takes them into account."},
+};
+
+std::string kind_of(const std::string& text) {
+  for (const Kind& kind : kKinds)
+    if (text.find(kind.part) != std::string::npos) return kind.part;
+  // Texts that differ in their numbers only are of one kind.
+  std::string without_numbers;
+  for (const char c : text)
+    if (std::string_view("0123456789.+-").find(c) == std::string_view::npos) without_numbers += c;
+  return without_numbers;
+}
+
+}  // namespace
+
+std::vector<LogNote> notes_of(const std::vector<LoggedWarning>& warnings) {
+  std::vector<LogNote> notes;
+  std::vector<std::string> kinds;
+  for (const LoggedWarning& warning : warnings) {
+    const std::string kind = kind_of(warning.text);
+    const auto place = static_cast<std::size_t>(std::ranges::find(kinds, kind) - kinds.begin());
+    if (place == kinds.size()) {
+      const auto* const known = std::ranges::find(kKinds, kind, &Kind::part);
+      notes.push_back(
+          {warning.text, 0, warning.step, warning.step, known == std::end(kKinds) ? "" : known->meaning});
+      kinds.push_back(kind);
+    }
+    LogNote& note = notes[place];
+    ++note.count;
+    note.last_step = warning.step;
+  }
+  return notes;
+}
+
+}  // namespace polargrain::app
