@@ -46,7 +46,7 @@ LAMMPS_NS::Fix* GrainEngine::strain_fix() {
 
 void GrainEngine::start() {
   LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-  rolling_.emplace(lammps);
+  stock_laws_.emplace(lammps);
   lammps.update->nsteps = 0;
   lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
   lammps.update->whichflag = 1;  // dynamics
@@ -58,7 +58,7 @@ void GrainEngine::set_up() {
   recorder_.on = true;
   lammps().update->integrate->setup_minimal(1);
   recorder_.on = false;
-  rolling_->complete(recorder_.contacts);
+  stock_laws_->complete(recorder_.contacts);
 }
 
 void GrainEngine::run(int steps) {
@@ -73,7 +73,7 @@ void GrainEngine::run(int steps) {
   recorder_.on = true;
   update.integrate->run(1);
   recorder_.on = false;
-  rolling_->complete(recorder_.contacts);
+  stock_laws_->complete(recorder_.contacts);
   check_grains();
 }
 

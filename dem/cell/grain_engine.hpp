@@ -8,7 +8,7 @@
 #include "common/contact_library_file.hpp"
 #include "common/packing.hpp"
 #include "dem/cell/script_time_step.hpp"
-#include "dem/cell/stock_rolling.hpp"
+#include "dem/cell/stock_laws.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
 
@@ -75,7 +75,7 @@ class GrainEngine {
   Engine engine_;
   ContactRecorder& recorder_;
   std::optional<ScriptTimeStep> time_step_;
-  std::optional<StockRolling> rolling_;
+  std::optional<StockLaws> stock_laws_;
 };
 
 }  // namespace polargrain::dem

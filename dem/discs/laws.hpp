@@ -5,6 +5,7 @@
 // has one component. The engine's headers hold the same laws in space; tests hold both side by side.
 #include <cmath>
 
+#include "dem/contact/hertz_slope.hpp"
 #include "dem/discs/combination.hpp"
 
 namespace polargrain::dem {
@@ -32,6 +33,7 @@ struct Touch {
 struct NormalAnswer {
   double force = 0.0;               ///< on the first along n, positive when they push, N
   double kn = 0.0, kt = 0.0;        ///< N/m
+  double slope = 1.0;               ///< d force / d overlap over kn
   double normal_dashpot = 0.0;      ///< N s/m
   double tangential_dashpot = 0.0;  ///< N s/m
 };
@@ -58,6 +60,7 @@ template <NormalLaw Law>
     }
   } else {
     const double root = std::sqrt(touch.harmonic * touch.overlap);
+    answer.slope = kHertzSlope;
     answer.kn = p.normal * root;
     answer.kt = p.tangential * root;
     if (settings.damped) {

@@ -15,7 +15,7 @@ inline Contact take_down(int first, int second, double dx, double dy, const Touc
   contact.second = second;
   contact.branch = {-dx, -dy};
   contact.force = {fx, fy};
-  contact.normal_stiffness = normal.kn;
+  contact.normal_stiffness = normal.slope * normal.kn;
   contact.tangential_stiffness = normal.kt;
   contact.normal_viscosity = normal.normal_dashpot;
   contact.tangential_viscosity = normal.tangential_dashpot;

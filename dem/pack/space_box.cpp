@@ -14,6 +14,7 @@
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/packing_data.hpp"
 #include "dem/cell/script_time_step.hpp"
+#include "dem/cell/stock_laws.hpp"
 #include "dem/contact/contact_library.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
@@ -166,6 +167,7 @@ class PressedSpheres final : public PressedBox {
     recorder_.on = true;
     steps();
     recorder_.on = false;
+    StockLaws(engine_.lammps()).complete(recorder_.contacts);
   }
 
   void check_grains() {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/cell/stock_rolling.hpp"
+#include "dem/cell/stock_laws.hpp"
 #include "dem/engine/extension.hpp"
 #include "dem/specimen/further_springs.hpp"
 
@@ -89,7 +89,7 @@ void FixTimeStep::post_force(int) {
 void FixTimeStep::look() {
   recorder_.on = false;
   std::vector<Contact>& contacts = recorder_.contacts;
-  StockRolling(*lmp).complete(contacts);
+  StockLaws(*lmp).complete(contacts);
   Inertia inertia = inertia_of(*lmp);
   for (int k = 0; k < modify->nfix; ++k)
     if (const auto* const springs = dynamic_cast<const FurtherSprings*>(modify->fix[k]))

@@ -13,7 +13,7 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/script_time_step.hpp"
-#include "dem/cell/stock_rolling.hpp"
+#include "dem/cell/stock_laws.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/extension.hpp"
 #include "dem/standalone/cell_load_words.hpp"
@@ -71,8 +71,8 @@ void FixCellLoad::post_create() {
     error->all(FLERR,
                "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
                "stiffness in the script is not the one the packing was made with");
+  StockLaws(*lmp).complete(recorder_.contacts);
   protocol_.take_scales({mean_mass_, mean_radius_, density_}, recorder_.contacts, pressure);
-  StockRolling(*lmp).complete(recorder_.contacts);
   const std::string remark =
       time_step.settle(*lmp, recorder_.contacts, inertia_of(*lmp), protocol_.damping_rate(), "this script");
   if (!remark.empty() && screen != nullptr) fmt::print(screen, "polargrain: {}\n", remark);

@@ -7,7 +7,7 @@
 
 #include "common/record_values.hpp"
 #include "dem/cell/script_time_step.hpp"
-#include "dem/cell/stock_rolling.hpp"
+#include "dem/cell/stock_laws.hpp"
 #include "dem/spheres/space_contact.hpp"
 #include "dem/standalone/cell_load_words.hpp"
 
@@ -59,7 +59,7 @@ void FixSpaceLoad::post_create() {
     error->all(FLERR,
                "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
                "stiffness in the script is not the one the packing was made with");
-  StockRolling(*lmp).complete(recorder_.contacts);
+  StockLaws(*lmp).complete(recorder_.contacts);
   protocol_.take_scales(mean_, recorder_.contacts, pressure);
   const std::string remark =
       time_step.settle(*lmp, recorder_.contacts, inertia_of(*lmp), protocol_.damping_rate(), "this script");

@@ -16,6 +16,7 @@
 #include "dem/discs/disc_state.hpp"
 #include "tests/support/flipped_bytes.hpp"
 #include "tests/support/lattice_fixture.hpp"
+#include "tests/support/sphere_cells.hpp"
 
 // Findings of sanitizers must not look like an engine that ended in its own words. Such an engine leaves all of its
 // memory, so that nothing can be said of leaks here.
@@ -76,6 +77,7 @@ class SharedTally {
 struct Pair {
   CellLoop maker;
   CellLoop taker;
+  bool spheres = false;
 };
 
 /// Evaluates from tally.run on. @returns the exit status of the process, if the engine does not end it before
@@ -105,7 +107,9 @@ int evaluate_spoiled(CellService& cell, const CellDefinition& maker, const State
 class SpoiledStates : public ::testing::TestWithParam<Pair> {};
 
 TEST_P(SpoiledStates, EndNoEngineByASignal) {
-  CellDefinition definition = test::lattice(4, 4, CellRotations::free);
+  CellDefinition definition =
+      GetParam().spheres ? test::hertz_spheres() : test::lattice(4, 4, CellRotations::free);
+  if (GetParam().spheres) definition.control.tangent = CellTangent::none;  // ten times as dear as the rest
   definition.control.loop = GetParam().taker;
   // Few steps: what is wrong with a state shows in the first ones.
   definition.control.inertial_number = 2.4e-2;
@@ -147,8 +151,10 @@ TEST_P(SpoiledStates, EndNoEngineByASignal) {
 INSTANTIATE_TEST_SUITE_P(Kinds, SpoiledStates,
                          ::testing::Values(Pair{CellLoop::engine, CellLoop::engine},
                                            Pair{CellLoop::automatic, CellLoop::engine},
-                                           Pair{CellLoop::automatic, CellLoop::automatic}),
+                                           Pair{CellLoop::automatic, CellLoop::automatic},
+                                           Pair{CellLoop::engine, CellLoop::engine, true}),
                          [](const auto& each) {
+                           if (each.param.spheres) return std::string("OfSpheres");
                            const std::string of =
                                each.param.maker == CellLoop::engine ? "OfTheGeneralLoop" : "OfDiscs";
                            return of +

@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/cell/stock_rolling.hpp"
+#include "dem/cell/stock_laws.hpp"
 
 #include <cmath>
 #include <cstdint>
 
+#include "dem/contact/hertz_slope.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
 
-StockRolling::StockRolling(LAMMPS_NS::LAMMPS& lammps) : lammps_(&lammps) {
-  // Stock contact models are packed into one number, six bits each; the rolling one comes fourth.
+StockLaws::StockLaws(LAMMPS_NS::LAMMPS& lammps) : lammps_(&lammps) {
+  // Stock contact models are packed into one number, six bits each: the normal one first, the rolling one fourth.
   auto* const pair =
       lammps.force->pair != nullptr ? dynamic_cast<LAMMPS_NS::PairGran*>(lammps.force->pair) : nullptr;
   constexpr std::int64_t kPlace = 18;
   constexpr std::int64_t kMask = 63;
-  if (pair != nullptr && ((pair->hashcode() >> kPlace) & kMask) == LIGGGHTS::ContactModels::ROLLING_EPSD2)
+  if (pair == nullptr) return;
+  const std::int64_t normal = pair->hashcode() & kMask;
+  if (normal == LIGGGHTS::ContactModels::HERTZ || normal == LIGGGHTS::ContactModels::HERTZ_STIFFNESS)
+    slope_ = kHertzSlope;
+  if (((pair->hashcode() >> kPlace) & kMask) == LIGGGHTS::ContactModels::ROLLING_EPSD2)
     friction_ = lammps.modify->find_fix_property("coefficientRollingFriction", "property/global",
                                                  "peratomtypepair", 0, 0, "polargrain", false);
 }
 
-void StockRolling::complete(std::vector<Contact>& contacts) const {
+void StockLaws::complete(std::vector<Contact>& contacts) const {
+  if (slope_ != 1.0)
+    for (Contact& contact : contacts) contact.normal_stiffness *= slope_;
   if (friction_ == nullptr) return;
   const LAMMPS_NS::Atom& atom = *lammps_->atom;
   for (Contact& contact : contacts) {

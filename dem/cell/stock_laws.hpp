@@ -11,16 +11,18 @@ class LAMMPS;
 
 namespace polargrain::dem {
 
-/// Rolling stiffness and limit of recorded contacts where the stock model epsd2 keeps them to itself.
-class StockRolling {
+/// What stock contact models keep to themselves and tangents, time steps and damping need: the slope of Hertz's normal
+/// force, of which the engine tells force over overlap, and rolling stiffness and limit of the model epsd2.
+class StockLaws {
  public:
   /// After the script's `pair_style`.
-  explicit StockRolling(LAMMPS_NS::LAMMPS& lammps);
-  /// Adds what is missing; nothing with any other rolling model.
+  explicit StockLaws(LAMMPS_NS::LAMMPS& lammps);
+  /// Puts it into recorded contacts, once; nothing is done to those of other models.
   void complete(std::vector<Contact>& contacts) const;
 
  private:
   LAMMPS_NS::LAMMPS* lammps_;
+  double slope_ = 1.0;                  ///< d force / d overlap over force / overlap
   LAMMPS_NS::Fix* friction_ = nullptr;  ///< coefficientRollingFriction; null unless the model is epsd2
 };
 
