@@ -82,7 +82,18 @@ INSTANTIATE_TEST_SUITE_P(
                           "triax_iso", 20, 4000.0, 5e-5, 5e-3},
                     // Two runs of the independent code itself differ by 0.2 % here.
                     Paths{"linear_triaxial", test::linear_spheres, "tests/data/paths1000.csv", "triax_iso", 2,
-                          4000.0, 5e-5, 5e-3}),
+                          4000.0, 5e-5, 5e-3},
+                    Paths{"linear_shear", test::linear_spheres, "tests/data/paths1000.csv", "shear13", 2,
+                          4000.0, 5e-5, 5e-3},
+                    Paths{"hertz_triaxial", test::hertz_spheres, "tests/data/paths500_hertz.csv", "triax_iso",
+                          2, 4000.0, 5e-5, 5e-3},
+                    // Chaos by now: two runs of the independent code itself differ by 2 %.
+                    Paths{"linear_far", test::linear_spheres, "tests/data/paths1000.csv", "triax_iso", 20,
+                          4000.0, 2e-4, 3e-2},
+                    Paths{"linear_spin", test::linear_spheres, "tests/data/paths1000.csv", "triax_rot", 20,
+                          4000.0, 2e-4, 3e-2},
+                    Paths{"hertz_far", test::hertz_spheres, "tests/data/paths500_hertz.csv", "triax_iso", 20,
+                          4000.0, 2e-4, 3e-2}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
