@@ -96,5 +96,29 @@ TEST(ElementEngine, UndrainedCompressionOfDiscsKeepsItsVolume) {
   }
 }
 
+/// Spheres have a third direction: axial compression under two lateral stresses that stay, and at constant volume.
+TEST(ElementEngine, TriaxialCompressionOfSpheres) {
+  const Scratch scratch("element_spheres");
+  const std::string test =
+      POLARGRAIN " element --test triaxial --pressure 100kPa --set axial_strain=0.1% --set rows=1 " +
+      kSource + "/cases/spheres/packing1000.csv cells/spheres_hooke_radii.in -w 1 --quiet ";
+  const Outcome drained = run_in(scratch.path(), test + "-o drained");
+  ASSERT_EQ(drained.status, 0) << drained.errors;
+  const CsvTable table(scratch.path() / "drained.csv");
+  const auto last = [](const CsvTable& of, const char* name) { return of.numbers(name).back(); };
+  EXPECT_NEAR(last(table, "s11_Pa"), -100e3, 100.0);  // the tolerance of 1e-3
+  EXPECT_NEAR(last(table, "s33_Pa"), -100e3, 100.0);
+  EXPECT_LT(last(table, "s22_Pa"), -130e3);
+  EXPECT_NEAR(last(table, "b"), 0.0, 0.05);
+  // Lengthened across, and by about as much in both directions: the packing is isotropic within some per cent.
+  EXPECT_GT(last(table, "e11"), 0.0);
+  EXPECT_NEAR(last(table, "e33") / last(table, "e11"), 1.0, 0.3);
+  const Outcome undrained = run_in(scratch.path(), test + "--set drainage=undrained -o undrained");
+  ASSERT_EQ(undrained.status, 0) << undrained.errors;
+  const CsvTable water(scratch.path() / "undrained.csv");
+  EXPECT_NEAR(last(water, "volume_strain"), 0.0, 1e-13);
+  EXPECT_NEAR(last(water, "s33_Pa") - last(water, "s11_Pa"), 0.0, 100.0);
+}
+
 }  // namespace
 }  // namespace polargrain::testing
