@@ -210,9 +210,16 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   add("cuts", of_summary("/cuts"));
   add("largest force residual", of_summary("/errors/largest_force_residual"));
   add("largest moment residual", of_summary("/errors/largest_moment_residual"));
-  add("evaluations of cells", of_summary("/cells/evaluations"));
-  add("DEM steps", of_summary("/cells/dem_steps"));
-  add("workers", of_summary("/workers"));
+  // A run without cells has none of these.
+  const auto of_cells = [&](const char* pointer) {
+    return [&results, pointer](std::size_t k) {
+      const std::string text = figure(results[k].summary, pointer);
+      return text == "0" ? std::string() : text;
+    };
+  };
+  add("evaluations of cells", of_cells("/cells/evaluations"));
+  add("DEM steps", of_cells("/cells/dem_steps"));
+  add("workers", of_cells("/workers"));
   add("wall time, s", of_summary("/seconds/total"));
   std::vector<std::string> names;
   for (const RunResult& result : results)

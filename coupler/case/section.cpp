@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <map>
 #include <numeric>
@@ -43,7 +44,53 @@ std::string kind_in_words(const Entry& entry) {
 
 }  // namespace
 
+namespace {
+
+/// What others call keys of a case: nearer by meaning than any other key is by its letters.
+struct OtherName {
+  const char* word;
+  const char* key;
+};
+constexpr OtherName kOtherNames[] = {{"dilation_angle", "dilatancy_angle"},
+                                     {"dilation", "dilatancy_angle"},
+                                     {"dilatancy", "dilatancy_angle"},
+                                     {"psi", "dilatancy_angle"},
+                                     {"phi", "friction_angle"},
+                                     {"young", "E"},
+                                     {"youngs_modulus", "E"},
+                                     {"young_modulus", "E"},
+                                     {"elastic_modulus", "E"},
+                                     {"poisson", "nu"},
+                                     {"poisson_ratio", "nu"},
+                                     {"poissons_ratio", "nu"},
+                                     {"shear_modulus", "G"},
+                                     {"couple_modulus", "Gc"},
+                                     {"cosserat_modulus", "Gc"},
+                                     {"internal_length", "lc"},
+                                     {"characteristic_length", "lc"},
+                                     {"gamma", "unit_weight"},
+                                     {"type", "model"},
+                                     {"law", "model"},
+                                     {"tol", "tolerance"},
+                                     {"number", "count"},
+                                     {"number_of_steps", "count"},
+                                     {"displacement", "move"},
+                                     {"load", "traction"}};
+
+std::string in_small_letters(std::string word) {
+  std::ranges::transform(word, word.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word;
+}
+
+}  // namespace
+
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  const std::string small = in_small_letters(word);
+  for (const std::string& candidate : known)
+    if (in_small_letters(candidate) == small) return candidate;
+  for (const OtherName& other : kOtherNames)
+    if (small == other.word && std::ranges::find(known, other.key) != known.end()) return other.key;
   std::string best;
   // Two letters in the wrong order count two; more than that, or than a third of the letters, is no slip.
   const std::size_t most = word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);

@@ -15,7 +15,8 @@ using Faults = std::vector<Fault>;
 /// What a number must be beyond finite.
 enum class Limit { any, positive, not_negative };
 
-/// The known word that `word` was most likely meant to be; empty when none is near.
+/// The known word that `word` was most likely meant to be, by its letters or as another name of the same thing; empty when
+/// none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 /// "a, b, c"

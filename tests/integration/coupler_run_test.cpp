@@ -127,9 +127,21 @@ TEST_F(RunTest, WritesWhatItPromises) {
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   for (const char* file :
        {"history.csv", "costs.csv", "fields.pvd", "summary.json", "run.log", "logs/worker-1.log",
-        "fields/step-00000.vtu", "fields/step-00002.vtu", "fields/step-00004.vtu", "fields/step-00005.vtu"}) {
+        "fields/step-00000.vtu", "fields/step-00002.vtu", "fields/step-00004.vtu", "fields/step-00005.vtu",
+        "points.pvd", "fields/points-00000.vtu", "fields/points-00005.vtu"}) {
     EXPECT_TRUE(std::filesystem::exists(directory() / "out" / file)) << file;
   }
+  // What cells show has the unit that their record tells, wherever it stands.
+  for (const char* file : {"out/fields/step-00005.vtu", "out/fields/points-00005.vtu"}) {
+    const std::string text = result(file);
+    const std::size_t array = text.find("Name=\"mean_rotation\"");
+    ASSERT_NE(array, std::string::npos) << file;
+    const std::size_t unit = text.find("UNITS_LABEL\" location=\"vtkDataArray\">", array);
+    EXPECT_EQ(text.substr(text.find('>', unit) + 1, 4), "rad<") << file;
+  }
+  ASSERT_EQ(polargrain("run case.yaml -o without -w 1 --quiet --set output.points=no").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(directory() / "without/points.pvd"));
+  EXPECT_FALSE(std::filesystem::exists(directory() / "without/fields/points-00005.vtu"));
   EXPECT_FALSE(std::filesystem::exists(directory() / "out/fields/step-00001.vtu"));
   EXPECT_EQ(result("out/history.csv").substr(0, result("out/history.csv").find('\n')),
             "step,time,substeps,cuts,iterations,evaluations,force_residual,moment_residual,force_noise,"

@@ -36,6 +36,15 @@ TEST(Nearest, FindsSlipsAndNothingElse) {
   EXPECT_EQ(nearest("colour", known), "");
 }
 
+TEST(Nearest, KnowsOtherNamesOfTheSameThing) {
+  const std::vector<std::string> known{"E", "nu", "friction_angle", "dilatancy_angle"};
+  EXPECT_EQ(nearest("dilation_angle", known),
+            "dilatancy_angle");  // by its letters it is as near to friction_angle
+  EXPECT_EQ(nearest("Poisson_ratio", known), "nu");
+  EXPECT_EQ(nearest("e", known), "E");
+  EXPECT_EQ(nearest("dilation_angle", {"count", "cut"}), "");  // what is not asked for is not proposed
+}
+
 double value_of(const std::string& text) {
   return Expression(text).evaluate([](const std::string& name) { return name == "a" ? 8.0 : 2.0; });
 }
