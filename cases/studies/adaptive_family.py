@@ -63,8 +63,8 @@ class Scene:
 
     @property
     def packing(self):
-        script = "rolling" if self.rolling else "radii"
-        return f"{'loose' if self.loose else 'dense'}-{script}-{self.packing_seed}"
+        law = self.script.removeprefix("hooke_").removesuffix(".in")
+        return f"{'loose' if self.loose else 'dense'}-{law}-{self.packing_seed}"
 
     def place(self, x, y):
         """Where a node of the unit grid lies, m."""
@@ -200,9 +200,8 @@ def packing_of(scene, results, program):
     if file.exists():
         return
     spec = file.with_suffix(".yaml")
-    script = "hooke_rolling.in" if scene.rolling else "hooke_radii.in"
     spec.write_text(f"title: {scene.packing}\ngrains: 100\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\n"
-                    f"thickness: 100 mm\nscript: {ROOT}/liggghts_inputs/cells/{script}\npressure: 100 kPa\n"
+                    f"thickness: 100 mm\nscript: {ROOT}/liggghts_inputs/cells/{scene.script}\npressure: 100 kPa\n"
                     f"friction: {0.3 if scene.loose else 0}\nseed: {scene.packing_seed}\n")
     log = file.with_suffix(".log")
     need(run([program, "pack", spec, "-o", file], log), f"packing {scene.packing}", log)
@@ -235,13 +234,19 @@ def difference(scene, one, other):
 
 def history(directory):
     with open(directory / "history.csv") as file:
-        return [float(row["load"]) for row in csv.DictReader(file)]
+        return [(float(row["time"]), float(row["load"])) for row in csv.DictReader(file)]
 
 
 def compare(scene, full, other):
     """@returns error of the elements and of the curve, over the steps that both have taken"""
-    a, b = history(full), history(other)
-    steps = min(len(a), len(b))
+    rows = list(zip(history(full), history(other)))
+    # A run that ends within a step shows how far it came: at another time than the full run's step.
+    while rows and abs(rows[-1][0][0] - rows[-1][1][0]) > 1e-9:
+        rows.pop()
+    steps = len(rows)
+    if steps < 2:
+        return math.nan, math.nan, 0
+    a, b = [one[1] for one, _ in rows], [other[1] for _, other in rows]
     scale = max(a) - min(a) or 1.0
     curve = max(abs(p - q) for p, q in zip(a, b)) / scale
     files = [f"fields/step-{k:05d}.vtu" for k in range(steps)]
@@ -304,7 +309,7 @@ def rows_of(scene, results, tolerances):
                "controlled": scene.controlled, "scatter": scatter[0], "scatter_curve": scatter[1],
                "error": error, "curve": curve, "bound": said.get("error_bound", math.nan),
                "measured": said.get("history_error_mean", math.nan),
-               "saved": base["dem_steps"] / said["dem_steps"], "cells": int(said.get("cells", 0)),
+               "saved": base["dem_steps"] / said["dem_steps"] if said["status"] == "done" else math.nan, "cells": int(said.get("cells", 0)),
                "full": base["status"], "status": said["status"], "steps": steps,
                "vouched": said.get("vouched_for", math.nan), "dem": said["dem_steps"], "dem_full": base["dem_steps"],
                "audits": said.get("audit_runs", 0), "runs": said.get("cell_runs", 0)}
@@ -334,7 +339,7 @@ def report(scenes, results, tolerances):
                 continue
             n = len(some)
             count = lambda test: sum(1 for r in some if test(r))
-            saved = [r["saved"] for r in some]
+            saved = [r["saved"] for r in some if r["saved"] > 0.0] or [math.nan]
             print(f"| {half} | {t} % | {n} | {count(lambda r: r['error'] <= r['tolerance'])} | "
                   f"{count(lambda r: r['error'] <= 2 * r['tolerance'])} | {count(lambda r: r['curve'] <= r['tolerance'])} | "
                   f"{count(lambda r: r['error'] <= r['bound'])} | {count(lambda r: r['vouched'] == 0)} | "
