@@ -324,11 +324,12 @@ def report(scenes, results, tolerances):
         within = "yes" if r["error"] <= r["tolerance"] else "twice" if r["error"] <= 2 * r["tolerance"] else "no"
         covered = "" if not r["bound"] < r["error"] else " (not covered)"
         status = "done" if r["status"] == "done" and r["full"] == "done" else f"{r['status']}, full {r['full']}"
+        saved = f"{r['saved']:.1f}" if r["saved"] > 0.0 else ""
         if r["vouched"] == 0:
             status += ", not vouched for"
         print(f"| {r['scene']}{' (w)' if r['controlled'] else ''} | {r['points']} | {100 * r['tolerance']:g} % | "
               f"{percent(100 * r['scatter'])} | {percent(100 * r['error'])} | {percent(100 * r['curve'])} | "
-              f"{percent(100 * r['bound'])}{covered} | {within} | {r['saved']:.1f} | {r['cells']} | {r['steps']} | {status} |")
+              f"{percent(100 * r['bound'])}{covered} | {within} | {saved} | {r['cells']} | {r['steps']} | {status} |")
     print()
     print("| scenes | tolerance | runs | within | within twice | curve within | bound covers | said beyond | saved, median | least |")
     print("|---|---|---|---|---|---|---|---|---|---|")
