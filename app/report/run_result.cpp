@@ -9,7 +9,12 @@
 #include <cerrno>
 #include <charconv>
 #include <fstream>
-#include <regex>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "common/error.hpp"
 
@@ -26,14 +31,37 @@ std::optional<CsvTable> table_of(const fs::path& file) {
   return table;
 }
 
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// The number that all of a word is; a comma or colon behind it does not count.
+template <class Number>
+std::optional<Number> number_of(std::string_view word) {
+  if (word.ends_with(',') || word.ends_with(':')) word.remove_suffix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// "iteration 3: force residual 1e-2, moment residual 2e-3"
+std::optional<LoggedIteration> iteration_of(const std::vector<std::string>& words, int step) {
+  if (words.size() != 8 || words[0] != "iteration" || words[2] != "force" || words[5] != "moment")
+    return std::nullopt;
+  const std::optional<int> number = number_of<int>(words[1]);
+  const std::optional<double> force = number_of<double>(words[4]);
+  const std::optional<double> moment = number_of<double>(words[7]);
+  if (!number || !force || !moment) return std::nullopt;
+  return LoggedIteration{step, *number, *force, *moment};
+}
+
 /// Takes iterations and warnings out of run.log.
 void read_log(const fs::path& file, RunResult& result) {
   const std::string mark = "] [run] [";  // behind the time, before the level
-  static const std::regex step_form(R"(step (\d+))");
-  static const std::regex iteration_form(R"( *iteration (\d+): force residual (\S+), moment residual (\S+))");
   std::ifstream in(file);
   int step = -1;
-  std::smatch found;
   for (std::string line; std::getline(in, line);) {
     const std::size_t level_begin = line.find(mark) + mark.size();
     const std::size_t level_end = line.find("] ", level_begin);
@@ -44,10 +72,11 @@ void read_log(const fs::path& file, RunResult& result) {
     const std::string level = line.substr(level_begin, level_end - level_begin);
     const std::string text = line.substr(level_end + 2);
     if (result.head.empty()) result.head = text;
-    if (std::regex_match(text, found, step_form)) {
-      step = std::stoi(found[1]);
-    } else if (std::regex_match(text, found, iteration_form)) {
-      result.iterations.push_back({step, std::stoi(found[1]), std::stod(found[2]), std::stod(found[3])});
+    const std::vector<std::string> words = words_of(text);
+    if (words.size() == 2 && words[0] == "step" && number_of<int>(words[1])) {
+      step = *number_of<int>(words[1]);
+    } else if (const std::optional<LoggedIteration> iteration = iteration_of(words, step)) {
+      result.iterations.push_back(*iteration);
     } else if (level != "info") {
       result.warnings.push_back({step, text.substr(std::min(text.find_first_not_of(' '), text.size()))});
     }
