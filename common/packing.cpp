@@ -70,14 +70,19 @@ class Reader {
     constexpr std::string_view kPlane = "xx=... xy=... yx=... yy=... z=...";
     constexpr std::string_view kSpace = "xx=... xy=... xz=... yx=... yy=... yz=... zx=... zy=... zz=...";
     const auto value = [&](std::string_view key) { return value_of(key, space ? kSpace : kPlane); };
-    packing_.box << value("xx"), value("xy"), value("yx"), value("yy");
+    // One by one: a list of values that is left by an exception half way is an error of its own for Eigen.
+    packing_.box(0, 0) = value("xx");
+    packing_.box(0, 1) = value("xy");
+    packing_.box(1, 0) = value("yx");
+    packing_.box(1, 1) = value("yy");
     packing_.thickness = value(space ? "zz" : "z");
     if (const std::optional<double> pressure = header_value(line, "p")) {
       if (!(*pressure > 0.0)) table_.fail(1, "the pressure p must be positive, or left out");
       packing_.pressure = *pressure;
     }
     if (space) {
-      packing_.lean << value("xz"), value("yz");
+      packing_.lean(0) = value("xz");
+      packing_.lean(1) = value("yz");
       if (value("zx") != 0.0 || value("zy") != 0.0)
         table_.fail(
             1,
