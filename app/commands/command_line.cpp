@@ -25,6 +25,7 @@ Try:
   polargrain check cases/biaxial/case.yaml          all faults of a case at once, and what its packings resist with
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
   polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
+  polargrain new biaxial -o mine                    write a case of your own, with its packing: new --help
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain verify results/biaxial                 hold a result against its proof, some cells evaluated again
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path

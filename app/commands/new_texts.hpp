@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/mesh/mesh.hpp"
+
+namespace polargrain::app {
+
+/// What the texts of a new case are filled with.
+struct NewCase {
+  std::string scheme = "cell";  ///< model of the material: cell, adaptive or informed
+  int grains = 400;
+  double pressure = 100e3;  ///< of the packing and of what surrounds the body, Pa, positive in compression
+  double width = 0.4;       ///< of the specimen, m
+  double height = 0.8;      ///< of the specimen, m
+  int columns = 5;          ///< elements along the width
+  int rows = 10;            ///< elements along the height
+  bool rolling = false;     ///< whether contacts resist rolling
+};
+
+/// Text of the specification of the packing, for `polargrain pack`; its script is cell.in beside it.
+std::string packing_text(const NewCase& what);
+/// Text of a case of biaxial compression between rough plates.
+std::string biaxial_text(const NewCase& what);
+/// Text of a case of a footing on grains; its mesh is footing.msh beside it.
+std::string footing_text(const NewCase& what);
+/// Text of a specification of an element test of the packing.
+std::string element_text(const NewCase& what);
+/// Text of a case on a mesh of the user's own: the lowest boundary is held, all others carry the pressure of the
+/// packing, which rises on the highest one. @param file name of the mesh, beside the case
+/// @throws InputError when the mesh has no named boundary
+std::string mesh_text(const NewCase& what, const fem::Mesh& mesh, const std::string& file);
+
+}  // namespace polargrain::app

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// polargrain new: what it writes is sound and runs as it is, in a folder of its own; what it refuses it says.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/csv_table.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kProgram = POLARGRAIN;
+const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::set<std::string> files_of(const std::filesystem::path& directory) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// Nothing but the folder is there, as on another machine.
+Outcome check_moved(const Scratch& scratch, const std::string& name) {
+  std::filesystem::rename(scratch.path() / name, scratch.path() / "moved");
+  const Outcome outcome =
+      run_in(scratch.path(), "POLARGRAIN_DATA=/nowhere " + kProgram + " check moved/case.yaml");
+  std::filesystem::rename(scratch.path() / "moved", scratch.path() / name);
+  return outcome;
+}
+
+TEST(NewCommand, ABiaxialCaseRunsAsItIs) {
+  const Scratch scratch("new_biaxial");
+  const Outcome written =
+      run_in(scratch.path(), kProgram + " new biaxial -o mine --grains 100 --elements 1 2 --size 20cm 400mm");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  EXPECT_TRUE(has(written.out, "100 grains in ")) << written.out;
+  EXPECT_TRUE(has(written.out, "polargrain run mine/case.yaml")) << written.out;
+  EXPECT_EQ(files_of(scratch.path() / "mine"),
+            (std::set<std::string>{"case.yaml", "cell.in", "packing.h5", "packing.yaml"}));
+  const Outcome checked = check_moved(scratch, "mine");
+  ASSERT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_TRUE(has(checked.out, "no faults; 2 elements, 13 nodes, 23 steps, needs workers")) << checked.out;
+
+  const Outcome run =
+      run_in(scratch.path(), kProgram +
+                                 " run mine/case.yaml -o out -w 1 --quiet --set steps.count=2 "
+                                 "--set boundary.1.move.u2='-0.8 mm'");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const CsvTable history(scratch.path() / "out/history.csv");
+  ASSERT_EQ(history.rows(), 3u);
+  // 0.8 mm of 400 mm; the packing is under the pressure of the sides to its own tolerance, 1e-3 in each axis.
+  EXPECT_NEAR(history.numbers("axial_strain")[2], 0.002, 1e-12);
+  EXPECT_NEAR(history.numbers("stress_ratio")[0], 1.0, 2e-3);
+  EXPECT_GT(history.numbers("stress_ratio")[2], 1.05);
+}
+
+TEST(NewCommand, WhatIsAskedForIsWhatIsWritten) {
+  const Scratch scratch("new_options");
+  const Outcome written =
+      run_in(scratch.path(),
+             kProgram + " new biaxial -o a/mine --pressure 0.2MPa --rolling --scheme informed --no-pack");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  EXPECT_TRUE(has(written.out, "polargrain pack a/mine/packing.yaml -o a/mine/packing.h5")) << written.out;
+  const std::filesystem::path mine = scratch.path() / "a/mine";
+  EXPECT_FALSE(std::filesystem::exists(mine / "packing.h5"));
+  EXPECT_EQ(content(mine / "cell.in"), content(kSource + "/liggghts_inputs/cells/hooke_rolling.in"));
+  const std::string text = content(mine / "case.yaml");
+  EXPECT_TRUE(has(text, "model: informed ")) << text;
+  EXPECT_TRUE(has(text, "[left, right], pressure: 200 kPa}")) << text;
+  EXPECT_FALSE(has(text, "@")) << text;
+  EXPECT_TRUE(has(content(mine / "packing.yaml"), "grains: 400 ")) << content(mine / "packing.yaml");
+  EXPECT_TRUE(has(content(mine / "packing.yaml"), "pressure: 200 kPa\n"));
+}
+
+TEST(NewCommand, FootingAndElementAreSound) {
+  const Scratch scratch("new_footing");
+  const Outcome footing = run_in(scratch.path(), kProgram + " new footing -o ground");
+  ASSERT_EQ(footing.status, 0) << footing.errors;
+  const Outcome checked = check_moved(scratch, "ground");
+  ASSERT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_TRUE(has(checked.out, "no faults; 140 elements")) << checked.out;
+
+  const Outcome element = run_in(scratch.path(), kProgram + " new element -o point --no-pack");
+  ASSERT_EQ(element.status, 0) << element.errors;
+  std::filesystem::copy_file(scratch.path() / "ground/packing.h5", scratch.path() / "point/packing.h5");
+  const Outcome tested =
+      run_in(scratch.path(), "POLARGRAIN_DATA=/nowhere " + kProgram +
+                                 " element point/test.yaml -w 1 --quiet --set axial_strain=0.1% "
+                                 "--set rows=2");
+  ASSERT_EQ(tested.status, 0) << tested.errors;
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "element.csv"));
+}
+
+TEST(NewCommand, ASlopeIsThatOfTheLibrary) {
+  const Scratch scratch("new_slope");
+  const Outcome written = run_in(scratch.path(), kProgram + " new slope -o hill");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome checked = check_moved(scratch, "hill");
+  EXPECT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_TRUE(has(checked.out, "needs no workers")) << checked.out;
+  const Outcome grains = run_in(scratch.path(), kProgram + " new slope -o other --grains 100");
+  EXPECT_EQ(grains.status, 2);
+  EXPECT_TRUE(has(grains.errors, "--grains is not for this kind; a slope begins without stress"))
+      << grains.errors;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "other"));
+}
+
+TEST(NewCommand, AMeshOfOnesOwnIsHeldAtItsLowestBoundary) {
+  const Scratch scratch("new_mesh");
+  const Outcome written = run_in(scratch.path(), kProgram + " new mesh --mesh '" + kSource +
+                                                     "/cases/slope/slope.msh' -o own --grains 50");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome checked = check_moved(scratch, "own");
+  ASSERT_EQ(checked.status, 0) << checked.errors;
+  const std::string text = content(scratch.path() / "own/case.yaml");
+  EXPECT_TRUE(has(text, "boundaries (physical curves):  base, crest, face, sides\n")) << text;
+  EXPECT_TRUE(has(text, "  - {on: base, fix: [u1, u2]}\n")) << text;
+  EXPECT_TRUE(has(text, "  - {on: crest, pressure: [[0, 100 kPa], [1, 110 kPa]]}\n")) << text;
+  EXPECT_TRUE(has(text, "model: adaptive ")) << text;
+}
+
+TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
+  const Scratch scratch("new_refused");
+  std::filesystem::create_directories(scratch.path() / "full");
+  write(scratch.path() / "full/mine.txt", "keep");
+  struct Refusal {
+    std::string arguments;
+    std::string message;
+  };
+  const Refusal refusals[] = {
+      {"triangle -o new", "there is no kind 'triangle'; one of biaxial, footing, slope, element, mesh"},
+      {"biaxial -o full", "-o full: the folder has files in it"},
+      {"biaxial -o full/mine.txt", "-o full/mine.txt: this is a file"},
+      {"biaxial -o new --pressure 100kg", "--pressure 100kg: expected a pressure in Pa"},
+      {"biaxial -o new --size 0 1", "--size 0: expected a length"},
+      {"biaxial -o new --scheme law", "--scheme"},
+      {"footing -o new --size 1 1", "--size is not for this kind; it takes --scheme, --grains"},
+      {"mesh -o new", "name the mesh, --mesh FILE.msh"},
+      {"mesh -o new --mesh none.msh", "none.msh"},
+      {"mesh -o new --mesh full/mine.txt", "whose name ends in .msh"},
+  };
+  for (const Refusal& refusal : refusals) {
+    const Outcome outcome = run_in(scratch.path(), kProgram + " new " + refusal.arguments);
+    EXPECT_EQ(outcome.status, 2) << refusal.arguments;
+    EXPECT_TRUE(has(outcome.errors, refusal.message)) << refusal.arguments << ": " << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "new")) << refusal.arguments;
+  }
+  EXPECT_EQ(files_of(scratch.path() / "full"), std::set<std::string>{"mine.txt"});
+}
+
+}  // namespace
+}  // namespace polargrain::testing
