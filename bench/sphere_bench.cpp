@@ -53,13 +53,19 @@ Walk walk(CellService& cell) {
   return done;
 }
 
-void bench(const std::string& name, const std::string& style, double inertial_number, double reference) {
+/// The spheres of cases/spheres under their script, with other contact models.
+CellDefinition spheres(const std::string& style) {
   CellDefinition definition;
   definition.script_file = "liggghts_inputs/cells/spheres_hooke_radii.in";
   definition.script = file_text(definition.script_file);
   const std::string stock = "pair_style      gran model hooke/radii tangential history";
   definition.script.replace(definition.script.find(stock), stock.size(), style);
   definition.packing = read_packing("cases/spheres/packing1000.csv");
+  return definition;
+}
+
+void bench(const std::string& name, const std::string& style, double inertial_number, double reference) {
+  CellDefinition definition = spheres(style);
   definition.control.inertial_number = inertial_number;
   definition.control.tangent = CellTangent::none;
   const Walk bare = walk(*dem::make_cell_service(definition));
@@ -76,12 +82,7 @@ void bench(const std::string& name, const std::string& style, double inertial_nu
 
 /// q of the slow walk, Pa.
 double slow_deviator(const std::string& style) {
-  CellDefinition definition;
-  definition.script_file = "liggghts_inputs/cells/spheres_hooke_radii.in";
-  definition.script = file_text(definition.script_file);
-  const std::string stock = "pair_style      gran model hooke/radii tangential history";
-  definition.script.replace(definition.script.find(stock), stock.size(), style);
-  definition.packing = read_packing("cases/spheres/packing1000.csv");
+  CellDefinition definition = spheres(style);
   definition.control.inertial_number = 1e-4;
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 5e-4;
   definition.control.tangent = CellTangent::none;

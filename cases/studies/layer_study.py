@@ -24,22 +24,14 @@ import numpy
 import scipy.optimize
 
 import layer
+from internal_length import DIAMETER, interval
 
 HERE = pathlib.Path(__file__).resolve().parent
-DIAMETER = 0.01  # m, mean
 PRESSURE = 1e5   # Pa
 WINDOW = 6       # frames of 0.005 of shear over which a layer's displacements are taken
 COLUMN = 0.1     # m, height of the columns
 COLUMNS = ((10, "dense100_seed2"), (20, "dense100_seed2"), (10, "dense100_seed3"), (10, "dense400_seed1"), (20, "dense400_seed1"),
            (10, "dense400_seed4"))  # elements, packing of the cells
-STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 10: 2.262}  # 97.5 %, by number of packings
-
-
-def interval(values):
-    if len(values) < 2:
-        return f"{values[0]:.3g}" if values else "-"
-    half = STUDENT.get(len(values), 2.2) * statistics.stdev(values) / math.sqrt(len(values))
-    return f"{statistics.mean(values):.3g} +- {half:.2g}"
 
 
 def band(height, displacement):

@@ -8,6 +8,7 @@
 #include "common/plane_in_space.hpp"
 #include "common/seconds.hpp"
 #include "dem/cell/averages.hpp"
+#include "dem/cell/cell_answers.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/condensed_tangent.hpp"
@@ -23,14 +24,6 @@
 namespace polargrain::dem {
 
 namespace {
-
-/// Spring that holds each grain in the condensed tangent, over the mean normal stiffness. From 1e-6 to 1e-3
-/// it changes no modulus by more than 1 %.
-constexpr double kHold = 1e-4;
-
-/// The largest strain, displacement gradient, rotation, or curvature times mean diameter that a cell takes in
-/// one increment.
-constexpr double kLargestIncrement = 0.25;
 
 class Cell final : public CellOfGrains {
  public:
@@ -162,16 +155,7 @@ CellReply Cell::evaluate(const CellRequest& request) {
 }
 
 CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
-  if (const double size = increment_size(increment); !(size <= kLargestIncrement)) {
-    // An iteration gone astray; running it would cost hours and answer nothing.
-    CellReply reply;
-    reply.response.quality = Quality::failed;
-    reply.response.step_factor = 0.5;
-    reply.response.message =
-        fmt::format("the increment strains or turns the cell by {:.2g} at once; at most {} is taken", size,
-                    kLargestIncrement);
-    return reply;
-  }
+  if (const std::optional<CellReply> astray = gone_astray(increment_size(increment))) return *astray;
   grains_->restore(start ? *start : *initial_.state);
   grains_->begin(protocol_.begin(grains_->box(), increment, driver_.strain().time_step()),
                  protocol_.damping_rate(), protocol_.rotation_of(increment));
@@ -189,23 +173,8 @@ CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
   CellReply reply;
   reply.diagnostics = measure();
   reply.response = respond(loading_tangent);
-  if (!protocol_.at_rest(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
-    reply.response.quality = Quality::unreliable;
-    reply.response.step_factor = 0.5;
-    reply.response.message = fmt::format(
-        "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
-        "moment ratio {:.2e} (asked {:.2e})",
-        protocol_.relaxed(), rest.unbalanced_force_ratio, control_.unbalanced_force_ratio,
-        rest.unbalanced_moment_ratio, control_.unbalanced_moment_ratio);
-  }
-  std::string fault = answer_fault(overlaps_of(grains_->contacts(), inertia_.radii), rest.void_ratio);
-  if (fault.empty())
-    fault = step_fault(grains_->contacts(), inertia_, protocol_.damping_rate(), driver_.strain().time_step());
-  if (!fault.empty()) {
-    reply.response.quality = Quality::unreliable;
-    reply.response.step_factor = 0.5;
-    reply.response.message = fault;
-  }
+  judge(reply.response, protocol_, control_, rest, grains_->contacts(), inertia_,
+        driver_.strain().time_step(), kMostVoidRatio);
   reply.diagnostics.dem_steps = protocol_.done();
   reply.state = grains_->save();
   return reply;
@@ -243,23 +212,10 @@ double Cell::increment_size(const Increment& increment) const {
 }
 
 CellDiagnostics Cell::measure() const {
-  const Equilibrium rest = equilibrium();
-  CellDiagnostics diagnostics;
-  diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
-  diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
-  diagnostics.void_ratio = rest.void_ratio;
-  diagnostics.coordination_number = rest.coordination_number;
-  diagnostics.rattlers = rest.rattlers;
-  diagnostics.multiplier = grains_->multiplier();
-
   const std::span<const Contact> contacts = grains_->contacts();
-  const auto fraction = [&contacts](auto property) {
-    const auto count = std::count_if(contacts.begin(), contacts.end(), property);
-    return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());
-  };
-  diagnostics.contacts = static_cast<std::int64_t>(contacts.size());
-  diagnostics.sliding_fraction = fraction([](const Contact& contact) { return contact.sliding(); });
-  diagnostics.rolling_fraction = fraction([](const Contact& contact) { return contact.rolling_at_limit; });
+  CellDiagnostics diagnostics =
+      diagnostics_of(equilibrium(), contacts, [](const Contact& contact) { return contact.sliding(); });
+  diagnostics.multiplier = grains_->multiplier();
   const Eigen::Matrix2d frame = grains_->box().frame();
   const Eigen::Matrix2d fabric = frame * fabric_tensor(contacts) * frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};

@@ -86,14 +86,13 @@ void FixLayer::init() {
   if (both > 0) error->all(FLERR, "Fix layer: a grain belongs to both plates");
 }
 
-void FixLayer::setup(int vflag) {
+void FixLayer::setup(int) {
   if (state_.rate > 0.0 && state_.reference_height == 0.0) {
     state_.reference_height = height();
     state_.displacement = 0.0;
     state_.time = 0.0;
     state_.velocity_x = 0.0;
   }
-  (void)vflag;
   // Forces of a run's start are those of the step before it, which the plate has moved by already.
   hold_plates();
 }

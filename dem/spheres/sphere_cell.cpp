@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/seconds.hpp"
 #include "dem/cell/averages.hpp"
+#include "dem/cell/cell_answers.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/grain_engine.hpp"
 #include "dem/cell/packing_check.hpp"
@@ -22,12 +23,6 @@
 namespace polargrain::dem {
 
 namespace {
-
-/// Spring that holds each grain in the condensed tangent, over the mean normal stiffness, as for discs.
-constexpr double kHold = 1e-4;
-
-/// The largest component of a displacement gradient that a cell takes in one increment.
-constexpr double kLargestIncrement = 0.25;
 
 /// @throws RunError when this cannot be a cell of spheres
 const CellDefinition& sound(const CellDefinition& definition) {
@@ -141,16 +136,7 @@ CellReply SphereCell::evaluate(const CellRequest& request) {
 
 CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& increment) {
   const Eigen::Matrix3d& gradient = increment.displacement_gradient;
-  if (const double size = gradient.cwiseAbs().maxCoeff(); !(size <= kLargestIncrement)) {
-    // An iteration gone astray; running it would cost hours and answer nothing.
-    CellReply reply;
-    reply.response.quality = Quality::failed;
-    reply.response.step_factor = 0.5;
-    reply.response.message =
-        fmt::format("the increment strains or turns the cell by {:.2g} at once; at most {} is taken", size,
-                    kLargestIncrement);
-    return reply;
-  }
+  if (const std::optional<CellReply> astray = gone_astray(gradient.cwiseAbs().maxCoeff())) return *astray;
   engine_.restore(start ? *start : *initial_.state);
   protocol_.begin(largest_principal_strain(gradient), engine_.strain().time_step());
   engine_.strain().begin(SpacePath(box(), gradient, protocol_.loading()), protocol_.damping_rate());
@@ -167,22 +153,8 @@ CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& inc
   CellReply reply;
   reply.diagnostics = measure();
   reply.response = respond(loading_tangent);
-  const auto unreliable = [&reply](std::string message) {
-    reply.response.quality = Quality::unreliable;
-    reply.response.step_factor = 0.5;
-    reply.response.message = std::move(message);
-  };
-  if (!protocol_.at_rest(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio))
-    unreliable(fmt::format(
-        "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
-        "moment ratio {:.2e} (asked {:.2e})",
-        protocol_.relaxed(), rest.unbalanced_force_ratio, control_.unbalanced_force_ratio,
-        rest.unbalanced_moment_ratio, control_.unbalanced_moment_ratio));
-  std::string fault =
-      answer_fault(overlaps_of(engine_.contacts(), inertia_.radii), rest.void_ratio, kMostVoidRatioInSpace);
-  if (fault.empty())
-    fault = step_fault(engine_.contacts(), inertia_, protocol_.damping_rate(), engine_.strain().time_step());
-  if (!fault.empty()) unreliable(fault);
+  judge(reply.response, protocol_, control_, rest, engine_.contacts(), inertia_, engine_.strain().time_step(),
+        kMostVoidRatioInSpace);
   reply.diagnostics.dem_steps = protocol_.done();
   reply.state = engine_.save();
   return reply;
@@ -200,22 +172,8 @@ Equilibrium SphereCell::equilibrium() const {
 }
 
 CellDiagnostics SphereCell::measure() const {
-  const Equilibrium rest = equilibrium();
-  CellDiagnostics diagnostics;
-  diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
-  diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
-  diagnostics.void_ratio = rest.void_ratio;
-  diagnostics.coordination_number = rest.coordination_number;
-  diagnostics.rattlers = rest.rattlers;
-
   const std::span<const Contact> contacts = engine_.contacts();
-  const auto fraction = [&contacts](auto property) {
-    const auto count = std::count_if(contacts.begin(), contacts.end(), property);
-    return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());
-  };
-  diagnostics.contacts = static_cast<std::int64_t>(contacts.size());
-  diagnostics.sliding_fraction = fraction(slides_in_space);
-  diagnostics.rolling_fraction = fraction([](const Contact& contact) { return contact.rolling_at_limit; });
+  CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, slides_in_space);
   const Eigen::Matrix3d fabric = box().frame * space_fabric(contacts) * box().frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
 

@@ -9,7 +9,38 @@
 #include <span>
 #include <vector>
 
+#include "dem/cell/stock_laws.hpp"
+
 namespace polargrain::dem {
+
+MeanGrain mean_grain_of(LAMMPS_NS::Atom& atom, double (*size)(double radius), double depth) {
+  MeanGrain mean;
+  double mass = 0.0;
+  double sizes = 0.0;
+  const int count = atom.nlocal;
+  for (int k = 0; k < count; ++k) {
+    mean.radius += atom.radius[k] / count;
+    mass += atom.rmass[k];
+    sizes += size(atom.radius[k]);
+  }
+  mean.mass = mass / count;
+  mean.density = mass / (sizes * depth);
+  return mean;
+}
+
+void take_packing(LAMMPS_NS::LAMMPS& lammps, QuasiStatic& protocol, const MeanGrain& grain,
+                  std::vector<Contact>& at_rest, double pressure, const ScriptTimeStep& time_step) {
+  if (!(pressure > 0.0))
+    lammps.error->all(
+        FLERR,
+        "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
+        "stiffness in the script is not the one the packing was made with");
+  StockLaws(lammps).complete(at_rest);
+  protocol.take_scales(grain, at_rest, pressure);
+  const std::string remark =
+      time_step.settle(lammps, at_rest, inertia_of(lammps), protocol.damping_rate(), "this script");
+  if (!remark.empty() && lammps.screen != nullptr) fmt::print(lammps.screen, "polargrain: {}\n", remark);
+}
 
 StatePointer read_state_file(const std::string& file, LAMMPS_NS::Error& error) {
   std::ifstream in(file, std::ios::binary);

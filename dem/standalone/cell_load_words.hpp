@@ -2,9 +2,11 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/cell.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/cell/script_time_step.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/spheres/space_box.hpp"
 
@@ -21,6 +23,15 @@ struct CellLoadWords {
 
 /// Ends the process in the engine's words where they are wrong.
 CellLoadWords read_cell_load_words(LAMMPS_NS::LAMMPS& lammps, int count, char** words);
+
+/// Of the grains that the engine has. @param size of a grain by its radius: the area of a disc, the volume of a sphere
+/// @param depth of that size, m: of discs the thickness, of spheres 1
+MeanGrain mean_grain_of(LAMMPS_NS::Atom& atom, double (*size)(double radius), double depth);
+
+/// The scales of a packing at rest, and the time step: the script's own where it is stable.
+/// @param pressure that it carries; ends the process where it is none
+void take_packing(LAMMPS_NS::LAMMPS& lammps, QuasiStatic& protocol, const MeanGrain& grain,
+                  std::vector<Contact>& at_rest, double pressure, const ScriptTimeStep& time_step);
 
 /// The bytes of a state in a file. Ends the process where there is none.
 StatePointer read_state_file(const std::string& file, LAMMPS_NS::Error& error);

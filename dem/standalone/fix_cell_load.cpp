@@ -13,7 +13,6 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/script_time_step.hpp"
-#include "dem/cell/stock_laws.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/extension.hpp"
 #include "dem/standalone/cell_load_words.hpp"
@@ -35,9 +34,7 @@ FixCellLoad::FixCellLoad(LAMMPS* lammps, int count, char** words)
   const CellLoadWords read = read_cell_load_words(*lammps, count, words);
   if (read.frame)
     error->all(FLERR, "Illegal fix cell/load command: frame is for spheres in space; discs are turned");
-  mean_mass_ = read.mean_grain.mass;
-  mean_radius_ = read.mean_grain.radius;
-  density_ = read.mean_grain.density;
+  mean_ = read.mean_grain;
   turned_ = read.turned;
   packing_state_ = read.packing_state;
   protocol_ = QuasiStatic(read.control);
@@ -50,7 +47,10 @@ int FixCellLoad::setmask() {
 void FixCellLoad::post_create() {
   if (!force->pair || !force->pair_match("gran", 1))
     error->all(FLERR, "Fix cell/load needs the contact models before it: pair_style gran");
-  if (mean_mass_ == 0.0) find_mean_grain();
+  if (mean_.mass == 0.0)
+    mean_ = mean_grain_of(
+        *atom, [](double radius) { return std::numbers::pi * radius * radius; },
+        domain->boxhi[2] - domain->boxlo[2]);
   Box box;
   box.length_x = domain->boxhi[0] - domain->boxlo[0];
   box.length_y = domain->boxhi[1] - domain->boxlo[1];
@@ -66,29 +66,7 @@ void FixCellLoad::post_create() {
   update->integrate->setup_minimal(1);
   update->whichflag = 0;
 
-  const double pressure = -0.5 * (answer_[0] + answer_[1]);
-  if (!(pressure > 0.0))
-    error->all(FLERR,
-               "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
-               "stiffness in the script is not the one the packing was made with");
-  StockLaws(*lmp).complete(recorder_.contacts);
-  protocol_.take_scales({mean_mass_, mean_radius_, density_}, recorder_.contacts, pressure);
-  const std::string remark =
-      time_step.settle(*lmp, recorder_.contacts, inertia_of(*lmp), protocol_.damping_rate(), "this script");
-  if (!remark.empty() && screen != nullptr) fmt::print(screen, "polargrain: {}\n", remark);
-}
-
-void FixCellLoad::find_mean_grain() {
-  double mass = 0.0;
-  double area = 0.0;
-  const int count = grains();
-  for (int k = 0; k < count; ++k) {
-    mean_radius_ += atom->radius[k] / count;
-    mass += atom->rmass[k];
-    area += std::numbers::pi * atom->radius[k] * atom->radius[k];
-  }
-  mean_mass_ = mass / count;
-  density_ = mass / (area * (domain->boxhi[2] - domain->boxlo[2]));
+  take_packing(*lmp, protocol_, mean_, recorder_.contacts, -0.5 * (answer_[0] + answer_[1]), time_step);
 }
 
 RestoredState FixCellLoad::go_on_from(StatePointer state) try {
@@ -185,7 +163,7 @@ void FixCellLoad::renew_weights() {
 void FixCellLoad::look() {
   const std::vector<Contact>& contacts = recorder_.contacts;
   const Response now = protocol_.read_out(contacts, box(), domain->boxhi[2] - domain->boxlo[2]);
-  const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_radius_, protocol_.least_force());
+  const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_.radius, protocol_.least_force());
   std::ranges::copy(now.stress, answer_.begin());
   answer_[7] = ratios.force_ratio;
   answer_[8] = ratios.moment_ratio;

@@ -55,7 +55,6 @@ class FixCellLoad final : public FixCellStrain {
   double compute_vector(int place) override;
 
  private:
-  void find_mean_grain();
   /// Puts a state into the engine and the box to where it was.
   RestoredState go_on_from(StatePointer state);
   [[nodiscard]] Increment read_increment(int count, char** words) const;
@@ -66,9 +65,7 @@ class FixCellLoad final : public FixCellStrain {
   void start_recording();
 
   ContactRecorder& recorder_;
-  double mean_mass_ = 0.0;
-  double mean_radius_ = 0.0;
-  double density_ = 0.0;
+  MeanGrain mean_;
   double turned_ = 0.0;
   std::string packing_state_;
   QuasiStatic protocol_;

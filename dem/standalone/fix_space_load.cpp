@@ -7,7 +7,6 @@
 
 #include "common/record_values.hpp"
 #include "dem/cell/script_time_step.hpp"
-#include "dem/cell/stock_laws.hpp"
 #include "dem/spheres/space_contact.hpp"
 #include "dem/standalone/cell_load_words.hpp"
 
@@ -41,7 +40,9 @@ int FixSpaceLoad::setmask() {
 void FixSpaceLoad::post_create() {
   if (!force->pair || !force->pair_match("gran", 1))
     error->all(FLERR, "Fix cell/load needs the contact models before it: pair_style gran");
-  if (mean_.mass == 0.0) find_mean_grain();
+  if (mean_.mass == 0.0)
+    mean_ = mean_grain_of(
+        *atom, [](double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }, 1.0);
   SpaceBox box = engine_box();
   box.frame = frame_;
   begin(SpacePath(box, Eigen::Matrix3d::Zero(), 0), 0.0);
@@ -54,30 +55,7 @@ void FixSpaceLoad::post_create() {
   update->integrate->setup_minimal(1);
   update->whichflag = 0;
 
-  const double pressure = -stress_.trace() / 3.0;
-  if (!(pressure > 0.0))
-    error->all(FLERR,
-               "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
-               "stiffness in the script is not the one the packing was made with");
-  StockLaws(*lmp).complete(recorder_.contacts);
-  protocol_.take_scales(mean_, recorder_.contacts, pressure);
-  const std::string remark =
-      time_step.settle(*lmp, recorder_.contacts, inertia_of(*lmp), protocol_.damping_rate(), "this script");
-  if (!remark.empty() && screen != nullptr) fmt::print(screen, "polargrain: {}\n", remark);
-}
-
-void FixSpaceLoad::find_mean_grain() {
-  double mass = 0.0;
-  double volume = 0.0;
-  const int count = grains();
-  for (int k = 0; k < count; ++k) {
-    const double radius = atom->radius[k];
-    mean_.radius += radius / count;
-    mass += atom->rmass[k];
-    volume += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-  }
-  mean_.mass = mass / count;
-  mean_.density = mass / volume;
+  take_packing(*lmp, protocol_, mean_, recorder_.contacts, -stress_.trace() / 3.0, time_step);
 }
 
 void FixSpaceLoad::go_on_from(StatePointer state) try {

@@ -36,7 +36,6 @@ class FixSpaceLoad final : public FixSpaceStrain {
   double compute_vector(int place) override { return answer_.at(static_cast<std::size_t>(place)); }
 
  private:
-  void find_mean_grain();
   /// Puts a state into the engine and the box to where it was.
   void go_on_from(StatePointer state);
   void begin_increment(const CellIncrement& increment);

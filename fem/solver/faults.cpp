@@ -74,46 +74,53 @@ void check_materials(const Problem& problem, Messages& messages) {
   }
 }
 
-void check_prescribed_once(const Problem& problem, Messages& messages) {
-  std::map<std::pair<int, int>, const PrescribedDof*> first;
+/// The first item that gives each (node, dof) its value.
+using GivenValues = std::map<std::pair<int, Dof>, const PrescribedDof*>;
+
+bool gives_alike(const Problem& problem, const PrescribedDof& a, int node_a, const PrescribedDof& b,
+                 int node_b) {
+  const auto factor = [&](const PrescribedDof& item, int node) {
+    return item.profile ? item.profile(problem.mesh.nodes[static_cast<std::size_t>(node)]) : 1.0;
+  };
+  return a.value == b.value && factor(a, node_a) == factor(b, node_b);
+}
+
+GivenValues check_prescribed_once(const Problem& problem, Messages& messages) {
+  GivenValues first;
   for (const PrescribedDof& item : problem.prescribed) {
     if (!problem.mesh.has_nodes_on(item.on)) continue;
+    bool told = false;
     for (const int node : problem.mesh.nodes_on(item.on)) {
-      const auto [place, added] = first.try_emplace({node, static_cast<int>(item.dof)}, &item);
+      const auto [place, added] = first.try_emplace({node, item.dof}, &item);
       const PrescribedDof& other = *place->second;
+      if (added || told || gives_alike(problem, other, node, item, node)) continue;
       const Eigen::Vector2d& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
-      const auto factor = [&](const PrescribedDof& given) { return given.profile ? given.profile(at) : 1.0; };
-      if (added || (other.value == item.value && factor(other) == factor(item))) continue;
       messages.push_back(
           fmt::format("{} is given two different values at the node ({:.6g}, {:.6g}), on '{}' and on "
                       "'{}': give it once there",
                       kDofNames[static_cast<std::size_t>(item.dof)], at(0), at(1), other.on, item.on));
-      break;
+      told = true;
     }
   }
+  return first;
 }
 
 /// What holds one side of a tie has to hold the other alike.
-void check_ties(const Problem& problem, Messages& messages) {
+void check_ties(const Problem& problem, const GivenValues& given, Messages& messages) {
   const Mesh& mesh = problem.mesh;
-  const auto value_at = [&](int node, Dof dof) -> std::pair<const PrescribedDof*, double> {
-    for (const PrescribedDof& item : problem.prescribed) {
-      if (item.dof != dof || !mesh.has_nodes_on(item.on)) continue;
-      const std::vector<int> nodes = mesh.nodes_on(item.on);
-      if (!std::binary_search(nodes.begin(), nodes.end(), node)) continue;
-      return {&item, item.profile ? item.profile(mesh.nodes[static_cast<std::size_t>(node)]) : 1.0};
-    }
-    return {nullptr, 0.0};
+  const auto item_at = [&](int node, Dof dof) {
+    const auto place = given.find({node, dof});
+    return place == given.end() ? nullptr : place->second;
   };
   for (const Tie& tie : problem.ties) {
     const TiedNodes tied = tied_nodes(mesh, tie);
     if (!tied.fault.empty()) messages.push_back("tie: " + tied.fault);
     for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
       for (const auto& [follower, leader] : tied.pairs) {
-        const auto [a, factor_a] = value_at(follower, dof);
-        const auto [b, factor_b] = value_at(leader, dof);
+        const PrescribedDof* a = item_at(follower, dof);
+        const PrescribedDof* b = item_at(leader, dof);
         if (a == nullptr && b == nullptr) continue;
-        if (a != nullptr && b != nullptr && a->value == b->value && factor_a == factor_b) continue;
+        if (a != nullptr && b != nullptr && gives_alike(problem, *a, follower, *b, leader)) continue;
         const Eigen::Vector2d& at = mesh.nodes[static_cast<std::size_t>(a != nullptr ? follower : leader)];
         messages.push_back(fmt::format(
             "{} is given at the node ({:.6g}, {:.6g}), and not alike at the node it is tied to ('{}' to '{}'): give it "
@@ -132,8 +139,7 @@ Messages faults(const Problem& problem) {
   if (problem.mesh.elements.empty()) return {"the mesh has no elements"};
   check_names(problem, messages);
   check_materials(problem, messages);
-  check_prescribed_once(problem, messages);
-  check_ties(problem, messages);
+  check_ties(problem, check_prescribed_once(problem, messages), messages);
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion :
        free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {

@@ -9,23 +9,23 @@
 
 namespace polargrain::test {
 
-/// The spheres of cases/spheres under their script; tests run in the root of the project.
-inline CellDefinition linear_spheres() {
+/// Tests run in the root of the project.
+inline CellDefinition spheres(const char* script_file, const char* packing) {
   CellDefinition definition;
   definition.name = "spheres";
-  definition.script_file = "liggghts_inputs/cells/spheres_hooke_radii.in";
+  definition.script_file = script_file;
   definition.script = file_text(definition.script_file);
-  definition.packing = read_packing("cases/spheres/packing1000.csv");
+  definition.packing = read_packing(packing);
   return definition;
 }
 
+/// The spheres of cases/spheres under their script.
+inline CellDefinition linear_spheres() {
+  return spheres("liggghts_inputs/cells/spheres_hooke_radii.in", "cases/spheres/packing1000.csv");
+}
+
 inline CellDefinition hertz_spheres() {
-  CellDefinition definition;
-  definition.name = "spheres";
-  definition.script_file = "liggghts_inputs/cells/spheres_hertz.in";
-  definition.script = file_text(definition.script_file);
-  definition.packing = read_packing("tests/data/packing500_hertz.csv");
-  return definition;
+  return spheres("liggghts_inputs/cells/spheres_hertz.in", "tests/data/packing500_hertz.csv");
 }
 
 /// A row of a path of the independent code (tests/data/README.md).

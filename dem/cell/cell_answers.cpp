@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dem/cell/cell_answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "dem/cell/packing_check.hpp"
+#include "dem/cell/script_time_step.hpp"
+
+namespace polargrain::dem {
+
+std::optional<CellReply> gone_astray(double size) {
+  if (size <= kLargestIncrement) return std::nullopt;
+  // Running it would cost hours and answer nothing.
+  CellReply reply;
+  reply.response.quality = Quality::failed;
+  reply.response.step_factor = 0.5;
+  reply.response.message =
+      fmt::format("the increment strains or turns the cell by {:.2g} at once; at most {} is taken", size,
+                  kLargestIncrement);
+  return reply;
+}
+
+void judge(CellResponse& response, const QuasiStatic& protocol, const CellControl& control,
+           const Equilibrium& rest, std::span<const Contact> contacts, const Inertia& inertia,
+           double time_step, double most_void_ratio) {
+  std::string reason = answer_fault(overlaps_of(contacts, inertia.radii), rest.void_ratio, most_void_ratio);
+  if (reason.empty()) reason = step_fault(contacts, inertia, protocol.damping_rate(), time_step);
+  if (reason.empty() && !protocol.at_rest(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio))
+    reason = fmt::format(
+        "the cell did not come to rest within {} DEM steps: unbalanced force ratio {:.2e} (asked {:.2e}), "
+        "moment ratio {:.2e} (asked {:.2e})",
+        protocol.relaxed(), rest.unbalanced_force_ratio, control.unbalanced_force_ratio,
+        rest.unbalanced_moment_ratio, control.unbalanced_moment_ratio);
+  if (reason.empty()) return;
+  response.quality = Quality::unreliable;
+  response.step_factor = 0.5;
+  response.message = std::move(reason);
+}
+
+CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
+                               bool (*slides)(const Contact&)) {
+  CellDiagnostics diagnostics;
+  diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
+  diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
+  diagnostics.void_ratio = rest.void_ratio;
+  diagnostics.coordination_number = rest.coordination_number;
+  diagnostics.rattlers = rest.rattlers;
+  const auto fraction = [&contacts](auto property) {
+    const auto count = std::count_if(contacts.begin(), contacts.end(), property);
+    return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());
+  };
+  diagnostics.contacts = static_cast<std::int64_t>(contacts.size());
+  diagnostics.sliding_fraction = fraction(slides);
+  diagnostics.rolling_fraction = fraction([](const Contact& contact) { return contact.rolling_at_limit; });
+  return diagnostics;
+}
+
+}  // namespace polargrain::dem

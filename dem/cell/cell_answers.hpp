@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <optional>
+#include <span>
+
+#include "common/cell.hpp"
+#include "dem/cell/quasi_static.hpp"
+#include "dem/cell/time_step.hpp"
+
+namespace polargrain::dem {
+
+// What cells of discs and of spheres have in common.
+
+/// Spring that holds each grain in the condensed tangent, over the mean normal stiffness. From 1e-6 to 1e-3
+/// it changes no modulus by more than 1 %.
+inline constexpr double kHold = 1e-4;
+
+/// The largest strain, displacement gradient, rotation, or curvature times mean diameter that a cell takes in
+/// one increment.
+inline constexpr double kLargestIncrement = 0.25;
+
+/// The answer to an increment beyond kLargestIncrement, an iteration gone astray; nothing where it is not.
+std::optional<CellReply> gone_astray(double size);
+
+/// Marks an answer as not to be committed, with the reason, where its grains did not come to rest or are beyond what the
+/// laws of their contacts, or the time step, are good for.
+void judge(CellResponse& response, const QuasiStatic& protocol, const CellControl& control,
+           const Equilibrium& rest, std::span<const Contact> contacts, const Inertia& inertia,
+           double time_step, double most_void_ratio);
+
+/// What the contacts of a cell tell of it, but for fabric and rotations.
+/// @param slides whether a contact does: between discs, or spheres
+CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
+                               bool (*slides)(const Contact&));
+
+}  // namespace polargrain::dem
