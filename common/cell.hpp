@@ -119,6 +119,8 @@ struct CellDiagnostics {
   double sliding_fraction = 0.0;
   double rolling_fraction = 0.0;
   double rattlers = 0.0;
+  double mean_overlap = 0.0;
+  double largest_overlap = 0.0;
   double multiplier = 0.0;
   double mean_rotation = 0.0;
   double rotation_spread = 0.0;
@@ -142,6 +144,9 @@ void describe(Record& d, Visit&& visit) {
                    "contacts at the rolling limit / contacts (models `li_chu`, `epsd2`)"},
         d.rolling_fraction);
   visit(FieldNotes{"rattlers", "1", "grains without a contact / grains"}, d.rattlers);
+  visit(FieldNotes{"mean_overlap", "1", "overlap / smaller radius, mean over the contacts"}, d.mean_overlap);
+  visit(FieldNotes{"largest_overlap", "1", "overlap / smaller radius, of the worst contact"},
+        d.largest_overlap);
   visit(FieldNotes{"multiplier", "Pa", "s21 - s12 that holds the mean rotation; 0 with free rotations"},
         d.multiplier);
   visit(FieldNotes{"mean_rotation", "rad", "mean rotation of the grains since the packing"}, d.mean_rotation);

@@ -30,7 +30,7 @@ materials:
 regions: {{all: sand}}
 boundary:
 {boundary}
-steps: {{count: {count}, cut: 6, iterations: 20, {balance}}}
+steps: {{count: {count}, cut: 6, iterations: 20, jumps: 0, {balance}}}
 monitors:
   top_force: {{on: top, reaction: u2}}
   top_shear: {{on: top, reaction: u1}}

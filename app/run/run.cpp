@@ -15,6 +15,7 @@
 #include "app/run/run_files.hpp"
 #include "app/run/run_observer.hpp"
 #include "app/run/sample.hpp"
+#include "app/run/soft_contacts.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
 #include "common/seconds.hpp"
@@ -161,7 +162,8 @@ class Run {
         return false;
       }
       log_notes();
-      if (!left_out_) warn_of_left_out();
+      if (!left_out_) left_out_ = warn_if(solver_->left_out());
+      if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
       observer_.end_step(report.time);
     }
@@ -255,10 +257,10 @@ class Run {
     }
   }
 
-  void warn_of_left_out() {
-    const std::string text = solver_->left_out();
-    left_out_ = !text.empty();
-    if (left_out_) warn(text);
+  /// Warns when there is something to say; returns whether there was.
+  bool warn_if(const std::string& text) {
+    if (!text.empty()) warn(text);
+    return !text.empty();
   }
 
   /// @returns what to tell the user of it
@@ -355,6 +357,7 @@ class Run {
   RunRecord record_;
   int first_step_ = 0;
   bool left_out_ = false;              ///< it was said what small deformation leaves out
+  bool soft_contacts_ = false;         ///< it was said that contacts are soft for the stress
   coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
   std::optional<fem::Solver> solver_;

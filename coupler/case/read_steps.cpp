@@ -122,7 +122,10 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   solver.moment_tolerance =
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
   solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
-  solver.most_jumps = steps.whole_or("jumps", 0, 0);
+  // Grains rearrange: without passing their jumps no band is followed far.
+  solver.most_jumps = steps.whole_or("jumps", 0, parts.result.needs_workers() ? 50 : 0);
+  solver.jump_residual =
+      steps.quantity_or("jump_residual", Dimension::number, Limit::positive, solver.jump_residual);
   solver.acceleration_depth = steps.whole_or("acceleration", 0, 0);
   // What a box of grains takes to follow a strain grows with the strain.
   solver.largest_strain = steps.quantity_or("largest_strain", Dimension::number, Limit::positive,

@@ -213,8 +213,8 @@ double Cell::increment_size(const Increment& increment) const {
 
 CellDiagnostics Cell::measure() const {
   const std::span<const Contact> contacts = grains_->contacts();
-  CellDiagnostics diagnostics =
-      diagnostics_of(equilibrium(), contacts, [](const Contact& contact) { return contact.sliding(); });
+  CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, inertia_.radii,
+                                               [](const Contact& contact) { return contact.sliding(); });
   diagnostics.multiplier = grains_->multiplier();
   const Eigen::Matrix2d frame = grains_->box().frame();
   const Eigen::Matrix2d fabric = frame * fabric_tensor(contacts) * frame.transpose();

@@ -42,13 +42,16 @@ void judge(CellResponse& response, const QuasiStatic& protocol, const CellContro
 }
 
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
-                               bool (*slides)(const Contact&)) {
+                               std::span<const double> radii, bool (*slides)(const Contact&)) {
   CellDiagnostics diagnostics;
   diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
   diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
   diagnostics.void_ratio = rest.void_ratio;
   diagnostics.coordination_number = rest.coordination_number;
   diagnostics.rattlers = rest.rattlers;
+  const Overlaps overlaps = overlaps_of(contacts, radii);
+  diagnostics.mean_overlap = overlaps.mean;
+  diagnostics.largest_overlap = overlaps.largest;
   const auto fraction = [&contacts](auto property) {
     const auto count = std::count_if(contacts.begin(), contacts.end(), property);
     return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());

@@ -29,8 +29,8 @@ void judge(CellResponse& response, const QuasiStatic& protocol, const CellContro
            double time_step, double most_void_ratio);
 
 /// What the contacts of a cell tell of it, but for fabric and rotations.
-/// @param slides whether a contact does: between discs, or spheres
+/// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
-                               bool (*slides)(const Contact&));
+                               std::span<const double> radii, bool (*slides)(const Contact&));
 
 }  // namespace polargrain::dem

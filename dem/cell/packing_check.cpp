@@ -13,15 +13,16 @@
 
 namespace polargrain::dem {
 
-std::string description(const Overlaps& overlaps) {
+std::string description(const Overlaps& overlaps, double allowance) {
   return fmt::format(
       "grains overlap by {:.1f} % of their radius on average, {:.1f} % at most (allowed: {:.0f} and {:.0f} "
       "%)",
-      100.0 * overlaps.mean, 100.0 * overlaps.largest, 100.0 * kMostMeanOverlap, 100.0 * kMostOverlap);
+      100.0 * overlaps.mean, 100.0 * overlaps.largest, 100.0 * allowance * kMostMeanOverlap,
+      100.0 * allowance * kMostOverlap);
 }
 
-bool too_large(const Overlaps& overlaps) {
-  return !(overlaps.mean <= kMostMeanOverlap && overlaps.largest <= kMostOverlap);
+bool too_large(const Overlaps& overlaps, double allowance) {
+  return !(overlaps.mean <= allowance * kMostMeanOverlap && overlaps.largest <= allowance * kMostOverlap);
 }
 
 Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> radii) {
@@ -188,8 +189,9 @@ std::string packing_fault(const PackingAtRest& packing, double unrest, const std
 }
 
 std::string answer_fault(const Overlaps& overlaps, double void_ratio, double most_void_ratio) {
-  if (too_large(overlaps))
-    return fmt::format("{}: the contacts are too soft for this stress", description(overlaps));
+  if (too_large(overlaps, kAllowanceOfAnswers))
+    return fmt::format("{}: the contacts are too soft for this stress",
+                       description(overlaps, kAllowanceOfAnswers));
   if (!(void_ratio <= most_void_ratio))
     return fmt::format("the void ratio is {:.3g}: beyond {:.1f} the grains are no packing any more",
                        void_ratio, most_void_ratio);

@@ -13,11 +13,14 @@ namespace polargrain::dem {
 // Grains are rigid but for their contacts: laws of contacts mean something while overlaps are small against
 // the grains. What lies beyond is no answer about grains any more, however well it is balanced.
 
-/// Mean overlap over the smaller radius beyond which a scene is refused and an answer is unreliable.
+/// Mean overlap over the smaller radius beyond which a scene is refused.
 /// packing400 has 0.006 at 100 kPa; 0.05 is about eight times that pressure.
 inline constexpr double kMostMeanOverlap = 0.05;
 /// The same for the largest overlap: forces of contacts reach some five times their mean.
 inline constexpr double kMostOverlap = 0.25;
+/// An answer is unreliable beyond twice these. Grains that a run has pressed into each other more than a scene may have
+/// at rest are shown and told (mean_overlap, largest_overlap), and do not end it: one contact of the many in a band would.
+inline constexpr double kAllowanceOfAnswers = 2.0;
 /// Void ratio beyond which discs are no packing: loose ones with friction have 0.3.
 inline constexpr double kMostVoidRatio = 1.0;
 /// The same of spheres: loose sand has 1.0, and rolling resistance holds looser ones.
@@ -37,10 +40,10 @@ struct Overlaps {
 /// @param radii of the grains, m
 Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> radii);
 
-/// Beyond kMostMeanOverlap or kMostOverlap.
-bool too_large(const Overlaps& overlaps);
+/// Beyond kMostMeanOverlap or kMostOverlap, times the allowance.
+bool too_large(const Overlaps& overlaps, double allowance = 1.0);
 /// Both with their limits, for messages.
-std::string description(const Overlaps& overlaps);
+std::string description(const Overlaps& overlaps, double allowance = 1.0);
 
 /// Overlap of two grains over the smaller radius beyond which no engine is asked: the centre of one is nearly
 /// in the other, as no script can want it.

@@ -173,7 +173,7 @@ Equilibrium SphereCell::equilibrium() const {
 
 CellDiagnostics SphereCell::measure() const {
   const std::span<const Contact> contacts = engine_.contacts();
-  CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, slides_in_space);
+  CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, inertia_.radii, slides_in_space);
   const Eigen::Matrix3d fabric = box().frame * space_fabric(contacts) * box().frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
 

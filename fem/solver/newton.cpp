@@ -104,9 +104,10 @@ void Newton::withhold_imbalance() {
   released_ = 0.0;
 }
 
-Eigen::VectorXd Newton::loads_at(double time, double released) const {
+Eigen::VectorXd Newton::loads_at(double time, double released, double jump_let_go) const {
   Eigen::VectorXd forces = loads.at(time);
   if (released < 1.0) forces -= (1.0 - released) * withheld_;
+  if (jump_let_go < 1.0) forces -= (1.0 - jump_let_go) * jump_;
   return forces;
 }
 
@@ -177,7 +178,8 @@ void Newton::evaluate(Iterate& iterate, StepReport& report) {
     report.evaluations += static_cast<long>(trial_.size());
   }
   const Stopwatch watch(report.assembly_seconds);
-  iterate.unbalanced = loads_at(iterate.time, iterate.released) - discretisation.internal_forces(trial_);
+  iterate.unbalanced =
+      loads_at(iterate.time, iterate.released, iterate.jump_let_go) - discretisation.internal_forces(trial_);
   if (state.reference_force == 0.0) state.reference_force = sum_of_reactions(iterate.unbalanced, constraints);
   iterate.residual = relative(iterate.unbalanced);
 }
@@ -246,10 +248,16 @@ void Newton::line_search(Iterate& iterate, const Correction& change, double exce
 }
 
 Newton::Iterate Newton::start_of(const StepGoal& goal) const {
-  Iterate iterate{goal.controls_time() ? goal.time : state.time, goal.released, state.displacement, {}, {}};
+  Iterate iterate{goal.controls_time() ? goal.time : state.time,
+                  goal.released,
+                  goal.jump_let_go,
+                  state.displacement,
+                  {},
+                  {}};
   constraints.apply(iterate.time, iterate.displacement);
   iterate.displacement -= state.displacement;
-  if (goal.releases_displacements) iterate.displacement *= (goal.released - released_) / (1.0 - released_);
+  if (goal.releases_displacements && released_ < 1.0)
+    iterate.displacement *= (goal.released - released_) / (1.0 - released_);
   return iterate;
 }
 
@@ -299,12 +307,12 @@ Newton::Predictor Newton::predict(const StepGoal& goal) {
   move_to_committed();
   anderson_.clear();
   internal_before_ = discretisation.internal_forces(state.responses);
-  loads_before_ = loads_at(state.time, released_);
+  loads_before_ = loads_at(state.time, released_, jump_let_go_);
   // The consistent predictor: given increments go through the last converged tangent. Moving the boundary
   // alone would strain the elements next to it only and localise there (docs/theory.md, G.6).
   Iterate iterate = start_of(goal);
   Eigen::VectorXd right_side =
-      loads_at(iterate.time, iterate.released) - internal_before_ +
+      loads_at(iterate.time, iterate.released, iterate.jump_let_go) - internal_before_ +
       loads.linearised(iterate.time, iterate.displacement) -
       discretisation.linearised_forces(linearised(state.responses), iterate.displacement);
   return {std::move(iterate), std::move(right_side)};
@@ -316,6 +324,7 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   report.moment_residuals.clear();
   auto [iterate, right_side] = predict(goal);
   Correction change;
+  best_.reset();
   StagnationWatch watch(options.stagnation_window);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
@@ -343,6 +352,7 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
     report.moment_residuals.push_back(residual.moment);
     if (observer) observer->iterated({iterate.time, cuts, iteration, residual.force, residual.moment});
     remember(iterate);
+    if (worst.quality == Quality::good && residual.force < best_residual()) best_ = iterate;
     const bool finite = std::isfinite(residual.force + residual.moment);
     const bool stagnates = watch.stagnates(excess(residual));
     const bool last_chance = !finite || stagnates || iteration == options.most_iterations;
@@ -380,7 +390,8 @@ void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report)
     report.force_noise = floor.force;
     report.moment_noise = floor.moment;
   }
-  const Eigen::VectorXd loads_mean = 0.5 * (loads_before_ + loads_at(iterate.time, iterate.released));
+  const Eigen::VectorXd loads_mean =
+      0.5 * (loads_before_ + loads_at(iterate.time, iterate.released, iterate.jump_let_go));
   const Eigen::VectorXd internal_mean = 0.5 * (internal_before_ + discretisation.internal_forces(trial_));
   for (Eigen::Index entry = 0; entry < iterate.displacement.size(); ++entry) {
     // At given entries the support supplies what the loads do not: together the internal force.
@@ -399,6 +410,7 @@ void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report)
   state.last_increment = iterate.displacement;
   state.time = iterate.time;
   released_ = iterate.released;
+  jump_let_go_ = iterate.jump_let_go;
 }
 
 }  // namespace polargrain::fem

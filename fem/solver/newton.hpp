@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct StepGoal {
   /// forces that are out of balance then.
   double released = 1.0;
   bool releases_displacements = false;  ///< the given displacements too, not only the forces
+  double jump_let_go =
+      1.0;  ///< share of what a jump has left out of balance (Newton::pass_jump) let go at the end
 
   [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
 };
@@ -51,9 +55,12 @@ class Newton {
   void withhold_imbalance();
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
-  /// Commits a short step as its predictor has it, out of balance by a jump of the stresses, and withholds what is out
-  /// of balance then. Leaves the committed state alone when the predictor or a material fails.
-  [[nodiscard]] Attempt pass_jump(const StepGoal& goal, StepReport& report);
+  /// Largest force residual that the best iterate of the last attempt has; infinite where it has none to commit.
+  [[nodiscard]] double best_residual() const { return best_ ? best_->residual.force : HUGE_VAL; }
+  /// Commits the best iterate of the last attempt although it is out of balance: the stresses jump there. What is out
+  /// of balance is held by fictive forces until attempts let it go (StepGoal::jump_let_go). Leaves the committed state
+  /// alone when a material does not stand by its answer.
+  [[nodiscard]] Attempt pass_jump(StepReport& report);
   /// Drops the trial states.
   void revert();
   /// Puts mesh and loads where the committed displacements have them; nothing to do in small deformation.
@@ -76,13 +83,14 @@ class Newton {
   struct Iterate {
     double time;
     double released;               ///< see StepGoal
+    double jump_let_go;            ///< see StepGoal
     Eigen::VectorXd displacement;  ///< increment, given entries included
     Eigen::VectorXd unbalanced;    ///< loads less internal forces
     Residual residual;
   };
   enum class Balance { none, within_tolerance, within_noise, within_rounding };
 
-  [[nodiscard]] Eigen::VectorXd loads_at(double time, double released) const;
+  [[nodiscard]] Eigen::VectorXd loads_at(double time, double released, double jump_let_go) const;
   /// What the tangent at the last evaluation, or at the committed state, is taken of.
   [[nodiscard]] Linearisation linearised(const std::vector<Response>& answers) const;
   [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
@@ -124,6 +132,9 @@ class Newton {
   Eigen::VectorXd loads_before_;
   Eigen::VectorXd withheld_;           ///< forces out of balance at the start; empty when there are none
   double released_ = 1.0;              ///< share of them that committed steps have let go
+  Eigen::VectorXd jump_;               ///< forces out of balance behind the jump that was passed last
+  double jump_let_go_ = 1.0;           ///< share of them that committed steps have let go
+  std::optional<Iterate> best_;        ///< of the last attempt, of those that could be committed
   std::vector<Increment> increments_;  ///< of the evaluation made last
   std::vector<Response> trial_;        ///< its responses
 };

@@ -24,7 +24,67 @@ struct Solver::Implementation : Newton {
   /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
   template <class GoalAt>
   StepReport march(StepReport report, GoalAt goal_at);
+
+  /// Passes the jump that the last attempt has met, when it may and the jump is not larger than `largest`, and lets go
+  /// at the place reached what is out of balance then; further jumps on the way too.
+  /// @param goal what was aimed at @param growing its measure or time
+  /// @return not converged, and nothing committed, when there is nothing to pass; `stuck` when something was committed
+  /// that cannot be balanced.
+  struct Passing {
+    bool passed = false;
+    bool stuck = false;
+    std::string reason;
+  };
+  Passing pass(StepGoal goal, double largest, StepReport& report);
 };
+
+Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, double largest,
+                                                             StepReport& report) {
+  constexpr double kGrowth = 2.0;
+  const auto may_pass = [&](double most) {
+    return report.jumps < options.most_jumps && best_residual() <= most;
+  };
+  if (!may_pass(largest) || !pass_jump(report).converged) {
+    revert();
+    return {};
+  }
+  Eigen::VectorXd moved = state.last_increment;
+  if (goal.controls_time()) goal.time = state.time;
+  goal.amount = 0.0;
+  double let_go = 0.0;
+  double step = 1.0;
+  int cuts = 0;
+  Passing result{true, false, ""};
+  while (let_go < 1.0) {
+    goal.jump_let_go = std::min(let_go + step, 1.0);
+    const Attempt attempted = attempt(goal, cuts, report);
+    if (attempted.converged) {
+      moved += state.last_increment;
+      let_go = goal.jump_let_go;
+      step *= kGrowth;
+      cuts = 0;
+      continue;
+    }
+    revert();
+    const bool last = cuts == options.most_cuts;
+    if (may_pass(last ? HUGE_VAL : largest) && pass_jump(report).converged) {
+      moved += state.last_increment;
+      let_go = 0.0;
+      continue;
+    }
+    revert();
+    if (last) {
+      result.stuck = true;
+      result.reason = attempted.reason;
+      break;
+    }
+    ++cuts;
+    ++report.cuts;
+    step = 0.5 * (goal.jump_let_go - let_go);
+  }
+  state.last_increment = moved;
+  return result;
+}
 
 template <class GoalAt>
 StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
@@ -34,42 +94,34 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
   double done = 0.0;
   int cuts_in_a_row = 0;
   JumpWatch jumps;
-  double jumped_at = -1.0;  // share of the way; what a jump left is let go over the rest
-  const auto goal_to = [&](double end, double step) {
-    StepGoal goal = goal_at(end, step);
-    if (jumped_at >= 0.0) goal.released = (end - jumped_at) / (1.0 - jumped_at);
-    return goal;
-  };
   while (done < 1.0) {
     const bool cut = state.next_step > 0.0 && state.next_step < kNearlyAll * (1.0 - done);
     const double step = cut ? state.next_step : 1.0 - done;
     const double end = cut ? done + step : 1.0;
-    const StepGoal goal = goal_to(end, step);
+    const StepGoal goal = goal_at(end, step);
     const Attempt result = attempt(goal, cuts_in_a_row, report);
-    if (result.converged) {
+    bool committed = result.converged;
+    if (!committed) {
+      if (!report.force_residuals.empty()) {
+        const Residual first{report.force_residuals.front(), report.moment_residuals.front()};
+        jumps.failed(step, first.force, excess(first));
+      }
+      const Passing passing = pass(goal, jumps.seen() ? HUGE_VAL : options.jump_residual, report);
+      committed = passing.passed;
+      if (passing.stuck) {
+        report.message =
+            fmt::format("a jump of the stresses was passed and cannot be balanced: {}", passing.reason);
+        report.time = state.time;
+        return report;
+      }
+    }
+    if (committed) {
       ++report.substeps;
       cuts_in_a_row = 0;
       jumps.clear();
       done = end;
       if (state.next_step > 0.0) state.next_step = std::max(state.next_step, kGrowth * step);
       continue;
-    }
-    revert();
-    if (!report.force_residuals.empty()) {
-      const Residual first{report.force_residuals.front(), report.moment_residuals.front()};
-      jumps.failed(step, first.force, excess(first));
-    }
-    if (jumps.seen() && report.jumps < options.most_jumps) {
-      // Half of the last share, so that some of the step is left in any case.
-      if (pass_jump(goal_to(done + 0.5 * step, 0.5 * step), report).converged) {
-        ++report.substeps;
-        cuts_in_a_row = 0;
-        jumps.clear();
-        jumped_at = done += 0.5 * step;
-        state.next_step = 0.5 * (1.0 - done);
-        continue;
-      }
-      revert();
     }
     if (cuts_in_a_row == options.most_cuts) {
       report.message = fmt::format("the step was cut {} times in a row and still fails: {}{}", cuts_in_a_row,
@@ -82,7 +134,7 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
     state.next_step = step * std::clamp(result.step_factor, 0.1, 0.5);
     if (observer) {
       const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
-      observer->cut(time_of(goal), result.reason, time_of(goal_to(done + state.next_step, state.next_step)));
+      observer->cut(time_of(goal), result.reason, time_of(goal_at(done + state.next_step, state.next_step)));
     }
   }
   report.converged = true;

@@ -43,11 +43,14 @@ struct SolverOptions {
   /// nearly singular) gives way to the last step drawn on, or the step is cut; StepReport::limited counts
   /// that.
   double largest_strain = 1.0;
-  /// Where stresses jump, however small the strain (jump_watch.hpp), no state near the last one is balanced. So many
-  /// jumps a step may be passed: the short substep is taken as its predictor has it, and what is then out of balance is
-  /// held by fictive forces that the rest of the step lets go, so that the step as a whole ends in balance;
-  /// StepReport::jumps counts them. 0: a jump ends the run.
+  /// Where stresses jump, as those of few grains do when they rearrange, an iteration stagnates at the height of the
+  /// jumps. So many of them a step may be passed: the best iterate is committed, with the cells behind their jump, and
+  /// what is out of balance is held by fictive forces and let go from there, in parts where it has to be, so that the
+  /// step as a whole ends in balance; StepReport::jumps counts them. 0: a jump ends the run.
   int most_jumps = 0;
+  /// Force residual up to which a jump is passed as soon as the iteration stagnates; a larger one only where no cut of
+  /// the step makes it smaller (jump_watch.hpp).
+  double jump_residual = 0.05;
 };
 
 /// After one evaluation of all materials.

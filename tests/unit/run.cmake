@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(soft_contacts_test unit unit/soft_contacts_test.cpp LIBS polargrain_app)
