@@ -20,10 +20,11 @@ Command add_worker(CLI::App& program, const Grains& grains);
 Command add_keys(CLI::App& program, const Grains& grains);
 Command add_verify(CLI::App& program, const Grains& grains);
 Command add_report(CLI::App& program, const Grains& grains);
+Command add_grains(CLI::App& program, const Grains& grains);
 
 /// In the order of --help.
-inline constexpr AddCommand kCommands[] = {add_run,       add_check, add_new,   add_point,  add_element,
-                                           add_calibrate, add_pack,  add_band,  add_report, add_bench,
-                                           add_worker,    add_keys,  add_verify};
+inline constexpr AddCommand kCommands[] = {add_run,       add_check,  add_new,  add_point,  add_element,
+                                           add_calibrate, add_pack,   add_band, add_report, add_grains,
+                                           add_bench,     add_worker, add_keys, add_verify};
 
 }  // namespace polargrain::app

@@ -28,6 +28,7 @@ Try:
   polargrain new biaxial -o mine                    write a case of your own, with its packing: new --help
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain verify results/biaxial                 hold a result against its proof, some cells evaluated again
+  polargrain grains results/biaxial --point 12      grains and force chains of a point, for ParaView
   polargrain point case.yaml sand path.csv          one point of the material 'sand' along a path
   polargrain element --help                         laboratory tests of one point: biaxial, triaxial, shear, ...
   polargrain pack cases/packings/dense400.yaml -o dense400.h5   make a packing of grains

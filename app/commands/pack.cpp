@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "app/commands/pack.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <memory>
 
@@ -13,6 +9,7 @@
 #include <functional>
 
 #include "app/commands/command.hpp"
+#include "app/commands/in_child.hpp"
 #include "app/commands/moduli.hpp"
 #include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
@@ -39,11 +36,10 @@ void check_output(const std::filesystem::path& output) {
 /// Makes a packing, telling how far it is.
 using Work = std::function<PreparedPacking(const std::function<void(const PackingReached&)>&)>;
 
-/// What the child does; never returns. @param terminal where progress is shown, negative for nowhere
-[[noreturn]] void make_and_exit(const Work& make, const std::filesystem::path& output,
-                                const PackingTools& tools, int terminal) {
-  int status = 1;
-  try {
+/// Makes the packing in a process of its own. @returns whether that ended well
+bool make_in_child(const Work& make, const PackOptions& options, const PackingTools& tools,
+                   const std::filesystem::path& log) {
+  const auto work = [&](int terminal) {
     tools.start_process();
     const auto progress = [terminal](const PackingReached& reached) {
       const std::string line = fmt::format(
@@ -52,37 +48,9 @@ using Work = std::function<PreparedPacking(const std::function<void(const Packin
       if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0)
         return;  // nobody looks: nothing lost
     };
-    write_packing_file(output, make(progress));
-    status = 0;
-  } catch (const std::exception& error) {
-    tell(stderr, "ERROR: {}\n", error.what());
-  }
-  std::exit(status);
-}
-
-/// Runs the child. @returns whether it ended well
-bool make_in_child(const Work& make, const PackOptions& options, const PackingTools& tools,
-                   const std::filesystem::path& log) {
-  const int log_descriptor = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (log_descriptor < 0) throw RunError(fmt::format("the log {} cannot be written", log.string()));
-  std::fflush(nullptr);
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(1);
-    const int terminal = !options.quiet && isatty(STDERR_FILENO) ? dup(STDERR_FILENO) : -1;
-    dup2(log_descriptor, STDOUT_FILENO);
-    dup2(log_descriptor, STDERR_FILENO);
-    make_and_exit(make, options.output, tools, terminal);
-  }
-  close(log_descriptor);
-  if (child < 0) throw RunError("no process can be started for the engine");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!options.quiet && isatty(STDERR_FILENO)) tell(stderr, "\n");
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    write_packing_file(options.output, make(progress));
+  };
+  return run_in_child(log, work, !options.quiet);
 }
 
 void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {

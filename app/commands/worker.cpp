@@ -36,7 +36,8 @@ void forget_launcher() {
   setenv("OMPI_MCA_btl", "self", 1);  // it speaks to nobody: no sockets, no shared memory
 }
 
-/// Makes engines for scripts that this worker may run: whoever started it says which, not the coordinator.
+}  // namespace
+
 std::unique_ptr<CellService> make_checked_service(const CellDefinition& definition, const ScriptRules& rules,
                                                   const WorkerEngine& engine) {
   if (!definition.contact_library.path.empty() && !rules.trusted) {
@@ -53,8 +54,6 @@ std::unique_ptr<CellService> make_checked_service(const CellDefinition& definiti
   }
   return engine.make_service(definition);
 }
-
-}  // namespace
 
 int work(const WorkerOptions& options, const WorkerEngine& engine) {
   for (std::FILE* stream : {stdout, stderr}) {

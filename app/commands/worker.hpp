@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -21,6 +22,11 @@ struct WorkerEngine {
   /// Judges the states that workers send; may be empty.
   StateCheck state_fault = {};
 };
+
+/// Makes an engine for a script that may be run here: who starts the process says which, not who sent the definition.
+/// @throws RunError when it may not
+std::unique_ptr<CellService> make_checked_service(const CellDefinition& definition, const ScriptRules& rules,
+                                                  const WorkerEngine& engine);
 
 struct WorkerOptions {
   std::string url;  ///< of the coordinator

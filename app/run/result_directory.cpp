@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "app/grains/cell_paths.hpp"
+#include "app/grains/grain_files.hpp"
 #include "common/error.hpp"
 
 namespace polargrain::app {
@@ -71,7 +73,7 @@ void clear(const fs::path& directory) {
   // The log last: it tells that the directory is ours, should this be interrupted.
   for (const char* file :
        {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "points.pvd", "summary.json",
-        "sample.h5", "report.html", "fields", "logs", "replay", "run.log"}) {
+        "sample.h5", "report.html", "fields", kCellPathsFolder, kGrainsFolder, "logs", "replay", "run.log"}) {
     fs::remove_all(directory / file);
   }
 }

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "app/grains/cell_paths.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/proof.hpp"
 #include "app/run/result_directory.hpp"
@@ -45,7 +46,8 @@ class Run {
         log_("run",
              std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), !from_)),
         observer_(Progress::style_for(stderr, options.quiet), case_.steps(), log_),
-        files_(case_, directory_, from_.get()) {
+        files_(case_, directory_, from_.get()),
+        cell_paths_(case_, directory_, from_ ? from_->step : -1) {
     log_.flush_on(spdlog::level::info);
     log_.set_error_handler([](const std::string&) {});  // a full disk shows in the files that matter
     log_.info("polargrain {}: {} ({})", POLARGRAIN_VERSION, case_.title, case_.file.string());
@@ -115,7 +117,10 @@ class Run {
         options.tell("workers: check: with one worker no evaluation can be checked by another one");
       pool_.emplace(options);
       note_interrupts();  // what the messages are sent with may have changed what signals do
-      pool_->on_answers([this](auto requests, auto replies) { sample_.take(requests, replies); });
+      pool_->on_answers([this](auto requests, auto replies) {
+        sample_.take(requests, replies);
+        cell_paths_.take(requests, replies);
+      });
       pool_->on_progress([this](std::size_t done, std::size_t total) { observer_.cells(done, total); });
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
       if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
@@ -153,7 +158,10 @@ class Run {
       add_costs(step, report);
       if (report.converged) remember(step);
       if (const auto displaced = lock_.displacement()) throw RunError(displaced->text);
-      if (report.converged || partly) files_.write(committed, *solver_);
+      if (report.converged || partly) {
+        files_.write(committed, *solver_);
+        keep_cell_paths(step);
+      }
       files_.write_rows();
       record_.add(std::move(committed));
       if (!report.converged) {
@@ -224,6 +232,17 @@ class Run {
       checkpoints_.keep(std::move(checkpoint));
     } catch (const RunError& error) {
       if (step == 0) warn(fmt::format("this run cannot be interrupted without loss: {}", error.what()));
+    }
+  }
+
+  /// So that the grains of any point can be looked at later. A run is worth more than that.
+  void keep_cell_paths(int step) {
+    if (cell_paths_failed_) return;
+    try {
+      cell_paths_.write(step, *solver_);
+    } catch (const RunError& error) {
+      cell_paths_failed_ = true;
+      warn(fmt::format("grains of this step and later ones cannot be shown: {}", error.what()));
     }
   }
 
@@ -354,6 +373,8 @@ class Run {
   spdlog::logger log_;
   RunObserver observer_;
   RunFiles files_;
+  CellPathsRecord cell_paths_;
+  bool cell_paths_failed_ = false;
   RunRecord record_;
   int first_step_ = 0;
   bool left_out_ = false;              ///< it was said what small deformation leaves out

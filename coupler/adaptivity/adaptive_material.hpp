@@ -9,6 +9,7 @@
 #include "coupler/adaptivity/error_estimate.hpp"
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/grains_of_points.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {
@@ -53,7 +54,7 @@ constexpr Choices choices_of(Source) {
 /// Some points, drawn by chance, are followed by cells of their own from the first step on. What they miss bounds the mean
 /// error of all points (error_bound.hpp), and a step whose bound exceeds the tolerance is answered anew, with a
 /// smaller tolerance for estimates, before it is committed.
-class AdaptiveMaterial : public fem::Material {
+class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param cosserat of cells with free rotations; nothing: they are controlled, and options.mean_diameter is that of
@@ -77,6 +78,9 @@ class AdaptiveMaterial : public fem::Material {
   /// void_ratio, coordination_number, unbalanced_force_ratio, sliding_fraction, dem_steps.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
+  [[nodiscard]] StatePointer grains_of(std::size_t point) const override {
+    return cells_[points_[point].cell].answer.state;
+  }
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
   [[nodiscard]] std::string doubt() const override;
   [[nodiscard]] std::vector<std::string> take_notes() override;

@@ -8,6 +8,7 @@
 
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/grains_of_points.hpp"
 #include "coupler/pool/pool.hpp"
 #include "fem/material/material.hpp"
 
@@ -16,7 +17,7 @@ namespace polargrain::coupler {
 /// A material whose stress comes from boxes of grains, one a point, evaluated by the workers of a pool. Cells
 /// with free rotations give the symmetric stress; skew stress and couple stresses are those of the Cosserat
 /// part (cosserat_part.hpp). Cells with controlled rotations give everything.
-class CellMaterial : public fem::Material {
+class CellMaterial : public fem::Material, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -41,6 +42,9 @@ class CellMaterial : public fem::Material {
   /// What the engine remarked on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   void fields(std::size_t point, std::span<double> values) const override;
+  [[nodiscard]] StatePointer grains_of(std::size_t point) const override {
+    return committed_[point].cell.state;
+  }
 
  private:
   struct PointState {

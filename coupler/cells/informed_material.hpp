@@ -8,6 +8,7 @@
 
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/grains_of_points.hpp"
 #include "fem/material/elastoplastic.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/mobilisation.hpp"
@@ -38,7 +39,7 @@ struct InformedParameters {
 /// dilatancy. A cell with controlled rotations follows micro-rotation and curvature too; its limits of skew and couple
 /// stress are the law's weights, and friction is read from its whole stress. What law and cell disagree about is shown
 /// as the field stress_mismatch.
-class InformedMaterial : public fem::Material {
+class InformedMaterial : public fem::Material, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param note what the user is to know of the parameters; may be empty
@@ -61,6 +62,9 @@ class InformedMaterial : public fem::Material {
   /// sliding_fraction, dem_steps.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
+  [[nodiscard]] StatePointer grains_of(std::size_t point) const override {
+    return committed_[point].cell.state;
+  }
   /// stress_mismatch_mean, stress_mismatch_percentile_95, stress_mismatch_largest over the points of the last
   /// committed step, and dilatancy_limited: the share of them where a limit acts.
   [[nodiscard]] std::vector<fem::Figure> figures() const override;

@@ -176,11 +176,12 @@ std::string content_of(const Checkpoint& checkpoint) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) try {
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint,
+                      Durability durability) try {
   hdf5::silence();
   std::string bytes = content_of(checkpoint);
   seal(bytes);
-  write_file(file, bytes, Durability::disk, checkpoint_before(file));
+  write_file(file, bytes, durability, checkpoint_before(file));
 } catch (const RunError& error) {
   throw RunError(fmt::format("the checkpoint {}", error.what()));
 }

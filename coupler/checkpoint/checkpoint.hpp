@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/memory_archive.hpp"
+#include "common/write_file.hpp"
 #include "coupler/case/case_identity.hpp"
 
 namespace polargrain::coupler {
@@ -24,8 +25,10 @@ std::filesystem::path checkpoint_before(const std::filesystem::path& file);
 /// Writes a checkpoint beside its final place, brings it to the disk and puts it in place: whatever happens,
 /// `file` is the former one or the new one, whole; behind it the former one is `checkpoint_before`. States are
 /// stored once by their content.
+/// @param durability `system`: it comes to the disk when the system, or the next checkpoint, brings it there
 /// @throws RunError when it cannot be written; a former one is then untouched
-void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint,
+                      Durability durability = Durability::disk);
 
 /// @throws InputError when there is none, or when it is damaged, cut short, or of another version; it names
 /// the one before when that can be read

@@ -14,10 +14,12 @@
 #include "dem/cell/condensed_tangent.hpp"
 #include "dem/cell/driver.hpp"
 #include "dem/cell/engine_box.hpp"
+#include "dem/cell/grains_in_laboratory.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/tangents.hpp"
 #include "dem/discs/disc_box.hpp"
+#include "dem/discs/disc_state.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/spheres/sphere_cell.hpp"
 
@@ -31,6 +33,7 @@ class Cell final : public CellOfGrains {
   CellReply initial() override;
   CellReply evaluate(const CellRequest& request) override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return grains_->contacts(); }
+  [[nodiscard]] GrainView view() override;
 
  private:
   /// Within the plane of the discs. @param start null: the packing
@@ -64,6 +67,7 @@ class Cell final : public CellOfGrains {
   std::unique_ptr<GrainBox> grains_;
   CondensedTangent condensed_tangent_;
   CellReply initial_;
+  StatePointer shown_;  ///< of the last evaluation, or the packing
 };
 
 /// @throws RunError when the places of its grains are none of a packing
@@ -99,7 +103,7 @@ Cell::Cell(const CellDefinition& definition)
   check(packing, pressure, definition.script_file);
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
   protocol_.take_scales({driver_.mean_mass(), driver_.mean_radius(), density}, grains_->contacts(), pressure);
-  initial_.state = grains_->save();
+  shown_ = initial_.state = grains_->save();
 }
 
 std::unique_ptr<GrainBox> Cell::choose_box(const Packing& packing) {
@@ -176,8 +180,42 @@ CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
   judge(reply.response, protocol_, control_, rest, grains_->contacts(), inertia_,
         driver_.strain().time_step(), kMostVoidRatio);
   reply.diagnostics.dem_steps = protocol_.done();
-  reply.state = grains_->save();
+  shown_ = reply.state = grains_->save();
   return reply;
+}
+
+GrainView Cell::view() {
+  std::vector<GrainView::Grain> grains(inertia_.radii.size());
+  const LAMMPS_NS::Atom& atom = *driver_.lammps().atom;
+  const std::span<const double> rotations = grains_->rotations();
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    GrainView::Grain& grain = grains[k];
+    grain.id = atom.tag[k] - 1;
+    grain.radius = inertia_.radii[k];
+    if (!rotations.empty()) grain.rotation.z() = rotations[k];
+  }
+  if (is_disc_state(*shown_)) {  // which the engine itself does not hold
+    const DiscSnapshot snapshot = decode_discs(*shown_);
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      const DiscSnapshot::Motion& disc = snapshot.discs[k];
+      grains[k].position = {disc.x, disc.y, 0.0};
+      grains[k].velocity = {disc.vx, disc.vy, 0.0};
+      grains[k].spin.z() = disc.spin;
+    }
+  } else {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      grains[k].position = {atom.x[k][0], atom.x[k][1], 0.0};
+      grains[k].velocity = {atom.v[k][0], atom.v[k][1], 0.0};
+      grains[k].spin.z() = atom.omega[k][2];
+    }
+  }
+  const Box box = grains_->box().reduced();
+  Eigen::Matrix3d base = Eigen::Matrix3d::Zero();
+  base.topLeftCorner<2, 2>() = box.base_vectors();
+  base(2, 2) = thickness_;
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  frame.topLeftCorner<2, 2>() = box.frame();
+  return grains_in_laboratory(std::move(grains), grains_->contacts(), base, frame);
 }
 
 void Cell::set_up() {

@@ -4,13 +4,14 @@
 #include <span>
 
 #include "common/cell.hpp"
+#include "common/grain_view.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"  // start_engine_process
 
 namespace polargrain::dem {
 
-/// A cell whose contacts can be looked at.
-class CellOfGrains : public CellService {
+/// A cell whose grains and contacts can be looked at.
+class CellOfGrains : public CellService, public ShowsGrains {
  public:
   /// Of the last force pass; valid until the next evaluation.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;

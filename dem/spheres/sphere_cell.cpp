@@ -12,6 +12,7 @@
 #include "dem/cell/cell_answers.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/grain_engine.hpp"
+#include "dem/cell/grains_in_laboratory.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/engine/liggghts.hpp"
@@ -71,6 +72,7 @@ class SphereCell final : public CellOfGrains {
   CellReply initial() override { return initial_; }
   CellReply evaluate(const CellRequest& request) override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return engine_.contacts(); }
+  [[nodiscard]] GrainView view() override;
 
  private:
   CellReply follow(const StatePointer& start, const CellIncrement& increment);
@@ -158,6 +160,24 @@ CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& inc
   reply.diagnostics.dem_steps = protocol_.done();
   reply.state = engine_.save();
   return reply;
+}
+
+GrainView SphereCell::view() {
+  std::vector<GrainView::Grain> grains(inertia_.radii.size());
+  const LAMMPS_NS::Atom& atom = *engine_.lammps().atom;
+  const std::span<const double> rotations = engine_.strain().rotations();
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    GrainView::Grain& grain = grains[k];
+    grain.id = atom.tag[k] - 1;
+    grain.radius = inertia_.radii[k];
+    grain.position = Eigen::Map<const Eigen::Vector3d>(atom.x[k]);
+    grain.velocity = Eigen::Map<const Eigen::Vector3d>(atom.v[k]);
+    grain.spin = Eigen::Map<const Eigen::Vector3d>(atom.omega[k]);
+    if (!rotations.empty()) grain.rotation = Eigen::Map<const Eigen::Vector3d>(&rotations[3 * k]);
+  }
+  GrainView view = grains_in_laboratory(std::move(grains), engine_.contacts(), box().base, box().frame);
+  view.dimension = 3;
+  return view;
 }
 
 void SphereCell::run() {

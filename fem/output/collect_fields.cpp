@@ -208,7 +208,8 @@ PlacedFields collect_point_fields(const Solver& solver) {
   for (const Eigen::Vector2d& node : solver.problem().mesh.nodes)
     nodes.values.insert(nodes.values.end(), {node(0), node(1)});
   const std::vector<double> places = interpolated(solver, nodes).values;
-  for (std::size_t k = 0; k < places.size(); k += 2) placed.places.emplace_back(places[k], places[k + 1]);
+  for (std::size_t k = 0; k < places.size(); k += 2)
+    placed.places.emplace_back(places[k], places[k + 1], 0.0);
 
   std::vector<Field>& fields = placed.fields;
   for (const Field& field : nodal_fields(solver)) fields.push_back(interpolated(solver, field));

@@ -35,8 +35,7 @@ std::string data_array(const std::string& name, int components, const std::vecto
       kVtkType<T>, name, components, attributes, base64(bytes), notes);
 }
 
-std::string field_array(const Field& field) {
-  std::string names;
+std::string field_array(const Field& field, std::string names = {}) {
   for (std::size_t k = 0; k < field.component_names.size(); ++k)
     names += fmt::format(" ComponentName{}=\"{}\"", k, field.component_names[k]);
   std::string unit;
@@ -52,9 +51,9 @@ std::string field_arrays(const std::vector<Field>& fields) {
   return text;
 }
 
-std::string positions_array(const std::vector<Eigen::Vector2d>& places) {
+std::string positions_array(const std::vector<Eigen::Vector3d>& places) {
   std::vector<double> positions;
-  for (const Eigen::Vector2d& place : places) positions.insert(positions.end(), {place(0), place(1), 0.0});
+  for (const Eigen::Vector3d& place : places) positions.insert(positions.end(), place.begin(), place.end());
   return data_array("Points", 3, positions);
 }
 
@@ -75,37 +74,50 @@ Cells cells_of(const Mesh& mesh) {
   return cells;
 }
 
-void write_grid(const std::filesystem::path& file, const std::vector<Eigen::Vector2d>& places,
-                const Cells& cells, const Fields& fields) {
-  write_file(
-      file,
-      fmt::format("<?xml version=\"1.0\"?>\n"
-                  "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                  "header_type=\"UInt64\">\n<UnstructuredGrid>\n"
-                  "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-                  "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
-                  "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n"
-                  "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-                  places.size(), cells.ends.size(), field_arrays(fields.points), field_arrays(fields.cells),
-                  positions_array(places), data_array("connectivity", 1, cells.places),
-                  data_array("offsets", 1, cells.ends), data_array("types", 1, cells.types)));
+void write_grid(const std::filesystem::path& file, const std::vector<Eigen::Vector3d>& places,
+                const Cells& cells, const Fields& fields, const std::vector<Field>& whole = {}) {
+  std::string of_whole;
+  for (const Field& field : whole) of_whole += field_array(field, " NumberOfTuples=\"1\"");
+  if (!whole.empty()) of_whole = "<FieldData>\n" + of_whole + "</FieldData>\n";
+  write_file(file,
+             fmt::format("<?xml version=\"1.0\"?>\n"
+                         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                         "header_type=\"UInt64\">\n<UnstructuredGrid>\n{}"
+                         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+                         "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
+                         "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n"
+                         "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+                         of_whole, places.size(), cells.ends.size(), field_arrays(fields.points),
+                         field_arrays(fields.cells), positions_array(places),
+                         data_array("connectivity", 1, cells.places), data_array("offsets", 1, cells.ends),
+                         data_array("types", 1, cells.types)));
 }
 
 }  // namespace
 
 void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields) {
-  write_grid(file, mesh.nodes, cells_of(mesh), fields);
+  std::vector<Eigen::Vector3d> places;
+  for (const Eigen::Vector2d& node : mesh.nodes) places.emplace_back(node(0), node(1), 0.0);
+  write_grid(file, places, cells_of(mesh), fields);
 }
 
 void write_vtu(const std::filesystem::path& file, const PlacedFields& fields) {
   constexpr std::uint8_t kVtkVertex = 1;
-  Cells vertices;
+  constexpr std::uint8_t kVtkLine = 3;
+  Cells cells;
+  const auto end = [&cells](std::uint8_t type) {
+    cells.ends.push_back(static_cast<std::int64_t>(cells.places.size()));
+    cells.types.push_back(type);
+  };
   for (std::size_t k = 0; k < fields.places.size(); ++k) {
-    vertices.places.push_back(static_cast<std::int64_t>(k));
-    vertices.ends.push_back(static_cast<std::int64_t>(k) + 1);
-    vertices.types.push_back(kVtkVertex);
+    cells.places.push_back(static_cast<std::int64_t>(k));
+    end(kVtkVertex);
   }
-  write_grid(file, fields.places, vertices, {fields.fields, {}});
+  for (const std::array<std::size_t, 2>& line : fields.lines) {
+    cells.places.insert(cells.places.end(), line.begin(), line.end());
+    end(kVtkLine);
+  }
+  write_grid(file, fields.places, cells, {fields.fields, fields.cell_fields}, fields.whole);
 }
 
 void PvdCollection::add(double time, const std::filesystem::path& vtu) {

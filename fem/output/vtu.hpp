@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -32,13 +33,16 @@ struct Fields {
 /// is a quantity in space), and what StressMeasures reads off the stress so averaged or smoothed.
 Fields collect_fields(const Solver& solver);
 
-/// Fields at places of their own.
+/// Fields at places of their own, and lines between them.
 struct PlacedFields {
-  std::vector<Eigen::Vector2d> places;  ///< on the mesh as it was made, m
-  std::vector<Field> fields;
+  std::vector<Eigen::Vector3d> places = {};            ///< m
+  std::vector<Field> fields = {};                      ///< by place
+  std::vector<std::array<std::size_t, 2>> lines = {};  ///< from place to place
+  std::vector<Field> cell_fields = {};                 ///< by place, then by line
+  std::vector<Field> whole = {};                       ///< of all of it together: VTK's field data
 };
 
-/// The same at the integration points, in the order of the solver, nothing averaged or smoothed; displacement and rotations
+/// The same at the integration points, on the mesh as it was made, in the order of the solver, nothing averaged or smoothed; displacement and rotations
 /// as the element has them there; `volume` (per unit thickness, m^2).
 PlacedFields collect_point_fields(const Solver& solver);
 
@@ -47,7 +51,7 @@ PlacedFields collect_point_fields(const Solver& solver);
 /// @throws RunError when it cannot be written.
 void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields);
 
-/// The same for places that nothing joins: a vertex for each.
+/// The same for places: a vertex for each, then a line for each line.
 void write_vtu(const std::filesystem::path& file, const PlacedFields& fields);
 
 /// The list of .vtu files over time that ParaView opens.
