@@ -23,14 +23,22 @@ if(POLARGRAIN_ENGINE)
                 cmake/polargrain_contact_laws.cmake DESTINATION ${package_directory})
 endif()
 
+if(TARGET polargrain_python)  # its module is of one version of the interpreter
+  string(REPLACE "." ";" parts ${python_version})
+  list(GET parts 1 minor)
+  math(EXPR next "${minor} + 1")
+  set(python_package "python3 (>= ${python_version}), python3 (<< 3.${next}), python3-numpy, ")
+else()
+  set(python_package "python3, ")  # studies and specimen.py
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME polargrain)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3")  # studies and specimen.py
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, python3-scipy")  # tables, studies
 set(CPACK_PACKAGE_CONTACT "polargrain developers <polargrain@localhost>")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, ninja-build, libliggghts-dev, libopenmpi-dev, libeigen3-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "${python_package}g++, cmake, ninja-build, libliggghts-dev, libopenmpi-dev, libeigen3-dev")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 include(CPack)

@@ -7,3 +7,12 @@ function(polargrain_precompile name)  # polargrain_precompile(NAME headers...): 
   add_library(${name} OBJECT ${source})
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
+
+# Libraries that go into shared libraries too (the Python package, the MGIS behaviour): their code can lie anywhere in
+# memory, and precompiled headers must have been made for that.
+function(polargrain_goes_into_shared_libraries)  # polargrain_goes_into_shared_libraries(targets...)
+  set_target_properties(${ARGN} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  foreach(target ${ARGN})
+    target_precompile_headers(${target} REUSE_FROM polargrain_precompiled_shared)
+  endforeach()
+endfunction()

@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 need() { command -v "$1" >/dev/null || { echo "skipped: there is no $1"; exit 77; }; }
-sources() { find app band bench common coupler dem element fem grains_io tests \( -name '*.cpp' -o -name '*.hpp' \) | sort; }
+sources() { find app band bench common coupler dem element fem grains_io python tests \( -name '*.cpp' -o -name '*.hpp' \) | sort; }
 
 case "${1:-}" in
   format)

@@ -21,7 +21,7 @@ diff <(files_of installed) <(files_of unpacked) || fail "the package and cmake -
 
 # Whatever library a program asks for is of a package that the package depends on, by its name or one that it provides.
 depends=$(dpkg-deb -f "$package" Depends | tr ',' '\n' | awk '{ print $1 }')
-for file in unpacked/usr/bin/* unpacked/usr/lib/polargrain/*; do
+for file in unpacked/usr/bin/* unpacked/usr/lib/polargrain/* $(find unpacked -name "_cells*.so"); do
   for library in $(readelf -d "$file" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p'); do
     path=$(ldd "$file" | awk -v name="$library" '$1 == name { print $3 }')
     [[ -n $path ]] || continue  # the dynamic linker itself, of libc6
@@ -33,4 +33,11 @@ for file in unpacked/usr/bin/* unpacked/usr/lib/polargrain/*; do
 done
 
 echo "polargrain $(dpkg-deb -f "$package" Version)" | cmp - <(unpacked/usr/bin/polargrain --version) || fail "another version"
+if [[ -d unpacked/usr/lib/python3 ]]; then
+  PYTHONPATH=unpacked/usr/lib/python3/dist-packages /usr/bin/python3 -B -c '
+import polargrain
+assert polargrain.program.program() == "'"$work"'/unpacked/usr/bin/polargrain", polargrain.program.program()
+polargrain.Cell("cases/biaxial/packing400.csv", "cells/hooke_radii.in").step([[1, 0], [0, 0.9999]])
+' || fail "the unpacked Python package does not step a cell"
+fi
 unpacked/usr/bin/polargrain check cases/slope/case.yaml >/dev/null || fail "the unpacked program does not find its cases"

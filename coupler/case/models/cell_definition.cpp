@@ -69,14 +69,8 @@ void refuse_cosserat_parameters(Section& section) {
 
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
                                     const CaseFiles& files) {
-  CellDefinition definition;
-  definition.name = material;
-  const CellScript script = read_cell_script("script", section, faults, files);
-  definition.script_file = script.file;
-  definition.script = script.text;
+  CellDefinition definition = read_cell_without_packing(material, section, faults, files);
   const auto packing = packing_file(section, files.directory);
-  definition.contact_library = read_contact_library(section, files);
-  definition.control = read_control(section);
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
     } catch (const InputError& error) {
@@ -85,15 +79,31 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   return definition;
 }
 
-std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition) {
-  if (section.choice_or("rotations", {"free", "controlled"}, "free") != "controlled")
-    return read_cosserat_choice(section);
+CellDefinition read_cell_without_packing(const std::string& name, Section& section, Faults& faults,
+                                         const CaseFiles& files) {
+  CellDefinition definition;
+  definition.name = name;
+  const CellScript script = read_cell_script("script", section, faults, files);
+  definition.script_file = script.file;
+  definition.script = script.text;
+  definition.contact_library = read_contact_library(section, files);
+  definition.control = read_control(section);
+  return definition;
+}
+
+bool read_controlled(Section& section, CellDefinition& definition) {
+  if (section.choice_or("rotations", {"free", "controlled"}, "free") != "controlled") return false;
   if (definition.packing.dimension == 3)
     section.fault(
         "rotations",
         "rotations: those of spheres in space cannot be controlled; set 'rotations: free' with lc (G and "
         "Gc come from the packing), or take a packing of discs");
   definition.control.rotations = CellRotations::controlled;
+  return true;
+}
+
+std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition) {
+  if (!read_controlled(section, definition)) return read_cosserat_choice(section);
   refuse_cosserat_parameters(section);
   return {};
 }

@@ -15,6 +15,14 @@ namespace polargrain::coupler {
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
                                     const CaseFiles& files);
 
+/// The same but the packing, which the section is not asked for.
+CellDefinition read_cell_without_packing(const std::string& name, Section& section, Faults& faults,
+                                         const CaseFiles& files);
+
+/// Reads `rotations` into the definition, whose packing must be there; a fault where its grains cannot have them
+/// controlled. @returns whether they are
+bool read_controlled(Section& section, CellDefinition& definition);
+
 /// Reads `rotations` into the definition. With free rotations also G, Gc (both `from packing` unless given) and lc;
 /// with controlled ones the grains answer for all of it, nothing is returned, and these keys are faults.
 std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <pybind11/pybind11.h>
+
+namespace polargrain::python {
+
+// What the module `polargrain._cells` has, a file each. What its users see is made of it in polargrain/*.py, where it is
+// documented.
+void add_packing(pybind11::module_& module);
+void add_definition(pybind11::module_& module);
+void add_state(pybind11::module_& module);
+void add_engines(pybind11::module_& module);
+
+}  // namespace polargrain::python

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Meshes and fields as runs leave them (VTU files, docs/file_formats.md)."""
+import base64
+import pathlib
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+
+from .errors import InputError
+
+_TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt8": "<u1"}
+
+
+class Fields:
+    """A mesh with its fields at one time of a run, or the integration points with theirs.
+
+    points       -- places as the mesh was made, m; shape (n, 3)
+    cells        -- numbers of the nodes of each element, a list of integer arrays
+    point_data   -- fields of the nodes (or integration points) by name; shape (n,) or (n, components)
+    cell_data    -- fields of the elements, means over their volume
+    components   -- names of the components of a field: {"stress": ["11", "22", "33", "12", "21"], ...}
+    units        -- {"stress": "Pa", ...}
+    """
+
+    def __init__(self, file):
+        self.file = pathlib.Path(file)
+        try:
+            piece = ElementTree.parse(self.file).getroot().find("UnstructuredGrid/Piece")
+        except (OSError, ElementTree.ParseError) as error:
+            raise InputError(f"{file}: {error}", [(str(file), 0, str(error))]) from error
+        if piece is None:
+            message = "is no VTU file of an unstructured grid"
+            raise InputError(f"{file}: {message}", [(str(file), 0, message)])
+        self.components = {}
+        self.units = {}
+        self.point_data = self._arrays(piece.find("PointData"))
+        self.cell_data = self._arrays(piece.find("CellData"))
+        self.points = _values(piece.find("Points/DataArray"))
+        cells = {array.get("Name"): _values(array) for array in piece.findall("Cells/DataArray")}
+        self.cells = np.split(cells["connectivity"], cells["offsets"][:-1]) if len(cells["offsets"]) else []
+
+    def _arrays(self, element):
+        fields = {}
+        for array in element if element is not None else ():
+            name = array.get("Name")
+            fields[name] = _values(array)
+            count = int(array.get("NumberOfComponents", "1"))
+            self.components[name] = [array.get(f"ComponentName{k}", str(k + 1)) for k in range(count)] if count > 1 else []
+            for key in array.findall("InformationKey"):
+                if key.get("name") == "UNITS_LABEL":
+                    self.units[name] = key.text
+        return fields
+
+    def __repr__(self):
+        return f"<polargrain.Fields of {len(self.points)} points, {len(self.cells)} cells: {', '.join(self.point_data)}>"
+
+
+def _values(array):
+    kind = np.dtype(_TYPES[array.get("type")])
+    if array.get("format") == "ascii":
+        values = np.array((array.text or "").split(), dtype=kind)
+    else:
+        # In base64 a header of eight bytes with the number of bytes that follow.
+        values = np.frombuffer(base64.b64decode((array.text or "").strip()), dtype=np.uint8)[8:].view(kind).copy()
+    count = int(array.get("NumberOfComponents", "1"))
+    return values.reshape(-1, count) if count > 1 else values

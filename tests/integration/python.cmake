@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The Python package, as it lies in the folder of the build.
+if(TARGET polargrain AND TARGET polargrain_python)
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/integration/python/*_test.py)
+  foreach(file ${tests})
+    get_filename_component(name ${file} NAME_WE)
+    add_test(NAME python_${name} COMMAND ${Python_EXECUTABLE} -B -W error ${file}
+             WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
+    set_tests_properties(python_${name} PROPERTIES LABELS integration TIMEOUT 300 PROCESSORS 2
+                         ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python;POLARGRAIN_SOURCE=${PROJECT_SOURCE_DIR}")
+  endforeach()
+endif()
