@@ -83,6 +83,9 @@ const Words kRegions{"block",  "cone",  "cylinder", "plane",     "prism",
                      "sphere", "wedge", "union",    "intersect", "delete"};
 const Words kVariables{"index", "loop", "string", "equal", "atom", "delete"};
 
+/// What makes loops and jumps.
+const Words kFlow{"jump", "label", "next"};
+
 constexpr const char* kAdvice = "; remove it, or say --trust-scripts when you know what this script does";
 
 struct Word {
@@ -150,6 +153,12 @@ class Judge {
     if (words->front().varies()) {
       return fmt::format(
           "a variable stands in the place of a command, which nobody can judge before it runs{}", kAdvice);
+    }
+    if (kFlow.contains(command)) {
+      return fmt::format(
+          "'{}' makes loops and jumps, and the script of a cell is read once, from its first line to its last: "
+          "write the lines out one by one",
+          command);
     }
     if (kKnown.contains(command)) {
       return fmt::format("the command '{}' is not among those that set up a cell{}", command, kAdvice);

@@ -17,16 +17,17 @@ struct CheckOptions {
 
 int check(const CheckOptions& options) {
   const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
+  std::vector<const CellDefinition*> cells;
+  for (const auto& [name, material] : the_case.materials)
+    if (material->needs_workers()) cells.push_back(material->grains());
+  // Each script and packing in an engine, before anything is said to be well.
+  const std::vector<std::string> lines = moduli_of(cells, options.scripts.trusted);
   tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", options.case_file.string(),
        the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
        the_case.needs_workers() ? "needs workers" : "needs no workers");
   if (the_case.check_share > 0.0 && the_case.needs_workers())
     tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker none can be\n",
          100.0 * the_case.check_share);
-  std::vector<const CellDefinition*> cells;
-  for (const auto& [name, material] : the_case.materials)
-    if (material->needs_workers()) cells.push_back(material->grains());
-  const std::vector<std::string> lines = moduli_of(cells, options.scripts.trusted);
   for (std::size_t k = 0; k < lines.size(); ++k)
     tell(stdout, "material '{}': {}\n", cells[k]->name, lines[k]);
   return 0;

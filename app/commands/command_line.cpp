@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "app/commands/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "app/run/interrupt.hpp"
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
+#include "coupler/case/section.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -56,6 +59,18 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
+/// What to say where the first word is no command; empty where it is one, or an option.
+std::string unknown_command(const CLI::App& app, int count, char** arguments) {
+  const std::string word = count > 1 ? arguments[1] : "";
+  if (word.empty() || word.front() == '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::find(names, word) != names.end()) return {};
+  const std::string guess = coupler::nearest(word, names);
+  return fmt::format("there is no command '{}'; {}", word,
+                     guess.empty() ? "there are " + coupler::listed(names) : "did you mean '" + guess + "'?");
+}
+
 }  // namespace
 
 int command_line(int count, char** arguments, const WorkerEngine& engine, const PackingTools& packing_tools) {
@@ -73,6 +88,10 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
+    if (const std::string word = unknown_command(app, count, arguments); !word.empty()) {
+      tell(stderr, "{}\n", word);
+      return kInputWrong;
+    }
     return app.exit(error) == 0 ? 0 : kInputWrong;
   }
   const Command& command =

@@ -45,6 +45,10 @@ std::vector<std::size_t> columns_of(const std::vector<std::string>& names, const
                         fmt::format("there is no column '{}'; expected names out of {}", name,
                                     coupler::listed(kPathColumns))});
     }
+    if (std::ranges::count(names, name) > 1 &&
+        std::ranges::find(names, name) - names.begin() == static_cast<std::ptrdiff_t>(columns.size()))
+      faults.push_back(
+          {place.file, place.line, fmt::format("the column '{}' stands there twice; give it once", name)});
     columns.push_back(static_cast<std::size_t>(known - kPathColumns.begin()) % kPathColumns.size());
   }
   return columns;

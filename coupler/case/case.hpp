@@ -21,8 +21,8 @@ struct Monitor {
   enum class Kind { reaction, displacement, formula };
   std::string name;
   Kind kind = Kind::formula;
-  std::string on;                     ///< boundary or node set; not of a formula
-  fem::Dof dof = fem::Dof::u1;        ///< not of a formula
+  std::vector<std::string> on;  ///< boundaries and node sets, a node of several counts once; not of a formula
+  fem::Dof dof = fem::Dof::u1;  ///< not of a formula
   std::optional<Expression> formula;  ///< of names that stand before it, and of built_in_values()
 };
 

@@ -8,10 +8,11 @@
 
 namespace polargrain::coupler {
 
-/// Where the files of a case are looked for, and which scripts it may name.
+/// What the reader of a material needs of the case: where files are looked for, which scripts it may name, its continuum.
 struct CaseFiles {
   std::filesystem::path directory;  ///< of the case file
   ScriptRules scripts = {};
+  bool cosserat = true;  ///< false: a classical continuum, which asks for no Gc and no lc
 };
 
 /// The text of a script with what it includes in its place (paths from the including file), marked with where each part

@@ -5,10 +5,12 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace polargrain::coupler {
 namespace {
@@ -128,6 +130,16 @@ class Builder : public YAML::EventHandler {
   std::size_t entries_ = 0;
 };
 
+/// What people write by habit and YAML does not take.
+std::string advice_on_line(const std::string& text, int line) {
+  std::istringstream in(text);
+  std::string found;
+  for (int k = 0; k < line; ++k) std::getline(in, found);
+  const std::size_t first = found.find_first_not_of(" \t");
+  const bool has_tab = found.substr(0, first).find('\t') != std::string::npos;
+  return has_tab ? "; the line begins with a tab, and only spaces may stand there" : "";
+}
+
 Entry parse(const std::string& text, const std::string& file) {
   std::istringstream in(text);
   Builder builder(file);
@@ -135,7 +147,8 @@ Entry parse(const std::string& text, const std::string& file) {
     YAML::Parser parser(in);
     parser.HandleNextDocument(builder);
   } catch (const YAML::Exception& error) {
-    throw InputError({file, error.mark.is_null() ? 0 : error.mark.line + 1, "this is no YAML: " + error.msg});
+    const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
+    throw InputError({file, line, "this is no YAML: " + error.msg + advice_on_line(text, line)});
   }
   return std::move(builder.root);
 }
@@ -184,6 +197,15 @@ Entry load_document(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) {
     throw InputError({name, 0, "there is no such file; give the path of a case file (case.yaml)"});
   }
+  constexpr std::array<std::pair<const char*, const char*>, 5> kOthers{{{".h5", "a packing or a checkpoint"},
+                                                                        {".csv", "a table"},
+                                                                        {".in", "a LIGGGHTS script"},
+                                                                        {".msh", "a mesh"},
+                                                                        {".geo", "a script for Gmsh"}}};
+  for (const auto& [ending, what] : kOthers)
+    if (file.extension() == ending)
+      throw InputError(
+          {name, 0, fmt::format("this is {} by its name; give a case or a specification, NAME.yaml", what)});
   if (std::filesystem::file_size(file, error) > kLargestFile) {
     throw InputError({name, 0, fmt::format("larger than {} bytes; this is no case file", kLargestFile)});
   }

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <stdexcept>
+#include <string_view>
 
 #include "coupler/case/quantity.hpp"
 
@@ -73,13 +74,14 @@ class ExpressionParser {
     at_ = static_cast<std::size_t>(end - text_.data());
     if (const char c = peek(); is_letter(c) || c == '%') {
       const std::size_t start = at_;
-      const std::string unit = c == '%' ? (++at_, "%") : word();
-      const auto factor = unit_factor(unit);
-      if (!factor) {
+      const auto unit = unit_ahead(std::string_view(text_).substr(at_));
+      if (!unit) {
+        const std::string text = word();
         at_ = start;
-        wrong(fmt::format("'{}' is no unit", unit));
+        wrong(fmt::format("'{}' is no unit ({})", text, all_units()));
       }
-      value *= *factor;
+      at_ += unit->length;
+      value *= unit->factor;
     }
     into_.steps_.push_back({'n', value});
   }

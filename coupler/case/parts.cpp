@@ -21,6 +21,18 @@ Dimension dimension_of(fem::Dof dof) {
   return dof == fem::Dof::w ? Dimension::angle : Dimension::length;
 }
 
+namespace {
+
+/// What to do about a mesh of Gmsh's without names.
+std::string no_groups(const std::string& kind, const std::string& name) {
+  return fmt::format(
+      "no {0} of it has a name: in the script for Gmsh write Physical {0}(\"{1}\") = {{1}}; with the number of the {0} in "
+      "place of the 1 (Tools, Options, Geometry shows them), and make the mesh again",
+      kind, name);
+}
+
+}  // namespace
+
 void CaseParts::check_places(Section& section, const std::string& key, const std::vector<std::string>& places,
                              const std::string& edge_load) {
   if (!has_mesh) return;
@@ -29,9 +41,10 @@ void CaseParts::check_places(Section& section, const std::string& key, const std
     if (!mesh.has_nodes_on(place)) {
       const std::vector<std::string> known = mesh.boundary_and_node_set_names();
       const std::string guess = nearest(place, known);
-      section.fault(key,
-                    fmt::format("{}: the mesh has no boundary or node set '{}'; {}", key, place,
-                                guess.empty() ? "it has " + listed(known) : "did you mean '" + guess + "'?"));
+      section.fault(key, fmt::format("{}: the mesh has no boundary or node set '{}'; {}", key, place,
+                                     !guess.empty()            ? "did you mean '" + guess + "'?"
+                                     : mesh.boundaries.empty() ? no_groups("Curve", place)
+                                                               : "it has " + listed(known)));
     } else if (!edge_load.empty() && !mesh.boundaries.contains(place)) {
       section.fault(key, fmt::format("{}: {} needs a boundary, '{}' is a set of nodes; boundaries are {}",
                                      key, edge_load, place, names_of(mesh.boundaries)));

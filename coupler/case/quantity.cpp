@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -99,11 +100,39 @@ std::optional<double> parse_quantity(std::string_view text, Dimension dimension)
   return std::nullopt;
 }
 
-std::optional<double> unit_factor(std::string_view unit) {
-  for (const Unit& known : kUnits) {
-    if (known.name == unit) return known.factor;
+bool is_plain_number(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string_view si_unit(Dimension dimension) {
+  for (const Unit& unit : kUnits) {
+    if (unit.dimension == dimension && unit.factor == 1.0) return unit.name;
   }
-  return std::nullopt;
+  return {};
+}
+
+std::string all_units() {
+  std::string list;
+  for (const Unit& unit : kUnits) {
+    if (!list.empty()) list += ", ";
+    list += unit.name;
+  }
+  return list;
+}
+
+std::optional<UnitAhead> unit_ahead(std::string_view text) {
+  std::optional<UnitAhead> longest;
+  for (const Unit& unit : kUnits) {
+    if (!text.starts_with(unit.name) || (longest && longest->length >= unit.name.size())) continue;
+    const char next = text.size() > unit.name.size() ? text[unit.name.size()] : ' ';
+    const bool goes_on = std::isalnum(static_cast<unsigned char>(next)) != 0 || next == '_';
+    if (unit.name == "%" || !goes_on) longest = UnitAhead{unit.name.size(), unit.factor};
+  }
+  return longest;
 }
 
 }  // namespace polargrain::coupler

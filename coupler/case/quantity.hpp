@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,21 @@ std::string expectation(Dimension dimension);
 /// @returns the value in SI units (angles in rad); nothing when the text is anything else or not finite.
 std::optional<double> parse_quantity(std::string_view text, Dimension dimension);
 
-/// The factor to SI units of a unit of any dimension; nothing when it is none.
-std::optional<double> unit_factor(std::string_view unit);
+/// Whether the text ends without a unit. @param text one that parse_quantity takes
+bool is_plain_number(std::string_view text);
+
+/// "Pa": what a number without a unit is taken for; empty for Dimension::number.
+std::string_view si_unit(Dimension dimension);
+
+/// The unit of any dimension that `text` begins with and that no letter or digit follows: the longest, so that "kN/m3" is
+/// not taken for kN.
+struct UnitAhead {
+  std::size_t length;  ///< characters
+  double factor;       ///< to SI units
+};
+std::optional<UnitAhead> unit_ahead(std::string_view text);
+
+/// "m, mm, ...": all units there are, for messages.
+std::string all_units();
 
 }  // namespace polargrain::coupler

@@ -64,8 +64,9 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        case_.materials[member.key] =
-            model.read(member.key, section, faults_, CaseFiles{parts_.directory, scripts_});
+        case_.materials[member.key] = model.read(
+            member.key, section, faults_,
+            CaseFiles{parts_.directory, scripts_, case_.problem.continuum == fem::Continuum::cosserat});
         section.finish();
       }
     }
@@ -164,7 +165,8 @@ class CaseReader {
 
   void read_measurement(const Entry& entry, Monitor& monitor) {
     Section section(entry, fmt::format("monitor '{}'", monitor.name), faults_);
-    const std::string on = section.text("on", "the name of a boundary or node set");
+    const std::vector<std::string> on =
+        section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;
     const bool displacement = section.find("displacement") != nullptr;
     if (reaction == displacement && entry.kind == Entry::Kind::map) {
@@ -178,7 +180,7 @@ class CaseReader {
     }
     section.finish();
     monitor.on = on;
-    if (!on.empty()) parts_.check_places(section, "on", {on});
+    parts_.check_places(section, "on", on);
   }
 
   void read_output(const Entry& entry) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 namespace polargrain::coupler {
@@ -39,7 +41,18 @@ std::string kind_in_words(const Entry& entry) {
     case Entry::Kind::scalar:
       break;
   }
-  return "'" + entry.text + "'";
+  constexpr std::size_t kMost = 60;  // characters: what is no case at all need not be repeated
+  return "'" + (entry.text.size() > kMost ? entry.text.substr(0, kMost) + "..." : entry.text) + "'";
+}
+
+constexpr const char* kDecimalComma = "; decimals are written with a point, 1.5";
+
+bool has_decimal_comma(const std::string& text) {
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+  };
+  const std::size_t comma = text.find(',');
+  return comma != std::string::npos && comma > 0 && is_digit(comma - 1) && is_digit(comma + 1);
 }
 
 }  // namespace
@@ -91,7 +104,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
     if (in_small_letters(candidate) == small) return candidate;
   for (const OtherName& other : kOtherNames)
     if (small == other.word && std::ranges::find(known, other.key) != known.end()) return other.key;
+  // The beginning of one alone.
   std::string best;
+  for (const std::string& candidate : known)
+    if (word.size() >= 3 && candidate.starts_with(word)) best = best.empty() ? candidate : "?";
+  if (!best.empty() && best != "?") return best;
+  best.clear();
   // Two letters in the wrong order count two; more than that, or than a third of the letters, is no slip.
   const std::size_t most = word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
   std::size_t least = most + 1;
@@ -147,10 +165,18 @@ double Section::number_of(const Entry& entry, const std::string& key, Dimension 
   if (text.empty()) return 1.0;
   const std::optional<double> value = parse_quantity(text, dimension);
   if (!value) {
-    faults_.push_back(
-        entry.fault(fmt::format("{}: {}: expected {}, found '{}'", name_, key, expected, text)));
+    faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'{}", name_, key, expected, text,
+                                              has_decimal_comma(text) ? kDecimalComma : "")));
     return 1.0;
   }
+  if (dimension == Dimension::angle && is_plain_number(text) && std::abs(*value) > 2.0 * std::numbers::pi) {
+    faults_.push_back(entry.fault(
+        fmt::format("{}: {}: '{}' without a unit is in rad, more than a whole turn; write '{} deg'", name_,
+                    key, text, text)));
+    return 1.0;
+  }
+  if (dimension != Dimension::number)
+    written_.push_back({&entry, key, dimension, !is_plain_number(text), *value});
   const bool fits = limit == Limit::any || *value > 0.0 || (limit == Limit::not_negative && *value == 0.0);
   if (fits) return *value;
   faults_.push_back(
@@ -207,7 +233,10 @@ const Entry* Section::list(const std::string& key, std::size_t count, const std:
   const std::string found = entry->kind == Entry::Kind::sequence
                                 ? fmt::format("a list of {}", entry->items.size())
                                 : kind_in_words(*entry);
-  faults_.push_back(entry->fault(fmt::format("{}: {}: expected {}, found {}", name_, key, whole, found)));
+  // [0,4 m, 0,8 m] has four items.
+  const bool commas = entry->kind == Entry::Kind::sequence && entry->items.size() == 2 * count;
+  faults_.push_back(entry->fault(
+      fmt::format("{}: {}: expected {}, found {}{}", name_, key, whole, found, commas ? kDecimalComma : "")));
   return nullptr;
 }
 
@@ -308,7 +337,29 @@ void Section::fault(const std::string& key, const std::string& message) {
   faults_.push_back((entry != nullptr ? *entry : entry_).fault(name_ + ": " + message));
 }
 
+void Section::require_below(const std::string& key, double value, double bound, const std::string& why) {
+  const Entry* const entry = entry_.find(key);
+  if (entry == nullptr || value < bound) return;  // what another key gives is that key's fault
+  fault(key, fmt::format("{}: must be below {:g}, found '{}': {}", key, bound, entry->text, why));
+}
+
+void Section::find_forgotten_units() {
+  for (const Written& plain : written_) {
+    const bool by_option = plain.entry->line == 0;  // --set, which scripts write, in SI units
+    if (plain.has_unit || plain.value == 0.0 || by_option) continue;
+    const auto with_unit = std::ranges::find_if(
+        written_, [&](const Written& other) { return other.has_unit && other.dimension == plain.dimension; });
+    if (with_unit == written_.end()) continue;
+    const bool same_key = with_unit->key == plain.key;
+    faults_.push_back(plain.entry->fault(
+        fmt::format("{}: {}: '{}' has no unit, '{}'{} has one; write '{} {}' if that is what it is", name_,
+                    plain.key, plain.entry->text, with_unit->entry->text,
+                    same_key ? "" : " of " + with_unit->key, plain.entry->text, si_unit(plain.dimension))));
+  }
+}
+
 void Section::finish() {
+  find_forgotten_units();
   std::map<std::string, int> lines;
   for (const Entry::Member& member : entry_.members) {
     const auto [first, is_new] = lines.emplace(member.key, member.line);

@@ -61,13 +61,28 @@ class Section {
   /// Puts a fault at the place of a key (of the whole section when the key is not there).
   void fault(const std::string& key, const std::string& message);
 
-  /// To be called when all keys have been asked for.
+  /// Faults where a value that must stay below a bound does not. @param why what lies beyond it
+  void require_below(const std::string& key, double value, double bound, const std::string& why);
+
+  /// To be called when all keys have been asked for. Keys that nobody asked for are faults, and so are plain numbers
+  /// beside others of their dimension that carry a unit (40 beside 10 MPa): a unit was most likely forgotten
+  /// (not in options, which scripts write).
   void finish();
 
   [[nodiscard]] const Entry& entry() const { return entry_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
+  /// A number of a dimension as it was written.
+  struct Written {
+    const Entry* entry;
+    std::string key;
+    Dimension dimension;
+    bool has_unit;
+    double value;
+  };
+
+  void find_forgotten_units();
   std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
   const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
   /// @param or_word what else may stand there, for messages; or empty
@@ -80,6 +95,7 @@ class Section {
   std::string name_;
   Faults& faults_;
   std::vector<std::string> asked_;
+  std::vector<Written> written_;
 };
 
 }  // namespace polargrain::coupler

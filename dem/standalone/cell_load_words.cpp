@@ -109,12 +109,13 @@ CellLoadWords read_cell_load_words(LAMMPS_NS::LAMMPS& lammps, int count, char** 
     } else if (word == "packing_state" && at + 1 < count) {
       read.packing_state = words[++at];
     } else {
-      error.all(FLERR, fmt::format("Illegal fix cell/load command: unknown or incomplete keyword '{}'; "
-                                   "expected inertial_number, damping, least_steps, unbalanced, "
-                                   "most_relaxation_steps, rotations free|controlled, mean_grain, turned, "
-                                   "packing_state or version",
-                                   word)
-                           .c_str());
+      error.all(FLERR,
+                fmt::format("Illegal fix cell/load command: unknown or incomplete keyword '{}'; "
+                            "expected inertial_number, damping, least_steps, unbalanced, "
+                            "most_relaxation_steps, rotations free|controlled, mean_grain, turned, frame, "
+                            "packing_state or version",
+                            word)
+                    .c_str());
     }
   }
   return read;

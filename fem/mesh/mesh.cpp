@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <set>
 
 #include "common/error.hpp"
 #include "fem/element/kinematics.hpp"
@@ -21,6 +22,15 @@ std::vector<int> Mesh::edge_nodes(const Edge& edge) const {
 
 bool Mesh::has_nodes_on(const std::string& name) const {
   return boundaries.contains(name) || node_sets.contains(name);
+}
+
+std::vector<int> Mesh::nodes_on(const std::vector<std::string>& names) const {
+  std::set<int> nodes;
+  for (const std::string& name : names) {
+    const std::vector<int> found = nodes_on(name);
+    nodes.insert(found.begin(), found.end());
+  }
+  return {nodes.begin(), nodes.end()};
 }
 
 std::vector<int> Mesh::nodes_on(const std::string& name) const {

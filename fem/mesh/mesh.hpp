@@ -40,6 +40,9 @@ struct Mesh {
   /// @throws RunError when nothing has that name.
   [[nodiscard]] std::vector<int> nodes_on(const std::string& name) const;
 
+  /// The same of several places: a node that lies on two of them stands there once.
+  [[nodiscard]] std::vector<int> nodes_on(const std::vector<std::string>& names) const;
+
   /// Names that nodes_on knows, for messages.
   [[nodiscard]] std::vector<std::string> boundary_and_node_set_names() const;
 };

@@ -11,11 +11,12 @@ namespace polargrain::fem {
 Constraints::Constraints(const Problem& problem)
     : equation_(entry_of(problem.mesh.nodes.size()), 0), has_ties_(!problem.ties.empty()) {
   const Mesh& mesh = problem.mesh;
-  for (const PrescribedDof& item : problem.prescribed) {
+  for (const PrescribedDof* const given : in_precedence(problem)) {
+    const PrescribedDof& item = *given;
     for (const int node : mesh.nodes_on(item.on)) {
       const auto number = static_cast<std::size_t>(node);
       const std::size_t entry = entry_of(number, item.dof);
-      // What is given twice is given alike (checked by faults); the first one stands.
+      // What is given twice with one precedence is given alike (checked by faults); the first one stands.
       if (equation_[entry] < 0) continue;
       equation_[entry] = -1;
       given_.push_back({entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});

@@ -85,20 +85,41 @@ bool gives_alike(const Problem& problem, const PrescribedDof& a, int node_a, con
   return a.value == b.value && factor(a, node_a) == factor(b, node_b);
 }
 
+/// Sets of single nodes are made to say something of those nodes; `all` says what holds where nothing else does.
+int precedence(const Mesh& mesh, const PrescribedDof& item) {
+  if (item.on == "all") return 2;
+  return mesh.boundaries.contains(item.on) ? 1 : 0;
+}
+
+/// A set of nodes by which a node can be named: the smallest it is in.
+std::string set_of(const Mesh& mesh, int node) {
+  const std::pair<const std::string, std::vector<int>>* smallest = nullptr;
+  for (const auto& set : mesh.node_sets) {
+    if (set.first == "all" || std::ranges::find(set.second, node) == set.second.end()) continue;
+    if (smallest == nullptr || set.second.size() < smallest->second.size()) smallest = &set;
+  }
+  return smallest == nullptr ? "a physical point of the mesh there" : "'" + smallest->first + "'";
+}
+
 GivenValues check_prescribed_once(const Problem& problem, Messages& messages) {
   GivenValues first;
-  for (const PrescribedDof& item : problem.prescribed) {
+  for (const PrescribedDof* const given : in_precedence(problem)) {
+    const PrescribedDof& item = *given;
     if (!problem.mesh.has_nodes_on(item.on)) continue;
     bool told = false;
     for (const int node : problem.mesh.nodes_on(item.on)) {
       const auto [place, added] = first.try_emplace({node, item.dof}, &item);
       const PrescribedDof& other = *place->second;
-      if (added || told || gives_alike(problem, other, node, item, node)) continue;
+      if (added || told || precedence(problem.mesh, other) != precedence(problem.mesh, item) ||
+          gives_alike(problem, other, node, item, node))
+        continue;
       const Eigen::Vector2d& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
-      messages.push_back(
-          fmt::format("{} is given two different values at the node ({:.6g}, {:.6g}), on '{}' and on "
-                      "'{}': give it once there",
-                      kDofNames[static_cast<std::size_t>(item.dof)], at(0), at(1), other.on, item.on));
+      messages.push_back(fmt::format(
+          "{} is given two different values at the node ({:.6g}, {:.6g}), on '{}' and on "
+          "'{}': give it once there, or give that node an item of its own, on {}: a set of nodes goes before "
+          "boundaries",
+          kDofNames[static_cast<std::size_t>(item.dof)], at(0), at(1), other.on, item.on,
+          set_of(problem.mesh, node)));
       told = true;
     }
   }
@@ -133,6 +154,14 @@ void check_ties(const Problem& problem, const GivenValues& given, Messages& mess
 }
 
 }  // namespace
+
+std::vector<const PrescribedDof*> in_precedence(const Problem& problem) {
+  std::vector<const PrescribedDof*> items;
+  for (const PrescribedDof& item : problem.prescribed) items.push_back(&item);
+  std::ranges::stable_sort(items, {},
+                           [&](const PrescribedDof* item) { return precedence(problem.mesh, *item); });
+  return items;
+}
 
 Messages faults(const Problem& problem) {
   Messages messages;

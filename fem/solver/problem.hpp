@@ -76,8 +76,12 @@ struct Problem {
   std::vector<InitialStress> initial_stresses;
 };
 
+/// The prescribed dofs in the order in which they hold: those on a set of nodes go before those on a boundary, which go
+/// before those on the set `all`; the first that names a node gives its value there.
+std::vector<const PrescribedDof*> in_precedence(const Problem& problem);
+
 /// All faults of a problem, one message each: unknown names, elements with no or two materials, a dof
-/// prescribed twice with different values, ties whose sides do not match, distorted elements, rigid motions that no support holds. Runs no
+/// prescribed twice with different values by items of one precedence, ties whose sides do not match, distorted elements, rigid motions that no support holds. Runs no
 /// material, so that a case can be checked before anything starts. Materials may still be null.
 std::vector<std::string> faults(const Problem& problem);
 

@@ -247,7 +247,7 @@ Eigen::VectorXd Solver::external_forces() const {
   return implementation_->loads.at(state().time);
 }
 
-Eigen::Vector3d Solver::reaction(const std::string& on) const {
+Eigen::Vector3d Solver::reaction(const std::vector<std::string>& on) const {
   const Eigen::VectorXd supplied = internal_forces() - external_forces();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int node : problem().mesh.nodes_on(on)) {
@@ -260,7 +260,7 @@ Eigen::Vector3d Solver::reaction(const std::string& on) const {
   return sum;
 }
 
-Eigen::Vector3d Solver::mean_displacement(const std::string& on) const {
+Eigen::Vector3d Solver::mean_displacement(const std::vector<std::string>& on) const {
   const std::vector<int> nodes = problem().mesh.nodes_on(on);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int node : nodes) sum += state().displacement.segment<kDofsOfNode>(entry_of(node));

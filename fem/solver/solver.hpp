@@ -182,11 +182,15 @@ class Solver {
   /// Nodal forces of the stresses (3 a node: N/m, N/m, N), internal and of the loads, at the committed time.
   [[nodiscard]] Eigen::VectorXd internal_forces() const;
   [[nodiscard]] Eigen::VectorXd external_forces() const;
-  /// Sum over the nodes of a boundary or node set of what the supports exert on the body: force along 1 and 2
+  /// Sum over the nodes of boundaries and node sets, each node once, of what the supports exert on the body: force along 1 and 2
   /// (N per m of thickness) and nodal moments (N).
-  [[nodiscard]] Eigen::Vector3d reaction(const std::string& on) const;
-  /// Mean displacement over the nodes of a boundary or node set: u1, u2 (m), w (rad).
-  [[nodiscard]] Eigen::Vector3d mean_displacement(const std::string& on) const;
+  [[nodiscard]] Eigen::Vector3d reaction(const std::vector<std::string>& on) const;
+  [[nodiscard]] Eigen::Vector3d reaction(const std::string& on) const { return reaction(std::vector{on}); }
+  /// Mean displacement over the nodes of boundaries and node sets, each node once: u1, u2 (m), w (rad).
+  [[nodiscard]] Eigen::Vector3d mean_displacement(const std::vector<std::string>& on) const;
+  [[nodiscard]] Eigen::Vector3d mean_displacement(const std::string& on) const {
+    return mean_displacement(std::vector{on});
+  }
   /// Mean of eps_11 + eps_22 over the volume; positive is expansion.
   [[nodiscard]] double volume_strain() const;
   /// What small deformation leaves out of the committed state (left_out.hpp); empty where that is little, and in large

@@ -23,6 +23,8 @@ class TimeTable {
   /// Change per time just after `time`.
   [[nodiscard]] double slope(double time) const;
   [[nodiscard]] double largest_magnitude() const;
+  /// Whether both have the same values at all times, whatever their points: a value that is reached at time 1 and a table
+  /// that says so are equal, to round-off of 1e-12 of the larger magnitude.
   bool operator==(const TimeTable& other) const;
 
  private:

@@ -58,6 +58,10 @@ TEST(Expression, FollowsTheRulesOfArithmetic) {
   EXPECT_EQ(value_of("--1"), 1.0);
   EXPECT_EQ(value_of("2 mm * 100 kPa"), 2e-3 * 100e3);
   EXPECT_EQ(value_of("50 % * a"), 4.0);
+  EXPECT_EQ(value_of("18 kN/m3 * 2 m"), 36e3);
+  EXPECT_EQ(value_of("a / 4 kN/m"), 8.0 / 4e3);
+  EXPECT_EQ(value_of("4 kN / b"), 2e3);  // b is no unit
+  EXPECT_EQ(value_of("4 mm/b"), 2e-3);
   EXPECT_EQ(Expression("a + b / a").names(), (std::vector<std::string>{"a", "b"}));
 }
 
@@ -72,7 +76,10 @@ TEST(Expression, SaysWhatIsWrong) {
   };
   EXPECT_EQ(error_of("1 +"), "expected a number, a name or '(' at character 4 of '1 +'");
   EXPECT_EQ(error_of("a b"), "expected an operator at character 3 of 'a b'");
-  EXPECT_EQ(error_of("3 apples"), "'apples' is no unit at character 3 of '3 apples'");
+  EXPECT_EQ(
+      error_of("3 apples"),
+      "'apples' is no unit (%, m, mm, cm, um, km, Pa, kPa, MPa, GPa, rad, deg, mrad, N, kN, N/m, kN/m, MN/m, "
+      "N/m3, kN/m3, MN/m3, s, min, h) at character 3 of '3 apples'");
   EXPECT_EQ(error_of("(a"), "expected ')' at character 3 of '(a'");
   EXPECT_NE(error_of(std::string(100000, '(')).find("nested too deeply"), std::string::npos);
 }

@@ -121,6 +121,11 @@ TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answe
   const double axial = -100e3 + 40e6 / (1 - 0.09) * strain;
   EXPECT_NEAR(solver.reaction("top")(1) / (axial * 0.04), 1.0, 1e-12);
   EXPECT_NEAR(solver.reaction("bottom")(1) / (-axial * 0.04), 1.0, 1e-12);
+  // A corner that stands in two places counts once, in sums and in means.
+  const auto together = solver.reaction(std::vector<std::string>{"bottom", "bottom_left", "top"});
+  EXPECT_NEAR(together(1) / (axial * 0.04), 0.0, 1e-12);
+  const auto mean = solver.mean_displacement(std::vector<std::string>{"top", "top_left"});
+  EXPECT_EQ(mean, solver.mean_displacement("top"));
   EXPECT_NEAR(solver.volume_strain() / (strain * (1 - 0.3 / 0.7)), 1.0, 1e-12);
 }
 

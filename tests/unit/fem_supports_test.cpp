@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fem/mesh/rectangle.hpp"
+#include "fem/solver/constraints.hpp"
 #include "fem/solver/problem.hpp"
 
 using namespace polargrain::fem;
@@ -155,6 +156,50 @@ TEST(faults, a_corner_may_be_given_the_same_value_twice) {
   problem.prescribed = {
       {"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}, {"left", Dof::u1, kZero, {}}};
   EXPECT_EQ(faults(problem), Strings{});
+}
+
+TEST(faults, a_corner_may_be_given_one_value_in_two_ways) {
+  Problem problem;
+  problem.mesh = block();
+  problem.materials["all"] = nullptr;
+  const TimeTable in_pieces({{0.0, 0.0}, {0.3, 0.3e-3}, {1.0, 1e-3}, {2.0, 1e-3}});
+  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
+                        {"bottom", Dof::u1, TimeTable::ramp(1e-3), {}},
+                        {"left", Dof::u1, in_pieces, {}},
+                        {"right", Dof::u2, TimeTable::ramp(0.0), {}}};
+  EXPECT_EQ(faults(problem), Strings{});
+  problem.prescribed[2].value = TimeTable({{0.0, 0.0}, {0.3, 0.4e-3}, {1.0, 1e-3}});
+  EXPECT_EQ(faults(problem).size(), 1U);
+}
+
+TEST(faults, a_set_of_nodes_goes_before_boundaries_and_these_before_all) {
+  Problem problem;
+  problem.mesh = block();
+  problem.materials["all"] = nullptr;
+  problem.prescribed = {{"all", Dof::u1, TimeTable::ramp(3e-3), {}},
+                        {"bottom", Dof::u2, kZero, {}},
+                        {"bottom", Dof::u1, kZero, {}},
+                        {"left", Dof::u1, TimeTable::ramp(1e-3), {}}};
+  ASSERT_EQ(faults(problem).size(), 1U);
+  EXPECT_EQ(
+      faults(problem)[0],
+      "u1 is given two different values at the node (0, 0), on 'bottom' and on 'left': give it once there, or "
+      "give that node an item of its own, on 'bottom_left': a set of nodes goes before boundaries");
+  problem.prescribed.push_back({"bottom_left", Dof::u1, TimeTable::ramp(2e-3), {}});
+  EXPECT_EQ(faults(problem), Strings{});
+
+  const Constraints constraints(problem);
+  const Mesh& mesh = problem.mesh;
+  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entry_of(mesh.nodes.size())));
+  constraints.apply(1.0, nodal);
+  const auto u1_at = [&](const std::string& set, std::size_t which) {
+    return nodal(
+        static_cast<Eigen::Index>(entry_of(static_cast<std::size_t>(mesh.nodes_on(set)[which]), Dof::u1)));
+  };
+  EXPECT_EQ(u1_at("bottom_left", 0), 2e-3);
+  EXPECT_EQ(u1_at("bottom_right", 0), 0.0);
+  EXPECT_EQ(u1_at("top_left", 0), 1e-3);
+  EXPECT_EQ(u1_at("top_right", 0), 3e-3);
 }
 
 }  // namespace

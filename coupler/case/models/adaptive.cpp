@@ -4,7 +4,9 @@
 
 #include "coupler/adaptivity/adaptive_material.hpp"
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
+#include "coupler/case/models/informed_parameters.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -29,22 +31,13 @@ class AdaptiveRecipe : public MaterialRecipe {
   AdaptivityOptions options_;
 };
 
-AdaptivityOptions read_options(Section& section) {
-  AdaptivityOptions options;
-  options.tolerance =
-      section.quantity_or("tolerance", Dimension::number, Limit::not_negative, options.tolerance);
-  options.audit = section.quantity_or("audit", Dimension::number, Limit::not_negative, options.audit);
-  if (options.audit > 1.0) section.fault("audit", "audit: is a share of the points, at most 1 (100 %)");
-  options.seed = static_cast<std::uint64_t>(section.whole_or("seed", 0, static_cast<int>(options.seed)));
-  return options;
-}
-
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition);
-  AdaptivityOptions options = read_options(section);
+  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
+  AdaptivityOptions options = read_adaptivity_options(section);
+  read_informed_parameters(section);  // checked, and no more: see there
   if (definition.control.tangent == CellTangent::voigt) {
     section.fault(
         "tangent",

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
 #include "coupler/cells/cell_material.hpp"
@@ -32,8 +33,9 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition);
-  read_informed_parameters(section);  // checked, and no more: see there
+  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
+  read_informed_parameters(section);  // these two checked, and no more: see there
+  read_adaptivity_options(section);
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat);
 }

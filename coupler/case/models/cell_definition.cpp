@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/error.hpp"
 #include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
@@ -14,7 +16,18 @@ namespace {
 std::filesystem::path packing_file(Section& section, const std::filesystem::path& directory) {
   const std::string name = section.text("packing", "the path of a packing (CSV or HDF5)");
   if (name.empty()) return {};
-  if (const auto file = find_data_file(name, directory)) return *file;
+  const auto file = find_data_file(name, directory);
+  const std::string ending = std::filesystem::path(name).extension().string();
+  if (ending == ".yaml" || ending == ".yml") {
+    section.fault(
+        "packing",
+        fmt::format(
+            "packing: '{0}' is the specification of a packing; make the packing of it, polargrain pack "
+            "{0} -o {1}, and name that",
+            name, std::filesystem::path(name).replace_extension(".h5").string()));
+    return {};
+  }
+  if (file) return *file;
   section.fault(
       "packing",
       fmt::format("packing: there is no file '{}', neither beside the case nor below liggghts_inputs/; "
@@ -31,6 +44,12 @@ CellControl read_control(Section& section) {
   control.inertial_number = positive("inertial_number", control.inertial_number);
   control.unbalanced_force_ratio = positive("unbalanced_force_ratio", control.unbalanced_force_ratio);
   control.unbalanced_moment_ratio = positive("unbalanced_moment_ratio", control.unbalanced_moment_ratio);
+  section.require_below(
+      "inertial_number", control.inertial_number, 0.1,
+      "grains would fly past each other instead of resting on each other; quasi-static is 1e-3 and less");
+  for (const auto& [key, ratio] : {std::pair{"unbalanced_force_ratio", control.unbalanced_force_ratio},
+                                   std::pair{"unbalanced_moment_ratio", control.unbalanced_moment_ratio}})
+    section.require_below(key, ratio, 1.0, "any state at all would count as at rest");
   control.damping = section.quantity_or("damping", Dimension::number, Limit::not_negative, control.damping);
   if (control.damping >= 1.0) section.fault("damping", "damping: must be less than 1");
   control.least_steps = section.whole_or("least_steps", 1, control.least_steps);
@@ -42,14 +61,16 @@ CellControl read_control(Section& section) {
   return control;
 }
 
-CosseratChoice read_cosserat_choice(Section& section) {
+CosseratChoice read_cosserat_choice(Section& section, const CaseFiles& files) {
   const auto value = [&section](const char* key, Dimension dimension) -> std::optional<double> {
     return section.quantity_or_word(key, dimension, Limit::positive, "from packing");
   };
   CosseratChoice choice;
   if (section.find("G") != nullptr) choice.shear_modulus = value("G", Dimension::pressure);
   if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = value("Gc", Dimension::pressure);
-  choice.internal_length = value("lc", Dimension::length);
+  // A classical continuum has no curvature: its length is of no effect.
+  if (files.cosserat || section.find("lc") != nullptr)
+    choice.internal_length = value("lc", Dimension::length);
   return choice;
 }
 
@@ -102,8 +123,9 @@ bool read_controlled(Section& section, CellDefinition& definition) {
   return true;
 }
 
-std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition) {
-  if (!read_controlled(section, definition)) return read_cosserat_choice(section);
+std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition,
+                                             const CaseFiles& files) {
+  if (!read_controlled(section, definition)) return read_cosserat_choice(section, files);
   refuse_cosserat_parameters(section);
   return {};
 }

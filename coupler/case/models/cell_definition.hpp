@@ -23,8 +23,10 @@ CellDefinition read_cell_without_packing(const std::string& name, Section& secti
 /// controlled. @returns whether they are
 bool read_controlled(Section& section, CellDefinition& definition);
 
-/// Reads `rotations` into the definition. With free rotations also G, Gc (both `from packing` unless given) and lc;
+/// Reads `rotations` into the definition. With free rotations also G, Gc (both `from packing` unless given) and lc, which a
+/// classical continuum does not ask for;
 /// with controlled ones the grains answer for all of it, nothing is returned, and these keys are faults.
-std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition);
+std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition,
+                                             const CaseFiles& files);
 
 }  // namespace polargrain::coupler

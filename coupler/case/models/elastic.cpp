@@ -3,6 +3,7 @@
 #include "fem/material/elastic.hpp"
 
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/models/cosserat_moduli.hpp"
 #include "fem/material/local_material.hpp"
 
 namespace polargrain::coupler {
@@ -22,13 +23,13 @@ class ElasticRecipe : public MaterialRecipe {
   fem::ElasticParameters parameters_;
 };
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults, const CaseFiles&) {
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
+                                     const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   fem::ElasticParameters parameters;
   parameters.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);
   parameters.poisson_ratio = section.quantity("nu", Dimension::number, Limit::any);
-  parameters.cosserat_shear_modulus = section.quantity("Gc", Dimension::pressure, Limit::not_negative);
-  parameters.internal_length = section.quantity("lc", Dimension::length, Limit::not_negative);
+  read_cosserat_moduli(section, files, parameters);
   const double confining = section.quantity_or("confining", Dimension::pressure, Limit::any, 0.0);
   for (int i : {k11, k22, k33}) parameters.initial_stress[i] = -confining;
   if (faults.size() != faults_before) return nullptr;

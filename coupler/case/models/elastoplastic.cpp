@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/models/cosserat_moduli.hpp"
 #include "fem/material/cone_matching.hpp"
 #include "fem/material/local_material.hpp"
 
@@ -49,14 +50,13 @@ fem::PiecewiseLinear strength(Section& section, const std::string& key, Dimensio
   return fem::PiecewiseLinear::ramp(factor * ends[0], factor * ends[1], hardening_shear);
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults, const CaseFiles&) {
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
+                                     const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   fem::ElastoplasticParameters parameters;
   parameters.elastic.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);
   parameters.elastic.poisson_ratio = section.quantity("nu", Dimension::number, Limit::any);
-  parameters.elastic.cosserat_shear_modulus =
-      section.quantity("Gc", Dimension::pressure, Limit::not_negative);
-  parameters.elastic.internal_length = section.quantity("lc", Dimension::length, Limit::not_negative);
+  read_cosserat_moduli(section, files, parameters.elastic);
   const double confining = section.quantity_or("confining", Dimension::pressure, Limit::any, 0.0);
   for (int i : {k11, k22, k33}) parameters.elastic.initial_stress[i] = -confining;
   const double shear = section.quantity_or("hardening_shear", Dimension::number, Limit::positive, 0.1);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
 #include "coupler/cells/informed_material.hpp"
@@ -35,8 +36,9 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                                      const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
-  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition);
+  const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   InformedParameters parameters = read_informed_parameters(section);
+  read_adaptivity_options(section);  // checked, and no more: see there
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
   definition.control.tangent = CellTangent::none;  // the law has one of its own

@@ -7,8 +7,8 @@
 namespace polargrain::coupler {
 
 /// Reads what `informed` asks for beside its cells and G, Gc, lc: nu, update, window, dilatancy_limits,
-/// initial_friction, cohesion, invariants; all have defaults. `cell` reads them too and makes no use of them,
-/// so that a case changes from one to the other by one word. The moduli are left open.
+/// initial_friction, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
+/// them, so that a case changes from one to the other by one word. The moduli are left open.
 InformedParameters read_informed_parameters(Section& section);
 
 }  // namespace polargrain::coupler

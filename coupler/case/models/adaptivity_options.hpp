@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "coupler/adaptivity/adaptive_material.hpp"
+#include "coupler/case/section.hpp"
+
+namespace polargrain::coupler {
+
+/// Reads what `adaptive` asks for beside its cells: tolerance, audit, seed; all have defaults. `cell` and `informed` read
+/// them too and make no use of them, so that a case changes from one to the other by one word.
+AdaptivityOptions read_adaptivity_options(Section& section);
+
+}  // namespace polargrain::coupler

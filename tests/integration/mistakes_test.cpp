@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The mistakes that people make, each with the message that must come: the table of docs/questions.md, held to what the
+// program says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kProgram = POLARGRAIN;
+const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
+
+// A sound case: every mistake is one change to it.
+const std::string kCase = R"(title: Compression of grains
+mesh:
+  rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}
+materials:
+  sand: {model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}
+regions: {all: sand}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, fix: [u1], move: {u2: -4 mm}}
+  - {on: [left, right], pressure: 100 kPa}
+steps: {count: 4, tolerance: 1e-2}
+monitors:
+  top_force: {on: top, reaction: u2}
+  stress_ratio: -top_force / (0.4 m * 100 kPa)
+)";
+
+const std::string kLaw =
+    "{model: elastoplastic, E: 20 MPa, nu: 0.3, Gc: 10 MPa, lc: 5 mm, friction_angle: 40 deg, dilatancy_angle: 10 deg, "
+    "cohesion: 1 kPa}";
+
+// One square without any physical group; `kind` 3 is a quadrilateral of 4 nodes in Gmsh's manual, 2 a triangle of 3.
+std::string mesh_of(const std::string& element) {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+         "$Elements\n1\n" +
+         element + "\n$EndElements\n";
+}
+
+struct Mistake {
+  std::string name;
+  std::string good;     ///< in the case
+  std::string bad;      ///< put in its place
+  std::string message;  ///< what must come, among other things that may
+  std::string command = "check case.yaml";
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  *out << mistake.name;
+}
+
+void replace(std::string& text, const std::string& good, const std::string& bad) {
+  const std::size_t place = text.find(good);
+  ASSERT_NE(place, std::string::npos) << good;
+  text.replace(place, good.size(), bad);
+}
+
+/// With every run of blanks as one, so that a page may break its lines where it likes.
+std::string joined(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+    if (!blank) out += c;
+    if (blank && !out.empty() && out.back() != ' ') out += ' ';
+  }
+  return out;
+}
+
+class MistakeTest : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(MistakeTest, HasItsMessage) {
+  const Mistake& mistake = GetParam();
+  const Scratch scratch("mistake_" + mistake.name);
+  const std::filesystem::path& at = scratch.path();
+  std::string text = kCase;
+  replace(text, mistake.good, mistake.bad);
+  const std::string script = content(kSource + "/liggghts_inputs/cells/hooke_radii.in");
+  write(at / "case.yaml", text);
+  write(at / "cell.in", script);
+  write(at / "loop.in", script + "label again\njump SELF again\n");
+  write(at / "shell.in", script + "shell ls\n");
+  std::string other = script;
+  replace(other, "model hooke/radii", "model hertzz");
+  write(at / "typo.in", other);
+  other = script;
+  replace(other, "1 6e8", "1 6e6");
+  write(at / "soft.in", other);
+  write(at / "packing.yaml", "title: a specification\n");
+  write(at / "bare.msh", mesh_of("1 3 2 0 1 1 2 3 4"));
+  write(at / "triangle.msh", mesh_of("1 2 2 0 1 1 2 3"));
+  write(at / "twice.csv", "h11,h22,h11\n1e-4,0,0\n");
+  write(at / "tab.yaml", "steps:\n\tcount: 4\n");
+  std::filesystem::create_directories(at / "thesis");
+  write(at / "thesis" / "chapter1.txt", "all of it");
+  std::filesystem::copy_file(kSource + "/cases/footing_cells/packing100.h5", at / "grains.h5");
+
+  const Outcome outcome = run_in(at, kProgram + " " + mistake.command);
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_NE(joined(outcome.errors).find(joined(mistake.message)), std::string::npos)
+      << "expected: " << mistake.message << "\nfound: " << outcome.errors;
+  EXPECT_EQ(outcome.out.find("no faults"), std::string::npos) << outcome.out;
+  EXPECT_FALSE(std::filesystem::exists(at / "results"));
+}
+
+std::vector<Mistake> mistakes() {
+  return {
+      {"ForgottenUnit", "lc: 8 mm", "G: 40, Gc: 10 MPa, lc: 8 mm",
+       "G: '40' has no unit, '10 MPa' of Gc has one; write '40 Pa' if that is what it is"},
+      {"UnitOfOneItem", "[0.4 m, 0.8 m]", "[0.4 m, 0.8]", "size: '0.8' has no unit, '0.4 m' has one"},
+      {"DegreesWithoutUnit", "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
+       std::string(kLaw).replace(kLaw.find("40 deg"), 6, "40"),
+       "friction_angle: '40' without a unit is in rad, more than a whole turn; write '40 deg'"},
+      {"WrongUnit", "lc: 8 mm", "lc: 8 kPa", "lc: expected a length in m, or with one of the units m, mm,"},
+      {"DecimalComma", "lc: 8 mm", "lc: '8,5 mm'", "found '8,5 mm'; decimals are written with a point, 1.5"},
+      {"InertialNumber", "lc: 8 mm", "lc: 8 mm, inertial_number: 5",
+       "inertial_number: must be below 0.1, found '5': grains would fly past each other instead of resting on each "
+       "other"},
+      {"UnbalancedRatio", "lc: 8 mm", "lc: 8 mm, unbalanced_force_ratio: 5",
+       "unbalanced_force_ratio: must be below 1, found '5': any state at all would count as at rest"},
+      {"Tolerance", "tolerance: 1e-2", "tolerance: 10",
+       "tolerance: must be below 1, found '10': what is out of balance may not be as large as the loads"},
+      {"ToleranceInPerCent", "model: cell, script: cell.in", "model: adaptive, tolerance: 3, script: cell.in",
+       "tolerance: must be below 1, found '3': it is a share of the confining pressure, 3 % is '3 %' or 0.03"},
+      {"UnitInAFormula", "0.4 m * 100 kPa", "0.4 m * 100 kpa", "'kpa' is no unit (%, m, mm,"},
+      {"OtherNameOfAKey", "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
+       std::string(kLaw).replace(kLaw.find("dilatancy"), 9, "dilation"),
+       "unknown key 'dilation_angle'; did you mean 'dilatancy_angle'?"},
+      {"MisspelledKey", "tolerance: 1e-2", "tolerence: 1e-2",
+       "unknown key 'tolerence'; did you mean 'tolerance'?"},
+      {"MeshWithoutNames", "  rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}", "  file: bare.msh",
+       "the mesh has no boundary or node set 'bottom'; no Curve of it has a name: in the script for Gmsh write "
+       "Physical Curve(\"bottom\") = {1};"},
+      {"FirstOrderTriangles", "  rectangle: {size: [0.4 m, 0.8 m], elements: [1, 2]}", "  file: triangle.msh",
+       "it has triangles of 3 nodes, too stiff to be offered: set Mesh.ElementOrder = 2"},
+      {"UnknownBoundary", "on: top, fix", "on: topp, fix",
+       "the mesh has no boundary or node set 'topp'; did you mean 'top'?"},
+      {"TwoValuesAtACorner", "  - {on: [left, right], pressure: 100 kPa}", "  - {on: left, move: {u2: 1 mm}}",
+       "u2 is given two different values at the node (0, 0), on 'bottom' and on 'left': give it once there, or give that "
+       "node an item of its own, on 'bottom_left': a set of nodes goes before boundaries"},
+      {"FreeBody", "  - {on: bottom, fix: [u1, u2]}\n  - {on: top, fix: [u1], move: {u2: -4 mm}}",
+       "  - {on: bottom, fix: [u1]}\n  - {on: top, pressure: 100 kPa}",
+       "nothing holds the body against a rigid motion (translation along 2); fix or move a displacement that stops "
+       "it"},
+      {"PressureOnANode", "on: [left, right], pressure", "on: [left, top_left], pressure",
+       "a pressure needs a boundary, 'top_left' is a set of nodes; boundaries are bottom, left, right, top"},
+      {"RegionWithoutMaterial", "{all: sand}", "{core: sand}", "the mesh has no region 'core'; it has all"},
+      {"SpecificationAsPacking", "packing: grains.h5", "packing: packing.yaml",
+       "'packing.yaml' is the specification of a packing; make the packing of it, polargrain pack packing.yaml -o "
+       "packing.h5, and name that"},
+      {"NoPacking", "packing: grains.h5", "packing: grain.h5",
+       "there is no file 'grain.h5', neither beside the case nor below liggghts_inputs/"},
+      {"PackingOfAnotherScript", "script: cell.in", "script: soft.in",
+       "The script is not the one the packing was made with, or the grains were moved; bring it to rest with "
+       "'polargrain pack --settle PACKING SCRIPT -o NEW.h5'"},
+      {"UnknownContactModel", "script: cell.in", "script: typo.in",
+       "pair_style gran model hertzz tangential history ERROR: Invalid model specified (check for typos"},
+      {"LoopInAScript", "script: cell.in", "script: loop.in",
+       "'jump' makes loops and jumps, and the script of a cell is read once, from its first line to its last: write "
+       "the lines out one by one"},
+      {"CommandThatIsNotForCells", "script: cell.in", "script: shell.in",
+       "the command 'shell' is not among those that set up a cell; remove it, or say --trust-scripts"},
+      {"NoInternalLength", ", lc: 8 mm", "", "the key 'lc' is missing; give a length in m"},
+      {"CosseratPartTwice", "lc: 8 mm", "lc: 8 mm, rotations: controlled",
+       "lc: with 'rotations: controlled' the grains give the skew stress and the couple stresses themselves; leave lc "
+       "out, or set 'rotations: free'"},
+      {"InitialStressOfCells", "regions: {all: sand}",
+       "regions: {all: sand}\ninitial_stress: [{surface: 1 m, unit_weight: 18 kN/m3, K0: 0.5}]",
+       "region 'all' is made of cells, which bring the stress of their packing; name another region"},
+      {"DilatancyAboveFriction", "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
+       std::string(kLaw).replace(kLaw.find("10 deg"), 6, "45 deg"),
+       "plastic flow would create energy; lower the dilatancy"},
+      {"ValueThatComesLater", "-top_force /", "-side_force /", "there is no value 'side_force' before it"},
+      {"UnknownCommand", "title", "title", "there is no command 'chek'; did you mean 'check'?",
+       "chek case.yaml"},
+      {"PackingForACase", "title", "title",
+       "this is a packing or a checkpoint by its name; give a case or a specification, NAME.yaml",
+       "run grains.h5"},
+      {"FolderWithOtherFiles", "title", "title",
+       "exists and holds no former result; give an empty or new directory with -o DIR",
+       "run case.yaml -o thesis"},
+      {"ColumnTwice", "title", "title", "the column 'h11' stands there twice; give it once",
+       "point case.yaml sand twice.csv"},
+      {"TabInYaml", "title", "title", "the line begins with a tab, and only spaces may stand there",
+       "check tab.yaml"},
+      {"NothingToResume", "title", "title", "holds no run to go on with; name its directory with -o DIR",
+       "run case.yaml --resume -o nowhere"}};
+}
+
+TEST(QuestionsAndAnswers, HoldEveryMessage) {
+  const std::string page = joined(content(kSource + "/docs/questions.md"));
+  EXPECT_GE(mistakes().size(), 30u);
+  for (const Mistake& mistake : mistakes())
+    EXPECT_NE(page.find(joined(mistake.message)), std::string::npos) << mistake.message;
+}
+
+/// What was refused once, or looks like a mistake, and is none.
+class NoMistakeTest : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(NoMistakeTest, IsTaken) {
+  const Scratch scratch("no_mistake_" + GetParam().name);
+  std::string text = kCase;
+  replace(text, GetParam().good, GetParam().bad);
+  write(scratch.path() / "case.yaml", text);
+  write(scratch.path() / "cell.in", content(kSource + "/liggghts_inputs/cells/hooke_radii.in"));
+  std::filesystem::copy_file(kSource + "/cases/footing_cells/packing100.h5", scratch.path() / "grains.h5");
+  const Outcome outcome = run_in(scratch.path(), kProgram + " check case.yaml");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
+const std::string kMaterial = "model: cell, script: cell.in, packing: grains.h5, lc: 8 mm";
+
+std::string all_keys_of_schemes(const std::string& model) {
+  return "model: " + model +
+         ", script: cell.in, packing: grains.h5, lc: 8 mm, tolerance: 2 %, audit: 0, seed: 2, nu: 0.25, update: frozen, "
+         "window: 4, drift_shear: 0.02, initial_friction: 5 deg, cohesion: 50 Pa";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, NoMistakeTest,
+    ::testing::Values(
+        Mistake{"KeysOfOtherSchemesInCell", kMaterial, all_keys_of_schemes("cell"), ""},
+        Mistake{"KeysOfOtherSchemesInAdaptive", kMaterial, all_keys_of_schemes("adaptive"), ""},
+        Mistake{"KeysOfOtherSchemesInInformed", kMaterial, all_keys_of_schemes("informed"), ""},
+        Mistake{"NoLengthInAClassicalContinuum", kMaterial + "}",
+                "model: cell, script: cell.in, packing: grains.h5}\ncontinuum: cauchy", ""},
+        Mistake{"LawWithoutCosseratPartInAClassicalContinuum", "{" + kMaterial + "}",
+                "{model: elastic, E: 20 MPa, nu: 0.3}\ncontinuum: cauchy", ""},
+        Mistake{"OneValueInTwoWays", "  - {on: [left, right], pressure: 100 kPa}",
+                "  - {on: left, move: {u1: 0}}", ""},
+        Mistake{"ACornerOfItsOwn", "  - {on: [left, right], pressure: 100 kPa}",
+                "  - {on: right, move: {u1: 1 mm}}\n  - {on: [bottom_right, top_right], fix: [u1]}", ""},
+        Mistake{"MonitorOverTwoBoundaries", "{on: top, reaction: u2}", "{on: [top, left], reaction: u2}", ""},
+        Mistake{"UnitWithAStroke", "0.4 m * 100 kPa", "0.4 m * 100 kN/m3 * 1 m", ""}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(All, MistakeTest, ::testing::ValuesIn(mistakes()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace polargrain::testing
