@@ -33,7 +33,7 @@ else()
 endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME polargrain)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, python3-scipy")  # tables, studies
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib, jupyter-notebook, python3-scipy")  # tables, studies
 set(CPACK_PACKAGE_CONTACT "polargrain developers <polargrain@localhost>")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)

@@ -10,5 +10,6 @@ void add_packing(pybind11::module_& module);
 void add_definition(pybind11::module_& module);
 void add_state(pybind11::module_& module);
 void add_engines(pybind11::module_& module);
+void add_band(pybind11::module_& module);
 
 }  // namespace polargrain::python

@@ -39,4 +39,5 @@ PYBIND11_MODULE(_cells, module) {
   add_definition(module);
   add_state(module);
   add_engines(module);
+  add_band(module);
 }

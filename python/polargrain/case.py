@@ -2,10 +2,12 @@
 """A case of the program as an object, and its run."""
 import os
 import pathlib
+import tempfile
 
 from .errors import RunError
-from .program import call, data_file
+from .program import call, data_file, worker_count
 from .result import Result
+from .specification import settings
 from .table import read_table
 
 
@@ -16,7 +18,8 @@ class Case:
         result = case.run("results/mine", workers=2)
 
     file          -- the case (docs/user_guide.md); one that the program brings along by its name
-    overrides     -- {key: value}, as `--set key=value` has them: lists and numbers as Python's, units in texts
+    overrides     -- {key: value}, as `--set key=value` has them: lists and numbers as Python's, units in texts;
+                     a text names a file from the case, a pathlib.Path one from the current folder
     trust_scripts -- run scripts and libraries that can do more than set up cells (--trust-scripts)
     """
 
@@ -48,7 +51,7 @@ class Case:
         if output is None:  # as the program itself has it
             output = pathlib.Path("results") / (self.file.resolve().parent.name if self.file.stem == "case" else self.file.stem)
         output = pathlib.Path(output)
-        words = ["-o", output, "-w", workers or os.cpu_count() or 1, "--quiet", *self._words()]
+        words = ["-o", output, "-w", worker_count(workers), "--quiet", *self._words()]
         if resume and (output / "checkpoint.h5").exists():
             words.append("--resume")
         if checkpoint_minutes is not None:
@@ -69,7 +72,6 @@ class Case:
         output -- CSV file to keep
         Raises InputError; RunError when an increment failed.
         """
-        import tempfile
         with tempfile.TemporaryDirectory() as folder:
             if not isinstance(path, (str, os.PathLike)):
                 names = ["h11", "h12", "h21", "h22", "w", "k1", "k2"]
@@ -81,10 +83,7 @@ class Case:
             return read_table(output)
 
     def _words(self):
-        words = ["--trust-scripts"] if self.trust_scripts else []
-        for key, value in self.overrides.items():
-            words += ["--set", f"{key}={yaml_of(value)}"]
-        return words
+        return [*(["--trust-scripts"] if self.trust_scripts else []), *settings(self.overrides)]
 
     def __repr__(self):
         return f"<polargrain.Case {self.file}>"
@@ -94,17 +93,6 @@ def run(case, overrides=None, output=None, **options):
     """Runs a case, a Case or its file, with values changed; options as Case.run. Returns the Result."""
     case = case if isinstance(case, Case) else Case(case)
     return case.changed(overrides or {}).run(output, **options)
-
-
-def yaml_of(value):
-    """A value of Python in the words of a case file."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {yaml_of(one)}" for key, one in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(yaml_of(one) for one in value) + "]"
-    return repr(float(value)) if isinstance(value, float) else str(value)
 
 
 def print_row(row):

@@ -9,6 +9,7 @@ import numpy as np
 from .errors import InputError
 
 _TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt8": "<u1"}
+_OUTLINES = {22: [0, 3, 1, 4, 2, 5], 23: [0, 4, 1, 5, 2, 6, 3, 7]}  # quadratic triangle, quadratic quadrilateral
 
 
 class Fields:
@@ -16,6 +17,7 @@ class Fields:
 
     points       -- places as the mesh was made, m; shape (n, 3)
     cells        -- numbers of the nodes of each element, a list of integer arrays
+    types        -- VTK's number of the type of each element, an integer array
     point_data   -- fields of the nodes (or integration points) by name; shape (n,) or (n, components)
     cell_data    -- fields of the elements, means over their volume
     components   -- names of the components of a field: {"stress": ["11", "22", "33", "12", "21"], ...}
@@ -37,7 +39,12 @@ class Fields:
         self.cell_data = self._arrays(piece.find("CellData"))
         self.points = _values(piece.find("Points/DataArray"))
         cells = {array.get("Name"): _values(array) for array in piece.findall("Cells/DataArray")}
+        self.types = cells["types"]
         self.cells = np.split(cells["connectivity"], cells["offsets"][:-1]) if len(cells["offsets"]) else []
+
+    def outlines(self):
+        """The nodes around each element, in order, those in the middle of its sides too."""
+        return [cell[_OUTLINES[kind]] if kind in _OUTLINES else cell for kind, cell in zip(self.types, self.cells)]
 
     def _arrays(self, element):
         fields = {}

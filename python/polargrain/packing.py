@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Prepared sets of grains."""
+import tempfile
+
 from . import _cells
 from .program import call, data_file
+from .specification import specification_words
 
 Packing = _cells.Packing
 Packing.__doc__ = """Grains in a periodic box, at rest: what cells start from. Read by `read_packing`, made by `pack`.
@@ -20,5 +23,20 @@ len()        -- number of grains
 
 
 def read_packing(file):
-    """The packing in a file (HDF5 of `polargrain pack`, or CSV). Raises InputError naming file and line."""
+    """The packing in a file (HDF5 of `pack`, or CSV). Raises InputError naming file and line."""
     return _cells.read_packing(str(data_file(file)))
+
+
+def pack(specification, output, overrides=None, *, trust_scripts=False):
+    """Makes a packing and keeps it in a file. Returns the Packing.
+
+    specification -- a file, or a dict with its keys (docs/user_guide.md, Packings): grains, sizes, density, thickness,
+                     script, pressure, friction, seed, ...
+    output        -- file to write, NAME.h5
+    overrides     -- {key: value} in place of what stands there
+    Equal specifications give equal files. Raises InputError; RunError when the grains do not come to rest.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        call("pack", *specification_words(specification, overrides, folder), "-o", output, "--quiet",
+             *(["--trust-scripts"] if trust_scripts else []), hidden=folder)
+    return read_packing(output)

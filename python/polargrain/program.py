@@ -43,16 +43,22 @@ def data_file(name):
     return here
 
 
-def call(*words, cwd=None, on_wait=None):
+def worker_count(workers):
+    """How many worker processes a command is told to have: as many as were asked for, or one a core."""
+    return workers or os.cpu_count() or 1
+
+
+def call(*words, on_wait=None, hidden=None):
     """Carries a command of the program out. Returns its standard output, a text.
 
     on_wait -- called five times a second while it works
+    hidden  -- a folder of ours, whose name nobody should meet in a message
     Raises InputError (exit status 2) and RunError (any other but 0) with its words; on Ctrl-C, or when on_wait raises
     something, the program ends in order before that goes on.
     """
     command = [program(), *(str(word) for word in words)]
     # A group of its own: Ctrl-C reaches it through us, once.
-    process = subprocess.Popen(command, cwd=cwd, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)
     texts = {}
     readers = [threading.Thread(target=lambda pipe=pipe: texts.__setitem__(pipe, pipe.read()), daemon=True)
@@ -69,7 +75,7 @@ def call(*words, cwd=None, on_wait=None):
             reader.join()
         process.stdout.close()
         process.stderr.close()
-    text = texts[process.stderr].strip()
+    text = texts[process.stderr].strip().replace(f"{hidden}/", "")
     if process.returncode == 2:
         raise InputError(text, [_fault(line) for line in text.splitlines()])
     if process.returncode != 0:

@@ -8,7 +8,7 @@ import numpy as np
 class Table(dict):
     """Columns by their names, NumPy arrays of one length: numbers, or texts where a cell is none.
 
-    `len(table.rows)` rows; `frame()` is a pandas DataFrame of it, where pandas is installed.
+    `rows` is a list of dicts; `frame()` is a pandas DataFrame of it, where pandas is installed.
     """
 
     @property
@@ -25,7 +25,7 @@ class Table(dict):
 def read_table(file):
     """The Table in a CSV file that the program wrote. A cell with nothing in it is not a number (nan)."""
     with open(file, newline="", encoding="utf-8") as text:
-        lines = csv.reader(text)
+        lines = csv.reader(line for line in text if not line.startswith("#"))
         names = next(lines, [])
         cells = [row for row in lines if len(row) == len(names)]
     return Table({name: _column([row[place] for row in cells]) for place, name in enumerate(names)})

@@ -14,7 +14,10 @@ PAGE = pathlib.Path(os.environ["POLARGRAIN_SOURCE"]) / "docs/python.md"
 
 class Page(InFolder):
     def test_runs(self):
-        examples = re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.M | re.S)
+        page = PAGE.read_text(encoding="utf-8")
+        # With empty lines before each, so that an error names the line of the page.
+        examples = ["\n" * page.count("\n", 0, found.start(1)) + found[1]
+                    for found in re.finditer(r"^```python\n(.*?)^```", page, re.M | re.S)]
         self.assertGreater(len(examples), 5)
         names = {}
         before = os.getcwd()

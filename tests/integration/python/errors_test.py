@@ -89,7 +89,7 @@ class Errors(InFolder):
         process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=os.environ)
         for _ in range(2):
             self.assertEqual(process.stdout.readline(), "asking\n")
-            time.sleep(1.5)  # until the engine is at work; when it is not yet, the test is of less, and holds
+            time.sleep(0.5)  # until the engine is at work; when it is not yet, the test is of less, and holds
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.stdout.readline(), "interrupted\n")
         self.assertEqual(process.stdout.readline(), "good\n")
