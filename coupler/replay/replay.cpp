@@ -145,7 +145,8 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
   text +=
       space
           ? "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s12 s13 s21 "
-            "s22 s23 s31 s32 s33):\ntension positive, first index the normal of the face.\n"
+            "s22 s23 s31 s32 s33)\nand couple stresses in N/m (m11 to m33 the same): tension positive, first "
+            "index the normal of the face.\n"
           : "\nAfter each increment it prints a line `cell: increment ...` with the stresses in Pa (s11 s22 s33 "
             "s12 s21)\nand couple stresses in N/m (m1 m2): tension positive, first index the normal of the "
             "face.\n";
@@ -158,10 +159,10 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
             "`loop: engine` in the case to all:\n\n";
   for (std::size_t k = 0; k < replay.answers.size(); ++k) {
     if (space) {
-      text += fmt::format("    cell: increment {} stress", k + 1);
-      for (int place = 0; place < 9; ++place)
-        text += fmt::format(" {:.17g}", replay.answers[k].components()(place));
-      text += '\n';
+      const Vector18 s = replay.answers[k].components();
+      text +=
+          fmt::format("    cell: increment {} stress {:.17g} couple_stress {:.17g}\n", k + 1,
+                      fmt::join(s.data(), s.data() + 9, " "), fmt::join(s.data() + 9, s.data() + 18, " "));
       continue;
     }
     const Vector7 s = in_plane(replay.answers[k]).stress;

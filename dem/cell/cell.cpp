@@ -39,7 +39,6 @@ class Cell final : public CellOfGrains {
   /// Within the plane of the discs. @param start null: the packing
   CellReply follow(const StatePointer& start, const Increment& increment);
   [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
-  void check_rolling_model();
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
   /// The loop over discs where it knows the scene, else the engine's own.
@@ -83,7 +82,7 @@ Cell::Cell(const CellDefinition& definition)
       driver_(sound(definition).packing, definition.script, definition.script_file,
               definition.contact_library) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
-  if (controlled()) check_rolling_model();
+  if (controlled()) check_rolling_model(lammps);
   const Packing& packing = definition.packing;
   if (packing.state) restore_state(lammps, *packing.state);
   driver_.set_up();
@@ -131,19 +130,6 @@ void Cell::check(const Packing& packing, double pressure, const std::string& scr
   const double unrest = std::max(control_.unbalanced_force_ratio, control_.unbalanced_moment_ratio);
   if (const std::string fault = packing_fault(found, unrest, script_file); !fault.empty())
     driver_.lammps().error->all(FLERR, fault.c_str());
-}
-
-void Cell::check_rolling_model() {
-  LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
-  const auto has = [&lammps](const char* property) {
-    return lammps.modify->find_fix_property(property, "property/global", "peratomtypepair", 0, 0,
-                                            "polargrain", false) != nullptr;
-  };
-  if (has("coefficientRollingFriction") && !has("rollingStiffnessRatio"))
-    lammps.error->all(
-        FLERR,
-        "With controlled rotations the rolling model must be li_chu (or off): the stock models do "
-        "not feel the curvature of the cell");
 }
 
 CellReply Cell::initial() {

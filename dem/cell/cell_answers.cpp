@@ -9,8 +9,21 @@
 
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/script_time_step.hpp"
+#include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
+
+void check_rolling_model(LAMMPS_NS::LAMMPS& lammps) {
+  const auto has = [&lammps](const char* property) {
+    return lammps.modify->find_fix_property(property, "property/global", "peratomtypepair", 0, 0,
+                                            "polargrain", false) != nullptr;
+  };
+  if (has("coefficientRollingFriction") && !has("rollingStiffnessRatio"))
+    lammps.error->all(
+        FLERR,
+        "With controlled rotations the rolling model must be li_chu (or off): the stock models do "
+        "not feel the curvature of the cell");
+}
 
 std::optional<CellReply> gone_astray(double size) {
   if (size <= kLargestIncrement) return std::nullopt;

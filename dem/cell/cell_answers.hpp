@@ -19,6 +19,9 @@ inline constexpr double kHold = 1e-4;
 /// one increment.
 inline constexpr double kLargestIncrement = 0.25;
 
+/// Ends the process where rotations are controlled and the rolling model is one that would not feel a curvature.
+void check_rolling_model(LAMMPS_NS::LAMMPS& lammps);
+
 /// The answer to an increment beyond kLargestIncrement, an iteration gone astray; nothing where it is not.
 std::optional<CellReply> gone_astray(double size);
 

@@ -99,10 +99,7 @@ void FixCellStrain::take_reactions() {
 
 void FixCellStrain::pre_initial_integrate() {
   motion_.advance();
-  if (held_.empty()) {
-    const Eigen::Vector2d& bending = motion_.curvature_rate();
-    loading_.curvature_rate = {bending.x(), bending.y()};
-  }
+  if (held_.empty()) loading_.bend_in_plane(motion_.curvature_rate());
   if (motion_.moving()) accelerate();
   if (!held_.empty()) move_held_grains();
 }

@@ -86,19 +86,19 @@ void QuasiStatic::take_scales(const MeanGrain& grain, std::span<const Contact> a
 
 BoxPath QuasiStatic::begin(const Box& box, const Increment& increment, double time_step, double reach) {
   const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
-  double size = largest_principal(whole.strain());
+  begin(largest_principal(whole.strain()), std::abs(increment.micro_rotation - whole.rotation()),
+        increment.curvature.norm(), time_step, reach);
+  return {box, increment.displacement_gradient, loading_};
+}
+
+void QuasiStatic::begin(double strain, double turn, double curvature, double time_step, double reach) {
+  double size = strain;
   if (controlled()) {
     // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
     // them; a curvature turns them against each other by that times their distance.
     const double distance = reach > 0.0 ? reach : 2.0 * mean_radius_;
-    size = std::max(
-        {size, std::abs(increment.micro_rotation - whole.rotation()), increment.curvature.norm() * distance});
+    size = std::max({size, turn, curvature * distance});
   }
-  begin(size, time_step);
-  return {box, increment.displacement_gradient, loading_};
-}
-
-void QuasiStatic::begin(double size, double time_step) {
   const double steps = std::ceil(size * time_of_grain_ / (control_.inertial_number * time_step));
   if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
   loading_ = std::max(control_.least_steps, static_cast<int>(steps));

@@ -84,9 +84,11 @@ class QuasiStatic {
   /// diameter @returns the path of the box, of as many steps as the loading has
   /// @throws RunError when that is more than 1e9
   BoxPath begin(const Box& box, const Increment& increment, double time_step, double reach = 0.0);
-  /// Begins an increment of any box. @param size largest strain or rotation of it that grains have to follow
+  /// Begins an increment of any box.
+  /// @param strain largest principal one, its magnitude @param turn of the grains against the continuum, rad
+  /// @param curvature rad/m; where rotations are free neither it nor `turn` counts @param reach as above
   /// @throws RunError when that is more than 1e9 steps
-  void begin(double size, double time_step);
+  void begin(double strain, double turn, double curvature, double time_step, double reach = 0.0);
   /// What is prescribed of the rotations; nothing where they are free.
   [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment& increment) const;
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }

@@ -1,19 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <Eigen/Core>
 #include <array>
 
 #include "dem/engine/engine_part.hpp"
 
 namespace polargrain::dem {
 
-/// What a cell imposes on its contacts beyond the motion of the grains; outside a cell it stays zero.
-struct CellLoading {
-  /// Rate of curvature d(micro-rotation)/dx_k, rad/(m s): every contact between grains sees their spins turned
-  /// by what it makes from the middle of the branch to either centre (docs/theory/grains.md, C.6, C.8). Laws
-  /// that take spins past the contact (stock rolling models) do not feel it.
-  std::array<double, 2> curvature_rate{};
+/// What a cell imposes on its contacts beyond the motion of the grains; outside a cell there is nothing.
+class CellLoading {
+ public:
+  /// Every contact between grains is to see their spins turned by what a rate of curvature makes from the middle of the
+  /// branch to either centre (docs/theory/grains.md, C.6, C.8). Laws that take spins past the contact (stock rolling
+  /// models) do not feel it.
+  /// @param rate (i,j) = d(micro-rotation about e_i)/dx_j in a unit of time, in the frame of the box, rad/(m s)
+  void bend(const Eigen::Matrix3d& rate) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) rate_[static_cast<std::size_t>(3 * i + j)] = rate(i, j);
+    bends_ = !rate.isZero(0.0);
+  }
+  /// Of discs. @param rate d(micro-rotation about e_3)/dx_j
+  void bend_in_plane(const Eigen::Vector2d& rate) {
+    Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
+    whole.row(2).head<2>() = rate.transpose();
+    bend(whole);
+  }
 
-  [[nodiscard]] bool bends() const { return curvature_rate[0] != 0.0 || curvature_rate[1] != 0.0; }
+  [[nodiscard]] bool bends() const { return bends_; }
+  /// By how much the micro-rotation about an axis grows along a vector of three components, rad/s.
+  [[nodiscard]] double spin_along(const double* vector, int axis) const {
+    const double* const row = &rate_[static_cast<std::size_t>(3 * axis)];
+    return row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2];
+  }
+
+ private:
+  std::array<double, 9> rate_{};
+  bool bends_ = false;
 };
 
 /// The loading of the cell of this engine.

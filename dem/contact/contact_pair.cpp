@@ -66,7 +66,7 @@ ContactPair::ContactPair(const Definition& definition, const Place& start)
 ContactPair::~ContactPair() = default;
 
 void ContactPair::bend(const Eigen::Vector2d& curvature_rate) {
-  cell_loading(room_->engine.lammps()).curvature_rate = {curvature_rate.x(), curvature_rate.y()};
+  cell_loading(room_->engine.lammps()).bend_in_plane(curvature_rate);
 }
 
 ContactPair::Answer ContactPair::advance(const Place& next, const Spins& spins) {

@@ -33,6 +33,7 @@ struct Contact {
   Eigen::Vector2d moment_12 = Eigen::Vector2d::Zero();
   double torsion_stiffness =
       0.0;  ///< against twisting about the normal, N m/rad; known for li_chu, otherwise 0
+  bool torsion_at_limit = false;  ///< the torsion spring stands at its limit (li_chu)
 
   [[nodiscard]] Eigen::Vector2d normal() const { return branch.normalized(); }  ///< from first to second
   /// Compressive normal force, positive when the grains push each other.
@@ -62,6 +63,7 @@ struct ContactRecorder {
     double stiffness = 0.0;
     bool at_limit = false;
     double torsion_stiffness = 0.0;
+    bool torsion_at_limit = false;
   };
 
   bool on = false;

@@ -57,11 +57,10 @@ class RecordedModel : public Model {
     double seen_j[3];
     if (loading_.bends()) {
       // From the middle of the branch the micro-rotation changes by half of curvature . branch to either centre.
-      const double half =
-          0.5 * (loading_.curvature_rate[0] * data.delta[0] + loading_.curvature_rate[1] * data.delta[1]);
       for (int axis = 0; axis < 3; ++axis) {
-        seen_i[axis] = spin_i[axis] + (axis == 2 ? half : 0.0);
-        seen_j[axis] = spin_j[axis] - (axis == 2 ? half : 0.0);
+        const double half = 0.5 * loading_.spin_along(data.delta, axis);
+        seen_i[axis] = spin_i[axis] + half;
+        seen_j[axis] = spin_j[axis] - half;
       }
       data.omega_i = seen_i;
       data.omega_j = seen_j;
@@ -121,6 +120,7 @@ class RecordedModel : public Model {
     contact.rolling_stiffness = rolling.stiffness;
     contact.rolling_at_limit = rolling.at_limit;
     contact.torsion_stiffness = rolling.torsion_stiffness;
+    contact.torsion_at_limit = rolling.torsion_at_limit;
     recorder_.contacts.push_back(contact);
   }
 

@@ -112,9 +112,11 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
     if (!at_limit)
       for (int axis = 0; axis < 3; ++axis)
         moment[axis] += damping * (spin[axis] - torsion_rate * contact.en[axis]);
-    if (torsion_on_) add_torsion(contact, advance, stiffness, damping, limit, torsion_rate, moment);
+    const bool torsion_at_limit =
+        torsion_on_ && add_torsion(contact, advance, stiffness, damping, limit, torsion_rate, moment);
 
-    if (recorder_.on) recorder_.rolling = {stiffness, at_limit, torsion_on_ ? stiffness : 0.0};
+    if (recorder_.on)
+      recorder_.rolling = {stiffness, at_limit, torsion_on_ ? stiffness : 0.0, torsion_at_limit};
     const double share = contact.is_wall ? contact.area_ratio : 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       force_i.delta_torque[axis] -= share * moment[axis];
@@ -160,7 +162,8 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
     return {factor * turning[0], factor * turning[1], factor * turning[2]};
   }
 
-  void add_torsion(const SurfacesIntersectData& contact, bool advance, double stiffness, double damping,
+  /// @returns whether the torsion stands at its limit
+  bool add_torsion(const SurfacesIntersectData& contact, bool advance, double stiffness, double damping,
                    double limit, double rate, double (&moment)[3]) {
     double& stored = contact.contact_history[torsion_];
     const double angle = advance ? stored + rate * update->dt : stored;
@@ -170,6 +173,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
     if (advance) stored = at_limit ? torque / stiffness : angle;
     if (!at_limit) torque += damping * rate;
     for (int axis = 0; axis < 3; ++axis) moment[axis] += torque * contact.en[axis];
+    return at_limit;
   }
 
   ContactModelBase& model_;

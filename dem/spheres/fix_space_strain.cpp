@@ -19,7 +19,7 @@ using Place = Eigen::Map<Eigen::Vector3d>;
 }  // namespace
 
 FixSpaceStrain::FixSpaceStrain(LAMMPS_NS::LAMMPS* lammps, int count, char** words)
-    : Fix(lammps, count, words) {
+    : Fix(lammps, count, words), loading_(cell_loading(*lammps)) {
   box_change_size = 1;
   box_change_shape = 1;
   if (count > 3) error->all(FLERR, "Illegal fix cell/space_strain command: it takes no words");
@@ -53,12 +53,26 @@ SpaceBox FixSpaceStrain::engine_box() const {
   return box;
 }
 
-void FixSpaceStrain::begin(const SpacePath& path, double damping_rate) {
-  motion_ = SpaceMotion(path, update->dt);
+void FixSpaceStrain::begin(const SpacePath& path, double damping_rate,
+                           const std::optional<SpaceRotation>& rotation) {
+  motion_ = SpaceMotion(path, rotation, update->dt);
   damping_rate_ = damping_rate;
+  multiplier_.setZero();
+  weights_.clear();  // those of another path say nothing of this one
+  loading_ = {};
   std::fill_n(domain->h_rate, 6, 0.0);
   std::fill_n(domain->h_ratelo, 3, 0.0);
   set_box(motion_.box());
+}
+
+void FixSpaceStrain::lead(QuasiStatic& protocol, const CellIncrement& increment) {
+  const Eigen::Matrix3d& gradient = increment.displacement_gradient;
+  const SpaceRotation rotation{increment.rotation, increment.curvature};
+  const SpacePath whole({Eigen::Matrix3d::Identity()}, gradient, 1);
+  protocol.begin(largest_principal_strain(whole), rotation.against(whole).norm(), increment.curvature.norm(),
+                 update->dt);
+  begin(SpacePath(box(), gradient, protocol.loading()), protocol.damping_rate(),
+        protocol.controlled() ? std::optional(rotation) : std::nullopt);
 }
 
 void FixSpaceStrain::fold() {
@@ -84,11 +98,12 @@ void FixSpaceStrain::set_box(const SpaceBox& box) {
 }
 
 void FixSpaceStrain::setup(int) {
-  sum_unbalanced();
+  balance(false);
 }
 
 void FixSpaceStrain::pre_initial_integrate() {
   motion_.advance();
+  loading_.bend(motion_.curvature_rate());
   if (motion_.moving()) accelerate();
 }
 
@@ -118,16 +133,40 @@ void FixSpaceStrain::post_integrate() {
 }
 
 void FixSpaceStrain::post_force(int) {
-  sum_unbalanced();
-  if (damping_rate_ > 0.0) damp();
+  balance(damping_rate_ > 0.0);
 }
 
-void FixSpaceStrain::sum_unbalanced() {
+void FixSpaceStrain::balance(bool damped) {
+  const bool controlled = motion_.rotation_is_prescribed() && !weights_.empty();
   imbalance_ = {0.0, 0.0, atom->nlocal};
+  contact_torques_.resize(static_cast<std::size_t>(atom->nlocal));
   for (int k = 0; k < atom->nlocal; ++k) {
     imbalance_.force += Place(atom->f[k]).norm();
-    imbalance_.moment += Place(atom->torque[k]).norm();
+    contact_torques_[static_cast<std::size_t>(k)] = Place(atom->torque[k]);
   }
+  if (damped) damp();
+  if (controlled) control_mean_rotation();
+  const Eigen::Vector3d imposed = motion_.box().volume() * multiplier_;
+  for (std::size_t k = 0; k < contact_torques_.size(); ++k) {
+    if (controlled) contact_torques_[k] += weights_[k] * imposed;
+    imbalance_.moment += contact_torques_[k].norm();
+  }
+}
+
+void FixSpaceStrain::control_mean_rotation() {
+  // The spins of the next half step must average to the prescribed one, see FixCellStrain.
+  const double volume = motion_.box().volume();
+  Eigen::Vector3d mean_spin = Eigen::Vector3d::Zero();
+  double compliance = 0.0;
+  for (int k = 0; k < atom->nlocal; ++k) {
+    const double gain = update->dt / (kInertia * atom->rmass[k] * atom->radius[k] * atom->radius[k]);
+    const double weight = weights_[static_cast<std::size_t>(k)];
+    mean_spin += weight * (Place(atom->omega[k]) + gain * Place(atom->torque[k]));
+    compliance += weight * weight * gain;
+  }
+  multiplier_ = (motion_.spin() - mean_spin) / (compliance * volume);
+  for (int k = 0; k < atom->nlocal; ++k)
+    Place(atom->torque[k]) += weights_[static_cast<std::size_t>(k)] * volume * multiplier_;
 }
 
 void FixSpaceStrain::damp() {

@@ -72,8 +72,11 @@ double SpacePath::share(int step) const {
 }
 
 Eigen::Matrix3d SpacePath::deformation(int step) const {
-  const double part = fraction(step);
-  return rotation_by(part * rotation_) * (Eigen::Matrix3d::Identity() + part * stretch_);
+  return turned(step) * (Eigen::Matrix3d::Identity() + fraction(step) * stretch_);
+}
+
+Eigen::Matrix3d SpacePath::turned(int step) const {
+  return rotation_by(fraction(step) * rotation_);
 }
 
 SpaceBox SpacePath::at(int step) const {
@@ -83,22 +86,30 @@ SpaceBox SpacePath::at(int step) const {
   return {stretched.base, rotation_by(part * rotation_) * start_.frame * stretched.frame};
 }
 
-double largest_principal_strain(const Eigen::Matrix3d& displacement_gradient) {
-  const SpacePath path({Eigen::Matrix3d::Identity()}, displacement_gradient, 1);
+double largest_principal_strain(const SpacePath& path) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(path.strain(), Eigen::EigenvaluesOnly)
       .eigenvalues()
       .cwiseAbs()
       .maxCoeff();
 }
 
-SpaceMotion::SpaceMotion(const SpacePath& path, double time_step)
-    : path_(path), time_step_(time_step), box_(path.at(0)) {}
+Eigen::Vector3d SpaceRotation::against(const SpacePath& path) const {
+  return rotation_vector(rotation_by(path.rotation()).transpose() * rotation_by(rotation));
+}
+
+SpaceMotion::SpaceMotion(const SpacePath& path, const std::optional<SpaceRotation>& rotation,
+                         double time_step)
+    : path_(path), rotation_(rotation), time_step_(time_step), box_(path.at(0)) {
+  if (rotation) against_ = rotation->against(path);
+  stretched_frame_ = box_.frame;
+}
 
 void SpaceMotion::advance() {
   ++step_;
   if (step_ > path_.steps() + 1) {  // at rest
     change_.setZero();
     change_of_spin_.setZero();
+    curvature_rate_.setZero();
     moving_ = false;
     return;
   }
@@ -111,10 +122,26 @@ void SpaceMotion::advance() {
   gradient_ = rate_ * box_.inverse();
   turn_.setZero();
   if (step_ <= path_.steps()) turn_ = rotation_vector(box_.frame * before.frame.transpose());
-  const Eigen::Vector3d spin = axial(rate * inverse);
-  change_of_spin_ = spin - spin_;
-  spin_ = spin;
+  const Eigen::Vector3d before_spin = spin_;
+  if (rotation_)
+    turn_grains();
+  else
+    spin_ = axial(rate * inverse);
+  change_of_spin_ = spin_ - before_spin;
   moving_ = true;
+}
+
+void SpaceMotion::turn_grains() {
+  // Grains and frame both turn with R(s w), so only what is left of either counts: v, and the frame that stretching alone
+  // makes.
+  const Eigen::Matrix3d before = stretched_frame_;
+  stretched_frame_ = path_.turned(step_).transpose() * box_.frame;
+  const Eigen::Matrix3d to_box = stretched_frame_.transpose();
+  const double rate = path_.share(step_) / time_step_;
+  spin_ = to_box * (rate * against_ - rotation_vector(stretched_frame_ * before.transpose()) / time_step_);
+  curvature_rate_.setZero();
+  if (!rotation_->curvature.isZero(0.0))
+    curvature_rate_ = rate * to_box * rotation_->curvature * path_.deformation(step_).inverse() * box_.frame;
 }
 
 }  // namespace polargrain::dem

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 
 namespace polargrain::dem {
 
@@ -39,6 +40,8 @@ class SpacePath {
   [[nodiscard]] double share(int step) const;
   /// F(s) after `step` steps, in the laboratory.
   [[nodiscard]] Eigen::Matrix3d deformation(int step) const;
+  /// R(s w) after `step` steps.
+  [[nodiscard]] Eigen::Matrix3d turned(int step) const;
 
  private:
   [[nodiscard]] double fraction(int step) const;
@@ -51,7 +54,21 @@ class SpacePath {
 };
 
 /// The largest principal strain of a path, its magnitude.
-double largest_principal_strain(const Eigen::Matrix3d& displacement_gradient);
+double largest_principal_strain(const SpacePath& path);
+
+/// What mode 2 adds to a SpacePath (docs/theory/grains.md, C.9), in the laboratory.
+struct SpaceRotation {
+  /// The mean rotation of the grains over the path as the vector of a rotation, rad. With R(w) of the path, grains turn
+  /// against the continuum by the vector v of R(w)^T R(rotation), and after the fraction s of the way have turned by
+  /// R(s w) R(s v): a rotation on top of the whole turns the grains with the box and does nothing else.
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
+  /// kappa(i,j) = d w_i / d x_j over the path, x the position at the start, w about the axes as they lie at the start:
+  /// they turn with the continuum; rad/m.
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+
+  /// v above.
+  [[nodiscard]] Eigen::Vector3d against(const SpacePath& path) const;
+};
 
 /// A SpacePath in time, one DEM step after the other (BoxMotion in the plane). With H_k the base vectors after step
 /// k, in the frame of the box, the affine velocity during step k is Hdot_k H^-1 x with Hdot_k = (H_k - H_(k-1)) / dt,
@@ -59,7 +76,8 @@ double largest_principal_strain(const Eigen::Matrix3d& displacement_gradient);
 class SpaceMotion {
  public:
   SpaceMotion() = default;
-  SpaceMotion(const SpacePath& path, double time_step);
+  /// @param rotation prescribed mean rotation; nothing: the affine spin is that of the continuum
+  SpaceMotion(const SpacePath& path, const std::optional<SpaceRotation>& rotation, double time_step);
 
   /// Goes on by one step.
   void advance();
@@ -77,12 +95,21 @@ class SpaceMotion {
   [[nodiscard]] bool moving() const { return moving_; }
   /// Rotation of the frame in the step under way, in the laboratory, rad.
   [[nodiscard]] const Eigen::Vector3d& turn() const { return turn_; }
-  /// Affine spin of the step under way, counted from the frame, and what the step added to it, rad/s.
+  [[nodiscard]] bool rotation_is_prescribed() const { return rotation_.has_value(); }
+  /// Affine or prescribed spin of the step under way, counted from the frame, and what the step added to it, rad/s.
   [[nodiscard]] const Eigen::Vector3d& spin() const { return spin_; }
   [[nodiscard]] const Eigen::Vector3d& change_of_spin() const { return change_of_spin_; }
+  /// Rate of curvature (i,j) in the position now and the frame of the box now, rad/(m s).
+  [[nodiscard]] const Eigen::Matrix3d& curvature_rate() const { return curvature_rate_; }
 
  private:
+  /// What is prescribed of the spins in the step under way.
+  void turn_grains();
+
   SpacePath path_;
+  std::optional<SpaceRotation> rotation_;
+  Eigen::Vector3d against_ = Eigen::Vector3d::Zero();              // v of SpaceRotation
+  Eigen::Matrix3d stretched_frame_ = Eigen::Matrix3d::Identity();  // R(s w)^T frame, after the steps so far
   double time_step_ = 1.0;
   int step_ = 0;
   SpaceBox box_;
@@ -93,6 +120,7 @@ class SpaceMotion {
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d spin_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d change_of_spin_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d curvature_rate_ = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace polargrain::dem

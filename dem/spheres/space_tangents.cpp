@@ -125,8 +125,8 @@ LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matr
   } else {
     stiffness.topLeftCorner<3, 3>() += sliding_spring;
   }
-  const Eigen::Matrix3d rolling_spring =
-      contact.rolling_stiffness * across + contact.torsion_stiffness * along;
+  const double torsion_stiffness = contact.torsion_at_limit ? 0.0 : contact.torsion_stiffness;
+  const Eigen::Matrix3d rolling_spring = contact.rolling_stiffness * across + torsion_stiffness * along;
   if (contact.rolling_at_limit) {
     const Eigen::Vector3d bending = across * (frame * moment_of(contact));
     const Limited rest = limited(rolling_spring, bending, normal_force, n);
@@ -135,6 +135,9 @@ LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matr
   } else {
     stiffness.bottomRightCorner<3, 3>() = rolling_spring;
   }
+  if (contact.torsion_at_limit && normal_force > 0.0)
+    stiffness.bottomLeftCorner<3, 3>() -=
+        contact.normal_stiffness / normal_force * (along * (frame * moment_of(contact))) * n.transpose();
 
   // A rotation w moves the surface of the first by r_A w x n, that of the second by -r_B w x n.
   const Eigen::Matrix3d lever = cross_matrix(n);

@@ -25,13 +25,9 @@ namespace polargrain::dem {
 
 namespace {
 
-/// @throws RunError when this cannot be a cell of spheres
+/// @throws RunError when the places of its grains are none of a packing
 const CellDefinition& sound(const CellDefinition& definition) {
   if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
-  if (definition.control.rotations == CellRotations::controlled)
-    throw RunError(
-        "the rotations of spheres in space cannot be controlled: leave out 'rotations: controlled', or take a "
-        "packing of discs");
   return definition;
 }
 
@@ -78,11 +74,18 @@ class SphereCell final : public CellOfGrains {
   CellReply follow(const StatePointer& start, const CellIncrement& increment);
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
+  [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
+  /// Neighbours and forces at the positions as they are; no step.
+  void set_up();
   void run();
+  /// Weights of the grains in the mean rotation from the recorded contacts; none when no grain could be turned.
+  [[nodiscard]] std::vector<double> weights() const {
+    return rotation_weights(engine_.contacts(), engine_.grains(), space_normal_force);
+  }
   [[nodiscard]] const SpaceBox& box() const { return engine_.strain().box(); }
   [[nodiscard]] Equilibrium equilibrium() const;
   [[nodiscard]] CellDiagnostics measure() const;
-  /// Stress of the recorded contacts, in the laboratory.
+  /// Stress and, with controlled rotations, couple stress of the recorded contacts, in the laboratory.
   [[nodiscard]] CellResponse respond(const Matrix18& tangent) const;
   /// Tangent of the recorded contacts, in the laboratory.
   [[nodiscard]] Matrix18 tangent();
@@ -104,6 +107,7 @@ SphereCell::SphereCell(const CellDefinition& definition)
   engine_.progress = [this] {
     if (progress) progress();
   };
+  if (controlled()) check_rolling_model(engine_.lammps());
   engine_.set_up();
   const std::string remark = engine_.settle_time_step(control_.damping);
   inertia_ = inertia_of(engine_.lammps());
@@ -118,9 +122,13 @@ SphereCell::SphereCell(const CellDefinition& definition)
 }
 
 void SphereCell::check(const Packing& packing, double pressure, const std::string& script_file) {
-  PackingAtRest found{
-      pressure, packing.pressure, 0.0, equilibrium(), overlaps_of(engine_.contacts(), inertia_.radii), true,
-      true};
+  PackingAtRest found{pressure,
+                      packing.pressure,
+                      0.0,
+                      equilibrium(),
+                      overlaps_of(engine_.contacts(), inertia_.radii),
+                      !controlled() || !weights().empty(),
+                      true};
   if (pressure > 0.0)
     found.stiffness_level =
         mean_normal_stiffness(engine_.contacts()) / (pressure * 2.0 * engine_.mean_radius());
@@ -138,11 +146,14 @@ CellReply SphereCell::evaluate(const CellRequest& request) {
 
 CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& increment) {
   const Eigen::Matrix3d& gradient = increment.displacement_gradient;
-  if (const std::optional<CellReply> astray = gone_astray(gradient.cwiseAbs().maxCoeff())) return *astray;
+  double size = gradient.cwiseAbs().maxCoeff();
+  if (controlled())
+    size = std::max({size, increment.rotation.cwiseAbs().maxCoeff(),
+                     increment.curvature.norm() * 2.0 * engine_.mean_radius()});
+  if (const std::optional<CellReply> astray = gone_astray(size)) return *astray;
   engine_.restore(start ? *start : *initial_.state);
-  protocol_.begin(largest_principal_strain(gradient), engine_.strain().time_step());
-  engine_.strain().begin(SpacePath(box(), gradient, protocol_.loading()), protocol_.damping_rate());
-  engine_.set_up();
+  engine_.strain().lead(protocol_, increment);
+  set_up();
 
   while (!protocol_.loaded()) run();
   // Taken while the box still moves: see the cell of discs.
@@ -180,10 +191,19 @@ GrainView SphereCell::view() {
   return view;
 }
 
+void SphereCell::set_up() {
+  engine_.set_up();
+  if (!controlled()) return;
+  // As with discs: weights of these contacts, and torques that hold the mean rotation with the first forces.
+  engine_.strain().set_rotation_weights(weights());
+  engine_.strain().setup(0);
+}
+
 void SphereCell::run() {
   const int steps = protocol_.steps_to_next_look();
   engine_.run(steps);
   protocol_.advance(steps);
+  if (controlled()) engine_.strain().set_rotation_weights(weights());
 }
 
 Equilibrium SphereCell::equilibrium() const {
@@ -196,6 +216,7 @@ CellDiagnostics SphereCell::measure() const {
   CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, inertia_.radii, slides_in_space);
   const Eigen::Matrix3d fabric = box().frame * space_fabric(contacts) * box().frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
+  diagnostics.multiplier = engine_.strain().multiplier().z();
 
   const std::span<const double> rotations = engine_.strain().rotations();
   if (rotations.empty()) return diagnostics;
@@ -210,7 +231,11 @@ CellDiagnostics SphereCell::measure() const {
 CellResponse SphereCell::respond(const Matrix18& tangent) const {
   CellResponse response;
   response.known = KnownComponents::all;
-  response.stress = box().frame * space_stress(engine_.contacts(), box().volume()) * box().frame.transpose();
+  const Eigen::Matrix3d& frame = box().frame;
+  response.stress = frame * space_stress(engine_.contacts(), box().volume()) * frame.transpose();
+  if (controlled())
+    response.couple_stress =
+        frame * space_couple_stress(engine_.contacts(), box().volume()) * frame.transpose();
   response.tangent = tangent;
   return response;
 }
@@ -218,13 +243,14 @@ CellResponse SphereCell::respond(const Matrix18& tangent) const {
 Matrix18 SphereCell::tangent() {
   if (control_.tangent == CellTangent::none) return Matrix18::Zero();
   const SpaceNetwork network{engine_.contacts(), engine_.grains(), box().frame, box().volume(), kHold};
-  if (control_.tangent == CellTangent::voigt) return voigt_space_tangent(network);
-  if (control_.tangent == CellTangent::condensed)
+  if (control_.tangent == CellTangent::voigt)
+    return controlled() ? voigt_cosserat_space_tangent(network) : voigt_space_tangent(network);
+  if (control_.tangent == CellTangent::condensed && !controlled())
     return condensed_tangent_.classical(network).value_or(voigt_space_tangent(network));
   std::optional<Matrix18> condensed;
   // Grains that have no neighbours but one each have no mean rotation that could be held.
-  const std::vector<double> weights = rotation_weights(network.contacts, network.grains, space_normal_force);
-  if (!weights.empty()) condensed = condensed_tangent_.cosserat(network, weights);
+  if (const std::vector<double> held = weights(); !held.empty())
+    condensed = condensed_tangent_.cosserat(network, held);
   return condensed.value_or(voigt_cosserat_space_tangent(network));
 }
 

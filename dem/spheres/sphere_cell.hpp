@@ -7,7 +7,7 @@
 namespace polargrain::dem {
 
 /// The engine that stands in for the cells of spheres of a definition: what make_cell_service makes of a packing of
-/// dimension 3. @throws RunError where its rotations are to be controlled, which only discs know
+/// dimension 3. @throws RunError when the places of its grains are none of a packing
 std::unique_ptr<CellOfGrains> make_sphere_cell(const CellDefinition& definition);
 
 }  // namespace polargrain::dem

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <vector>
 
 #include "common/record_values.hpp"
 #include "dem/cell/script_time_step.hpp"
@@ -22,9 +23,6 @@ FixSpaceLoad::FixSpaceLoad(LAMMPS_NS::LAMMPS* lammps, int count, char** words)
   extscalar = extvector = 0;
   atom->sortfreq = 0;  // the order of the grains is part of a state
   const CellLoadWords read = read_cell_load_words(*lammps, count, words);
-  if (read.control.rotations == CellRotations::controlled)
-    error->all(FLERR,
-               "Illegal fix cell/load command: the rotations of spheres in space cannot be controlled");
   if (read.turned != 0.0)
     error->all(FLERR, "Illegal fix cell/load command: turned is for discs; spheres have a frame");
   mean_ = read.mean_grain;
@@ -100,8 +98,7 @@ void FixSpaceLoad::begin_increment(const CellIncrement& increment) try {
     fold();
     go_on_from(save_state(*lmp, box(), rotations()));
   }
-  protocol_.begin(largest_principal_strain(increment.displacement_gradient), update->dt);
-  begin(SpacePath(box(), increment.displacement_gradient, protocol_.loading()), protocol_.damping_rate());
+  lead(protocol_, increment);
 } catch (const std::exception& fault) {
   error->all(FLERR, fault.what());
 }
@@ -118,6 +115,8 @@ void FixSpaceLoad::setup_pre_force(int) {
 void FixSpaceLoad::setup(int vflag) {
   restored_.reset();
   recorder_.on = false;
+  // Before the first forces of an increment the weights come from the contacts at its start.
+  if (protocol_.controlled() && protocol_.done() == 0 && protocol_.loading() > 0) renew_weights();
   FixSpaceStrain::setup(vflag);
   look();
 }
@@ -132,20 +131,29 @@ void FixSpaceLoad::post_force(int vflag) {
   if (!recorder_.on) return;
   recorder_.on = false;
   look();
+  if (protocol_.controlled() && protocol_.looks_now()) renew_weights();
+}
+
+void FixSpaceLoad::renew_weights() {
+  set_rotation_weights(rotation_weights(recorder_.contacts, grains(), space_normal_force));
 }
 
 void FixSpaceLoad::look() {
   const std::vector<Contact>& contacts = recorder_.contacts;
-  stress_ = box().frame * space_stress(contacts, box().volume()) * box().frame.transpose();
+  const Eigen::Matrix3d& frame = box().frame;
+  stress_ = frame * space_stress(contacts, box().volume()) * frame.transpose();
+  if (protocol_.controlled())
+    couple_stress_ = frame * space_couple_stress(contacts, box().volume()) * frame.transpose();
   const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_.radius, protocol_.least_force());
   const Eigen::Matrix3d& s = stress_;
+  const Eigen::Matrix3d& m = couple_stress_;
   answer_ = {s(0, 0),
              s(1, 1),
              s(2, 2),
              s(0, 1),
              s(1, 0),
-             0.0,
-             0.0,
+             m(0, 2),
+             m(1, 2),
              ratios.force_ratio,
              ratios.moment_ratio,
              protocol_.ended(ratios.force_ratio, ratios.moment_ratio) ? 1.0 : 0.0,
@@ -153,16 +161,25 @@ void FixSpaceLoad::look() {
              s(0, 2),
              s(2, 0),
              s(1, 2),
-             s(2, 1)};
+             s(2, 1),
+             m(0, 0),
+             m(1, 1),
+             m(2, 2),
+             m(0, 1),
+             m(1, 0),
+             m(2, 0),
+             m(2, 1)};
 }
 
 void FixSpaceLoad::report(const char* name) const {
-  const Eigen::Matrix3d& s = stress_;
+  // Row by row.
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Rows s = stress_;
+  const Rows m = couple_stress_;
   const std::string line = fmt::format(
-      "cell: increment {} stress {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} unbalanced "
-      "{:.3e} {:.3e} steps {}\n",
-      name, s(0, 0), s(0, 1), s(0, 2), s(1, 0), s(1, 1), s(1, 2), s(2, 0), s(2, 1), s(2, 2), answer_[7],
-      answer_[8], protocol_.done());
+      "cell: increment {} stress {:.17g} couple_stress {:.17g} unbalanced {:.3e} {:.3e} steps {}\n", name,
+      fmt::join(s.data(), s.data() + 9, " "), fmt::join(m.data(), m.data() + 9, " "), answer_[7], answer_[8],
+      protocol_.done());
   for (FILE* stream : {screen, logfile})
     if (stream) std::fputs(line.c_str(), stream);
 }

@@ -16,11 +16,11 @@ namespace polargrain::dem {
 /// Takes a cell of spheres along increments in a script of the user's, by the very steps that a coupled run takes: what
 /// FixCellLoad is for discs, with its words but these:
 ///
-///   rotations free               those of spheres are
 ///   frame Q11 Q12 ... Q33        rotation of the box against the laboratory, in place of turned (identity)
 ///
-/// fix_modify ID increment takes the 21 numbers of a CellIncrement. f_ID[1..11] are as of discs, couple stresses zero;
-/// f_ID[12..15]: s13 s31 s23 s32 (Pa). The report tells s11 s12 s13 s21 ... s33.
+/// fix_modify ID increment takes the 21 numbers of a CellIncrement. f_ID[1..11] are as of discs, m1 and m2 being m13 and
+/// m23; f_ID[12..15]: s13 s31 s23 s32 (Pa); f_ID[16..22]: m11 m22 m33 m12 m21 m31 m32 (N/m). The report tells s11 s12 s13
+/// s21 ... s33, and couple stresses likewise, zero where rotations are free.
 class FixSpaceLoad final : public FixSpaceStrain {
  public:
   FixSpaceLoad(LAMMPS_NS::LAMMPS* lammps, int count, char** words);
@@ -40,6 +40,7 @@ class FixSpaceLoad final : public FixSpaceStrain {
   void go_on_from(StatePointer state);
   void begin_increment(const CellIncrement& increment);
   void report(const char* name) const;
+  void renew_weights();
   void look();
   void start_recording();
 
@@ -50,7 +51,8 @@ class FixSpaceLoad final : public FixSpaceStrain {
   QuasiStatic protocol_;
   StatePointer restored_;  // null once forces have been computed with it
   Eigen::Matrix3d stress_ = Eigen::Matrix3d::Zero();
-  std::array<double, 15> answer_{};
+  Eigen::Matrix3d couple_stress_ = Eigen::Matrix3d::Zero();
+  std::array<double, 22> answer_{};
 };
 
 }  // namespace polargrain::dem

@@ -28,6 +28,24 @@ inline CellDefinition hertz_spheres() {
   return spheres("liggghts_inputs/cells/spheres_hertz.in", "tests/data/packing500_hertz.csv");
 }
 
+/// Their contacts with springs that turn with them, and resistance to bending and torsion: li_chu in full.
+inline CellDefinition rolling_spheres(CellDefinition definition, double stiffness_ratio, double friction,
+                                      bool torsion = true) {
+  const std::string stock = "tangential history";
+  const auto place = definition.script.find("pair_style");
+  if (place == std::string::npos || definition.script.find(stock, place) == std::string::npos)
+    throw std::logic_error("a script of spheres has changed");
+  definition.script.replace(
+      definition.script.find(stock, place), stock.size(),
+      std::string("tangential li_chu rolling_friction li_chu torsionTorque ") + (torsion ? "on" : "off"));
+  definition.script.insert(
+      place, "fix rolling_friction all property/global coefficientRollingFriction peratomtypepair 1 " +
+                 std::to_string(friction) +
+                 "\nfix rolling_stiffness all property/global rollingStiffnessRatio peratomtypepair 1 " +
+                 std::to_string(stiffness_ratio) + "\n");
+  return definition;
+}
+
 /// A row of a path of the independent code (tests/data/README.md).
 struct SpacePathRow {
   std::string path;

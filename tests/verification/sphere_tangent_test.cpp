@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <cstdio>
 
 #include "dem/cell/averages.hpp"
@@ -98,6 +99,106 @@ TEST(SphereTangent, KnowsContactsThatSlide) {
   // Contacts that come to slide or stop sliding within the difference make the rest.
   EXPECT_LT(condensed, 0.25);
   EXPECT_LT(condensed, 0.3 * voigt);
+}
+
+/// d (stress, couple stress) over all eighteen components of the Cosserat strain, by central differences about an
+/// increment: a displacement gradient d u_j / d x_i at a given micro-rotation is the strain eps_ij.
+Matrix18 cosserat_differences(CellOfGrains& cell, const CellRequest& about, double strain, double curvature) {
+  Matrix18 columns;
+  for (int k = 0; k < 18; ++k) {
+    const int i = k % 9 / 3;
+    const int j = k % 3;
+    const auto moved = [&](double sign) {
+      CellRequest request = about;
+      if (k < 9)
+        request.increment.displacement_gradient(j, i) += sign * strain;
+      else
+        request.increment.curvature(j, i) += sign * curvature;
+      const CellReply reply = cell.evaluate(request);
+      EXPECT_EQ(reply.response.quality, Quality::good) << reply.response.message;
+      return reply.response.components();
+    };
+    columns.col(k) = (moved(1.0) - moved(-1.0)) / (2.0 * (k < 9 ? strain : curvature));
+  }
+  return columns;
+}
+
+/// How far a tangent is from the differences, over their norm: forces over strains, couples over curvatures, and the
+/// two mixed blocks, over the mean of the others. `d` makes one unit of all.
+struct Away {
+  double forces, couples, mixed;
+};
+Away away(const Matrix18& tangent, const Matrix18& differences, double d) {
+  Vector18 scale = Vector18::Ones();
+  scale.tail<9>().setConstant(1.0 / d);
+  const Matrix18 from = scale.asDiagonal() * differences * scale.asDiagonal();
+  const Matrix18 off = scale.asDiagonal() * tangent * scale.asDiagonal() - from;
+  const double couples = from.bottomRightCorner<9, 9>().norm();
+  const double forces = from.topLeftCorner<9, 9>().norm();
+  return {off.topLeftCorner<9, 9>().norm() / forces, off.bottomRightCorner<9, 9>().norm() / couples,
+          std::hypot(off.topRightCorner<9, 9>().norm(), off.bottomLeftCorner<9, 9>().norm()) /
+              std::sqrt(forces * couples)};
+}
+
+CellDefinition controlled_spheres() {
+  CellDefinition definition = test::rolling_spheres(test::hertz_spheres(), 1.0, 0.2);
+  definition.control.rotations = CellRotations::controlled;
+  return definition;
+}
+
+TEST(SphereTangent, OfControlledRotationsIsTheDerivativeOfTheWholeStressAtRest) {
+  CellDefinition definition = controlled_spheres();
+  definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-6;
+  definition.control.damping = 0.3;
+  const auto cell = make_cell_service(definition);
+  const CellReply rest = cell->initial();
+  const double d = 2.0 * definition.packing.mean_radius();
+  const Matrix18 expected = cosserat_differences(*cell, {rest.state, {}}, 1e-7, 1e-7 / d);
+  definition.control.tangent = CellTangent::voigt;
+  const Away condensed = away(rest.response.tangent, expected, d);
+  const Away voigt = away(make_cell_service(definition)->initial().response.tangent, expected, d);
+  std::printf(
+      "[figure] 500 spheres at rest, controlled rotations: condensed tangent %.4f of the derivative away in the "
+      "forces, %.4f in the couples, %.4f mixed; Voigt tangent %.2f, %.2f, %.2f\n",
+      condensed.forces, condensed.couples, condensed.mixed, voigt.forces, voigt.couples, voigt.mixed);
+  // The spring that holds grains without contacts, and contacts that open within the difference.
+  EXPECT_LT(condensed.forces, 0.02);
+  EXPECT_LT(condensed.couples, 0.02);
+  EXPECT_LT(condensed.mixed, 0.02);
+}
+
+TEST(SphereTangent, OfControlledRotationsKnowsContactsThatSlideAndRoll) {
+  CellDefinition definition = controlled_spheres();
+  definition.control.inertial_number = 1.2e-3;
+  definition.control.least_steps = 100;
+  definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 5e-4;
+  const auto cell = make_cell_service(definition);
+  const double d = 2.0 * definition.packing.mean_radius();
+  CellRequest request;
+  request.increment.displacement_gradient.diagonal() << 5e-4, 5e-4, -1e-3;
+  request.increment.rotation << 2e-4, -1e-4, 3e-4;
+  request.increment.curvature << 1e-2, -2e-2, 0.0, 1e-2, 2e-2, -1e-2, 0.0, 1e-2, -3e-2;
+  request.state = cell->evaluate(request).state;
+  request.state = cell->evaluate(request).state;
+  request.increment.displacement_gradient *= 0.1;
+  request.increment.rotation *= 0.1;
+  request.increment.curvature *= 0.1;
+  const CellReply ahead = cell->evaluate(request);
+  const Matrix18 expected = cosserat_differences(*cell, request, 1e-5, 1e-5 / d);
+  definition.control.tangent = CellTangent::voigt;
+  const Away condensed = away(ahead.response.tangent, expected, d);
+  const Away voigt = away(make_cell_service(definition)->evaluate(request).response.tangent, expected, d);
+  std::printf(
+      "[figure] 500 spheres at a strain of 2e-3, controlled rotations, %.0f %% of the contacts sliding and %.0f %% at "
+      "the rolling limit: condensed tangent %.2f of the derivative away in the forces, %.2f in the couples, %.2f mixed; "
+      "Voigt tangent %.2f, %.2f, %.2f\n",
+      100.0 * ahead.diagnostics.sliding_fraction, 100.0 * ahead.diagnostics.rolling_fraction,
+      condensed.forces, condensed.couples, condensed.mixed, voigt.forces, voigt.couples, voigt.mixed);
+  // Contacts that slid on the way and hold again where the tangent is taken, and those whose way of sliding the
+  // difference turns: the tangent lets their springs act across it.
+  EXPECT_LT(condensed.forces, 0.45);
+  EXPECT_LT(condensed.forces, 0.7 * voigt.forces);
+  EXPECT_LT(condensed.couples, 0.45);
 }
 
 /// The equations of a network written down whole, with Lagrange multipliers for the mean rotation.

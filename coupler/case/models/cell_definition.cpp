@@ -114,11 +114,6 @@ CellDefinition read_cell_without_packing(const std::string& name, Section& secti
 
 bool read_controlled(Section& section, CellDefinition& definition) {
   if (section.choice_or("rotations", {"free", "controlled"}, "free") != "controlled") return false;
-  if (definition.packing.dimension == 3)
-    section.fault(
-        "rotations",
-        "rotations: those of spheres in space cannot be controlled; set 'rotations: free' with lc (G and "
-        "Gc come from the packing), or take a packing of discs");
   definition.control.rotations = CellRotations::controlled;
   return true;
 }

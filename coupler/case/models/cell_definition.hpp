@@ -19,8 +19,7 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
 CellDefinition read_cell_without_packing(const std::string& name, Section& section, Faults& faults,
                                          const CaseFiles& files);
 
-/// Reads `rotations` into the definition, whose packing must be there; a fault where its grains cannot have them
-/// controlled. @returns whether they are
+/// Reads `rotations` into the definition. @returns whether they are controlled
 bool read_controlled(Section& section, CellDefinition& definition);
 
 /// Reads `rotations` into the definition. With free rotations also G, Gc (both `from packing` unless given) and lc, which a
