@@ -14,6 +14,7 @@ if(TARGET polargrain_dem)
   polargrain_test(sphere_cell_test verification verification/sphere_cell_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(sphere_tangent_test verification verification/sphere_tangent_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(sphere_cosserat_test verification verification/sphere_cosserat_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(sphere_rowe_test verification verification/sphere_rowe_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(sphere_lattice_test verification verification/sphere_lattice_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(disc_loop_test verification verification/disc_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(spoiled_states_test verification verification/spoiled_states_test.cpp support/engine_main.cpp
