@@ -339,7 +339,7 @@ void Section::fault(const std::string& key, const std::string& message) {
 
 void Section::require_below(const std::string& key, double value, double bound, const std::string& why) {
   const Entry* const entry = entry_.find(key);
-  if (entry == nullptr || value < bound) return;  // what another key gives is that key's fault
+  if (entry == nullptr || !(value >= bound)) return;  // also where it was not understood, which is a fault already
   fault(key, fmt::format("{}: must be below {:g}, found '{}': {}", key, bound, entry->text, why));
 }
 
