@@ -123,9 +123,8 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive, 1e-3);
   solver.moment_tolerance =
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
-  for (const auto& [key, value] : {std::pair{"tolerance", solver.force_tolerance},
-                                   std::pair{"moment_tolerance", solver.moment_tolerance}})
-    steps.require_below(key, value, 1.0, "what is out of balance may not be as large as the loads");
+  for (const char* const key : {"tolerance", "moment_tolerance"})
+    steps.require_below(key, 1.0, "what is out of balance may not be as large as the loads");
   solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
   // Grains rearrange: without passing their jumps no band is followed far.
   solver.most_jumps = steps.whole_or("jumps", 0, parts.result.needs_workers() ? 50 : 0);

@@ -337,9 +337,11 @@ void Section::fault(const std::string& key, const std::string& message) {
   faults_.push_back((entry != nullptr ? *entry : entry_).fault(name_ + ": " + message));
 }
 
-void Section::require_below(const std::string& key, double value, double bound, const std::string& why) {
+void Section::require_below(const std::string& key, double bound, const std::string& why) {
   const Entry* const entry = entry_.find(key);
-  if (entry == nullptr || !(value >= bound)) return;  // also where it was not understood, which is a fault already
+  if (entry == nullptr) return;  // what another key gives is that key's fault
+  const std::optional<double> value = parse_quantity(entry->text, Dimension::number);
+  if (!value || *value < bound) return;  // what is no number is a fault already
   fault(key, fmt::format("{}: must be below {:g}, found '{}': {}", key, bound, entry->text, why));
 }
 

@@ -62,7 +62,7 @@ class Section {
   void fault(const std::string& key, const std::string& message);
 
   /// Faults where a value that must stay below a bound does not. @param why what lies beyond it
-  void require_below(const std::string& key, double value, double bound, const std::string& why);
+  void require_below(const std::string& key, double bound, const std::string& why);
 
   /// To be called when all keys have been asked for. Keys that nobody asked for are faults, and so are plain numbers
   /// beside others of their dimension that carry a unit (40 beside 10 MPa): a unit was most likely forgotten

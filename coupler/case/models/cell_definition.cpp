@@ -45,11 +45,10 @@ CellControl read_control(Section& section) {
   control.unbalanced_force_ratio = positive("unbalanced_force_ratio", control.unbalanced_force_ratio);
   control.unbalanced_moment_ratio = positive("unbalanced_moment_ratio", control.unbalanced_moment_ratio);
   section.require_below(
-      "inertial_number", control.inertial_number, 0.1,
+      "inertial_number", 0.1,
       "grains would fly past each other instead of resting on each other; quasi-static is 1e-3 and less");
-  for (const auto& [key, ratio] : {std::pair{"unbalanced_force_ratio", control.unbalanced_force_ratio},
-                                   std::pair{"unbalanced_moment_ratio", control.unbalanced_moment_ratio}})
-    section.require_below(key, ratio, 1.0, "any state at all would count as at rest");
+  for (const char* const key : {"unbalanced_force_ratio", "unbalanced_moment_ratio"})
+    section.require_below(key, 1.0, "any state at all would count as at rest");
   control.damping = section.quantity_or("damping", Dimension::number, Limit::not_negative, control.damping);
   if (control.damping >= 1.0) section.fault("damping", "damping: must be less than 1");
   control.least_steps = section.whole_or("least_steps", 1, control.least_steps);
