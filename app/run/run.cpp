@@ -2,6 +2,7 @@
 #include "app/run/run.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
@@ -21,6 +22,8 @@
 #include "common/prefixed_archive.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
+#include "coupler/pool/log_excerpt.hpp"
+#include "coupler/pool/process.hpp"
 #include "coupler/replay/replay.hpp"
 
 namespace polargrain::app {
@@ -161,6 +164,7 @@ class Run {
       if (report.converged || partly) {
         files_.write(committed, *solver_);
         keep_cell_paths(step);
+        if (files_.has_fields(step) || partly) show_grains(step);
       }
       files_.write_rows();
       record_.add(std::move(committed));
@@ -239,11 +243,37 @@ class Run {
   void keep_cell_paths(int step) {
     if (cell_paths_failed_) return;
     try {
-      cell_paths_.write(step, *solver_);
+      cell_paths_.write(step, *solver_, case_.output_grains);
     } catch (const RunError& error) {
       cell_paths_failed_ = true;
       warn(fmt::format("grains of this step and later ones cannot be shown: {}", error.what()));
     }
+  }
+
+  /// Writes the grains that the case asks for, as `polargrain grains` does: in a process of its own, which has an engine.
+  void show_grains(int step) {
+    if (case_.output_grains.empty() || cell_paths_failed_ || grains_failed_) return;
+    std::vector<std::string> command{std::filesystem::read_symlink("/proc/self/exe").string(),
+                                     "grains",
+                                     directory_.string(),
+                                     "--quiet",
+                                     "--step",
+                                     std::to_string(step)};
+    for (const std::size_t point : case_.output_grains)
+      command.insert(command.end(), {"--point", std::to_string(point)});
+    if (options_.scripts.trusted) command.emplace_back("--trust-scripts");
+    const std::filesystem::path log = directory_ / "logs" / "grains.log";
+    coupler::Process process(command, log, coupler::Process::Network::none);
+    std::optional<std::string> end;
+    while (!(end = process.end())) {
+      stop_if_interrupted();
+      pollfd ended{process.end_descriptor(), POLLIN, 0};
+      poll(&ended, 1, 200);
+    }
+    if (*end == "exit status 0") return;
+    grains_failed_ = true;
+    warn(fmt::format("the grains of output: {{grains: ...}} are not shown from here on ({}):\n{}", *end,
+                     coupler::log_excerpt(log)));
   }
 
   void warn(const std::string& text) {
@@ -375,6 +405,7 @@ class Run {
   RunFiles files_;
   CellPathsRecord cell_paths_;
   bool cell_paths_failed_ = false;
+  bool grains_failed_ = false;
   RunRecord record_;
   int first_step_ = 0;
   bool left_out_ = false;              ///< it was said what small deformation leaves out

@@ -30,12 +30,13 @@ class RunFiles {
   /// Writes the fields of a step, at the integration points too where the case wants them. @throws RunError
   void write_fields(int step, const fem::Solver& solver);
 
+  /// Whether fields are written of a step that was reached.
+  [[nodiscard]] bool has_fields(int step) const;
   [[nodiscard]] const std::string& history() const { return history_.text(); }
   [[nodiscard]] const std::string& costs() const { return costs_.text(); }
 
  private:
   void go_on(const coupler::Checkpoint& from);
-  [[nodiscard]] bool has_fields(int step) const;
 
   const coupler::Case& case_;
   std::filesystem::path directory_;

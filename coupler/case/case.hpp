@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,8 +58,10 @@ struct Case {
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
   bool output_points = true;       ///< whether there is one of the integration points beside each
-  PatienceLimits patience;         ///< with workers
-  double check_share = 0.0;        ///< of the evaluations: made by two workers, 0 to 1
+  /// Integration points whose grains are written beside each, in the order of points-NNNNN.vtu.
+  std::set<std::size_t> output_grains;
+  PatienceLimits patience;   ///< with workers
+  double check_share = 0.0;  ///< of the evaluations: made by two workers, 0 to 1
 
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }

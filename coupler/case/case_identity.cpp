@@ -33,7 +33,7 @@ void collect(const Entry& entry, const std::string& key, const std::filesystem::
 
 bool matters(const std::string& key) {
   return key != "title" && key != "output.checkpoint_minutes" && key.rfind("workers.", 0) != 0 &&
-         key.rfind("output.table", 0) != 0;
+         key.rfind("output.table", 0) != 0 && key.rfind("output.grains", 0) != 0;
 }
 
 std::string shown(const std::map<std::string, std::string>& values, const std::string& key) {

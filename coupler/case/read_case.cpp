@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "coupler/case/case.hpp"
@@ -189,6 +190,7 @@ class CaseReader {
     case_.checkpoint_minutes = output.quantity_or("checkpoint_minutes", Dimension::number,
                                                   Limit::not_negative, case_.checkpoint_minutes);
     case_.output_points = output.choice_or("points", {"yes", "no"}, "yes") == "yes";
+    if (output.find("grains") != nullptr) read_output_grains(output);
     if (output.find("table") != nullptr) {
       case_.table = output.words("table", "a list of monitors");
       const std::vector<std::string> known = known_values();
@@ -201,6 +203,52 @@ class CaseReader {
       }
     }
     output.finish();
+  }
+
+  /// Numbers of integration points, and regions for all of theirs.
+  void read_output_grains(Section& output) {
+    const std::vector<std::string> words =
+        output.words("grains", "a list of numbers of integration points, or of regions with cells");
+    if (!parts_.has_mesh) return;
+    const fem::Mesh& mesh = case_.problem.mesh;
+    std::vector<std::size_t> first{0};  // point of each element, and behind the last one the number of all
+    for (const fem::Element& element : mesh.elements)
+      first.push_back(first.back() + element.type->quadrature.size());
+    const auto add_points = [&first](const std::vector<int>& elements, std::set<std::size_t>& points) {
+      for (const int element : elements)
+        for (std::size_t point = first[static_cast<std::size_t>(element)];
+             point < first[static_cast<std::size_t>(element) + 1]; ++point)
+          points.insert(point);
+    };
+    for (const std::string& word : words) {
+      if (const auto region = mesh.regions.find(word); region != mesh.regions.end()) {
+        add_points(region->second, case_.output_grains);
+        continue;
+      }
+      std::size_t point = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), point);
+      if (error == std::errc() && end == word.data() + word.size() && point < first.back()) {
+        case_.output_grains.insert(point);
+      } else {
+        output.fault(
+            "grains",
+            fmt::format("grains: '{}' is no region of the mesh ({}) and no integration point of it (0 to {})",
+                        word, CaseParts::names_of(mesh.regions), first.back() - 1));
+      }
+    }
+    std::set<std::size_t> with_cells;
+    for (const auto& [region, material] : case_.regions) {
+      const auto recipe = case_.materials.find(material);
+      const auto elements = mesh.regions.find(region);
+      if (recipe == case_.materials.end() || recipe->second == nullptr || elements == mesh.regions.end())
+        return;
+      if (recipe->second->grains() != nullptr) add_points(elements->second, with_cells);
+    }
+    for (const std::size_t point : case_.output_grains) {
+      if (with_cells.contains(point)) continue;
+      output.fault("grains", fmt::format("grains: the material of point {} has no cells", point));
+      break;
+    }
   }
 
   void read_workers(const Entry& entry) {

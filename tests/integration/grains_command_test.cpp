@@ -233,6 +233,43 @@ TEST_F(GrainsCommand, ARunThatWasKilledKeepsTheSameBytes) {
   show("--point 0 --last");
 }
 
+TEST_F(GrainsCommand, ARunShowsThePointsThatItsCaseNames) {
+  const std::string material = "model: adaptive, tolerance: 1 %, lc: 8 mm" + kDiscs;
+  run_case(case_text(material, "output: {every: 2, grains: [all]}\n"));
+  for (const char* file : {"logs/grains.log", "grains/engine.log"})
+    EXPECT_EQ(content(folder() / "out" / file), "") << file;
+  // The last step begins from the states of step 2 that were kept, and every one of a run that kept none from the packing:
+  // the same bytes.
+  std::filesystem::rename(folder() / "out", folder() / "named");
+  run_case(case_text(material));
+  show("--point 0 --point 7");
+  for (const char* point : {"point-0", "point-7"})
+    for (const char* step : {"step-00000.vtu", "step-00002.vtu", "step-00004.vtu"})
+      EXPECT_TRUE(content(folder() / "named/grains" / point / step) ==
+                  content(folder() / "out/grains" / point / step))
+          << point << ' ' << step;
+  EXPECT_FALSE(std::filesystem::exists(folder() / "named/grains/point-0/step-00003.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder() / "named/grains/point-3.pvd"));
+  EXPECT_NE(
+      content(folder() / "named/grains/point-7.pvd").find("timestep=\"0.5\" file=\"point-7/step-00002.vtu\""),
+      std::string::npos);
+  // It is of no consequence to the run.
+  EXPECT_TRUE(content(folder() / "named/history.csv") == content(folder() / "out/history.csv"));
+
+  write(folder() / "case.yaml", case_text(material, "output: {grains: [sand, 8]}\n"));
+  const Outcome checked = run_in(folder(), kProgram + " check case.yaml");
+  EXPECT_EQ(checked.status, 2);
+  for (const char* message :
+       {"case.yaml:11: output: grains: 'sand' is no region of the mesh (all) and no integration point",
+        "'8' is no region of the mesh (all) and no integration point of it (0 to 7)"})
+    EXPECT_NE(checked.errors.find(message), std::string::npos) << checked.errors;
+  write(folder() / "case.yaml",
+        case_text("model: elastic, E: 20 MPa, nu: 0.3, Gc: 4 MPa, lc: 8 mm", "output: {grains: [3]}\n"));
+  const Outcome elastic = run_in(folder(), kProgram + " check case.yaml");
+  EXPECT_NE(elastic.errors.find("grains: the material of point 3 has no cells"), std::string::npos)
+      << elastic.errors;
+}
+
 TEST_F(GrainsCommand, WhatIsNotThereIsSaid) {
   run_case(case_text("model: cell, lc: 8 mm" + kDiscs));
   const auto refused = [&](const std::string& options, const std::string& what) {
