@@ -2,10 +2,13 @@
 #include "fem/output/vtu.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <cstdint>
 #include <cstring>
+#include <span>
 
+#include "common/error.hpp"
 #include "fem/output/base64.hpp"
 #include "fem/output/write_file.hpp"
 
@@ -21,41 +24,74 @@ constexpr const char* kVtkType<std::int64_t> = "Int64";
 template <>
 constexpr const char* kVtkType<std::uint8_t> = "UInt8";
 
-/// A DataArray of the inline binary form: the number of bytes as UInt64, then the bytes, as one base64 text.
-/// @param attributes further ones @param notes elements that follow the bytes
-template <class T>
-std::string data_array(const std::string& name, int components, const std::vector<T>& values,
-                       const std::string& attributes = {}, const std::string& notes = {}) {
-  const std::uint64_t size = values.size() * sizeof(T);
-  std::vector<std::byte> bytes(sizeof(size) + size);
-  std::memcpy(bytes.data(), &size, sizeof(size));
-  if (size > 0) std::memcpy(bytes.data() + sizeof(size), values.data(), size);
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n{}\n{}</DataArray>\n",
-      kVtkType<T>, name, components, attributes, base64(bytes), notes);
+template <class Value>
+std::span<const std::byte> bytes_of(const std::vector<Value>& values) {
+  return std::as_bytes(std::span(values));
 }
 
-std::string field_array(const Field& field, std::string names = {}) {
-  for (std::size_t k = 0; k < field.component_names.size(); ++k)
-    names += fmt::format(" ComponentName{}=\"{}\"", k, field.component_names[k]);
-  std::string unit;
-  if (!field.unit.empty())
-    unit = fmt::format("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n",
-                       field.unit);
-  return data_array(field.name, field.components, field.values, names, unit);
+/// VTK's form of compressed data in one block: number of blocks, their size, that of a last smaller one (none), that of the
+/// compressed block; then the block.
+std::string deflated(std::span<const std::byte> bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::vector<std::byte> block(size);
+  // The fastest level: higher ones take some per cent off, for many times the time.
+  if (compress2(reinterpret_cast<Bytef*>(block.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                bytes.size(), Z_BEST_SPEED) != Z_OK)
+    throw RunError("there is no memory to compress fields in");
+  block.resize(size);
+  const std::vector<std::uint64_t> header{1, bytes.size(), 0, size};
+  return base64(bytes_of(header)) + base64(block);
 }
 
-std::string field_arrays(const std::vector<Field>& fields) {
-  std::string text;
-  for (const Field& field : fields) text += field_array(field);
-  return text;
-}
+/// The arrays of a file, of the inline binary form.
+class Arrays {
+ public:
+  explicit Arrays(bool compressed) : compressed_(compressed) {}
 
-std::string positions_array(const std::vector<Eigen::Vector3d>& places) {
-  std::vector<double> positions;
-  for (const Eigen::Vector3d& place : places) positions.insert(positions.end(), place.begin(), place.end());
-  return data_array("Points", 3, positions);
-}
+  /// Not compressed: the number of bytes as UInt64, then the bytes, as one base64 text.
+  /// @param attributes further ones @param notes elements that follow the bytes
+  template <class T>
+  [[nodiscard]] std::string array(const std::string& name, int components, const std::vector<T>& values,
+                                  const std::string& attributes = {}, const std::string& notes = {}) const {
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n{}\n{}</DataArray>\n",
+        kVtkType<T>, name, components, attributes, text_of(bytes_of(values)), notes);
+  }
+
+  [[nodiscard]] std::string field(const Field& field, std::string attributes = {}) const {
+    for (std::size_t k = 0; k < field.component_names.size(); ++k)
+      attributes += fmt::format(" ComponentName{}=\"{}\"", k, field.component_names[k]);
+    std::string unit;
+    if (!field.unit.empty())
+      unit = fmt::format(
+          "<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n", field.unit);
+    return array(field.name, field.components, field.values, attributes, unit);
+  }
+
+  [[nodiscard]] std::string fields(const std::vector<Field>& fields) const {
+    std::string text;
+    for (const Field& one : fields) text += field(one);
+    return text;
+  }
+
+  [[nodiscard]] std::string positions(const std::vector<Eigen::Vector3d>& places) const {
+    std::vector<double> positions;
+    for (const Eigen::Vector3d& place : places) positions.insert(positions.end(), place.begin(), place.end());
+    return array("Points", 3, positions);
+  }
+
+ private:
+  [[nodiscard]] std::string text_of(std::span<const std::byte> bytes) const {
+    if (compressed_) return deflated(bytes);
+    const std::uint64_t size = bytes.size();
+    std::vector<std::byte> all(sizeof(size) + size);
+    std::memcpy(all.data(), &size, sizeof(size));
+    if (size > 0) std::memcpy(all.data() + sizeof(size), bytes.data(), size);
+    return base64(all);
+  }
+
+  bool compressed_;
+};
 
 /// What VTK calls cells: which places each joins.
 struct Cells {
@@ -75,22 +111,23 @@ Cells cells_of(const Mesh& mesh) {
 }
 
 void write_grid(const std::filesystem::path& file, const std::vector<Eigen::Vector3d>& places,
-                const Cells& cells, const Fields& fields, const std::vector<Field>& whole = {}) {
+                const Cells& cells, const Fields& fields, const Arrays& arrays, const std::string& attributes,
+                const std::vector<Field>& whole) {
   std::string of_whole;
-  for (const Field& field : whole) of_whole += field_array(field, " NumberOfTuples=\"1\"");
+  for (const Field& field : whole) of_whole += arrays.field(field, " NumberOfTuples=\"1\"");
   if (!whole.empty()) of_whole = "<FieldData>\n" + of_whole + "</FieldData>\n";
-  write_file(file,
-             fmt::format("<?xml version=\"1.0\"?>\n"
-                         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                         "header_type=\"UInt64\">\n<UnstructuredGrid>\n{}"
-                         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-                         "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
-                         "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n"
-                         "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-                         of_whole, places.size(), cells.ends.size(), field_arrays(fields.points),
-                         field_arrays(fields.cells), positions_array(places),
-                         data_array("connectivity", 1, cells.places), data_array("offsets", 1, cells.ends),
-                         data_array("types", 1, cells.types)));
+  write_file(
+      file, fmt::format("<?xml version=\"1.0\"?>\n"
+                        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                        "header_type=\"UInt64\"{}>\n<UnstructuredGrid>\n{}"
+                        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+                        "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
+                        "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n"
+                        "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+                        attributes, of_whole, places.size(), cells.ends.size(), arrays.fields(fields.points),
+                        arrays.fields(fields.cells), arrays.positions(places),
+                        arrays.array("connectivity", 1, cells.places), arrays.array("offsets", 1, cells.ends),
+                        arrays.array("types", 1, cells.types)));
 }
 
 }  // namespace
@@ -98,7 +135,7 @@ void write_grid(const std::filesystem::path& file, const std::vector<Eigen::Vect
 void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields) {
   std::vector<Eigen::Vector3d> places;
   for (const Eigen::Vector2d& node : mesh.nodes) places.emplace_back(node(0), node(1), 0.0);
-  write_grid(file, places, cells_of(mesh), fields);
+  write_grid(file, places, cells_of(mesh), fields, Arrays(false), "", {});
 }
 
 void write_vtu(const std::filesystem::path& file, const PlacedFields& fields) {
@@ -117,7 +154,8 @@ void write_vtu(const std::filesystem::path& file, const PlacedFields& fields) {
     cells.places.insert(cells.places.end(), line.begin(), line.end());
     end(kVtkLine);
   }
-  write_grid(file, fields.places, cells, {fields.fields, fields.cell_fields}, fields.whole);
+  write_grid(file, fields.places, cells, {fields.fields, fields.cell_fields}, Arrays(true),
+             " compressor=\"vtkZLibDataCompressor\"", fields.whole);
 }
 
 void PvdCollection::add(double time, const std::filesystem::path& vtu) {

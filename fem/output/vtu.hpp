@@ -51,7 +51,7 @@ PlacedFields collect_point_fields(const Solver& solver);
 /// @throws RunError when it cannot be written.
 void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields);
 
-/// The same for places: a vertex for each, then a line for each line.
+/// The same for places: a vertex for each, then a line for each line. These are the large files: compressed (zlib).
 void write_vtu(const std::filesystem::path& file, const PlacedFields& fields);
 
 /// The list of .vtu files over time that ParaView opens.

@@ -3,6 +3,7 @@
 import base64
 import pathlib
 import xml.etree.ElementTree as ElementTree
+import zlib
 
 import numpy as np
 
@@ -27,18 +28,20 @@ class Fields:
     def __init__(self, file):
         self.file = pathlib.Path(file)
         try:
-            piece = ElementTree.parse(self.file).getroot().find("UnstructuredGrid/Piece")
+            root = ElementTree.parse(self.file).getroot()
         except (OSError, ElementTree.ParseError) as error:
             raise InputError(f"{file}: {error}", [(str(file), 0, str(error))]) from error
+        piece = root.find("UnstructuredGrid/Piece")
         if piece is None:
             message = "is no VTU file of an unstructured grid"
             raise InputError(f"{file}: {message}", [(str(file), 0, message)])
+        self._compressed = root.get("compressor") is not None
         self.components = {}
         self.units = {}
         self.point_data = self._arrays(piece.find("PointData"))
         self.cell_data = self._arrays(piece.find("CellData"))
-        self.points = _values(piece.find("Points/DataArray"))
-        cells = {array.get("Name"): _values(array) for array in piece.findall("Cells/DataArray")}
+        self.points = _values(piece.find("Points/DataArray"), self._compressed)
+        cells = {array.get("Name"): _values(array, self._compressed) for array in piece.findall("Cells/DataArray")}
         self.types = cells["types"]
         self.cells = np.split(cells["connectivity"], cells["offsets"][:-1]) if len(cells["offsets"]) else []
 
@@ -50,7 +53,7 @@ class Fields:
         fields = {}
         for array in element if element is not None else ():
             name = array.get("Name")
-            fields[name] = _values(array)
+            fields[name] = _values(array, self._compressed)
             count = int(array.get("NumberOfComponents", "1"))
             self.components[name] = [array.get(f"ComponentName{k}", str(k + 1)) for k in range(count)] if count > 1 else []
             for key in array.findall("InformationKey"):
@@ -62,10 +65,25 @@ class Fields:
         return f"<polargrain.Fields of {len(self.points)} points, {len(self.cells)} cells: {', '.join(self.point_data)}>"
 
 
-def _values(array):
+def _inflated(text):
+    """What VTK's zlib compressor has made: the number of blocks, two sizes, that of each compressed block; then the blocks."""
+    count = int.from_bytes(base64.b64decode(text[:12])[:8], "little")
+    size = 8 * (3 + count)
+    end = -(-size // 3) * 4
+    sizes = np.frombuffer(base64.b64decode(text[:end]), dtype="<u8")[3:]
+    blocks, data = base64.b64decode(text[end:]), b""
+    for size in sizes:
+        data += zlib.decompress(blocks[:size])
+        blocks = blocks[size:]
+    return data
+
+
+def _values(array, compressed):
     kind = np.dtype(_TYPES[array.get("type")])
     if array.get("format") == "ascii":
         values = np.array((array.text or "").split(), dtype=kind)
+    elif compressed:
+        values = np.frombuffer(_inflated((array.text or "").strip()), dtype=kind).copy()
     else:
         # In base64 a header of eight bytes with the number of bytes that follow.
         values = np.frombuffer(base64.b64decode((array.text or "").strip()), dtype=np.uint8)[8:].view(kind).copy()
