@@ -6,13 +6,11 @@
 #include <set>
 
 #include "app/commands/command.hpp"
-#include "app/commands/in_child.hpp"
 #include "app/grains/cell_paths.hpp"
 #include "app/grains/grain_files.hpp"
-#include "app/grains/grain_replay.hpp"
+#include "app/grains/show_grains.hpp"
 #include "common/error.hpp"
 #include "common/standard_streams.hpp"
-#include "coupler/pool/log_excerpt.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -64,28 +62,14 @@ int grains(const GrainsOptions& options, const WorkerEngine& engine) {
   check_points(options, paths);
   const std::set<int> steps = chosen_steps(options, paths);
   const fs::path output = options.output.empty() ? options.directory / kGrainsFolder : options.output;
-  const CellPaths::Ways ways = paths.ways(options.points, steps);
   fs::create_directories(output);
+  for (const std::size_t point : options.points)
+    fs::create_directories((output / grains_file(point, 0)).parent_path());
   const fs::path log = output / "engine.log";
-  const auto make = [&](const CellDefinition& cell) {
-    return make_checked_service(cell, options.scripts, engine);
-  };
-  const auto work = [&](int terminal) {
-    engine.start_process();
-    for (std::size_t k = 0; k < options.points.size(); ++k) {
-      const std::size_t point = options.points[k];
-      fs::create_directories((output / grains_file(point, 0)).parent_path());
-      GrainReplay replay(*paths.cell(point), make, ways);
-      for (const auto& [step, states] : ways.states) {
-        write_grains(output / grains_file(point, step), replay.view(states[k]));
-        const std::string line = fmt::format("\rpoint {}: step {}   ", point, step);
-        if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0) return;  // nobody looks
-      }
-    }
-  };
-  if (!run_in_child(log, work, !options.quiet))
-    throw RunError(fmt::format("the grains cannot be shown (the engine's output is in {}):\n{}", log.string(),
-                               coupler::log_excerpt(log)));
+  show_grains({paths, options.points, steps, options.scripts, engine, log, !options.quiet},
+              [&](std::size_t point, int step, const GrainView& view) {
+                write_grains(output / grains_file(point, step), view);
+              });
   fs::remove(log);
   for (const std::size_t point : options.points) {
     write_grains_collection(output, point, options.directory / "history.csv");

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "app/commands/command.hpp"
+#include "app/report/busiest_grains.hpp"
 #include "app/report/report_page.hpp"
 #include "app/run/interrupt.hpp"
 #include "common/error.hpp"
@@ -19,6 +20,8 @@ struct ReportOptions {
   std::filesystem::path output;
   bool live = false;
   ReportContent content;
+  bool no_grains = false;
+  ScriptRules scripts;
 };
 
 constexpr int kRefreshSeconds = 5;
@@ -60,7 +63,7 @@ int report(ReportOptions options) {
 
 }  // namespace
 
-Command add_report(CLI::App& program, const Grains&) {
+Command add_report(CLI::App& program, const Grains& grains) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App& command = *program.add_subcommand(
       "report", "One HTML page of a result: curves, fields, convergence, cost, warnings");
@@ -78,7 +81,15 @@ Command add_report(CLI::App& program, const Grains&) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   command.add_flag("--live", options->live, "Write the page anew until the runs are done; it reloads itself");
-  return {&command, [options] { return report(*options); }};
+  command.add_flag("--no-grains", options->no_grains, "Do not show the grains of the busiest point");
+  add_trust(command, options->scripts, grains);
+  return {&command, [options, &engine = grains.engine] {
+            if (!options->no_grains)
+              options->content.grains = [rules = options->scripts, &engine](const RunResult& result) {
+                return busiest_grains(result, rules, engine);
+              };
+            return report(*options);
+          }};
 }
 
 }  // namespace polargrain::app

@@ -151,14 +151,17 @@ void CellPathsRecord::write_cells(const fem::Solver& solver) {
     cells.push_back(*cell);
   }
   std::vector<std::int64_t> of_points;
+  std::vector<std::int64_t> elements;
   for (std::size_t point = 0; point < solver.points(); ++point) {
     const auto found = numbers.find(solver.material_of_point(point).first);
     of_points.push_back(found == numbers.end() ? -1 : found->second);
+    elements.push_back(solver.element_of_point(point));
   }
   MemoryArchive archive;
   const std::array<std::int64_t, 1> count{static_cast<std::int64_t>(cells.size())};
   archive.write("count", std::span<const std::int64_t>(count));
   archive.write("cell_of_point", std::span<const std::int64_t>(of_points));
+  archive.write("element_of_point", std::span<const std::int64_t>(elements));
   write_records(archive, "cells", std::span<const CellDefinition>(cells));
   fs::remove(directory_ / kCellPathsFolder / kCellsFile);
   write_file_of(directory_ / kCellPathsFolder / kCellsFile, std::move(archive));
@@ -222,6 +225,9 @@ CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPaths
   read_content(folder_ / kCellsFile, [&](MemoryArchive& archive) {
     const std::vector<std::int64_t> count = archive.integers("count");
     cell_of_point_ = archive.integers("cell_of_point");
+    element_of_point_ = archive.integers("element_of_point");
+    if (element_of_point_.size() != cell_of_point_.size())
+      throw RunError("its lists are of different lengths");
     if (count.size() != 1 || count[0] < 0 || count[0] > static_cast<std::int64_t>(cell_of_point_.size()))
       throw RunError("it does not say how many cells it has");
     cells_ = read_records<CellDefinition>(archive, "cells", static_cast<std::size_t>(count[0]));

@@ -59,6 +59,8 @@ class CellPaths {
   [[nodiscard]] std::size_t points() const { return cell_of_point_.size(); }
   /// The cell of a point; null when its material has none.
   [[nodiscard]] const CellDefinition* cell(std::size_t point) const;
+  /// The element that a point lies in.
+  [[nodiscard]] std::int64_t element(std::size_t point) const { return element_of_point_.at(point); }
   /// The names of the states of some points at some steps, and how all of them came about.
   struct Ways {
     std::map<int, std::vector<ContentName>> states;  ///< by step, then as the points were given
@@ -76,6 +78,7 @@ class CellPaths {
   std::set<int> steps_;
   std::vector<CellDefinition> cells_;
   std::vector<std::int64_t> cell_of_point_;  ///< -1: none
+  std::vector<std::int64_t> element_of_point_;
 };
 
 }  // namespace polargrain::app

@@ -366,6 +366,10 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
   for (const MeshPicture& picture : pictures)
     if (!picture.frames.empty() && !picture.fields.empty()) meshes += mesh_picture(picture);
   if (!meshes.empty()) body += "<h2>Fields</h2>\n<div class='grid'>\n" + meshes + "</div>\n";
+  std::string grains;
+  for (const RunResult& result : results)
+    if (content.grains) grains += content.grains(result);
+  if (!grains.empty()) body += "<h2>Grains</h2>\n" + grains;
   body += "<h2>Figures</h2>\n" + key_table(results, key_rows(results, pictures, x));
   body += "<h2>Warnings</h2>\n" + notes(results);
   body += "<h2>Convergence</h2>\n" + convergence(results);

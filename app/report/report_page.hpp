@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@ namespace polargrain::app {
 struct ReportContent {
   std::string x;  ///< value along the curves; empty: a monitor with "strain" in its name, or the time
   std::vector<std::string> fields;  ///< to be shown on the mesh; empty: the usual ones that are there
-  int refresh_seconds = 0;          ///< the page is loaded anew so often; 0: never
+  /// HTML that shows grains of a result; empty: none are shown.
+  std::function<std::string(const RunResult&)> grains = {};
+  int refresh_seconds = 0;  ///< the page is loaded anew so often; 0: never
 };
 
 /// A page that shows these runs, each curve of all of them in one chart.

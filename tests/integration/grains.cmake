@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 if(TARGET polargrain)
-  polargrain_test(grains_command_test integration integration/grains_command_test.cpp LIBS polargrain_common)
+  polargrain_test(grains_command_test integration integration/grains_command_test.cpp LIBS polargrain_fem)
   target_compile_definitions(grains_command_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                          POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}"
                                                          GRAINS_READER="${CMAKE_CURRENT_SOURCE_DIR}/integration/grains_read.py")

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "fem/output/read_vtu.hpp"
 #include "tests/faults/checkpoint_runs.hpp"
 #include "tests/integration/command.hpp"
 
@@ -137,6 +138,34 @@ TEST_F(GrainsCommand, StressFromBranchesAndForcesIsThatOfThePoint) {
   EXPECT_TRUE(content(folder() / "elsewhere/point-5/step-00004.vtu") ==
               content(folder() / "out/grains/point-5/step-00004.vtu"));
   EXPECT_FALSE(std::filesystem::exists(folder() / "elsewhere/point-5/step-00003.vtu"));
+}
+
+TEST_F(GrainsCommand, AReportShowsThoseOfTheElementThatHasShearedMost) {
+  run_case(case_text("model: cell, lc: 8 mm" + kDiscs));
+  const Outcome outcome = run_in(folder(), kProgram + " report out");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string page = content(folder() / "out/report.html");
+  // Its number is that of the first point of an element; what stands there is what the point tells.
+  const std::string words = "out: the grains of point ";
+  const std::size_t place = page.find(words);
+  ASSERT_NE(place, std::string::npos);
+  const std::size_t point = std::stoul(page.substr(place + words.size()));
+  EXPECT_TRUE(point == 0 || point == 4) << point;
+  const fem::FieldFile last = fem::read_vtu(folder() / "out/fields/step-00004.vtu");
+  const std::vector<double>& sheared = fem::find_field(last.fields.cells, "deviatoric_strain")->values;
+  EXPECT_EQ(point == 0, sheared[0] > sheared[1]);
+  show("--point " + std::to_string(point));
+  for (const int step : {0, 4}) {
+    Values values = seen(point, step);
+    const double contacts = values["point:contacts"].at(0);
+    const std::string caption = "step " + std::to_string(step) + ": 100 grains, " +
+                                std::to_string(std::lround(contacts)) + " contacts, " +
+                                std::to_string(std::lround(100.0 * values["sliding_fraction"].at(0))) +
+                                " % of them sliding";
+    EXPECT_NE(page.find(caption), std::string::npos) << caption;
+  }
+  EXPECT_EQ(run_in(folder(), kProgram + " report out --no-grains").status, 0);
+  EXPECT_EQ(content(folder() / "out/report.html").find("<svg"), std::string::npos);
 }
 
 TEST_F(GrainsCommand, TheEnginesOwnLoopShowsItsGrainsToo) {
