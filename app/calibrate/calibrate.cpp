@@ -16,6 +16,9 @@ namespace {
 
 /// First way of the search from its start, of the way between the bounds.
 constexpr double kFirstStep = 0.15;
+/// How far a profile goes, in half intervals, and the first way of its searches.
+constexpr double kProfileReach = 2.0;
+constexpr double kProfileStep = 0.05;
 /// Steepness below this share of the largest tells nothing.
 constexpr double kFlat = 1e-10;
 
@@ -54,8 +57,37 @@ class Search {
   std::vector<Evaluation> record_;
 };
 
-double objective(const std::vector<double>& places, std::vector<double>&, void* search) {
-  return static_cast<Search*>(search)->at(places).misfit;
+/// The misfit as a function of some of the places; the others are held.
+struct Objective {
+  Search* search;
+  std::vector<double> places;
+  std::vector<std::size_t> free;
+
+  double operator()(const std::vector<double>& values) {
+    for (std::size_t k = 0; k < free.size(); ++k) places[free[k]] = values[k];
+    return search->at(places).misfit;
+  }
+};
+
+double misfit_at(const std::vector<double>& values, std::vector<double>&, void* objective) {
+  return (*static_cast<Objective*>(objective))(values);
+}
+
+/// Seeks the least misfit over the free places, from where they are; the evaluations are in the record of the search.
+nlopt::result seek(Objective& objective, double first_step, double tolerance, int evaluations) {
+  std::vector<double> values;
+  for (const std::size_t k : objective.free) values.push_back(objective.places[k]);
+  // BOBYQA wants two parameters at least; of one, the simplex method finds the least.
+  nlopt::opt optimiser(values.size() > 1 ? nlopt::LN_BOBYQA : nlopt::LN_SBPLX,
+                       static_cast<unsigned>(values.size()));
+  optimiser.set_lower_bounds(0.0);
+  optimiser.set_upper_bounds(1.0);
+  optimiser.set_min_objective(misfit_at, &objective);
+  optimiser.set_initial_step(first_step);
+  optimiser.set_xtol_abs(tolerance);
+  optimiser.set_maxeval(evaluations);
+  double least = 0.0;
+  return optimiser.optimize(values, least);
 }
 
 /// d differences / d places by central differences, one-sided at a bound.
@@ -100,6 +132,7 @@ void judge(CalibrationResult& result, const Eigen::MatrixXd& slopes) {
       for (Eigen::Index p = 0; p < count; ++p)
         if (std::abs(of.eigenvectors()(p, k)) > 1e-6) is_open[static_cast<std::size_t>(p)] = true;
   }
+  result.threshold = result.best.misfit + width * width * variance / static_cast<double>(slopes.rows());
   result.correlations = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index p = 0; p < count; ++p) {
     result.half_width.push_back(is_open[static_cast<std::size_t>(p)] ? kInfinite
@@ -108,6 +141,39 @@ void judge(CalibrationResult& result, const Eigen::MatrixXd& slopes) {
       if (const double both = std::sqrt(covariance(p, p) * covariance(q, q)); p != q && both > 0.0)
         result.correlations(p, q) = covariance(p, q) / both;
   }
+}
+
+/// Holds one parameter at places around its best one and seeks the others, each time from where they were found last.
+void add_profile(CalibrationResult& result, Search& search, const Calibration& calibration,
+                 const std::vector<double>& best, std::size_t held) {
+  const double reach = std::min(1.0, kProfileReach * result.half_width[held]);
+  const int each_side = (calibration.profile + 1) / 2;
+  std::vector<std::pair<double, ProfilePoint>> points;
+  points.push_back({best[held], {held, result.best.values, result.best.misfit}});
+  for (const double side : {-1.0, 1.0}) {
+    const double end = std::clamp(best[held] + side * reach, 0.0, 1.0);
+    Objective objective{&search, best, {}};
+    for (std::size_t k = 0; k < best.size(); ++k)
+      if (k != held) objective.free.push_back(k);
+    for (int step = 1; step <= each_side && end != best[held]; ++step) {
+      objective.places[held] = best[held] + (end - best[held]) * step / each_side;
+      search.at(objective.places);
+      if (!objective.free.empty()) try {
+          seek(objective, kProfileStep, 2.0 * calibration.tolerance, calibration.profile_evaluations);
+        } catch (const nlopt::roundoff_limited&) {
+          // The misfit is too rough to go on: the least so far counts.
+        }
+      const double value = calibration.parameters[held].value_at(objective.places[held]);
+      const Evaluation* least = nullptr;
+      for (const Evaluation& one : search.record())
+        if (one.values[held] == value && (least == nullptr || one.misfit < least->misfit)) least = &one;
+      points.push_back({objective.places[held], {held, least->values, least->misfit}});
+      for (std::size_t k = 0; k < best.size(); ++k)
+        if (k != held) objective.places[k] = calibration.parameters[k].place_of(least->values[k]);
+    }
+  }
+  std::ranges::sort(points, {}, [](const auto& point) { return point.first; });
+  for (auto& point : points) result.profile.push_back(std::move(point.second));
 }
 
 }  // namespace
@@ -121,18 +187,11 @@ CalibrationResult calibrate(const Calibration& calibration,
   for (const Parameter& parameter : calibration.parameters)
     places.push_back(parameter.place_of(parameter.start));
   const std::size_t count = places.size();
-  // BOBYQA wants two parameters at least; of one, the simplex method finds the least.
-  nlopt::opt optimiser(count > 1 ? nlopt::LN_BOBYQA : nlopt::LN_SBPLX, static_cast<unsigned>(count));
-  optimiser.set_lower_bounds(0.0);
-  optimiser.set_upper_bounds(1.0);
-  optimiser.set_min_objective(objective, &search);
-  optimiser.set_initial_step(kFirstStep);
-  optimiser.set_xtol_abs(calibration.tolerance);
-  optimiser.set_maxeval(calibration.evaluations);
+  Objective whole{&search, places, {}};
+  for (std::size_t k = 0; k < count; ++k) whole.free.push_back(k);
   CalibrationResult result;
-  double least = 0.0;
   try {
-    const nlopt::result end = optimiser.optimize(places, least);
+    const nlopt::result end = seek(whole, kFirstStep, calibration.tolerance, calibration.evaluations);
     result.converged = end != nlopt::MAXEVAL_REACHED;
     result.end = result.converged
                      ? fmt::format("the parameters stand still within {:.3g} of the way between their bounds",
@@ -144,9 +203,10 @@ CalibrationResult calibrate(const Calibration& calibration,
   result.best = *std::ranges::min_element(search.record(), {}, &Evaluation::misfit);
   for (std::size_t k = 0; k < count; ++k)
     places[k] = calibration.parameters[k].place_of(result.best.values[k]);
-  const Eigen::MatrixXd of = slopes(search, places, calibration.difference);
+  judge(result, slopes(search, places, calibration.difference));
+  if (calibration.profile > 0)
+    for (std::size_t k = 0; k < count; ++k) add_profile(result, search, calibration, places, k);
   result.record = search.record();
-  judge(result, of);
   return result;
 }
 

@@ -18,6 +18,13 @@ struct Evaluation {
   std::vector<double> differences;  ///< one a point, in errors
 };
 
+/// The least misfit with one parameter held.
+struct ProfilePoint {
+  std::size_t parameter = 0;   ///< that is held
+  std::vector<double> values;  ///< of all parameters
+  double misfit = 0.0;
+};
+
 /// What a calibration found.
 struct CalibrationResult {
   std::vector<Evaluation> record;  ///< in their order
@@ -31,10 +38,14 @@ struct CalibrationResult {
   /// Directions in which the misfit is steep and flat, columns, and half the 95 % interval along each.
   Eigen::MatrixXd directions;
   std::vector<double> direction_half_width;
+  /// For each parameter its places in rising order, the best one among them; empty: not asked for.
+  std::vector<ProfilePoint> profile;
+  double threshold = 0.0;  ///< misfit up to which a value of a parameter is within 95 %
 };
 
 /// Finds the parameters by BOBYQA (Powell 2009, of NLopt: no derivatives, bounds, content with some noise), then
-/// linearises around them.
+/// linearises around them. Where a profile is asked for, each parameter is then held at places around its best one, as far
+/// as twice its interval, and the others are sought anew.
 /// @param evaluate what the tests give for values of the parameters: their differences
 /// @param known evaluations made before: taken instead of being made again
 /// @param on_new called with each one that was made

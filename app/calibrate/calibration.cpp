@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "app/calibrate/script_parameters.hpp"
@@ -65,14 +66,15 @@ Parameter read_parameter(const Entry::Member& member, Faults& faults) {
 /// A test with what the specification says for all.
 ElementSpecification read_test(const Entry& document, const Entry::Member& member,
                                const std::filesystem::path& directory, const ScriptRules& scripts,
-                               Faults& faults) {
+                               const PackingsOf& packings_of, Faults& faults) {
   Entry whole = member.value;
   if (whole.kind == Entry::Kind::map)
     for (const char* const key : kShared)
       if (const Entry* const shared = document.find(key); shared != nullptr && whole.find(key) == nullptr)
         whole.members.push_back({key, shared->line, *shared});
   try {
-    ElementSpecification test = read_element_specification(whole, directory, scripts);
+    ElementSpecification test = read_element_specification(
+        with_made_packings(std::move(whole), directory, scripts, packings_of), directory, scripts);
     // Contacts of another stiffness carry another pressure in the same place; the test itself brings it to its own.
     for (CellDefinition& cell : test.cells) cell.packing.pressure = 0.0;
     if (test.cells.empty())
@@ -121,6 +123,9 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
   const std::string lab_along = section.text_or("lab_along", point.along);
   const double factor = section.quantity_or("factor", Dimension::number, Limit::any, 1.0);
   const double factor_along = section.quantity_or("factor_along", Dimension::number, Limit::any, 1.0);
+  constexpr double kFar = std::numeric_limits<double>::max();
+  const double from = section.quantity_or("from", Dimension::number, Limit::any, -kFar);
+  const double to = section.quantity_or("to", Dimension::number, Limit::any, kFar);
   const std::string lab_test = section.text_or("lab_test", test);
   const std::string test_column = section.text_or("test_column", "test");
   section.finish();
@@ -138,13 +143,16 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
     if (names_tests && table.cell(row, test_column) != lab_test) continue;
     if (table.cell(row, lab).empty() || table.cell(row, lab_along).empty()) continue;
     point.at = factor_along * table.number(row, table.column(lab_along));
+    if (point.at < from || point.at > to) continue;
     point.value = factor * table.number(row, table.column(lab));
     calibration.points.push_back(point);
     ++count;
   }
   if (count == 0)
-    section.fault("lab", fmt::format("the laboratory's table has no row of the test '{}' with both {} and {}",
-                                     lab_test, lab_along, lab));
+    section.fault("lab",
+                  fmt::format("the laboratory's table has no row of the test '{}' with both {} and {}, "
+                              "between 'from' and 'to' where these are given",
+                              lab_test, lab_along, lab));
 }
 
 /// Where a curve first comes to a value of x, or nothing.
@@ -189,7 +197,8 @@ double Parameter::value_at(double place) const {
 }
 
 Calibration read_calibration(const std::filesystem::path& laboratory, const std::filesystem::path& file,
-                             const std::vector<std::string>& settings, const ScriptRules& scripts) {
+                             const std::vector<std::string>& settings, const ScriptRules& scripts,
+                             const PackingsOf& packings_of) {
   Entry document = coupler::load_document(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
   const CsvTable table(laboratory);
@@ -207,6 +216,8 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
   };
   calibration.tolerance = share("search_tolerance", calibration.tolerance);
   calibration.difference = share("difference", calibration.difference);
+  calibration.profile = top.whole_or("profile", 0, calibration.profile);
+  calibration.profile_evaluations = top.whole_or("profile_evaluations", 1, calibration.profile_evaluations);
   if (const Entry* const parameters =
           top.require("parameters", "a map of names, each with 'bounds' and 'start'"))
     for (const Entry::Member& member : parameters->members)
@@ -215,7 +226,8 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
   if (const Entry* const tests = top.require("tests", "a map of names, each with a test and its pressure")) {
     for (const Entry::Member& member : tests->members) {
       calibration.test_names.push_back(member.key);
-      calibration.tests.push_back(read_test(document, member, file.parent_path(), scripts, faults));
+      calibration.tests.push_back(
+          read_test(document, member, file.parent_path(), scripts, packings_of, faults));
     }
     if (calibration.tests.empty()) top.fault("tests", "tests: at least one is needed");
   }
@@ -239,6 +251,7 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
                                      calibration.points.size(), calibration.parameters.size()));
   std::ranges::stable_sort(faults, {}, [](const Fault& fault) { return std::pair(fault.file, fault.line); });
   if (!faults.empty()) throw InputError(faults);
+  // What packings that are made become follows from these texts, and from their specification below.
   std::string all = coupler::content_of(file) + coupler::content_of(laboratory);
   for (const std::string& setting : settings) all += setting + '\n';
   for (const ElementSpecification& test : calibration.tests)

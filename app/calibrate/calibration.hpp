@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/element/read_specification.hpp"
+#include "app/pack/made_packings.hpp"
 
 namespace polargrain::app {
 
@@ -39,15 +40,18 @@ struct Calibration {
   std::vector<std::string> test_names;
   std::vector<ElementSpecification> tests;
   std::vector<TargetPoint> points;
-  int evaluations = 100;     ///< most of a search
-  double tolerance = 0.005;  ///< of a search: change of the places of the parameters
-  double difference = 0.05;  ///< of these places, for the derivatives at the end
-  std::string identity;      ///< of everything that decides results
+  int evaluations = 100;         ///< most of a search
+  double tolerance = 0.005;      ///< of a search: change of the places of the parameters
+  double difference = 0.05;      ///< of these places, for the derivatives at the end
+  int profile = 0;               ///< places of each parameter at which the others are sought anew
+  int profile_evaluations = 15;  ///< most of each of these searches
+  std::string identity;          ///< of everything that decides results
 };
 
-/// @param laboratory CSV file with the curves @throws InputError with all faults
+/// @param laboratory CSV file with the curves @param packings_of of tests whose packings are to be made @throws InputError with all faults
 Calibration read_calibration(const std::filesystem::path& laboratory, const std::filesystem::path& file,
-                             const std::vector<std::string>& settings, const ScriptRules& scripts);
+                             const std::vector<std::string>& settings, const ScriptRules& scripts,
+                             const PackingsOf& packings_of);
 
 /// The differences of the curves from the points, over their errors: of the mean over the packings. A packing that did
 /// not come as far as a point counts as `kMissed` errors there.

@@ -79,6 +79,20 @@ std::string calibration_summary(const Calibration& calibration, const Calibratio
       text += '\n';
     }
   }
+  if (!result.profile.empty())
+    text += fmt::format(
+        "\nre-optimised profile: least root mean square difference with one parameter held; up to {:.3g} it is within "
+        "95 %\n",
+        std::sqrt(result.threshold));
+  for (const ProfilePoint& point : result.profile) {
+    text += fmt::format("{:<24} {:>12.5g} {:>12.4g}{}  ", calibration.parameters[point.parameter].name,
+                        point.values[point.parameter], std::sqrt(point.misfit),
+                        point.misfit <= result.threshold ? " " : "*");
+    for (std::size_t p = 0; p < calibration.parameters.size(); ++p)
+      if (p != point.parameter)
+        text += fmt::format(" {} {:.4g}", calibration.parameters[p].name, point.values[p]);
+    text += '\n';
+  }
   return text;
 }
 
@@ -90,6 +104,22 @@ std::string calibration_page(const Calibration& calibration, const CalibrationRe
     if (point.where == TargetPoint::Where::along &&
         shown.insert({point.test, point.along, point.column}).second)
       body += curves_of(calibration, best, point.test, point.along, point.column);
+  for (std::size_t p = 0; p < calibration.parameters.size() && !result.profile.empty(); ++p) {
+    const std::string& name = calibration.parameters[p].name;
+    ChartSeries held;
+    held.name = "others sought anew";
+    held.line = true;
+    for (const ProfilePoint& point : result.profile)
+      if (point.parameter == p) held.points.emplace_back(point.values[p], std::sqrt(point.misfit));
+    ChartSeries limit;
+    limit.name = "95 %";
+    limit.line = true;
+    for (const auto& [value, misfit] : held.points)
+      limit.points.emplace_back(value, std::sqrt(result.threshold));
+    body +=
+        fmt::format("<h2>Profile of {}</h2>\n", escaped(name)) +
+        chart({.title = name}, {.title = "root mean square difference, reading errors"}, {held, limit}, true);
+  }
   ChartSeries search;
   search.name = "misfit";
   ChartSeries least;

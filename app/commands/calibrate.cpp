@@ -10,6 +10,7 @@
 #include "common/csv_table.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
+#include "coupler/pool/private_directory.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -18,6 +19,7 @@ struct CalibrateOptions {
   std::filesystem::path laboratory;
   std::filesystem::path specification;
   std::filesystem::path directory = "calibration";
+  std::filesystem::path packings = "packings";
   std::vector<std::string> settings;
   int workers = 1;
   bool quiet = false;
@@ -106,9 +108,35 @@ std::string table_of(const Calibration& calibration, const CalibrationResult& re
   return text;
 }
 
-int run_calibration(const CalibrateOptions& options) {
-  const Calibration calibration =
-      read_calibration(options.laboratory, options.specification, options.settings, options.scripts);
+/// All faults are found before the first packing is made.
+Calibration read_and_make_packings(const CalibrateOptions& options, const PackingTools& tools) {
+  const coupler::PrivateDirectory scratch;
+  const auto read = [&options](const PackingsOf& packings_of) {
+    return read_calibration(options.laboratory, options.specification, options.settings, options.scripts,
+                            packings_of);
+  };
+  read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
+  return read([&](const MadePackings& asked) {
+    return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
+      if (!options.quiet) tell(stderr, "{}\n", line);
+    });
+  });
+}
+
+std::string profile_of(const Calibration& calibration, const CalibrationResult& result) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : calibration.parameters) names.push_back(parameter.name);
+  std::string text = fmt::format("held,{},misfit,within_95\n", fmt::join(names, ","));
+  for (const ProfilePoint& point : result.profile) {
+    text += names[point.parameter];
+    for (const double value : point.values) text += "," + exact(value);
+    text += fmt::format(",{},{}\n", exact(point.misfit), point.misfit <= result.threshold ? 1 : 0);
+  }
+  return text;
+}
+
+int run_calibration(const CalibrateOptions& options, const PackingTools& tools) {
+  const Calibration calibration = read_and_make_packings(options, tools);
   std::filesystem::create_directories(options.directory);
   const std::filesystem::path file = options.directory / "record.csv";
   const std::vector<Evaluation> known = known_evaluations(file, calibration);
@@ -130,6 +158,7 @@ int run_calibration(const CalibrateOptions& options) {
   const std::vector<ElementSpecification> tests = tests_with(calibration, result.best.values);
   const std::vector<ElementResult> best = run_elements(tests, options.workers, options.scripts.trusted);
   write_file(options.directory / "parameters.csv", table_of(calibration, result));
+  if (!result.profile.empty()) write_file(options.directory / "profile.csv", profile_of(calibration, result));
   write_file(options.directory / "best.in", tests.front().cells.front().script);
   write_file(options.directory / "calibration.html", calibration_page(calibration, result, best));
   tell(stdout, "{}", calibration_summary(calibration, result));
@@ -150,11 +179,14 @@ Command add_calibrate(CLI::App& program, const Grains& grains) {
   command.add_option("SPEC", options->specification, "Specification (YAML): parameters, tests, targets")
       ->required();
   command.add_option("-o,--output", options->directory, "Folder to write [calibration]")->type_name("DIR");
+  command
+      .add_option("--packings", options->packings, "Folder that keeps the packings that are made [packings]")
+      ->type_name("DIR");
   command.add_flag("--quiet", options->quiet, "No line for each evaluation");
   add_settings(command, options->settings);
   add_workers(command, options->workers, 1);
   add_trust(command, options->scripts, grains);
-  return {&command, [options] { return run_calibration(*options); }};
+  return {&command, [options, &tools = grains.packing_tools] { return run_calibration(*options, tools); }};
 }
 
 }  // namespace polargrain::app

@@ -7,9 +7,11 @@
 #include "app/commands/csv_file.hpp"
 #include "app/element/element_page.hpp"
 #include "app/element/run_element.hpp"
+#include "app/pack/made_packings.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
 #include "coupler/case/document.hpp"
+#include "coupler/pool/private_directory.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -19,6 +21,7 @@ struct ElementOptions {
   std::string test;
   std::string pressure;
   std::filesystem::path output = "element";
+  std::filesystem::path packings = "packings";
   std::vector<std::string> settings;
   int workers = 1;
   bool quiet = false;
@@ -99,16 +102,27 @@ std::string table_of(const std::vector<std::string>& columns, const ElementMean&
   return text;
 }
 
-int run_test(const ElementOptions& options) {
+int run_test(const ElementOptions& options, const PackingTools& tools) {
   const coupler::Entry document = document_of(options);
   const std::filesystem::path directory = is_yaml(options.files.front())
                                               ? std::filesystem::path(document.file).parent_path()
                                               : std::filesystem::current_path();
-  const ElementSpecification specification = read_element_specification(document, directory, options.scripts);
+  const coupler::PrivateDirectory scratch;
+  const auto read = [&](const PackingsOf& packings_of) {
+    return read_element_specification(with_made_packings(document, directory, options.scripts, packings_of),
+                                      directory, options.scripts);
+  };
+  // All faults are found before the first packing is made.
+  read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
   const std::filesystem::path folder = options.output.has_parent_path() ? options.output.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw InputError(
         {"", 0, fmt::format("-o {}: there is no folder {}", options.output.string(), folder.string())});
+  ElementSpecification specification = read([&](const MadePackings& asked) {
+    return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
+      if (!options.quiet) tell(stderr, "{}\n", line);
+    });
+  });
   const ElementResult result =
       run_elements({&specification, 1}, options.workers, options.scripts.trusted).front();
   const ElementMean mean = mean_of(result.curves);
@@ -156,11 +170,14 @@ Command add_element(CLI::App& program, const Grains& grains) {
       ->type_name("100kPa");
   command.add_option("-o,--output", options->output, "Files to write: NAME.csv, NAME.html [element]")
       ->type_name("NAME");
+  command
+      .add_option("--packings", options->packings, "Folder that keeps the packings that are made [packings]")
+      ->type_name("DIR");
   command.add_flag("--quiet", options->quiet, "Print nothing but errors");
   add_settings(command, options->settings);
   add_workers(command, options->workers, 1);
   add_trust(command, options->scripts, grains);
-  return {&command, [options] { return run_test(*options); }};
+  return {&command, [options, &tools = grains.packing_tools] { return run_test(*options, tools); }};
 }
 
 }  // namespace polargrain::app

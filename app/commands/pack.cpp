@@ -33,12 +33,9 @@ void check_output(const std::filesystem::path& output) {
         {"", 0, fmt::format("-o {}: there is no folder {}", output.string(), directory.string())});
 }
 
-/// Makes a packing, telling how far it is.
-using Work = std::function<PreparedPacking(const std::function<void(const PackingReached&)>&)>;
-
 /// Makes the packing in a process of its own. @returns whether that ended well
-bool make_in_child(const Work& make, const PackOptions& options, const PackingTools& tools,
-                   const std::filesystem::path& log) {
+bool make_in_child(const PackingWork& make, const std::filesystem::path& output, const PackingTools& tools,
+                   bool quiet, const std::filesystem::path& log) {
   const auto work = [&](int terminal) {
     tools.start_process();
     const auto progress = [terminal](const PackingReached& reached) {
@@ -48,9 +45,9 @@ bool make_in_child(const Work& make, const PackOptions& options, const PackingTo
       if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0)
         return;  // nobody looks: nothing lost
     };
-    write_packing_file(options.output, make(progress));
+    write_packing_file(output, make(progress));
   };
-  return run_in_child(log, work, !options.quiet);
+  return run_in_child(log, work, !quiet);
 }
 
 void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
@@ -91,6 +88,16 @@ PackingSpecification settling(const PackOptions& options) {
 
 }  // namespace
 
+void make_packing_file(const PackingWork& make, const std::filesystem::path& output,
+                       const PackingTools& tools, bool quiet) {
+  std::filesystem::path log = output;
+  log += ".log";
+  if (!make_in_child(make, output, tools, quiet, log))
+    throw RunError(fmt::format("the packing could not be made (the engine's output is in {}):\n{}",
+                               log.string(), coupler::log_excerpt(log)));
+  std::filesystem::remove(log);
+}
+
 int pack(const PackOptions& options, const PackingTools& tools) {
   if (!options.export_file.empty()) {
     fem::write_file(options.export_file, packing_data(read_packing(options.specification_file)));
@@ -103,17 +110,12 @@ int pack(const PackOptions& options, const PackingTools& tools) {
       settles ? settling(options)
               : read_packing_specification(options.specification_file, options.settings, options.scripts);
   check_output(options.output);
-  const Work make = [&](const std::function<void(const PackingReached&)>& progress) {
+  const PackingWork make = [&](const std::function<void(const PackingReached&)>& progress) {
     if (!settles) return tools.make(specification, progress);
     return tools.settle(specification, packing_to_settle(options.settle.front()), progress);
   };
-  std::filesystem::path log = options.output;
-  log += ".log";
   const auto start = Clock::now();
-  if (!make_in_child(make, options, tools, log))
-    throw RunError(fmt::format("the packing could not be made (the engine's output is in {}):\n{}",
-                               log.string(), coupler::log_excerpt(log)));
-  std::filesystem::remove(log);
+  make_packing_file(make, options.output, tools, options.quiet);
   const double seconds = seconds_since(start);
   if (options.quiet) return 0;
   const PreparedPacking made = read_packing_file(options.output);

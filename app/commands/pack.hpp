@@ -33,6 +33,15 @@ struct PackOptions {
   std::function<std::string(const CellDefinition&)> moduli = {};
 };
 
+/// Makes a packing, telling how far it is.
+using PackingWork = std::function<PreparedPacking(const std::function<void(const PackingReached&)>&)>;
+
+/// Does such work in a process of its own (an engine error ends its process), whose whole output goes to a log beside the
+/// packing; the log is removed when all went well. @param output is written whole or not at all
+/// @throws RunError in the engine's words
+void make_packing_file(const PackingWork& make, const std::filesystem::path& output,
+                       const PackingTools& tools, bool quiet);
+
 /// Makes a packing after a specification, in a process of its own (an engine error ends its process), whose
 /// whole output goes to a log beside the packing. The log is removed when all went well.
 /// @throws RunError in the engine's words

@@ -68,6 +68,15 @@ std::string ScriptTimeStep::settle(LAMMPS_NS::LAMMPS& lammps, std::span<const Co
   return {};
 }
 
+bool ScriptTimeStep::shorten(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts,
+                             const Inertia& inertia, double damping_rate) const {
+  if (given_ || step_fault(contacts, inertia, damping_rate, lammps.update->dt).empty()) return false;
+  const double stable =
+      stable_time_step(largest_frequency(contacts, inertia), longest_viscous_time(contacts), damping_rate);
+  set_time_step(lammps, chosen_time_step(stable));
+  return true;
+}
+
 void ScriptTimeStep::renew(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts,
                            const StiffestContact& stiffest, double damping_rate,
                            const std::string& where) const {

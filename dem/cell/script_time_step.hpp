@@ -37,7 +37,12 @@ class ScriptTimeStep {
   std::string settle(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts, const Inertia& inertia,
                      double damping_rate, const std::string& where) const;
 
-  /// The same while a packing is made: bounds take the place of the eigenvalue, of the contacts there are and
+  /// A shorter step where the contacts have stiffened so much that the present one is unstable, as those of Hertz do under
+  /// more pressure, and the script leaves the step to this program. @returns whether the step was shortened
+  bool shorten(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts, const Inertia& inertia,
+               double damping_rate) const;
+
+  /// As settle, while a packing is made: bounds take the place of the eigenvalue, of the contacts there are and
   /// of grains among the stiffest contacts there have been. A step of the script's is refused when the
   /// contacts at hand do not bear it.
   void renew(LAMMPS_NS::LAMMPS& lammps, std::span<const Contact> contacts, const StiffestContact& stiffest,

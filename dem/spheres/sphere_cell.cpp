@@ -25,6 +25,10 @@ namespace polargrain::dem {
 
 namespace {
 
+/// A network is looked at more closely when its frequencies may have risen so much since the packing was at rest. Its
+/// time step has room for a quarter (kStepShare).
+constexpr double kStiffer = 1.2;
+
 /// @throws RunError when the places of its grains are none of a packing
 const CellDefinition& sound(const CellDefinition& definition) {
   if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
@@ -72,6 +76,8 @@ class SphereCell final : public CellOfGrains {
 
  private:
   CellReply follow(const StatePointer& start, const CellIncrement& increment);
+  /// The same with the time step as it is; nothing, when the contacts have stiffened beyond it and it was shortened.
+  std::optional<CellReply> attempt(const StatePointer& start, const CellIncrement& increment);
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
   [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
@@ -95,6 +101,8 @@ class SphereCell final : public CellOfGrains {
   double grain_volume_ = 0.0;  // m^3
   SphereEngine engine_;
   Inertia inertia_;
+  double time_step_ = 0.0;        // s, for the packing at rest
+  double frequency_bound_ = 0.0;  // rad/s, of the packing at rest
   CondensedSpaceTangent condensed_tangent_;
   CellReply initial_;
 };
@@ -111,6 +119,8 @@ SphereCell::SphereCell(const CellDefinition& definition)
   engine_.set_up();
   const std::string remark = engine_.settle_time_step(control_.damping);
   inertia_ = inertia_of(engine_.lammps());
+  time_step_ = engine_.strain().time_step();
+  frequency_bound_ = frequency_bound(engine_.contacts(), inertia_);
   initial_.response = respond(tangent());
   initial_.response.message = remark;
   initial_.diagnostics = measure();
@@ -151,9 +161,20 @@ CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& inc
     size = std::max({size, increment.rotation.cwiseAbs().maxCoeff(),
                      increment.curvature.norm() * 2.0 * engine_.mean_radius()});
   if (const std::optional<CellReply> astray = gone_astray(size)) return *astray;
+  // Not the step of the increment before: an answer depends on what is asked alone.
+  set_time_step(engine_.lammps(), time_step_);
+  std::optional<CellReply> reply;
+  while (!(reply = attempt(start, increment))) {
+  }
+  return *std::move(reply);
+}
+
+std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const CellIncrement& increment) {
   engine_.restore(start ? *start : *initial_.state);
   engine_.strain().lead(protocol_, increment);
   set_up();
+  const bool stiffer = frequency_bound(engine_.contacts(), inertia_) > kStiffer * frequency_bound_;
+  if (stiffer && engine_.shorten_time_step(inertia_, protocol_.damping_rate())) return {};
 
   while (!protocol_.loaded()) run();
   // Taken while the box still moves: see the cell of discs.
@@ -168,6 +189,9 @@ CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& inc
   reply.response = respond(loading_tangent);
   judge(reply.response, protocol_, control_, rest, engine_.contacts(), inertia_, engine_.strain().time_step(),
         kMostVoidRatioInSpace);
+  if (reply.response.quality == Quality::unreliable &&
+      engine_.shorten_time_step(inertia_, protocol_.damping_rate()))
+    return {};
   reply.diagnostics.dem_steps = protocol_.done();
   reply.state = engine_.save();
   return reply;

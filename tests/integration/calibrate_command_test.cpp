@@ -118,6 +118,97 @@ TEST_F(Calibrate, ASearchWithTooFewEvaluationsIsNotDone) {
   EXPECT_NE(outcome.out.find("not converged: 6 evaluations"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Calibrate, TheProfileSeeksTheOtherParametersAnew) {
+  make_laboratory();
+  write(scratch.path() / "spec.yaml",
+        specification(kBoth, kStress) + "search_tolerance: 5e-4\nprofile: 6\nprofile_evaluations: 15\n");
+  const Outcome outcome = run("calibrate lab.csv spec.yaml -o out -w 1");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(outcome.out.find("re-optimised profile"), std::string::npos) << outcome.out;
+  const CsvTable profile(scratch.path() / "out/profile.csv");
+  const CsvTable parameters(scratch.path() / "out/parameters.csv");
+  ASSERT_EQ(profile.rows(), 14u);  // three on each side of the best of each parameter
+  const std::vector<double> misfits = profile.numbers("misfit");
+  const double best = *std::ranges::min_element(misfits);
+  const double width = parameters.numbers("high_95")[0] - parameters.numbers("best")[0];
+  for (std::size_t row = 0; row < 7; ++row) {
+    EXPECT_EQ(profile.cell(row, "held"), "stiffness");
+    EXPECT_EQ(profile.cell(row, "within_95"), row >= 2 && row <= 4 ? "1" : "0");
+    // Twice the interval of the linear estimate to each side, in three steps. One is within, four thirds are not.
+    const double away = (profile.numbers("stiffness")[row] - parameters.numbers("best")[0]) / width;
+    EXPECT_NEAR(std::abs(away), 2.0 / 3.0 * std::abs(static_cast<double>(row) - 3.0), 0.15);
+    // Held too stiff, the sand has to soften more, and the other way round.
+    if (row > 0) {
+      EXPECT_GT(profile.numbers("weakening")[row], profile.numbers("weakening")[row - 1]);
+    }
+    if (row != 3) {
+      EXPECT_GT(misfits[row], best);
+    }
+  }
+}
+
+TEST_F(Calibrate, PointsOutsideOfThePartThatCountsAreLeftOut) {
+  make_laboratory();
+  write(scratch.path() / "spec.yaml",
+        specification("  stiffness: {bounds: [5e7, 5e8], start: 9e7}\n",
+                      "  - {column: s22_Pa, error: 500, from: 0.3 %, to: 0.85 %}\n") +
+            "evaluations: 3\n");
+  EXPECT_NE(run("calibrate lab.csv spec.yaml -o out -w 1").out.find("reading errors, of 3 points"),
+            std::string::npos);
+  write(scratch.path() / "spec.yaml", specification(kBoth, "  - {column: s22_Pa, error: 500, from: 3 %}\n"));
+  EXPECT_NE(run("calibrate lab.csv spec.yaml -o none").errors.find("between 'from' and 'to'"),
+            std::string::npos);
+}
+
+TEST_F(Calibrate, PackingsAreBroughtToTheirVoidRatio) {
+  make_laboratory();
+  write(scratch.path() / "loose.yaml",
+        "grains: 9\nsizes: {law: uniform, radius: [1, 2]}\ndensity: 1000\nthickness: 1\nscript: loose.in\n"
+        "pressure: 10 kPa\nfriction: 0.5\nseed: 1\n");
+  write(scratch.path() / "loose.in", "variable friction index 0.5\nyoung ${friction}\n");
+  const std::string packing = "packing: {specification: loose.yaml, seeds: [3, 4]}\nvoid_ratio: ";
+  const std::string rest =
+      "\nscript: cell.in\ntest: biaxial\npressure: 100 kPa\naxial_strain: 1 %\nrows: 5\n";
+  // What is wrong with the rest of it is found before a packing is made.
+  write(scratch.path() / "test.yaml", packing + "0.62" + rest + "drained: yes\n");
+  EXPECT_EQ(run("element test.yaml -o made").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "packings"));
+
+  write(scratch.path() / "test.yaml", packing + "0.62" + rest);
+  const Outcome made = run("element test.yaml -o made");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  EXPECT_NE(made.out.find("seed3-e0.62-100kPa"), std::string::npos) << made.out;
+  // 0.5 + 0.4 friction: steps of 0.85 from 0.5 to 0.3071 and 0.2610 enclose it; a secant of a line hits at once.
+  EXPECT_NE(made.errors.find("packing seed4-step4.h5: void ratio 0.6044"), std::string::npos) << made.errors;
+  EXPECT_NE(made.errors.find("packing seed4-e0.62-100kPa"), std::string::npos) << made.errors;
+  EXPECT_NE(made.errors.find(": void ratio 0.62"), std::string::npos) << made.errors;
+  EXPECT_EQ(made.errors.find("step5"), std::string::npos) << made.errors;
+  // They are kept, for other tests too.
+  const std::string table = content(scratch.path() / "made.csv");
+  EXPECT_EQ(run("element test.yaml -o made").errors, "");
+  EXPECT_EQ(content(scratch.path() / "made.csv"), table);
+
+  write(scratch.path() / "test.yaml", packing + "0.75" + rest);
+  EXPECT_NE(run("element test.yaml -o made").errors.find("the loosest packing of seed 3 has 0.7000"),
+            std::string::npos);
+  write(scratch.path() / "test.yaml", packing + "0.4" + rest);
+  EXPECT_NE(run("element test.yaml -o made").errors.find("seed 3 comes to 0.50"), std::string::npos);
+
+  // The tests of a calibration each have theirs.
+  write(scratch.path() / "lab2.csv", "s22_Pa\n-2e5\n");
+  write(
+      scratch.path() / "spec.yaml",
+      "packing: {specification: loose.yaml, seeds: [3]}\nscript: cell.in\nparameters:\n" + kBoth +
+          "tests:\n  one: {test: biaxial, void_ratio: 0.6, pressure: 100 kPa, axial_strain: 1 %, rows: 5}\n"
+          "  two: {test: biaxial, void_ratio: 0.65, pressure: 50 kPa, axial_strain: 1 %, rows: 5}\ntargets:\n"
+          "  - {test: one, column: s22_Pa, last: -2e5, error: 1e3}\n"
+          "  - {test: two, column: s22_Pa, last: -1e5, error: 1e3}\nevaluations: 3\n");
+  const Outcome calibrated = run("calibrate lab2.csv spec.yaml -o both -w 1");
+  EXPECT_EQ(calibrated.status, 1) << calibrated.errors;
+  EXPECT_NE(calibrated.errors.find("seed3-e0.6-100kPa"), std::string::npos) << calibrated.errors;
+  EXPECT_NE(calibrated.errors.find("seed3-e0.65-50kPa"), std::string::npos) << calibrated.errors;
+}
+
 TEST_F(Calibrate, SaysWhatIsWrongBeforeAnythingRuns) {
   make_laboratory();
   expect_fault(specification("  softness: {bounds: [1, 2], start: 1.5}\n", kStress),

@@ -227,6 +227,12 @@ Packing fake_packing() {
   return packing;
 }
 
+namespace {
+double fake_void_ratio(double friction) {
+  return 0.5 + 0.4 * friction;
+}
+}  // namespace
+
 PreparedPacking make_fake_packing(const PackingSpecification& specification) {
   PreparedPacking made;
   const int rows = static_cast<int>(std::ceil(std::sqrt(specification.grains)));
@@ -237,7 +243,18 @@ PreparedPacking make_fake_packing(const PackingSpecification& specification) {
   for (int k = 0; k < specification.grains; ++k)
     made.packing.grains.push_back({k + 1, {k % rows + 0.5, k / rows + 0.5}, 0.4, mass, 0.08 * mass});
   made.specification = specification.text;
+  made.reached.void_ratio = fake_void_ratio(specification.friction);
   return made;
+}
+
+PreparedPacking settle_fake_packing(const PackingSpecification& specification,
+                                    const PreparedPacking& packing) {
+  PreparedPacking settled = packing;
+  const std::string line = "variable friction index ";
+  if (const std::size_t place = specification.script.find(line); place != std::string::npos)
+    settled.reached.void_ratio = fake_void_ratio(std::stod(specification.script.substr(place + line.size())));
+  settled.reached.pressure = specification.pressure;
+  return settled;
 }
 
 CellDefinition fake_definition(const std::string& script) {

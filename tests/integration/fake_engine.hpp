@@ -42,7 +42,12 @@ Packing fake_packing();
 
 /// A packing of as many discs in rows as the specification says, each of the mass 1 + (seed - 2) / 100 +
 /// 1 / grains. The script command young_of_mass turns that into a stiffness.
+/// Its void ratio is 0.5 and 0.4 times the friction that it is made with.
 PreparedPacking make_fake_packing(const PackingSpecification& specification);
+/// The same grains; the void ratio is that of the friction in a line `variable friction index VALUE` of the script, or
+/// stays without such a line.
+PreparedPacking settle_fake_packing(const PackingSpecification& specification,
+                                    const PreparedPacking& packing);
 
 /// A definition with that packing.
 CellDefinition fake_definition(const std::string& script);

@@ -10,6 +10,11 @@ int main(int count, char** arguments) {
       count, arguments,
       {[] {}, polargrain::testing::make_fake_engine, polargrain::testing::fake_commands(),
        polargrain::testing::fake_state_fault},
-      {[] {}, [](const auto& specification,
-                 const auto&) { return polargrain::testing::make_fake_packing(specification); }});
+      {[] {},
+       [](const auto& specification, const auto&) {
+         return polargrain::testing::make_fake_packing(specification);
+       },
+       [](const auto& specification, const auto& packing, const auto&) {
+         return polargrain::testing::settle_fake_packing(specification, packing);
+       }});
 }

@@ -15,4 +15,9 @@ if(TARGET polargrain AND TARGET polargrain-liggghts)
                                                            POLARGRAIN_LIGGGHTS="$<TARGET_FILE:polargrain-liggghts>"
                                                            POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(informed_studies_test polargrain polargrain-liggghts)
+  # Packings, a calibration and predictions of 50 spheres take a quarter of a minute.
+  polargrain_test(toyoura_study_test long integration/toyoura_study_test.cpp LIBS polargrain_common)
+  target_compile_definitions(toyoura_study_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                        POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  add_dependencies(toyoura_study_test polargrain)
 endif()
