@@ -5,6 +5,19 @@
 
 namespace polargrain::coupler {
 
+CellDefinition read_hosted_cell(Section& section, Faults& faults, const CaseFiles& files,
+                                const std::optional<Packing>& packing) {
+  CellDefinition definition;
+  if (packing) {
+    definition = read_cell_without_packing("cell", section, faults, files);
+    definition.packing = *packing;
+  } else {
+    definition = read_cell_definition("cell", section, faults, files);
+  }
+  read_controlled(section, definition);
+  return definition;
+}
+
 CellDefinition definition_of(const CellWords& cell) {
   Entry document;
   document.kind = Entry::Kind::map;
@@ -18,15 +31,7 @@ CellDefinition definition_of(const CellWords& cell) {
   }
   Faults faults;
   Section section(document, "cell", faults);
-  const CaseFiles files{cell.directory, cell.scripts};
-  CellDefinition definition;
-  if (cell.packing) {
-    definition = read_cell_without_packing("cell", section, faults, files);
-    definition.packing = *cell.packing;
-  } else {
-    definition = read_cell_definition("cell", section, faults, files);
-  }
-  read_controlled(section, definition);
+  CellDefinition definition = read_hosted_cell(section, faults, {cell.directory, cell.scripts}, cell.packing);
   section.finish();
   if (!faults.empty()) throw InputError(faults);
   return definition;

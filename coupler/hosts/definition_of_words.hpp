@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/cell.hpp"
+#include "coupler/case/cell_script.hpp"
 #include "grains_io/script.hpp"
 
 namespace polargrain::coupler {
@@ -20,6 +21,10 @@ struct CellWords {
   std::filesystem::path directory = {};  ///< where files are looked for first
   ScriptRules scripts = {};
 };
+
+/// The same from a map that may hold other keys too; the caller finishes the section. Fit for use when there are no faults.
+CellDefinition read_hosted_cell(Section& section, Faults& faults, const CaseFiles& files,
+                                const std::optional<Packing>& packing = {});
 
 /// Reads and checks the cell: script, packing, rotations and how it is loaded.
 /// @throws InputError with all faults, among them a key that cells do not have

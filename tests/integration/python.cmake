@@ -7,6 +7,6 @@ if(TARGET polargrain AND TARGET polargrain_python)
     add_test(NAME python_${name} COMMAND ${Python_EXECUTABLE} -B -W error ${file}
              WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
     set_tests_properties(python_${name} PROPERTIES LABELS integration TIMEOUT 300 PROCESSORS 2
-                         ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python;POLARGRAIN_SOURCE=${PROJECT_SOURCE_DIR}")
+                         ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python;POLARGRAIN_SOURCE=${PROJECT_SOURCE_DIR};POLARGRAIN_BEHAVIOUR=$<TARGET_FILE:polargrain_behaviour>")
   endforeach()
 endif()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The examples of docs/python.md run, one after the other."""
+"""The examples of docs/python.md and docs/other_hosts.md run, one after the other."""
 import contextlib
 import io
 import os
@@ -9,16 +9,16 @@ import unittest
 
 from support import InFolder
 
-PAGE = pathlib.Path(os.environ["POLARGRAIN_SOURCE"]) / "docs/python.md"
+DOCS = pathlib.Path(os.environ["POLARGRAIN_SOURCE"]) / "docs"
 
 
-class Page(InFolder):
-    def test_runs(self):
-        page = PAGE.read_text(encoding="utf-8")
+class Pages(InFolder):
+    def run_page(self, name):
+        """@returns names that its examples leave, what they print"""
+        page = (DOCS / name).read_text(encoding="utf-8")
         # With empty lines before each, so that an error names the line of the page.
         examples = ["\n" * page.count("\n", 0, found.start(1)) + found[1]
                     for found in re.finditer(r"^```python\n(.*?)^```", page, re.M | re.S)]
-        self.assertGreater(len(examples), 5)
         names = {}
         before = os.getcwd()
         os.chdir(self.folder)
@@ -26,11 +26,19 @@ class Page(InFolder):
         try:
             with contextlib.redirect_stdout(said):
                 for example in examples:
-                    exec(compile(example, str(PAGE), "exec"), names)
+                    exec(compile(example, name, "exec"), names)
         finally:
             os.chdir(before)
-        # What the page says that is printed.
-        self.assertIn("cell: unknown key 'dampin'; did you mean 'damping'?", said.getvalue())
+        return names, said.getvalue()
+
+    def test_python(self):
+        _, said = self.run_page("python.md")
+        # What the page says that is printed, by its last example.
+        self.assertIn("cell: unknown key 'dampin'; did you mean 'damping'?", said)
+
+    def test_other_hosts(self):
+        names, _ = self.run_page("other_hosts.md")
+        self.assertEqual(sorted(names["MicroSimulation"](1).initialize())[:2], ["stress_1", "stress_2"])
 
 
 if __name__ == "__main__":
