@@ -19,19 +19,17 @@ their case or the program has changed.
     saved    DEM steps of the full run over those of the adaptive one, audits included
 """
 import argparse
-import base64
-import csv
 import hashlib
 import json
 import math
 import os
 import pathlib
 import random
-import re
 import statistics
-import struct
 import subprocess
 import sys
+
+from built_package import polargrain
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KINDS = ["shear", "punch", "wall", "slope", "notched", "cyclic"]
@@ -209,14 +207,8 @@ def packing_of(scene, results, program):
 
 def fields(file):
     """Element stresses and couple stresses of a field file: two lists of tuples."""
-    text = file.read_text()
-
-    def array(name):
-        words = re.search(rf'Name="{name}" NumberOfComponents="(\d)" format="binary">\n(.*?)\n', text)
-        data = base64.b64decode(words[2])[8:]
-        return list(struct.iter_unpack(f"<{words[1]}d", data))
-
-    return array("stress"), array("couple_stress")
+    found = polargrain.Fields(file).cell_data
+    return found["stress"].tolist(), found["couple_stress"].tolist()
 
 
 def difference(scene, one, other):
@@ -233,8 +225,8 @@ def difference(scene, one, other):
 
 
 def history(directory):
-    with open(directory / "history.csv") as file:
-        return [(float(row["time"]), float(row["load"])) for row in csv.DictReader(file)]
+    rows = polargrain.Result(directory).history
+    return list(zip(rows["time"].tolist(), rows["load"].tolist()))
 
 
 def compare(scene, full, other):

@@ -12,11 +12,15 @@ docs/studies/internal_length.md shows the full size and says what follows.
 """
 import argparse
 import concurrent.futures
-import csv
+import json
 import math
+import os
 import pathlib
 import statistics
-import subprocess
+
+import numpy
+
+from built_package import polargrain
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -27,23 +31,14 @@ STRAIN = 1e-3               # of an increment on the way there
 CURVATURES = (0.002, 0.01, 0.03, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5, 3.0, 3.6)  # rad/m, reached one after the other
 TURNS = (1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 7e-3, 1e-2, 1.5e-2, 2e-2, 2.5e-2, 3e-2)  # rad
 
+S11, S12, S21, S22, M13 = range(5)  # places in the vector of a cell's stresses
+DENSE = {"sizes": {"law": "uniform", "radius": ["3 mm", "7 mm"]}, "density": 2650.0, "thickness": "100 mm", "script": "cells/hooke_radii.in",
+         "pressure": "100 kPa", "friction": 0.0}
+
 # name: coefficient of rolling resistance, rolling friction force
 LAWS = {"no rolling resistance": (0.0, False), "0.2": (0.2, False), "0.4": (0.4, False),
         "0.4, with rolling friction force": (0.4, True)}
 STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 10: 2.262}  # 97.5 %, by number of packings
-
-CASE = """title: One cell
-mesh: {{rectangle: {{size: [0.1 m, 0.1 m], elements: [1, 1]}}}}
-materials:
-  sand: {{model: cell, rotations: controlled, script: {script}, packing: {packing}, unbalanced_force_ratio: 1e-4,
-         unbalanced_moment_ratio: 1e-4, inertial_number: 2e-4}}
-regions: {{all: sand}}
-boundary:
-  - {{on: bottom, fix: [u1, u2]}}
-  - {{on: [left, right, top], pressure: 100 kPa}}
-steps: {{count: 1}}
-"""
-
 
 def script_of(rolling, force):
     text = (ROOT / "liggghts_inputs/cells/hooke_li_chu.in").read_text(encoding="utf-8")
@@ -62,8 +57,8 @@ def script_of(rolling, force):
 
 
 class Study:
-    def __init__(self, program, place):
-        self.program, self.place = program, place
+    def __init__(self, place):
+        self.place = place
         place.mkdir(parents=True, exist_ok=True)
         for name, (rolling, force) in LAWS.items():
             self.script(name).write_text(script_of(rolling, force), encoding="utf-8")
@@ -74,52 +69,55 @@ class Study:
     def packing(self, grains, seed):
         packing = self.place / f"grains{grains}-seed{seed}.h5"
         if not packing.exists():
-            specification = packing.with_suffix(".yaml")
-            specification.write_text(
-                f"title: {grains} dense discs\ngrains: {grains}\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\n"
-                f"thickness: 100 mm\nscript: cells/hooke_radii.in\npressure: 100 kPa\nfriction: 0\nseed: {seed}\n", encoding="utf-8")
-            subprocess.run([self.program, "pack", specification.name, "-o", packing.name], cwd=self.place, check=True,
-                           stdout=subprocess.DEVNULL)
+            polargrain.pack({**DENSE, "grains": grains, "seed": seed}, packing)
         return packing
 
-    def answers(self, grains, seed, law, state, kind):
-        """@returns rows of the path from the state on, the state itself first"""
-        name = f"grains{grains}-seed{seed}-law{list(LAWS).index(law)}-{state:g}-{kind}"
-        out = self.place / f"{name}.csv"
-        steps = round(state / STRAIN)
-        if not out.exists():
-            targets = CURVATURES if kind == "k1" else TURNS
-            path = self.place / f"{name}.path.csv"
-            rows = [f"{STRAIN},{-STRAIN},0" for _ in range(steps)]
-            rows += [f"0,0,{b - a:.17g}" for a, b in zip((0.0, *targets), targets)]
-            path.write_text(f"h11,h22,{kind}\n" + "\n".join(rows) + "\n", encoding="utf-8")
-            case = self.place / f"{name}.yaml"
-            case.write_text(CASE.format(script=self.script(law).name, packing=f"grains{grains}-seed{seed}.h5"),
-                            encoding="utf-8")
-            run = subprocess.run([self.program, "point", case.name, "sand", path.name, "-o", out.name], cwd=self.place,
-                                 capture_output=True, text=True)
-            if run.returncode != 0 and not out.exists():
-                raise SystemExit(f"{name}: {run.stderr}")
-        with open(out, encoding="utf-8") as text:
-            rows = [row for row in csv.DictReader(text)]
-        good = [row for row in rows if row["status"] == "good"]
-        return [{key: float(value) for key, value in row.items() if key != "status"} for row in good][steps:]
+    def answers(self, grains, seed, law, state):
+        """@returns what the cell answers to CURVATURES and to TURNS from the state on, that of the state itself first"""
+        file = self.place / f"grains{grains}-seed{seed}-law{list(LAWS).index(law)}-{state:g}.json"
+        if file.exists():
+            return [numpy.array(rows) for rows in json.loads(file.read_text(encoding="utf-8"))]
+        with polargrain.Engines() as engines:
+            cell = polargrain.Cell(self.packing(grains, seed), self.script(law), rotations="controlled", engines=engines,
+                                   unbalanced_force_ratio=1e-4, unbalanced_moment_ratio=1e-4, inertial_number=2e-4)
+            shear = {"displacement_gradient": numpy.diag([STRAIN, -STRAIN])}
+            start = follow(cell, [shear] * round(state / STRAIN))[-1:] or [cell.at_rest.vector]
+            sheared = cell.state
+            nothing = numpy.zeros((2, 2))
+            bent = follow(cell, [{"displacement_gradient": nothing, "curvature": [b - a, 0.0]}
+                                 for a, b in zip((0.0, *CURVATURES), CURVATURES)])
+            cell.state = sheared
+            turned = follow(cell, [{"displacement_gradient": nothing, "rotation": b - a}
+                                   for a, b in zip((0.0, *TURNS), TURNS)])
+        both = [numpy.array(start + rows) for rows in (bent, turned)]
+        file.write_text(json.dumps([rows.tolist() for rows in both]), encoding="utf-8")
+        return both
 
     def figures(self, grains, seed, law, state):
-        bent = self.answers(grains, seed, law, state, "k1")
-        turned = self.answers(grains, seed, law, state, "w")
-        start = bent[0]
-        pressure = -0.5 * (start["s11"] + start["s22"])
-        ratio = abs(start["s11"] - start["s22"]) / (2.0 * pressure)
-        couple = [(row["m1"] - start["m1"]) for row in bent[1:]]
-        skew = [(row["s21"] - row["s12"]) - (turned[0]["s21"] - turned[0]["s12"]) for row in turned[1:]]
-        last = -0.5 * (bent[-1]["s11"] + bent[-1]["s22"])
-        last_turned = -0.5 * (turned[-1]["s11"] + turned[-1]["s22"])
-        return {"pressure": pressure / 1e3, "ratio": ratio, "B": couple[0] / CURVATURES[0],
+        bent, turned = self.answers(grains, seed, law, state)
+        skew_of = lambda rows: rows[:, S21] - rows[:, S12]
+        pressure_of = lambda row: -0.5 * (row[S11] + row[S22])
+        start, pressure = bent[0], pressure_of(bent[0])
+        couple = bent[1:, M13] - start[M13]
+        skew = skew_of(turned[1:]) - skew_of(turned[:1])
+        return {"pressure": pressure / 1e3, "ratio": abs(start[S11] - start[S22]) / (2.0 * pressure), "B": couple[0] / CURVATURES[0],
                 "B at 0.3": couple[CURVATURES.index(0.3)] / 0.3,
-                "m/p": bent[-1]["m1"] / last * 1e3 if len(couple) == len(CURVATURES) else math.nan,
+                "m/p": bent[-1, M13] / pressure_of(bent[-1]) * 1e3 if len(couple) == len(CURVATURES) else math.nan,
                 "Gc": skew[0] / (4.0 * TURNS[0]) / 1e6,
-                "skew/p": (turned[-1]["s21"] - turned[-1]["s12"]) / last_turned}
+                "skew/p": skew_of(turned[-1:])[0] / pressure_of(turned[-1])}
+
+
+def follow(cell, increments):
+    """Leads a cell along increments, as far as it answers. @returns the good answers: stresses and couple stresses"""
+    answers = []
+    for increment in increments:
+        answer = cell.evaluate(**increment)
+        if answer.quality == "failed":
+            break
+        cell.state = answer.state
+        if answer.quality == "good":
+            answers.append(answer.vector)
+    return answers
 
 
 def interval(values):
@@ -133,13 +131,14 @@ def interval(values):
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--program", default="polargrain")
+    arguments.add_argument("--program", help="[that of the package polargrain]")
     arguments.add_argument("-o", "--results", default="internal_length")
     arguments.add_argument("--size", choices=("reduced", "full"), default="reduced")
     arguments.add_argument("--jobs", type=int, default=2)
     options = arguments.parse_args()
-    program = str(pathlib.Path(options.program).resolve()) if "/" in options.program else options.program
-    study = Study(program, pathlib.Path(options.results).resolve())
+    if options.program:
+        os.environ["POLARGRAIN_PROGRAM"] = str(pathlib.Path(options.program).resolve())
+    study = Study(pathlib.Path(options.results).resolve())
     packings = {100: range(1, 4)} if options.size == "reduced" else {100: range(1, 11), 400: range(1, 11), 1600: range(1, 4)}
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(lambda pair: study.packing(*pair), [(n, seed) for n, seeds in packings.items() for seed in seeds]))

@@ -10,21 +10,20 @@ window of time; thickness is the full width at half maximum of the shear rate of
 What is there already is not made again. Prints tables in Markdown and, with matplotlib, writes layer.png.
 """
 import argparse
-import base64
 import concurrent.futures
-import csv
 import math
 import pathlib
 import shutil
 import statistics
 import subprocess
-import xml.etree.ElementTree as ElementTree
 
 import numpy
 import scipy.optimize
 
 import layer
+from built_package import polargrain
 from internal_length import DIAMETER, interval
+from polargrain.table import read_table
 
 HERE = pathlib.Path(__file__).resolve().parent
 PRESSURE = 1e5   # Pa
@@ -68,8 +67,7 @@ def read_grains(dump):
 
 
 def layer_figures(place):
-    with open(place / "history.csv", encoding="utf-8") as text:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
+    rows = read_table(place / "history.csv").rows
     ratio = [row["shear_stress"] / PRESSURE for row in rows]
     dumps = sorted((place / "grains").glob("step-*.dump"))
     figures = {"peak": max(ratio), "peak at": rows[ratio.index(max(ratio))]["displacement"] / DIAMETER,
@@ -128,30 +126,21 @@ def run_column(program, place, elements, packing, workers):
     return out
 
 
-def read_column(file):
+def read_column(fields):
     """@returns heights (m), displacements along the layer (m) and micro-rotations (rad) of the nodes on the left side"""
-    tree = ElementTree.parse(file)
-
-    def values(array):  # behind a header of eight bytes
-        return numpy.frombuffer(base64.b64decode(array.text), dtype="<f8", offset=8)
-
-    arrays = {array.get("Name"): array for array in tree.iter("DataArray")}
-    place = values(next(tree.iter("Points")).find("DataArray")).reshape(-1, 3)
-    displacement = values(arrays["displacement"]).reshape(-1, 3)
-    left = numpy.flatnonzero(place[:, 0] < 1e-9)
-    left = left[place[left, 1].argsort()]
-    rotation = values(arrays["micro_rotation"])[left] if "micro_rotation" in arrays else numpy.full(left.size, math.nan)
-    return place[left, 1], displacement[left, 0], rotation
+    left = numpy.flatnonzero(fields.points[:, 0] < 1e-9)
+    left = left[fields.points[left, 1].argsort()]
+    rotation = fields.point_data.get("micro_rotation", numpy.full(len(fields.points), math.nan))
+    return fields.points[left, 1], fields.point_data["displacement"][left, 0], rotation[left]
 
 
 def column_figures(out, elements):
-    with open(out / "history.csv", encoding="utf-8") as text:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
+    result = polargrain.Result(out)
+    rows = result.history.rows
     ratio = [row["shear_force"] / (COLUMN / elements * PRESSURE) for row in rows]
-    fields = sorted((out / "fields").glob("step-*.vtu"))
     widths = []
-    for before, after in zip(fields[-7:-2:2], fields[-5::2]):
-        start, end = read_column(before), read_column(after)
+    for before, after in ((-7, -5), (-5, -3), (-3, -1)):
+        start, end = read_column(result.fields(before)), read_column(result.fields(after))
         width, _, _ = band(start[0], end[1] - start[1])
         widths.append(width / DIAMETER)
     return {"peak": max(ratio), "peak at": rows[ratio.index(max(ratio))]["displacement"] / DIAMETER,
@@ -169,9 +158,8 @@ def draw(place, layers, columns):
         return
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2))
     for out in layers:
-        with open(out / "history.csv", encoding="utf-8") as text:
-            rows = [(float(row["displacement"]), float(row["shear_stress"])) for row in csv.DictReader(text)]
-        left.plot([1e3 * x for x, _ in rows], [y / PRESSURE for _, y in rows], color="0.7", lw=0.6)
+        history = read_table(out / "history.csv")
+        left.plot(1e3 * history["displacement"], history["shear_stress"] / PRESSURE, color="0.7", lw=0.6)
         dumps = sorted((out / "grains").glob("step-*.dump"))
         before, after = read_grains(dumps[-1 - WINDOW]), read_grains(dumps[-1])
         moved = after[:, 1] - before[:, 1]
@@ -179,11 +167,10 @@ def draw(place, layers, columns):
         _, centre, _ = band(height, moved)
         right.plot((moved - moved.min()) / (moved.max() - moved.min()), (height - centre) / DIAMETER, ".", color="0.75", ms=1)
     for name, (out, elements) in columns.items():
-        with open(out / "history.csv", encoding="utf-8") as text:
-            rows = [(float(row["displacement"]), float(row["shear_force"])) for row in csv.DictReader(text)]
-        left.plot([1e3 * x for x, _ in rows], [y / (COLUMN / elements * PRESSURE) for _, y in rows], lw=1.2, label=name)
-        fields = sorted((out / "fields").glob("step-*.vtu"))
-        start, end = read_column(fields[-3]), read_column(fields[-1])
+        result = polargrain.Result(out)
+        history = result.history
+        left.plot(1e3 * history["displacement"], history["shear_force"] / (COLUMN / elements * PRESSURE), lw=1.2, label=name)
+        start, end = read_column(result.fields(-3)), read_column(result.fields(-1))
         moved = end[1] - start[1]
         _, centre, _ = band(start[0], moved)
         right.plot(moved / moved[-1], (start[0] - centre) / DIAMETER, ".-", lw=1.2, ms=3, label=name)

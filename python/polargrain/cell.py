@@ -73,7 +73,7 @@ class Cell:
     packing   -- a file (HDF5 of `polargrain pack`, CSV) or a Packing
     script    -- LIGGGHTS input script of the contacts; one that the program brings along by its name
     rotations -- "free": rotations of the grains follow their moments alone, stresses are symmetric, couple stresses zero.
-                 "controlled" (discs): their mean rotation and its gradient are prescribed too
+                 "controlled": their mean rotation and its gradient are prescribed too
     engines   -- the processes that serve it; None: one worker that all such cells share
     settings  -- how it is loaded and read out, under the keys that a material of `model: cell` has for it
                  (docs/user_guide.md): inertial_number, unbalanced_force_ratio, unbalanced_moment_ratio, damping,

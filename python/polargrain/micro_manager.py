@@ -11,13 +11,15 @@ What goes to and fro are vectors with as many components as the packing has dime
 | read | |
 |---|---|
 | displacement_gradient_1, _2 (, _3) | rows of d u_i / d x_j at the end of the step, since the start of the run |
-| rotation | micro-rotation about e_3 since the start, rad (cells with controlled rotations) |
-| curvature | (d w / d x_1, d w / d x_2) since the start, rad/m (the same) |
+| rotation | micro-rotation since the start, rad; of discs a number, about e_3 (cells with controlled rotations) |
+| curvature | of discs (d w / d x_1, d w / d x_2) since the start, rad/m (the same) |
+| curvature_1, _2, _3 | of spheres rows of d w_i / d x_j (the same) |
 
 | written | |
 |---|---|
 | stress_1, _2 (, _3) | rows of the stress: on the face with the normal e_1, e_2 (, e_3); Pa, tension positive |
-| couple_stress | (m13, m23), N/m (cells with controlled rotations) |
+| couple_stress | of discs (m13, m23), N/m (cells with controlled rotations) |
+| couple_stress_1, _2, _3 | of spheres rows: on the face with the normal e_1, ... (the same) |
 | tangent_1, _2, ... | with tangent=True: Answer.tangent row by row, in vectors of as many components |
 """
 import numpy as np
@@ -115,16 +117,23 @@ def _given(data, dimension):
     gradient, rotation, curvature = np.zeros((3, 3)), np.zeros(3), np.zeros((3, 3))
     for row in range(dimension):
         gradient[row, :dimension] = data[f"displacement_gradient_{row + 1}"]
-    rotation[2] = data.get("rotation", 0.0)
-    if "curvature" in data:
-        curvature[2, :2] = data["curvature"]
+    if dimension == 2:
+        rotation[2] = data.get("rotation", 0.0)
+        curvature[2, :2] = data.get("curvature", 0.0)
+    else:
+        rotation[:] = data.get("rotation", 0.0)
+        for row in range(3):
+            curvature[row] = data.get(f"curvature_{row + 1}", 0.0)
     return _Given(gradient, rotation, curvature)
 
 
 def _written(cell, answer, with_tangent):
     data = {f"stress_{row + 1}": stress for row, stress in enumerate(answer.stress)}
     if cell.has_controlled_rotations:
-        data["couple_stress"] = answer.couple_stress
+        if cell.dimension == 2:
+            data["couple_stress"] = answer.couple_stress
+        else:
+            data.update({f"couple_stress_{row + 1}": couple for row, couple in enumerate(answer.couple_stress)})
     if with_tangent:
         parts = answer.tangent.reshape(-1, cell.dimension)
         data.update({f"tangent_{number + 1}": part for number, part in enumerate(parts)})

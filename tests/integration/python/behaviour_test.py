@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The cell as a generic behaviour, driven by a host that loads it as MGIS does: symbols by their names, plain arrays."""
+import concurrent.futures
 import ctypes
 import os
 import pathlib
@@ -171,6 +172,16 @@ class Behaviour(InFolder):
         self.assertEqual(host.integrate(second), -1)
         self.assertIn(b"neither interpolated nor averaged", host.message.value)
 
+    def test_serves_threads_of_the_host(self):
+        library = self.library(f"script: cells/hooke_radii.in\npacking: {PACKING}\nworkers: 2\n")
+        hosts = [Host(library, "PlaneStrain") for _ in range(4)]
+        strains = [[0, -1e-4 * (k + 1), 0, 0, 0, 0, 0] for k in range(4)]
+        with concurrent.futures.ThreadPoolExecutor(4) as threads:  # more than workers
+            self.assertEqual(list(threads.map(Host.integrate, hosts, strains)), [1] * 4)
+        for host, strain in zip(hosts, strains):
+            answer = polargrain.Cell(PACKING, "cells/hooke_radii.in").step(displacement_gradient=np.diag([0, strain[1]]))
+            self.assertEqual(host.forces[1][1], answer.stress[1, 1])
+
     def test_predicts_without_a_step(self):
         host = Host(self.library(f"script: cells/hooke_radii.in\npacking: {PACKING}\n"), "PlaneStrain")
         self.assertEqual(host.integrate(np.full(7, 1e-3), wish=-3.0), 1)
@@ -178,18 +189,23 @@ class Behaviour(InFolder):
         at_rest = polargrain.Cell(PACKING, "cells/hooke_radii.in").at_rest
         self.assertEqual(host.tangent()["Stress", "TotalStrain"][1, 1], at_rest.tangent[3, 3])
 
-    def test_of_spheres_answers_in_space(self):
-        packing = "cases/spheres/packing1000.csv"
-        host = Host(self.library(f"script: cells/spheres_hooke_radii.in\npacking: {packing}\n"), "Tridimensional")
-        e = np.zeros(18)
-        e[[2, 3, 4]] = -2e-4, 1e-4, 1e-4
+    def test_of_spheres_turns_and_bends_them(self):
+        packing, script = "cases/spheres/packing1000.csv", "cells/spheres_hooke_radii.in"
+        host = Host(self.library(f"script: {script}\npacking: {packing}\nrotations: controlled\n"), "Tridimensional")
+        cell = polargrain.Cell(packing, script, rotations="controlled")
+        h, w, k = np.zeros((3, 3)), np.array([2e-5, -1e-5, 3e-5]), np.array([[0.01, 0, 0.02], [0, -0.01, 0], [0.03, 0, 0]])
+        h[2, 2] = -1e-4
+        turn = np.array([[0, w[2], -w[1]], [-w[2], 0, w[0]], [w[1], -w[0], 0]])  # e_ijk w_k
+        e = [(h + turn)[i, j] for i, j in TENSOR[3]] + [k[i, j] for i, j in TENSOR[3]]
         self.assertEqual(host.integrate(e), 1, host.message.value)
-        h = np.zeros((3, 3))
-        h[2, 2], h[0, 1], h[1, 0] = -2e-4, 1e-4, 1e-4
-        answer = polargrain.Cell(packing, "cells/spheres_hooke_radii.in").step(displacement_gradient=h)
-        np.testing.assert_array_equal(host.forces[1][:9], [answer.stress[j, i] for i, j in TENSOR[3]])
+        answer = cell.step(displacement_gradient=h, rotation=w, curvature=k)
+        np.testing.assert_array_equal(host.forces[1], [answer.stress[j, i] for i, j in TENSOR[3]] +
+                                      [answer.couple_stress[j, i] for i, j in TENSOR[3]])
         places = [3 * j + i for i, j in TENSOR[3]]
-        np.testing.assert_array_equal(host.tangent()["Stress", "TotalStrain"], answer.tangent[np.ix_(places, places)])
+        for force, rows in (("Stress", 0), ("CoupleStressTensor", 9)):
+            for gradient, columns in (("TotalStrain", 0), ("WrynessTensor", 9)):
+                np.testing.assert_array_equal(host.tangent()[force, gradient], answer.tangent[
+                    np.ix_([rows + place for place in places], [columns + place for place in places])])
 
     def test_says_what_is_wrong(self):
         for words, hypothesis, expected in (

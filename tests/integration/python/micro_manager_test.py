@@ -56,6 +56,18 @@ class MicroManager(unittest.TestCase):
         tangent = np.concatenate([written[0][f"tangent_{number}"] for number in range(1, 19)]).reshape(6, 6)
         np.testing.assert_array_equal(tangent, answer.tangent)
 
+    def test_gets_the_answers_of_spheres(self):
+        packing, script = "cases/spheres/packing1000.csv", "cells/spheres_hooke_radii.in"
+        sim = micro_simulation(packing, script, rotations="controlled")(0)
+        h, w, k = np.diag([0, 0, -1e-4]), np.array([1e-5, 0, 2e-5]), np.diag([0.01, 0, 0])
+        read = {"rotation": w}
+        for row in range(3):
+            read[f"displacement_gradient_{row + 1}"], read[f"curvature_{row + 1}"] = h[row], k[row]
+        written = sim.solve(read, 0.1)
+        answer = polargrain.Cell(packing, script, rotations="controlled").step(displacement_gradient=h, rotation=w, curvature=k)
+        np.testing.assert_array_equal([written[f"stress_{row}"] for row in (1, 2, 3)], answer.stress)
+        np.testing.assert_array_equal([written[f"couple_stress_{row}"] for row in (1, 2, 3)], answer.couple_stress)
+
     def test_copies_states_from_one_to_another(self):
         manager = Manager(micro_simulation(PACKING, SCRIPT), 3)
         one, other, third = manager.sims

@@ -3,7 +3,6 @@
 import csv
 import json
 import pathlib
-import subprocess
 import tempfile
 import unittest
 
@@ -12,7 +11,6 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 import polargrain
-from polargrain.program import program
 from support import InFolder
 
 SMALL = {"steps.count": 2, "mesh.rectangle.elements": [1, 2]}
@@ -26,13 +24,6 @@ class Runs(InFolder):
         cls.steps = []
         cls.result = polargrain.run("cases/biaxial/case.yaml", SMALL, pathlib.Path(results.name) / "results", workers=2,
                                     progress=cls.steps.append)
-
-    def test_are_those_of_the_program(self):
-        subprocess.run([program(), "run", "cases/biaxial/case.yaml", "-o", self.folder / "other", "--quiet", "--set",
-                        "steps.count=2", "--set", "mesh.rectangle.elements=[1, 2]"],
-                       check=True, capture_output=True)
-        self.assertEqual((self.result.directory / "history.csv").read_bytes(),
-                         (self.folder / "other/history.csv").read_bytes())
 
     def test_tell_their_steps_and_leave_them_as_arrays(self):
         with open(self.result.directory / "history.csv", newline="") as text:
