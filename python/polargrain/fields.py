@@ -14,7 +14,7 @@ _OUTLINES = {22: [0, 3, 1, 4, 2, 5], 23: [0, 4, 1, 5, 2, 6, 3, 7]}  # quadratic 
 
 
 class Fields:
-    """A mesh with its fields at one time of a run, or the integration points with theirs.
+    """A mesh with its fields at one time of a run; the integration points with theirs; or the grains of one of them.
 
     points       -- places as the mesh was made, m; shape (n, 3)
     cells        -- numbers of the nodes of each element, a list of integer arrays

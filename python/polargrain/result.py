@@ -71,6 +71,18 @@ class Result:
             measured["increments"] = read_table(self.directory / "band.csv")
         return measured
 
+    def grains(self, point, steps=None):
+        """The grains of an integration point: {step: Fields}, with grains as points and contacts as cells.
+
+        point -- its number, as in `integration_points()`
+        steps -- steps of the history [all]; "last"
+        The way of the point is led again, with the same bits (docs/user_guide.md, The grains of a point), and the files
+        are left in DIR/grains. Raises InputError for a point without grains, RunError when they cannot be led again.
+        """
+        chosen = ["--last"] if steps == "last" else [word for step in steps or () for word in ("--step", step)]
+        call("grains", self.directory, "--point", point, *chosen, "--quiet")
+        return {int(file.stem.split("-")[1]): Fields(file) for _, file in self._files(f"grains/point-{point}.pvd")}
+
     def verify(self, workers=1):
         """Holds the result against its proof and evaluates some of its cells again. Returns the words of the program.
 
@@ -89,7 +101,7 @@ class Result:
             sets = ElementTree.parse(file).getroot().iter("DataSet")
         except (OSError, ElementTree.ParseError) as error:
             raise InputError(f"{file}: {error}", [(str(file), 0, str(error))]) from error
-        return [(float(one.get("timestep")), self.directory / one.get("file")) for one in sets]
+        return [(float(one.get("timestep")), file.parent / one.get("file")) for one in sets]
 
     def __repr__(self):
         return f"<polargrain.Result {self.directory}>"

@@ -54,6 +54,14 @@ class Runs(InFolder):
         self.assertEqual(self.result.fields().components["stress"], ["11", "22", "33", "12", "21"])
         self.assertEqual(self.result.fields().units["stress"], "Pa")
 
+    def test_show_the_grains_of_a_point(self):
+        grains = self.result.grains(3, "last")
+        self.assertEqual(list(grains), [2])
+        kinds = grains[2].cell_data["kind"]  # 0: a grain in the box
+        contacts = grains[2].point_data["coordination_number"][[cell[0] for cell, kind in zip(grains[2].cells, kinds) if kind == 0]]
+        self.assertEqual(len(contacts), 400)
+        self.assertAlmostEqual(contacts.mean(), self.result.integration_points().point_data["coordination_number"][3], delta=1e-12)
+
     def test_measure_their_band(self):
         measured = self.result.band(0.0, 0.023)
         with open(self.result.directory / "band.json") as text:
