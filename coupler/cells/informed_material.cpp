@@ -224,10 +224,44 @@ void InformedMaterial::commit() {
     }
     follow(points);
   }
+  watch_mismatch();
   std::vector<StatePointer*> states;
   for (PointState& point : trial_) states.push_back(&point.cell.state);
   collect(calls_, states);
   committed_ = trial_;
+}
+
+void InformedMaterial::watch_mismatch() {
+  if (told_of_mismatch_) return;
+  const std::string left = left_cells(trial_);
+  if (left.empty()) return;
+  if (parameters_.stop_beyond_mismatch)
+    throw RunError(
+        left +
+        "; 'beyond_mismatch: tell' goes on, smaller steps or 'update: fixed_point' may bring them together");
+  notes_.push_back(left);
+  told_of_mismatch_ = true;
+}
+
+std::string InformedMaterial::doubt() const {
+  return left_cells(committed_);
+}
+
+std::string InformedMaterial::left_cells(const std::vector<PointState>& points) const {
+  std::size_t left = 0;
+  std::size_t worst = 0;
+  double largest = 0.0;
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    const double found = mismatch(points[point]);
+    if (!(found > parameters_.mismatch_limit)) continue;
+    ++left;
+    if (found > largest) worst = point, largest = found;
+  }
+  if (left == 0) return {};
+  return fmt::format(
+      "the law has left its cell at {} of {} points: their stresses differ by more than {:.0f} % (mismatch_limit), by {:.0f} % "
+      "at point {} of the region",
+      left, points.size(), 100.0 * parameters_.mismatch_limit, 100.0 * largest, worst);
 }
 
 void InformedMaterial::follow(std::span<const std::size_t> points) {

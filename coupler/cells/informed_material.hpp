@@ -29,6 +29,9 @@ struct InformedParameters {
   InformedUpdate update = InformedUpdate::frozen;
   /// Of grains whose rotations are controlled, m: their skew and couple stresses inform the law too. 0: they are free.
   double mean_diameter = 0.0;
+  /// Mismatch of law and cell (field stress_mismatch) beyond which a point's stress is no longer its grains'.
+  double mismatch_limit = 0.3;
+  bool stop_beyond_mismatch = false;  ///< else the run goes on, and says so
 
   /// Takes over the moduli of G, Gc and lc; Poisson's ratio must be set.
   void set_moduli(const CosseratParameters& cosserat);
@@ -51,7 +54,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   void allocate(std::size_t points) override;
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
   /// Frozen: the cells now follow the step. One that has no good answer follows it in halves, quarters, ...
-  /// @throws RunError when it has none in sixteenths either.
+  /// @throws RunError when it has none in sixteenths either, and where law and cell disagree by more than they may.
   void commit() override;
   void revert() override { trial_ = committed_; }
   void save(ArchiveWriter& archive) const override;
@@ -68,7 +71,9 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   /// stress_mismatch_mean, stress_mismatch_percentile_95, stress_mismatch_largest over the points of the last
   /// committed step, and dilatancy_limited: the share of them where a limit acts.
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
-  /// What the engine remarked on the packing and its script, once.
+  /// At how many points the law has left its cell, and by how much at the worst.
+  [[nodiscard]] std::string doubt() const override;
+  /// What the engine remarked on the packing and its script, and that a law has left its cell; once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 
  private:
@@ -96,6 +101,9 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   /// Norm of the difference of the in-plane stresses of law and cell, over that of the law; controlled rotations: skew
   /// stress and couple stress over lc included.
   [[nodiscard]] double mismatch(const PointState& point) const;
+  /// Tells, or throws, where the law is leaving its cell in the step on trial.
+  void watch_mismatch();
+  [[nodiscard]] std::string left_cells(const std::vector<PointState>& points) const;
   [[nodiscard]] bool controlled() const { return parameters_.mean_diameter > 0.0; }
   /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
@@ -104,6 +112,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
                                                                const fem::ScaledVector<double>& law) const;
 
   CellCalls calls_;
+  bool told_of_mismatch_ = false;
   std::vector<std::string> notes_;
   InformedParameters parameters_;
   fem::ElastoplasticFrame frame_;

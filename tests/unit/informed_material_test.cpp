@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -160,6 +161,53 @@ TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
   sand.allocate(2);
   EXPECT_EQ(sand.take_notes(), std::vector<std::string>{"too many DEM steps"});
   EXPECT_TRUE(sand.take_notes().empty());
+}
+
+/// Drives a point under lateral stress in a few steps, which the law follows one step late.
+class LateLaw {
+ public:
+  explicit LateLaw(double limit, bool stops) : sand_(grains_.calls_to_it(), late(limit, stops)) {
+    compress(sand_, kSteps, 1e-10);
+  }
+  InformedMaterial& sand() { return sand_; }
+  [[nodiscard]] double mismatch() const {
+    const std::vector<std::string> names = sand_.field_names();
+    std::vector<double> values(names.size());
+    sand_.fields(0, values);
+    return values[static_cast<std::size_t>(std::ranges::find(names, "stress_mismatch") - names.begin())];
+  }
+
+ private:
+  static constexpr int kSteps = 20;
+  static InformedParameters late(double limit, bool stops) {
+    InformedParameters given = parameters(InformedUpdate::frozen);
+    given.mismatch_limit = limit;
+    given.stop_beyond_mismatch = stops;
+    return given;
+  }
+  KnownCells grains_{false};
+  InformedMaterial sand_;
+};
+
+TEST(InformedMaterial, SaysOnceAndAtTheEndThatItHasLeftItsCell) {
+  const double mismatch = LateLaw(1.0, false).mismatch();
+  ASSERT_GT(mismatch, 0.0);
+  LateLaw within(1.01 * mismatch, false);
+  EXPECT_EQ(within.sand().doubt(), "");
+  LateLaw beyond(0.99 * mismatch, false);
+  EXPECT_EQ(beyond.sand().take_notes().size(), 1U);
+  EXPECT_NE(beyond.sand().doubt().find("the law has left its cell at 1 of 1 points"), std::string::npos)
+      << beyond.sand().doubt();
+}
+
+TEST(InformedMaterial, MayNotLeaveItsCellWhereToldSo) {
+  EXPECT_NO_THROW(LateLaw(1.0, true));
+  try {
+    const LateLaw late(1e-6, true);
+    FAIL() << "nothing was said of a mismatch of " << late.mismatch();
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("beyond_mismatch: tell"), std::string::npos) << error.what();
+  }
 }
 
 TEST(InformedMaterial, DiscsAreLentTheOutOfPlaneStressOfTheLaw) {

@@ -14,6 +14,9 @@ InformedParameters read_informed_parameters(Section& section) {
   parameters.update = section.choice_or("update", {"frozen", "fixed_point"}, "frozen") == "fixed_point"
                           ? InformedUpdate::fixed_point
                           : InformedUpdate::frozen;
+  parameters.mismatch_limit =
+      section.quantity_or("mismatch_limit", Dimension::number, Limit::positive, parameters.mismatch_limit);
+  parameters.stop_beyond_mismatch = section.choice_or("beyond_mismatch", {"tell", "stop"}, "tell") == "stop";
   fem::MobilisationOptions& reading = parameters.mobilisation;
   reading.window = section.whole_or("window", 1, reading.window);
   if (section.find("dilatancy_limits") != nullptr) {
