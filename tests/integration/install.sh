@@ -54,6 +54,21 @@ same results/biaxial/history.csv ../as_built/history.csv "the installed program 
 polargrain verify results/biaxial -w 2 | grep -x "all agrees" || fail "the run of the installed program is not verified"
 polargrain check cases/slope/case.yaml >/dev/null  # its mesh needs the module for Gmsh
 
+if [[ -d ../prefix/lib/python3 ]]; then
+  say "-- Python, and the cell as a behaviour of other codes"
+  printf 'script: cells/hooke_radii.in\npacking: cases/biaxial/packing400.csv\n' >cell.yaml
+  PYTHONPATH=../prefix/lib/python3/dist-packages POLARGRAIN_CELL=cell.yaml /usr/bin/python3 -B -c '
+import ctypes, pathlib, polargrain
+prefix = pathlib.Path("../prefix").resolve()
+assert polargrain.program.program() == str(prefix / "bin/polargrain"), polargrain.program.program()
+polargrain.Cell("cases/biaxial/packing400.csv", "cells/hooke_radii.in").step([[1, 0], [0, 0.9999]])
+library = ctypes.CDLL(str(prefix / "lib/polargrain/libPolargrainCell.so"))
+# An array of three extents, whose product has room for 400 discs: the file of the cell was found, and what it names.
+kind = ctypes.c_int.in_dll(library, "PolargrainCell_InternalStateVariablesTypes").value
+assert (kind >> 6 & 127) * (kind >> 13 & 127) * (kind >> 20 & 127) > 10000, kind
+' || fail "the installed Python package or behaviour does not work"
+fi
+
 say "-- bench"
 polargrain bench cases/biaxial/case.yaml --quick -w 2 --set steps.count=1 --set mesh.rectangle.elements=[1,1] --quiet >/dev/null
 grep -q reference bench-results/bench.csv || fail "bench made no table"
