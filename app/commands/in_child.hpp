@@ -2,14 +2,31 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <string>
+
+#include "common/seconds.hpp"
 
 namespace polargrain::app {
 
+/// How far a child is, for whoever watches: one line that changes, on a terminal; else, in the file that a job writes, a
+/// line now and then.
+class ProgressLine {
+ public:
+  /// @param shown where it goes, negative for nowhere
+  explicit ProgressLine(int shown);
+  void say(const std::string& line);
+
+ private:
+  int shown_;
+  bool terminal_;
+  Clock::time_point said_ = Clock::now();
+};
+
 /// Works in a process of its own, because an error of the engine ends its process.
 /// @param log takes all that it and its engine print, the message of an exception too; it is left there
-/// @param work what it writes must be files; told where progress is to be shown: a terminal, or negative for nowhere
+/// @param work what it writes must be files; given the line of progress
 /// @returns whether it ended well @throws RunError when there can be no log or no process
-bool run_in_child(const std::filesystem::path& log, const std::function<void(int terminal)>& work,
+bool run_in_child(const std::filesystem::path& log, const std::function<void(ProgressLine&)>& work,
                   bool shows_progress);
 
 }  // namespace polargrain::app

@@ -2,11 +2,10 @@
 #include "app/commands/pack.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-#include <memory>
 
 #include <cstdio>
 #include <functional>
+#include <memory>
 
 #include "app/commands/command.hpp"
 #include "app/commands/in_child.hpp"
@@ -36,14 +35,12 @@ void check_output(const std::filesystem::path& output) {
 /// Makes the packing in a process of its own. @returns whether that ended well
 bool make_in_child(const PackingWork& make, const std::filesystem::path& output, const PackingTools& tools,
                    bool quiet, const std::filesystem::path& log) {
-  const auto work = [&](int terminal) {
+  const auto work = [&](ProgressLine& line) {
     tools.start_process();
-    const auto progress = [terminal](const PackingReached& reached) {
-      const std::string line = fmt::format(
-          "\rstep {:.0f}: void ratio {:.4f}, pressure {:.4g} kPa, unbalanced {:.1e}   ", reached.dem_steps,
-          reached.void_ratio, 1e-3 * reached.pressure, reached.unbalanced_force_ratio);
-      if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0)
-        return;  // nobody looks: nothing lost
+    const auto progress = [&line](const PackingReached& reached) {
+      line.say(fmt::format("step {:.0f}: void ratio {:.4f}, pressure {:.4g} kPa, unbalanced {:.1e}",
+                           reached.dem_steps, reached.void_ratio, 1e-3 * reached.pressure,
+                           reached.unbalanced_force_ratio));
     };
     write_packing_file(output, make(progress));
   };
@@ -82,8 +79,8 @@ PreparedPacking packing_to_settle(const std::filesystem::path& file) {
 PackingSpecification settling(const PackOptions& options) {
   const PreparedPacking packing = packing_to_settle(options.settle.front());
   const double pressure = packing.reached.pressure;
-  return read_settling(options.settle.front(), options.settle.back(), pressure, packing.specification,
-                       options.settings, options.scripts);
+  return read_settling(options.settle.front(), options.settle.back(), packing.packing.dimension, pressure,
+                       packing.specification, options.settings, options.scripts);
 }
 
 }  // namespace

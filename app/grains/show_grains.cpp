@@ -2,7 +2,6 @@
 #include "app/grains/show_grains.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "app/commands/in_child.hpp"
 #include "app/grains/grain_replay.hpp"
@@ -17,15 +16,13 @@ void show_grains(const ShownGrains& what,
   const auto make = [&](const CellDefinition& cell) {
     return make_checked_service(cell, what.scripts, what.engine);
   };
-  const auto work = [&](int terminal) {
+  const auto work = [&](ProgressLine& progress) {
     what.engine.start_process();
     for (std::size_t k = 0; k < what.points.size(); ++k) {
       GrainReplay replay(*what.paths.cell(what.points[k]), make, ways);
       for (const auto& [step, states] : ways.states) {
         see(what.points[k], step, replay.view(states[k]));
-        const std::string line = fmt::format("\rpoint {}: step {}   ", what.points[k], step);
-        if (terminal >= 0 && write(terminal, line.data(), line.size()) < 0)
-          terminal = -1;  // nobody looks: nothing lost
+        progress.say(fmt::format("point {}: step {}", what.points[k], step));
       }
     }
   };

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "common/error.hpp"
 #include "coupler/case/cell_script.hpp"
@@ -81,6 +83,35 @@ void read_shape(coupler::Section& top, PackingSpecification& specification) {
               "thickness: leave it out in dimension 3, where the box is compressed in all directions");
 }
 
+/// A pressure, or the normal stress of each axis.
+void read_pressure(coupler::Section& top, PackingSpecification& specification) {
+  const coupler::Entry* entry = top.find("pressure");
+  if (entry == nullptr || entry->kind != coupler::Entry::Kind::sequence) {
+    specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
+    return;
+  }
+  const auto axes = static_cast<std::size_t>(specification.dimension);
+  const std::vector<double> stresses =
+      top.quantities("pressure", axes, coupler::Dimension::pressure, coupler::Limit::positive);
+  specification.pressure = std::accumulate(stresses.begin(), stresses.end(), 0.0) / static_cast<double>(axes);
+  for (std::size_t axis = 0; axis < stresses.size(); ++axis)
+    specification.share_of_axis[axis] = stresses[axis] / specification.pressure;
+}
+
+/// One-dimensional compression from an isotropic pressure, where asked.
+void read_one_dimensional(coupler::Section& top, PackingSpecification& specification) {
+  if (top.find("one_dimensional_from") == nullptr) return;
+  const double from =
+      top.quantity("one_dimensional_from", coupler::Dimension::pressure, coupler::Limit::positive);
+  specification.one_dimensional_from = from;
+  if (specification.pressure > 0.0 && from >= specification.pressure)
+    top.fault("one_dimensional_from", "one_dimensional_from: must be less than the pressure");
+  if (specification.share_of_axis != std::array{1.0, 1.0, 1.0})
+    top.fault(
+        "one_dimensional_from",
+        "one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the last axis");
+}
+
 /// How it is compressed and when it counts as at rest.
 void read_control(coupler::Section& top, PackingSpecification& specification) {
   const auto positive = [&top](const char* key, double& value) {
@@ -89,6 +120,7 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
   positive("pressure_tolerance", specification.pressure_tolerance);
   positive("unbalanced_force_ratio", specification.unbalanced_force_ratio);
   positive("inertial_number", specification.inertial_number);
+  specification.damping = specification.dimension == 3 ? kDampingInSpace : kDampingInPlane;
   positive("damping", specification.damping);
   if (specification.damping >= 1.0) top.fault("damping", "damping: must be less than 1");
   specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
@@ -113,8 +145,12 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
     specification.sizes = read_sizes(*entry, faults);
   specification.density = top.quantity("density", coupler::Dimension::number, coupler::Limit::positive);
   read_shape(top, specification);
-  specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
+  read_pressure(top, specification);
+  read_one_dimensional(top, specification);
   specification.friction = top.quantity("friction", coupler::Dimension::number, coupler::Limit::not_negative);
+  if (top.find("rolling_friction") != nullptr)
+    specification.rolling_friction =
+        top.quantity("rolling_friction", coupler::Dimension::number, coupler::Limit::not_negative);
   if (top.find("void_ratio") != nullptr)
     specification.void_ratio =
         top.quantity("void_ratio", coupler::Dimension::number, coupler::Limit::positive);
@@ -134,7 +170,7 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
 }
 
 PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
-                                   double pressure, const std::string& text,
+                                   int dimension, double pressure, const std::string& text,
                                    const std::vector<std::string>& settings, const ScriptRules& scripts) {
   coupler::Entry document;
   document.kind = coupler::Entry::Kind::map;
@@ -143,10 +179,11 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   coupler::Faults faults;
   PackingSpecification specification;
   coupler::Section top(document, "settling", faults);
+  specification.dimension = dimension;
   if (pressure > 0.0 && top.find("pressure") == nullptr)
     specification.pressure = pressure;
   else
-    specification.pressure = top.quantity("pressure", coupler::Dimension::pressure, coupler::Limit::positive);
+    read_pressure(top, specification);
   read_control(top, specification);
   specification.contact_library =
       coupler::read_contact_library(top, {std::filesystem::current_path(), scripts});

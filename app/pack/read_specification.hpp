@@ -17,13 +17,13 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
                                                 const ScriptRules& scripts = {});
 
 /// What settling a packing under a script asks for.
-/// @param pressure that the packing records, Pa; 0 for none @param text what the packing was made from, kept
+/// @param dimension of the packing @param pressure that it records, Pa; 0 for none @param text what the packing was made from, kept
 /// with it
 /// @param settings KEY=VALUE: pressure, pressure_tolerance, unbalanced_force_ratio, inertial_number, damping,
 /// most_steps
 /// @throws InputError with all faults
 PackingSpecification read_settling(const std::filesystem::path& packing, const std::filesystem::path& script,
-                                   double pressure, const std::string& text,
+                                   int dimension, double pressure, const std::string& text,
                                    const std::vector<std::string>& settings, const ScriptRules& scripts = {});
 
 }  // namespace polargrain::app

@@ -35,13 +35,19 @@ Packing pressed_together(Packing packing) {
   return packing;
 }
 
-void set_friction(Engine& engine, double friction) {
-  if (!set_property(engine, "coefficientFriction", friction) && friction > 0.0)
+void set_friction(Engine& engine, const MakingFriction& friction) {
+  if (!set_property(engine, "coefficientFriction", friction.sliding) && friction.sliding > 0.0)
     engine.lammps().error->all(
         FLERR,
         "The packing is to be made with friction, but the script has no property/global "
         "coefficientFriction for one atom type");
-  if (friction == 0.0) set_property(engine, "coefficientRollingFriction", 0.0);
+  const double rolling = friction.rolling.value_or(0.0);
+  if (friction.sliding > 0.0 && !friction.rolling) return;
+  if (!set_property(engine, "coefficientRollingFriction", rolling) && rolling > 0.0)
+    engine.lammps().error->all(
+        FLERR,
+        "The packing is to be made with rolling_friction, but the script has no property/global "
+        "coefficientRollingFriction for one atom type: its contacts have no rolling model");
 }
 
 }  // namespace polargrain::dem

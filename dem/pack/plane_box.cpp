@@ -15,7 +15,8 @@ namespace {
 
 class PlaneBox final : public PressedBox {
  public:
-  PlaneBox(const PackingSpecification& specification, const Packing& packing, std::optional<double> friction)
+  PlaneBox(const PackingSpecification& specification, const Packing& packing,
+           const std::optional<MakingFriction>& friction)
       : packing_(packing),
         driver_(packing, specification.script, specification.script_file, specification.contact_library,
                 [friction](Engine& engine) {
@@ -110,7 +111,7 @@ class PlaneBox final : public PressedBox {
 }  // namespace
 
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
-                                           std::optional<double> friction) {
+                                           const std::optional<MakingFriction>& friction) {
   return std::make_unique<PlaneBox>(specification, packing, friction);
 }
 

@@ -26,34 +26,27 @@ using Progress = std::function<void(const PackingReached&)>;
 /// One packing brought to rest under its pressure with one friction, or with the script's own.
 class Compression {
  public:
-  Compression(const PackingSpecification& specification, const Packing& start, std::optional<double> friction)
+  Compression(const PackingSpecification& specification, const Packing& start,
+              const std::optional<MakingFriction>& friction)
       : specification_(specification),
         axes_(specification.dimension),
         planes_(axes_ == 3 ? 3 : 1),
-        keep_contacts_(!friction || *friction > 0.0),
+        keep_contacts_(!friction || friction->sliding > 0.0),
+        pressure_(specification.one_dimensional_from.value_or(specification.pressure)),
         box_(specification.dimension == 3 ? make_space_box(specification, start, friction)
                                           : make_plane_box(specification, start, friction)) {
-    reached_.friction = friction.value_or(0.0);
+    reached_.friction = friction ? friction->sliding : 0.0;
     box_->renew_time_step(0.0);
   }
 
   /// @throws RunError after too many steps
   PreparedPacking compress(const Progress& progress) {
-    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-    Eigen::Vector3d shear = Eigen::Vector3d::Zero();
-    std::int64_t chunk = 0;
-    do {
-      if (reached_.dem_steps > static_cast<double>(specification_.most_steps)) give_up();
-      box_->move(strain, shear, kChunk, damping_rate_);
-      reached_.dem_steps += kChunk;
-      measure();
-      for (int axis = 0; axis < axes_; ++axis)
-        strain(axis) = step_towards(-specification_.pressure - now_.stress(axis), now_.stiffness(axis), -1.0);
-      // A right box would keep whatever shear stress its grains jam with.
-      for (int plane = 0; plane < planes_; ++plane)
-        shear(plane) = step_towards(-now_.shear(plane), now_.shear_stiffness(plane), 0.0);
-      if (progress && ++chunk % kChunksOfProgress == 0) progress(reached_);
-    } while (!done());
+    come_to_rest(progress);
+    if (specification_.one_dimensional_from) {
+      width_kept_ = true;
+      pressure_ = specification_.pressure;
+      come_to_rest(progress);
+    }
     if (too_large(now_.overlaps))
       throw RunError(
           fmt::format("at rest under {:.5g} kPa {}: the contacts are too soft for the pressure; take a "
@@ -65,11 +58,34 @@ class Compression {
   }
 
  private:
+  void come_to_rest(const Progress& progress) {
+    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+    Eigen::Vector3d shear = Eigen::Vector3d::Zero();
+    do {
+      if (reached_.dem_steps > static_cast<double>(specification_.most_steps)) give_up();
+      box_->move(strain, shear, kChunk, damping_rate_);
+      reached_.dem_steps += kChunk;
+      measure();
+      for (int axis = first_axis(); axis < axes_; ++axis)
+        strain(axis) = step_towards(-wanted(axis) - now_.stress(axis), now_.stiffness(axis), -1.0);
+      // A right box would keep whatever shear stress its grains jam with.
+      for (int plane = 0; plane < planes_; ++plane)
+        shear(plane) = step_towards(-now_.shear(plane), now_.shear_stiffness(plane), 0.0);
+      if (progress && ++chunk_ % kChunksOfProgress == 0) progress(reached_);
+    } while (!done());
+  }
+
+  /// Of those that are strained.
+  [[nodiscard]] int first_axis() const { return width_kept_ ? axes_ - 1 : 0; }
+  /// Pressure asked of an axis, Pa.
+  [[nodiscard]] double wanted(int axis) const {
+    return pressure_ * specification_.share_of_axis[static_cast<std::size_t>(axis)];
+  }
+
   /// The strain that adds the missing stress if the grains moved affinely, no faster than allowed.
   /// @param otherwise the direction to go in while nothing resists
   [[nodiscard]] double step_towards(double missing, double stiffness, double otherwise) const {
-    const double time_of_grain =
-        2.0 * box_->mean_radius() * std::sqrt(specification_.density / specification_.pressure);
+    const double time_of_grain = 2.0 * box_->mean_radius() * std::sqrt(specification_.density / pressure_);
     const double most = specification_.inertial_number / time_of_grain * kChunk * box_->time_step();
     return std::clamp(stiffness > 0.0 ? missing / stiffness : otherwise * most, -most, most);
   }
@@ -95,39 +111,49 @@ class Compression {
   }
 
   [[nodiscard]] bool done() const {
-    const double allowed = specification_.pressure_tolerance * specification_.pressure;
+    const double allowed = specification_.pressure_tolerance * pressure_;
     bool fits = now_.shear.cwiseAbs().maxCoeff() <= allowed;
-    for (int axis = 0; axis < axes_; ++axis)
-      fits = fits && std::abs(now_.stress(axis) + specification_.pressure) <= allowed;
+    for (int axis = first_axis(); axis < axes_; ++axis)
+      fits = fits && std::abs(now_.stress(axis) + wanted(axis)) <= allowed;
     return fits && now_.contacts > 0 &&
            reached_.unbalanced_force_ratio <= specification_.unbalanced_force_ratio &&
            reached_.unbalanced_moment_ratio <= specification_.unbalanced_force_ratio;
   }
 
   [[noreturn]] void give_up() const {
-    throw RunError(
-        fmt::format("the packing did not come to an isotropic rest within {} DEM steps: pressure {:.6g} kPa "
-                    "(asked {:.6g}), "
-                    "anisotropy {:.1e}, shear {:.1e} (each at most {:.1e}), unbalanced force ratio {:.1e}, "
-                    "moment ratio {:.1e} "
-                    "(at most {:.1e}), coordination number {:.2f}; raise pressure_tolerance, "
-                    "unbalanced_force_ratio, damping or "
-                    "most_steps",
-                    specification_.most_steps, 1e-3 * reached_.pressure, 1e-3 * specification_.pressure,
-                    reached_.anisotropy, reached_.shear, specification_.pressure_tolerance,
-                    reached_.unbalanced_force_ratio, reached_.unbalanced_moment_ratio,
-                    specification_.unbalanced_force_ratio, reached_.coordination_number));
+    throw RunError(fmt::format(
+        "the packing did not come to rest under its stresses within {} DEM steps: mean pressure {:.6g} kPa "
+        "(asked {:.6g}), "
+        "anisotropy {:.1e}, shear {:.1e} (each within {:.1e}), unbalanced force ratio {:.1e}, "
+        "moment ratio {:.1e} "
+        "(at most {:.1e}), coordination number {:.2f}; raise pressure_tolerance, "
+        "unbalanced_force_ratio, damping or "
+        "most_steps",
+        specification_.most_steps, 1e-3 * reached_.pressure, 1e-3 * pressure_, reached_.anisotropy,
+        reached_.shear, specification_.pressure_tolerance, reached_.unbalanced_force_ratio,
+        reached_.unbalanced_moment_ratio, specification_.unbalanced_force_ratio,
+        reached_.coordination_number));
   }
 
   const PackingSpecification& specification_;
   int axes_;
-  int planes_;          // that can be sheared
-  bool keep_contacts_;  // with friction, what lies ready in tangential springs belongs to the packing
+  int planes_;               // that can be sheared
+  bool keep_contacts_;       // with friction, what lies ready in tangential springs belongs to the packing
+  double pressure_;          // that is aimed at, Pa
+  bool width_kept_ = false;  // the last axis alone is strained, and `pressure_` is its own
+  std::int64_t chunk_ = 0;
   std::unique_ptr<PressedBox> box_;
   double damping_rate_ = 0.0;
   PressedBox::Look now_;
   PackingReached reached_;
 };
+
+/// What a packing is made with: rolling friction in proportion to the sliding one, and none without it.
+MakingFriction friction_of(const PackingSpecification& specification, double sliding) {
+  MakingFriction friction{sliding, specification.rolling_friction};
+  if (friction.rolling) *friction.rolling *= sliding > 0.0 ? sliding / specification.friction : 0.0;
+  return friction;
+}
 
 /// Looks for a void ratio.
 class Search {
@@ -168,7 +194,7 @@ class Search {
   static constexpr double kCautious = 0.3;  // part of a correction: most of the difference is scatter
 
   PreparedPacking made(const Packing& start, double friction) {
-    Compression compression(specification_, start, friction);
+    Compression compression(specification_, start, friction_of(specification_, friction));
     PreparedPacking packing = compression.compress(progress_);
     closest_ = std::min(closest_, std::abs(packing.reached.void_ratio - wanted_));
     return packing;
@@ -210,7 +236,8 @@ PreparedPacking prepare_packing(const PackingSpecification& specification,
                                 const std::function<void(const PackingReached&)>& progress) {
   const Packing loose = place_grains(specification);
   if (specification.void_ratio) return Search(specification, loose, progress).find();
-  return Compression(specification, loose, specification.friction).compress(progress);
+  return Compression(specification, loose, friction_of(specification, specification.friction))
+      .compress(progress);
 }
 
 PreparedPacking settle_packing(const PackingSpecification& specification, const PreparedPacking& packing,

@@ -10,6 +10,12 @@
 
 namespace polargrain::dem {
 
+/// Friction while a packing is made.
+struct MakingFriction {
+  double sliding = 0.0;
+  std::optional<double> rolling;  ///< none: the script's, or none at all without sliding friction
+};
+
 /// Grains in a periodic box of an engine of their own, that is strained to and fro until the stress is the
 /// one asked for. Of a plane packing the third axis counts for nothing.
 class PressedBox {
@@ -52,18 +58,18 @@ class PressedBox {
 /// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's; none: the
 /// script's own
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
-                                           std::optional<double> friction);
+                                           const std::optional<MakingFriction>& friction);
 /// Spheres in space.
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
-                                           std::optional<double> friction);
+                                           const std::optional<MakingFriction>& friction);
 
 /// The same grains in a box so much smaller that those of a loose packing overlap: the contacts that the
 /// first forces find there tell how stiff contacts are before there are any. Not for steps.
 Packing pressed_together(Packing packing);
 
 class Engine;
-/// Puts the friction that a packing is made with in place of the script's; without friction there is no
-/// rolling friction either. To be called before the models read their parameters.
-void set_friction(Engine& engine, double friction);
+/// Puts the friction that a packing is made with in place of the script's. To be called before the models read their
+/// parameters.
+void set_friction(Engine& engine, const MakingFriction& friction);
 
 }  // namespace polargrain::dem

@@ -39,7 +39,7 @@ Eigen::Vector3d force_of(const Contact& contact) {
 class PressedSpheres final : public PressedBox {
  public:
   PressedSpheres(const PackingSpecification& specification, const Packing& packing,
-                 std::optional<double> friction, bool probe = false)
+                 const std::optional<MakingFriction>& friction, bool probe = false)
       : packing_(packing),
         script_file_(specification.script_file),
         recorder_(contact_recorder(engine_.lammps())) {
@@ -197,7 +197,7 @@ class PressedSpheres final : public PressedBox {
 }  // namespace
 
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
-                                           std::optional<double> friction) {
+                                           const std::optional<MakingFriction>& friction) {
   return std::make_unique<PressedSpheres>(specification, packing, friction);
 }
 

@@ -66,6 +66,27 @@ TEST_F(Specification, SpheresInSpaceHaveNoThickness) {
             ":5: packing: shape: in dimension 3 grains are spheres");
 }
 
+TEST_F(Specification, TellsWhatEachAxisCarries) {
+  std::string text = kGood;
+  text.replace(text.find("pressure: 100 kPa"), 17, "pressure: [80 kPa, 120 kPa]\nrolling_friction: 0.3");
+  std::ofstream(file_) << text;
+  const PackingSpecification read = read_packing_specification(file_, {});
+  EXPECT_DOUBLE_EQ(read.pressure, 1e5);
+  EXPECT_DOUBLE_EQ(read.share_of_axis[0], 0.8);
+  EXPECT_DOUBLE_EQ(read.share_of_axis[1], 1.2);
+  EXPECT_DOUBLE_EQ(read.rolling_friction.value(), 0.3);
+  EXPECT_DOUBLE_EQ(read.damping, kDampingInPlane);
+  EXPECT_DOUBLE_EQ(read_packing_specification(file_, {"pressure=100 kPa", "one_dimensional_from=10 kPa"})
+                       .one_dimensional_from.value(),
+                   1e4);
+  EXPECT_EQ(fault("seed: 1", "seed: 1\none_dimensional_from: 200 kPa"),
+            ":9: packing: one_dimensional_from: must be less than the pressure");
+  EXPECT_EQ(
+      fault("pressure: 100 kPa", "pressure: [1 kPa, 2 kPa]\none_dimensional_from: 1 kPa"),
+      ":7: packing: one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the "
+      "last axis");
+}
+
 TEST_F(Specification, FaultsNameTheLine) {
   EXPECT_EQ(fault("grains: 400", "grains: 3"),
             ":1: packing: grains: expected a whole number of at least 4, found '3'");
