@@ -113,7 +113,7 @@ def main():
         with open(os.path.join(results, "history.csv"), encoding="utf-8") as text:
             last = list(csv.DictReader(text))[-1]
         figures = next(iter(summary["materials"].values()))
-        end = "to the end" if summary["status"] == "done" else "stopped, " + re.sub(r"\s+checkpoint:.*", "; a checkpoint of the step before is there", summary["message"], flags=re.S)
+        end = "to the end" if summary["status"] == "done" else "stopped, " + summary["message"].splitlines()[0] + "; a checkpoint of the step before is there"
         print(f"| {title} | {summary['steps_committed']} of {count} | {summary['iterations']} | {summary['cuts']} "
               f"| {figures['cell_runs']:.0f} | {axial_stress(boundary, last)} | {float(last['shear']) / 1e3:.4g} | {end} |",
               flush=True)

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/grains/cell_paths.hpp"
+#include "app/run/advice.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/proof.hpp"
 #include "app/run/result_directory.hpp"
@@ -134,6 +135,10 @@ class Run {
     }
     solver_.emplace(case_.problem, case_.solver);
     solver_->set_observer(&observer_);
+    observer_.on_struggle = [this](const fem::Trouble& trouble) {
+      warn(fmt::format("this step has been cut twice: {}\n{}", trouble.reason,
+                       advice(trouble, *solver_, case_)));
+    };
     if (!from_) return;
     PrefixedReader state(from_->state, "solver/");
     solver_->restore(state);
@@ -169,8 +174,8 @@ class Run {
       files_.write_rows();
       record_.add(std::move(committed));
       if (!report.converged) {
-        end_badly("failed",
-                  fmt::format("step {} of {} did not converge: {}", step, case_.steps(), report.message));
+        end_badly("failed", fmt::format("step {} of {} did not converge: {}\n{}", step, case_.steps(),
+                                        report.message, advice(solver_->trouble(), *solver_, case_)));
         return false;
       }
       log_notes();

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <functional>
 #include <string>
 
 #include "app/run/progress.hpp"
@@ -21,6 +22,11 @@ class RunObserver : public Progress {
   void cut(double time, const std::string& reason, double next_time) override {
     log_.warn("  step to {:.6g} given up: {}; next try to {:.6g}", time, reason, next_time);
   }
+  void struggles(const fem::Trouble& trouble) override {
+    if (on_struggle) on_struggle(trouble);
+  }
+  std::function<void(const fem::Trouble&)>
+      on_struggle;  ///< what to do when a step is cut for the second time
 
  private:
   spdlog::logger& log_;

@@ -182,6 +182,7 @@ void Newton::evaluate(Iterate& iterate, StepReport& report) {
       loads_at(iterate.time, iterate.released, iterate.jump_let_go) - discretisation.internal_forces(trial_);
   if (state.reference_force == 0.0) state.reference_force = sum_of_reactions(iterate.unbalanced, constraints);
   iterate.residual = relative(iterate.unbalanced);
+  unbalanced_ = iterate.unbalanced;
 }
 
 bool Newton::factorise(const std::vector<Response>& responses, double time, StepReport& report) {
@@ -305,6 +306,7 @@ std::string Newton::residual_text(const Residual& residual) const {
 
 Newton::Predictor Newton::predict(const StepGoal& goal) {
   move_to_committed();
+  unbalanced_.resize(0);
   anderson_.clear();
   internal_before_ = discretisation.internal_forces(state.responses);
   loads_before_ = loads_at(state.time, released_, jump_let_go_);

@@ -61,6 +61,8 @@ class Newton {
   /// of balance is held by fictive forces until attempts let it go (StepGoal::jump_let_go). Leaves the committed state
   /// alone when a material does not stand by its answer.
   [[nodiscard]] Attempt pass_jump(StepReport& report);
+  /// Where the attempt that has just failed was out of balance; to be asked before revert().
+  [[nodiscard]] Trouble trouble(const std::string& reason, const StepReport& report) const;
   /// Drops the trial states.
   void revert();
   /// Puts mesh and loads where the committed displacements have them; nothing to do in small deformation.
@@ -130,11 +132,12 @@ class Newton {
   std::string inverted_;             ///< names an element the last iterate turns inside out
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;
-  Eigen::VectorXd withheld_;           ///< forces out of balance at the start; empty when there are none
-  double released_ = 1.0;              ///< share of them that committed steps have let go
-  Eigen::VectorXd jump_;               ///< forces out of balance behind the jump that was passed last
-  double jump_let_go_ = 1.0;           ///< share of them that committed steps have let go
-  std::optional<Iterate> best_;        ///< of the last attempt, of those that could be committed
+  Eigen::VectorXd withheld_;     ///< forces out of balance at the start; empty when there are none
+  double released_ = 1.0;        ///< share of them that committed steps have let go
+  Eigen::VectorXd jump_;         ///< forces out of balance behind the jump that was passed last
+  double jump_let_go_ = 1.0;     ///< share of them that committed steps have let go
+  std::optional<Iterate> best_;  ///< of the last attempt, of those that could be committed
+  Eigen::VectorXd unbalanced_;   ///< of the evaluation made last; empty before the first one of an attempt
   std::vector<Increment> increments_;  ///< of the evaluation made last
   std::vector<Response> trial_;        ///< its responses
 };

@@ -19,6 +19,8 @@ namespace polargrain::fem {
 struct Solver::Implementation : Newton {
   using Newton::Newton;
 
+  Trouble last_trouble;  ///< of the last attempt that failed
+
   /// Goes the whole of a step in substeps, cut where an attempt fails. Shares of the step, not times or
   /// lengths, are what is cut, so that a step under another control may follow.
   /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
@@ -65,6 +67,7 @@ Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, doub
       cuts = 0;
       continue;
     }
+    last_trouble = trouble(attempted.reason, report);
     revert();
     const bool last = cuts == options.most_cuts;
     if (may_pass(last ? HUGE_VAL : largest) && pass_jump(report).converged) {
@@ -102,10 +105,12 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
     const Attempt result = attempt(goal, cuts_in_a_row, report);
     bool committed = result.converged;
     if (!committed) {
+      last_trouble = trouble(result.reason, report);
       if (!report.force_residuals.empty()) {
         const Residual first{report.force_residuals.front(), report.moment_residuals.front()};
         jumps.failed(step, first.force, excess(first));
       }
+      last_trouble.jumps = jumps.seen();
       const Passing passing = pass(goal, jumps.seen() ? HUGE_VAL : options.jump_residual, report);
       committed = passing.passed;
       if (passing.stuck) {
@@ -135,6 +140,7 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
     if (observer) {
       const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
       observer->cut(time_of(goal), result.reason, time_of(goal_at(done + state.next_step, state.next_step)));
+      if (report.cuts == 2) observer->struggles(last_trouble);
     }
   }
   report.converged = true;
@@ -205,6 +211,9 @@ StepReport Solver::advance_arc_length(double length) {
   });
 }
 
+const Trouble& Solver::trouble() const {
+  return implementation_->last_trouble;
+}
 const Problem& Solver::problem() const {
   return implementation_->problem;
 }

@@ -8,6 +8,7 @@
 #include "common/archive.hpp"
 #include "common/response.hpp"
 #include "fem/solver/problem.hpp"
+#include "fem/solver/trouble.hpp"
 
 namespace polargrain::fem {
 
@@ -110,6 +111,8 @@ class Observer {
   virtual void cut(double time, const std::string& reason, double next_time) {
     (void)time, (void)reason, (void)next_time;
   }
+  /// A step has been cut for the second time: where it is out of balance. The solver stands at its last committed state.
+  virtual void struggles(const Trouble& trouble) { (void)trouble; }
 };
 
 /// All that the solver knows at the last committed time, apart from the states kept by the materials.
@@ -159,6 +162,8 @@ class Solver {
   /// @throws RunError before the first substep has been committed.
   StepReport advance_arc_length(double length);
 
+  /// Of the last attempt of the last step that failed; empty when none has.
+  [[nodiscard]] const Trouble& trouble() const;
   [[nodiscard]] const Problem& problem() const;
   [[nodiscard]] const SolverState& state() const;
   /// Writes all that the steps to come depend on, states of the materials included (state_archive.hpp).

@@ -218,7 +218,16 @@ TEST_F(RunTest, AStepThatCannotBeTakenEndsTheRunHonestly) {
   set_script("fail_beyond 1e-9");
   const Outcome outcome = polargrain("run case.yaml -o out -w 1 --set steps.cut=2");
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_EQ(outcome.errors.find("error: step 1 of 5 did not converge: "), 0u) << outcome.errors;
+  const std::size_t cut = outcome.errors.find("warning: this step has been cut twice: a material failed: ");
+  const std::size_t end = outcome.errors.find("error: step 1 of 5 did not converge: ");
+  ASSERT_NE(end, std::string::npos) << outcome.errors;
+  ASSERT_NE(cut, std::string::npos) << outcome.errors;
+  for (const std::size_t from : {cut, end}) {  // after the second cut, and at the end
+    const std::string text = outcome.errors.substr(from, end > from ? end - from : std::string::npos);
+    EXPECT_NE(text.find("points have no good answer:\n    point "), std::string::npos) << text;
+    EXPECT_NE(text.find(" of element "), std::string::npos) << text;
+    EXPECT_NE(text.find("worth trying below 'steps': count: 10 (shorter steps)"), std::string::npos) << text;
+  }
   EXPECT_NE(result("out/summary.json").find("\"status\": \"failed\""), std::string::npos);
   EXPECT_EQ(column("out/history.csv", "step").size(), 1u);
 }

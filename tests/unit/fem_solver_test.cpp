@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -245,6 +246,75 @@ TEST(solver, a_step_that_cannot_be_made_is_never_committed_nor_called_converged)
   EXPECT_EQ(solver.state().time, 0.0);
   EXPECT_EQ(solver.state().displacement.norm(), 0.0);
   for (const BrittleLaw::State& state : material->states()) EXPECT_EQ(state.steps, 1);
+}
+
+/// Counts what it is told, and keeps the last of it.
+struct Listener : Observer {
+  void struggles(const Trouble& trouble) override {
+    ++calls;
+    last = trouble;
+  }
+  int calls = 0;
+  Trouble last;
+};
+
+TEST(solver, says_which_points_have_no_good_answer) {
+  SolverOptions options;
+  options.most_cuts = 3;
+  Solver solver(biaxial(brittle(1e-6, Quality::unreliable), 0.0), options);
+  Listener listener;
+  solver.set_observer(&listener);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  EXPECT_TRUE(solver.trouble().is_empty());
+  ASSERT_FALSE(solver.advance(1.0).converged);
+  EXPECT_EQ(listener.calls, 1);  // after the second cut, and not after every one
+  for (const Trouble& trouble : {listener.last, solver.trouble()}) {
+    EXPECT_EQ(trouble.not_good, solver.points());
+    ASSERT_EQ(trouble.points.size(), 3u);
+    EXPECT_EQ(trouble.points[0].message, "too long a step");
+    EXPECT_NE(trouble.reason.find("too long a step"), std::string::npos) << trouble.reason;
+  }
+}
+
+/// Elastic, but the stress of the last point changes with every evaluation: no balance there.
+class RestlessMaterial : public Material {
+ public:
+  void allocate(std::size_t points) override { law_.allocate(points); }
+  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
+    law_.evaluate(increments, responses);
+    ++times_;
+    if (times_ > 1) responses.back().stress(k11) += times_ % 2 == 0 ? 5e4 : -5e4;
+  }
+  void commit() override { law_.commit(); }
+  void revert() override { law_.revert(); }
+
+ private:
+  LocalMaterial<ElasticLaw> law_{ElasticLaw(sand())};
+  int times_ = 0;
+};
+
+TEST(solver, says_where_it_is_out_of_balance) {
+  SolverOptions options;
+  options.most_cuts = 2;
+  options.most_line_search_halvings = 0;  // would evaluate twice, and find the same stress again
+  Solver solver(biaxial(std::make_shared<RestlessMaterial>(), 0.0), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  ASSERT_FALSE(report.converged);
+  const Trouble& trouble = solver.trouble();
+  EXPECT_EQ(trouble.not_good, 0u);
+  ASSERT_EQ(trouble.nodes.size(), 4u);
+  const std::vector<int>& nodes = solver.problem().mesh.elements.back().nodes;
+  double share = 0.0;
+  for (const Trouble::Node& node : trouble.nodes) {
+    EXPECT_NE(std::ranges::find(nodes, node.number), nodes.end()) << node.number;
+    share += node.share;
+  }
+  // Nothing but the element of that point is out of balance, and four of its eight nodes have most of it.
+  EXPECT_GT(share, 0.5);
+  EXPECT_LE(share, 1.0 + 1e-12);
+  EXPECT_GT(trouble.least_force_residual, options.force_tolerance);
+  EXPECT_GE(trouble.first_force_residual, trouble.least_force_residual);
 }
 
 TEST(solver, newton_converges_quadratically) {

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/run/advice.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace polargrain::app {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+std::string at(const Eigen::Vector2d& position) {
+  return fmt::format("({:.4g}, {:.4g})", position(0), position(1));
+}
+
+/// Boundaries and sets that a node lies on, `all` left out.
+Lines places_of(const fem::Mesh& mesh, int node) {
+  Lines places;
+  for (const std::string& name : mesh.boundary_and_node_set_names()) {
+    if (name == "all") continue;
+    const std::vector<int> nodes = mesh.nodes_on(name);
+    if (std::ranges::binary_search(nodes, node)) places.push_back("'" + name + "'");
+  }
+  return places;
+}
+
+Lines elements_at(const fem::Mesh& mesh, int node) {
+  Lines elements;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (std::ranges::find(mesh.elements[e].nodes, node) != mesh.elements[e].nodes.end())
+      elements.push_back(std::to_string(e));
+  return elements;
+}
+
+std::string where(const fem::Trouble& trouble, const fem::Mesh& mesh) {
+  Lines nodes;
+  double share = 0.0;
+  for (const fem::Trouble::Node& node : trouble.nodes) {
+    const Lines places = places_of(mesh, node.number);
+    nodes.push_back(fmt::format("{}{}{}, of {} {}", at(mesh.nodes[static_cast<std::size_t>(node.number)]),
+                                places.empty() ? "" : " on ", fmt::join(places, " and "),
+                                elements_at(mesh, node.number).size() == 1 ? "element" : "elements",
+                                fmt::join(elements_at(mesh, node.number), ", ")));
+    share += node.share;
+  }
+  if (nodes.empty()) return {};
+  return fmt::format("  where: {:.0f} % of the unbalanced force is at the nodes {}", 100.0 * share,
+                     fmt::join(nodes, "; "));
+}
+
+/// What a cell, or a law, says of a point, in the words of the fields of the result.
+std::string words_of(const fem::Solver& solver, std::size_t point) {
+  const auto [material, local] = solver.material_of_point(point);
+  std::vector<double> values(material->field_names().size());
+  material->fields(local, values);
+  const Vector7& stress = solver.state().responses[point].stress;
+  Lines words{fmt::format("p {:.3g} kPa", -0.5e-3 * (stress(k11) + stress(k22)))};
+  for (const char* const name : {"sliding_fraction", "coordination_number", "rattlers", "source",
+                                 "error_estimate", "stress_mismatch", "plastic_shear"}) {
+    const std::vector<std::string> names = material->field_names();
+    const auto place = std::ranges::find(names, name);
+    if (place != names.end())
+      words.push_back(
+          fmt::format("{} {:.2g}", name, values[static_cast<std::size_t>(place - names.begin())]));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// One point of every element at the worst node, as last committed.
+std::string neighbours(const fem::Trouble& trouble, const fem::Solver& solver) {
+  if (trouble.nodes.empty()) return {};
+  const fem::Mesh& mesh = solver.problem().mesh;
+  const int node = trouble.nodes.front().number;
+  const Eigen::Vector2d& position = mesh.nodes[static_cast<std::size_t>(node)];
+  std::map<int, std::size_t> nearest;  // element: its point next to the node
+  for (std::size_t point = 0; point < solver.points(); ++point) {
+    const int element = solver.element_of_point(point);
+    const std::vector<int>& nodes = mesh.elements[static_cast<std::size_t>(element)].nodes;
+    if (std::ranges::find(nodes, node) == nodes.end()) continue;
+    const auto [place, added] = nearest.try_emplace(element, point);
+    if ((solver.position_of_point(point) - position).norm() <
+        (solver.position_of_point(place->second) - position).norm())
+      place->second = point;
+  }
+  std::string text = "  what is known there, before this step:";
+  for (const auto& [element, point] : nearest)
+    text += fmt::format("\n    element {}, point {}: {}", element, point, words_of(solver, point));
+  return text;
+}
+
+std::string points_without_answer(const fem::Trouble& trouble, const fem::Solver& solver) {
+  if (trouble.points.empty()) return {};
+  std::string text = fmt::format("  {} of {} points have no good answer:", trouble.not_good, solver.points());
+  for (const fem::Trouble::Point& point : trouble.points)
+    text += fmt::format("\n    point {} of element {} at {}: {}", point.number,
+                        solver.element_of_point(point.number), at(solver.position_of_point(point.number)),
+                        point.message);
+  return text;
+}
+
+/// The next larger number of one digit.
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)));
+  return unit * std::ceil(value / unit - 1e-9);
+}
+
+/// A balance within a hundredth of the loads is as good as grains answer; beyond, looser tolerances hide what is wrong.
+constexpr double kLoosest = 1e-2;
+
+Lines keys_of_balance(const fem::Trouble& trouble, const coupler::Case& the_case) {
+  Lines keys;
+  const fem::SolverOptions& solver = the_case.solver;
+  const double least = trouble.least_force_residual;
+  if (trouble.force_noise > 0.0 && solver.noise_factor == 0.0 && least < 2.0 * trouble.force_noise)
+    keys.push_back(
+        fmt::format("noise: 2 (the noise of the stresses alone leaves {:.2g})", trouble.force_noise));
+  const double looser = least > 0.0 ? rounded_up(1.5 * least) : 0.0;
+  if (looser > solver.force_tolerance && looser <= kLoosest)
+    keys.push_back(fmt::format("tolerance: {:.1g} (the iteration came down to {:.2g}, asked is {:.2g})",
+                               looser, least, solver.force_tolerance));
+  if (solver.most_line_search_halvings == 0 && trouble.last_force_residual > 1.2 * least)
+    keys.push_back("line_search: 3 (corrections make the balance worse again)");
+  if (trouble.jumps && solver.most_jumps == 0)
+    keys.push_back(
+        "jumps: 50 (the stresses jump here, however small the strain; packings with more grains jump less)");
+  if (trouble.last_force_residual == least && least < 0.5 * trouble.first_force_residual)
+    keys.push_back(
+        fmt::format("iterations: {} (the residual was still falling)", 2 * solver.most_iterations));
+  return keys;
+}
+
+Lines keys_of(const fem::Trouble& trouble, const coupler::Case& the_case) {
+  Lines keys = trouble.not_good > 0 ? Lines{} : keys_of_balance(trouble, the_case);
+  if (trouble.not_good > 0 || keys.empty() || trouble.nodes.empty())
+    keys.push_back(fmt::format("count: {} (shorter steps)", 2 * the_case.steps()));
+  return keys;
+}
+
+/// A node between two boundaries of which one moves: no mesh makes the stress there finite.
+std::string corner(const fem::Trouble& trouble, const fem::Problem& problem) {
+  if (trouble.nodes.empty()) return {};
+  const int node = trouble.nodes.front().number;
+  bool moves = false;
+  for (const fem::PrescribedDof& item : problem.prescribed) {
+    if (item.value.largest_magnitude() == 0.0) continue;
+    const std::vector<int> nodes = problem.mesh.nodes_on(item.on);
+    moves = moves || std::ranges::binary_search(nodes, node);
+  }
+  const Lines places = places_of(problem.mesh, node);
+  if (!moves || places.size() < 2) return {};
+  return fmt::format(
+      "  {} is an end of what moves ({}): strains have no bound there, whatever the mesh; a finer one makes "
+      "it harder",
+      at(problem.mesh.nodes[static_cast<std::size_t>(node)]), fmt::join(places, " and "));
+}
+
+}  // namespace
+
+std::string advice(const fem::Trouble& trouble, const fem::Solver& solver, const coupler::Case& the_case) {
+  const Lines keys = keys_of(trouble, the_case);
+  Lines parts{trouble.not_good == 0 ? where(trouble, solver.problem().mesh) : "",
+              points_without_answer(trouble, solver),
+              trouble.not_good == 0 ? neighbours(trouble, solver) : "",
+              trouble.not_good == 0 ? corner(trouble, solver.problem()) : "",
+              fmt::format("  worth trying below 'steps': {}", fmt::join(keys, "; "))};
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, "\n"));
+}
+
+}  // namespace polargrain::app
