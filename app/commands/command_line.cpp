@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <sstream>
 #include <vector>
 
 #include "app/commands/all_commands.hpp"
@@ -28,6 +30,7 @@ Try:
   polargrain check cases/biaxial/case.yaml          all faults of a case at once, and what its packings resist with
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
   polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
+  polargrain examples                               what comes along; examples NAME copies one
   polargrain new biaxial -o mine                    write a case of your own, with its packing: new --help
   polargrain run case.yaml --set steps.count=10     change a value for one run
   polargrain verify results/biaxial                 hold a result against its proof, some cells evaluated again
@@ -43,6 +46,18 @@ Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or 
 (go on with --resume).
 The case file is described in docs/user_guide.md.
 )";
+
+/// The list of commands has one line for each: what is more stands in the help of the command.
+class OneLineEach : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::string description = command->get_description();
+    std::ostringstream line;
+    CLI::detail::format_help(line, command->get_name(), description.substr(0, description.find('\n')),
+                             column_width_);
+    return line.str();
+  }
+};
 
 int guarded(const std::function<int()>& command) {
   try {
@@ -79,6 +94,7 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   app.set_version_flag("--version", "polargrain " POLARGRAIN_VERSION);
   app.footer(kExamples);
   app.require_subcommand(1);
+  app.formatter(std::make_shared<OneLineEach>());
   const Grains grains{engine, packing_tools};
   std::vector<Command> commands;
   for (const AddCommand add : kCommands) {

@@ -69,6 +69,29 @@ assert (kind >> 6 & 127) * (kind >> 13 & 127) * (kind >> 20 & 127) > 10000, kind
 ' || fail "the installed Python package or behaviour does not work"
 fi
 
+say "-- manual, completion, examples"
+for page in polargrain polargrain-run polargrain-examples; do
+  man=$work/prefix/share/man/man1/$page.1
+  [[ -s $man ]] || fail "there is no manual page $page"
+  ! command -v groff >/dev/null || [[ -z $(groff -man -Tutf8 -wall -z "$man" 2>&1) ]] || fail "groff has something to say of $man"
+done
+grep -qF '\-\-resume' "$work/prefix/share/man/man1/polargrain-run.1" || fail "the manual of run does not know --resume"
+# completed WORD...: what is proposed for the last of the words.
+completed() {
+  bash -c 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _polargrain; echo "${COMPREPLY[*]}"' - \
+    "$work/prefix/share/bash-completion/completions/polargrain" "$@"
+}
+[[ $(completed polargrain ch) == check ]] || fail "ch is not completed: $(completed polargrain ch)"
+[[ $(completed polargrain run --res) == --resume ]] || fail "--res is not completed: $(completed polargrain run --res)"
+[[ $(completed polargrain examples slo) == slope ]] || fail "slo is not completed: $(completed polargrain examples slo)"
+[[ -z $(completed polargrain run ca) ]] || fail "files are not left to bash"
+polargrain examples >said
+grep -q '^  biaxial  *Biaxial compression' said || fail "the example biaxial is not listed"
+polargrain examples slope -o my_slope >/dev/null
+polargrain check my_slope/case.yaml >/dev/null
+refused 2 "did you mean 'slope'?" polargrain examples slop
+refused 2 "is there already" polargrain examples slope -o my_slope
+
 say "-- bench"
 polargrain bench cases/biaxial/case.yaml --quick -w 2 --set steps.count=1 --set mesh.rectangle.elements=[1,1] --quiet >/dev/null
 grep -q reference bench-results/bench.csv || fail "bench made no table"
