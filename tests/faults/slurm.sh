@@ -107,7 +107,11 @@ await 30 tasks_are PENDING
 kill -0 $run || { echo "the run did not outlive its workers"; exit 1; }
 scontrol update NodeName="$node" State=RESUME
 # At once, not after the minutes that Slurm waits with a task it has put back.
-squeue --noheader --format=%A | sort -u | xargs -I ID scontrol update JobId=ID StartTime=now
+# One may have begun by itself between the two commands, and be done with the run: then there is nothing to hasten.
+for job in $(squeue --noheader --format=%A | sort -u); do
+  scontrol update JobId="$job" StartTime=now 2>hastened.log || grep -q "already finished" hastened.log ||
+    { cat hastened.log; exit 1; }
+done
 wait $run || { tail array/run.log; exit 1; }
 no_task_is_left() { [[ -z $(squeue --noheader) ]]; }
 await 30 no_task_is_left
