@@ -86,10 +86,15 @@ std::string grain_figure(const GrainView& view, const std::string& name, const s
                            scale * grain.radius, colour(share));
     }
   }
+  // In space all contacts of the box lie one behind the other: only those that carry more than the mean are shown.
+  double least_force = 0.0;
+  if (view.dimension == 3)
+    for (const GrainView::Contact& contact : view.contacts)
+      least_force += contact.normal_force() / static_cast<double>(view.contacts.size());
   std::string chains;
   for (const GrainView::Contact& contact : view.contacts) {
     const double width = largest_force > 0.0 ? kThickestLine * contact.normal_force() / largest_force : 0.0;
-    if (!(width > kThinnestLine)) continue;
+    if (!(width > kThinnestLine) || contact.normal_force() < least_force) continue;
     const Eigen::Vector2d from = view.grains[contact.first].position.head<2>();
     const Eigen::Vector2d branch = contact.branch.head<2>();
     for (const Eigen::Vector2d& copy : copies) {
@@ -115,7 +120,8 @@ std::string grain_figure(const GrainView& view, const std::string& name, const s
           ? fmt::format("full blue clockwise, full red counter-clockwise by {:.3g} degrees and more",
                         largest_rotation * 180.0 / std::numbers::pi)
           : std::string("none yet"),
-      largest_force, view.dimension == 3 ? "; seen along the normal of the plane" : "");
+      largest_force,
+      view.dimension == 3 ? " (those above their mean); seen along the normal of the plane" : "");
   return fmt::format(
       "<figure class='grains'>\n<svg viewBox='-5 -5 {:.0f} {:.0f}' xmlns='http://www.w3.org/2000/svg' role='img' aria-label='grains and force "
       "chains'>\n<clipPath id='{}'><polygon points='{}'/></clipPath>\n<g clip-path='url(#{})'>\n<rect x='-5' y='-5' width='{:.0f}' "

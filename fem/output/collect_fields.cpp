@@ -129,6 +129,9 @@ std::vector<PointField> basic_fields(const Solver& solver) {
   add({"strain", 5, {}, "1", kTensor}, strain);
   add({"curvature", 2, {}, "rad/m", kPlaneVector},
       [&](std::size_t point, int i) { return strain(point, kCurvature1 + i); });
+  add({"relative_rotation", 3, {}, "rad", kVector}, [&](std::size_t point, int i) {
+    return i == 2 ? 0.5 * (strain(point, k21) - strain(point, k12)) : 0.0;
+  });
   add({"deviatoric_strain", 1, {}, "1"},
       [&](std::size_t point, int) { return deviatoric_strain(state.strain[point]); });
   add({"volume_strain", 1, {}, "1"},

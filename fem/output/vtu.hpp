@@ -28,7 +28,7 @@ struct Fields {
 
 /// Fields of the committed state (docs/file_formats.md, fields). By node: displacement (u1, u2, 0), micro_rotation, the
 /// same as a vector; by node smoothed (smooth.hpp) and by element as averages over the volume: stress and strain (11, 22, 33,
-/// 12, 21), couple_stress, curvature, volume_strain, deviatoric_strain (sqrt(2/3 e_ij e_ij) of the symmetric deviator),
+/// 12, 21), couple_stress, curvature, relative_rotation (theory, A.1; about e_3), volume_strain, deviatoric_strain (sqrt(2/3 e_ij e_ij) of the symmetric deviator),
 /// what the materials show (Material::fields; 0 where the element's material does not have the field; at nodes only what
 /// is a quantity in space), and what StressMeasures reads off the stress so averaged or smoothed.
 Fields collect_fields(const Solver& solver);

@@ -155,6 +155,8 @@ TEST(fields, engineers_read_are_exact_at_points_and_at_nodes) {
       EXPECT_NEAR(value("principal_stress", k, 2), -40.0 * x, 1e-13);
       EXPECT_NEAR(value("volume_strain", k, 0), -x, 1e-15);
       EXPECT_NEAR(value("micro_rotation_vector", k, 2), 0.02, 1e-15);
+      EXPECT_NEAR(value("relative_rotation", k, 2), 0.02, 1e-14);  // the continuum does not rotate
+      EXPECT_EQ(value("relative_rotation", k, 0), 0.0);
       EXPECT_NEAR(value("void_ratio", k, 0), 0.62, 1e-14);
       if (places[k](0) == 0.0) continue;  // no stress, no ratio
       EXPECT_NEAR(value("stress_ratio", k, 0), 1.2, 1e-11);
