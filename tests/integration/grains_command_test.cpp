@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "fem/output/read_vtu.hpp"
@@ -53,12 +54,13 @@ class GrainsCommand : public ::testing::Test {
   }
 
   /// What the grains of a point add up to, and the fields of the point.
-  [[nodiscard]] Values seen(std::size_t point, int step) const {
+  /// @param entry of the collection @param step nothing: the same
+  [[nodiscard]] Values seen(std::size_t point, int entry, std::optional<int> step = {}) const {
     const std::string grains = "out/grains/point-" + std::to_string(point) + ".pvd";
-    std::string points = std::to_string(step);
+    std::string points = std::to_string(step.value_or(entry));
     points = "out/fields/points-" + std::string(5 - points.size(), '0') + points + ".vtu";
     const Outcome read =
-        run_in(folder(), "/usr/bin/python3 " GRAINS_READER " " + grains + " " + std::to_string(step) + " " +
+        run_in(folder(), "/usr/bin/python3 " GRAINS_READER " " + grains + " " + std::to_string(entry) + " " +
                              points + " " + std::to_string(point));
     EXPECT_EQ(read.status, 0) << read.errors;
     Values values;
@@ -227,12 +229,22 @@ TEST_F(GrainsCommand, SpheresInSpaceInAllThreeSchemes) {
   const Outcome packed = run_in(folder(), kProgram + " pack spheres.yaml -o spheres.h5 --quiet");
   ASSERT_EQ(packed.status, 0) << packed.errors;
   const std::string spheres = ", lc: 20 mm, script: cells/spheres_hooke_radii.in, packing: spheres.h5";
-  // One element, and half the way.
+  // One element, and a quarter of the way.
   const std::string smaller =
-      "--set mesh.rectangle.elements='[1, 1]' --set steps.count=2 --set boundary.1.move.u2='-2 mm'";
+      "--set mesh.rectangle.elements='[1, 1]' --set steps.count=2 --set boundary.1.move.u1='1 mm' --set boundary.1.move.u2='-1 mm'";
   run_case(case_text("model: cell" + spheres), smaller);
   show("--point 3");
   for (const int step : {0, 2}) expect_symmetric_stress(3, step, true);
+  const std::string held =
+      ", rotations: controlled, script: cells/spheres_hooke_radii.in, packing: spheres.h5";
+  run_case(case_text("model: cell" + held), smaller);
+  show("--point 2 --step 2");
+  Values whole = seen(2, 0, 2);
+  expect_diagnostics(whole);
+  const auto grains = of_grains(whole);
+  const auto told = of_point(whole);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(grains[i], told[i], 1e-6) << i;
+  EXPECT_GT(std::abs(told[2] - told[3]), 10.0);
   for (const char* model : {"adaptive", "informed"}) {
     run_case(case_text(std::string("model: ") + model + spheres), smaller);
     show("--point 1");
