@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <nlopt.hpp>
 
@@ -62,6 +63,7 @@ struct Objective {
   Search* search;
   std::vector<double> places;
   std::vector<std::size_t> free;
+  std::exception_ptr failure = {};  ///< of an evaluation: the optimiser would make "nlopt failure" of it
 
   double operator()(const std::vector<double>& values) {
     for (std::size_t k = 0; k < free.size(); ++k) places[free[k]] = values[k];
@@ -70,7 +72,13 @@ struct Objective {
 };
 
 double misfit_at(const std::vector<double>& values, std::vector<double>&, void* objective) {
-  return (*static_cast<Objective*>(objective))(values);
+  Objective& asked = *static_cast<Objective*>(objective);
+  try {
+    return asked(values);
+  } catch (...) {
+    asked.failure = std::current_exception();
+    throw nlopt::forced_stop();
+  }
 }
 
 /// Seeks the least misfit over the free places, from where they are; the evaluations are in the record of the search.
@@ -87,7 +95,12 @@ nlopt::result seek(Objective& objective, double first_step, double tolerance, in
   optimiser.set_xtol_abs(tolerance);
   optimiser.set_maxeval(evaluations);
   double least = 0.0;
-  return optimiser.optimize(values, least);
+  try {
+    return optimiser.optimize(values, least);
+  } catch (...) {
+    if (objective.failure) std::rethrow_exception(objective.failure);
+    throw;
+  }
 }
 
 /// d differences / d places by central differences, one-sided at a bound.

@@ -22,6 +22,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SAND = (0.605, 0.977)    # least and largest void ratio of the sand (Lam and Tatsuoka 1988)
 DISCS = (0.20, 0.36)     # of the discs, friction 0.03 to 0.5
 STUDENT = [math.inf, math.inf, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262]  # 95 %, by the number of values
+LARGE = 0.30             # axial strain of the one test to large strain
 LONG = 0.065             # axial strain of the tests that the laboratory's curves belong to
 
 
@@ -101,7 +102,7 @@ class Study:
             return sand
         return DISCS[0] + (sand - SAND[0]) / (SAND[1] - SAND[0]) * (DISCS[1] - DISCS[0])
 
-    def run_test(self, name, pressure, void_ratio, strain, seed):
+    def run_test(self, name, pressure, void_ratio, strain, seed, row=1e-3, control="inertial_number: 2e-3\ntolerance: 1e-2\n"):
         output = self.tests / f"{name}-seed{seed}"
         if pathlib.Path(f"{output}.csv").exists():
             return
@@ -114,10 +115,8 @@ script: best.in
 test: biaxial
 pressure: {pressure:g} kPa
 axial_strain: {strain:.5g}
-rows: {round(strain / 1e-3)}
-inertial_number: 2e-3
-tolerance: 1e-2
-"""
+rows: {round(strain / row)}
+{control}"""
         specification = self.folder / f"{name}-seed{seed}.yaml"  # a script must lie beside what names it
         specification.write_text(text)
         if self.call("element", specification, "-o", output, "--quiet") > 1:
@@ -153,6 +152,26 @@ tolerance: 1e-2
                           "residual": statistics.mean(late) if late else math.nan,
                           "volume": 100 * curve["volume_strain"][at_six[0]] if at_six else math.nan})
         return found
+
+
+    def run_large(self, seed):
+        """The calibrated test to a strain at which nothing changes any more, at twice the rate and error."""
+        self.run_test("large", 49.0, 0.716, LARGE, seed, 2e-3,
+                      "inertial_number: 4e-3\ntolerance: 2e-2\nlargest_increment: 2e-3\n")
+
+
+def of_a_band(curve, softening=0.019):
+    """What a specimen would show if from the peak on all strain went into a share of its height, the rest standing still: that
+    share from the strain `softening` over which the laboratory's ratio falls to its plateau; then the plateau and the volume strain that
+    come with it. The plateau is the mean beyond 22 % of strain; it is reached where the mean over 4 % of strain first is that low."""
+    strain, ratio, volume = curve["axial_strain"], curve["stress_ratio"], curve["volume_strain"]
+    peak = max(range(len(ratio)), key=lambda k: ratio[k])
+    late = [value for at, value in zip(strain, ratio) if at >= 0.22]
+    plateau = statistics.mean(late)
+    smooth = [statistics.mean(ratio[max(0, k - 10):k + 11]) for k in range(len(ratio))]
+    reached = next(k for k in range(peak, len(ratio)) if smooth[k] <= 1.05 * plateau)
+    share = softening / (strain[reached] - strain[peak])
+    return plateau, statistics.stdev(late), strain[reached], share, share * (volume[reached] - volume[peak])
 
 
 def mean_and_half(values):
@@ -204,6 +223,12 @@ def tables(study):
         if found:
             text += (f"| {name} | {len(found)} | " + " | ".join(shown([f[key] for f in found], digits) for key, digits in
                      (("angle", 1), ("strain", 1), ("dilatancy", 2), ("b", 2), ("residual", 2), ("volume", 2))) + " |\n")
+    for seed in study.given.seeds:
+        curve = study.curve("large", seed)
+        if curve and curve["axial_strain"][-1] > 0.25:
+            plateau, scatter, strain, share, volume = of_a_band(curve)
+            text += (f"\nTo large strain, seed {seed}: ratio {plateau:.2f} beyond 22 % (it goes up and down by {scatter:.2f}), reached at {100 * strain:.0f} %. If a band takes "
+                     f"all strain behind the peak, it is {100 * share:.1f} % of the height, and the specimen expands by {100 * volume:.2f} % while it softens.\n")
     return text
 
 
@@ -213,12 +238,12 @@ def draw(study, file):
     import matplotlib.pyplot as plt
 
     curves, peaks = laboratory()
-    figure, axes = plt.subplots(2, 3, figsize=(12, 7))
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.5), layout="constrained")
     for column, (name, title) in enumerate((("TATS86-16a", "49 kPa, void ratio 0.716: fitted up to the peak"),
                                             ("LT88-9-HW1.9", "98 kPa, void ratio 0.656: predicted"))):
         for row, (ours, theirs, factor, label) in enumerate((
                 ("stress_ratio", "sigma1_over_sigma3", 1, "stress ratio"),
-                ("volume_strain", "eps_v_pct_dilation_negative", -1, "volume strain, % (expansion positive)"))):
+                ("volume_strain", "eps_v_pct_dilation_negative", -1, "volume strain, %, expansion positive"))):
             axis = axes[row][column]
             points = [(float(r["eps_a_pct"]), factor * float(r[theirs])) for r in curves if r["id"] == name and r[theirs]]
             for seed in study.given.seeds:
@@ -236,15 +261,12 @@ def draw(study, file):
         for axis, theirs, ours in ((axes[0][2], "phi_peak_deg", "angle"), (axes[1][2], "eps_a_at_peak_pct", "strain")):
             if row[theirs]:
                 axis.plot(void_ratio, float(row[theirs]), "o", color=colour, mfc="none")
-            if found:
-                mean, half = mean_and_half([one[ours] for one in found])
-                axis.errorbar(void_ratio, mean, 0 if math.isnan(half) else half, fmt="x", color=colour)
+            axis.plot([void_ratio] * len(found), [one[ours] for one in found], "x", color=colour)
     for pressure, colour in colours.items():
         axes[0][2].plot([], [], "s", color=colour, label=f"{pressure} kPa")
-    axes[0][2].set(xlabel="void ratio at 4.9 kPa", ylabel="peak friction angle, degrees", title="o laboratory, x predicted")
+    axes[0][2].set(xlabel="void ratio at 4.9 kPa", ylabel="peak friction angle, degrees", title="o laboratory, x predicted, each packing")
     axes[1][2].set(xlabel="void ratio at 4.9 kPa", ylabel="axial strain at the peak, %")
     axes[0][2].legend()
-    figure.tight_layout()
     figure.savefig(file, dpi=80)
 
 
@@ -259,6 +281,8 @@ def main():
         for seed in given.seeds:
             for name, pressure, void_ratio, strain in tests[:given.tests]:
                 study.run_test(name, pressure, void_ratio, strain, seed)
+        if given.kind == "spheres" and not given.tests:
+            study.run_large(given.seeds[0])
     text = tables(study)
     (study.output / f"{given.kind}.md").write_text(text)
     print(text)
