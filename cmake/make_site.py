@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Builds the documentation as pages that open offline, with search: mkdocs over all pages and what they link to.
 
-    cmake/make_site.py SOURCE FOLDER
+    cmake/make_site.py SOURCE FOLDER [--code]
 
+With --code and doxygen the pages of the code's interfaces are a part of it (under "The code" in the menu).
 The pages open without a network; search needs a server, since browsers let no script read files:
 python3 -m http.server -d FOLDER/site. Status 77 where there is no mkdocs. Links to folders lead to their README.md. A link that leads nowhere, or any warning of mkdocs, ends with status 1.
 """
@@ -14,20 +15,33 @@ import subprocess
 import sys
 
 LINK = re.compile(r"(\]\()([^)#\s]+)(#[^)\s]*)?\)")
-MENU = ["README.md", "docs/tutorial.md", "docs/user_guide.md", "docs/element_tests.md", "docs/settings.md", "docs/questions.md",
-        "docs/glossary.md", "docs/python.md", "docs/running.md", "docs/trust.md", "docs/file_formats.md", "docs/theory.md",
-        "docs/verification.md", "docs/performance.md", "docs/adaptivity.md", "docs/hard_cases.md", "docs/hard_cells.md",
-        "docs/studies/README.md", "CONTRIBUTING.md", "CHANGELOG.md"]
+MENU = {
+    "Begin": ["README.md", "docs/tutorial.md", "docs/gallery.md", "docs/glossary.md", "docs/questions.md"],
+    "Use": ["docs/user_guide.md", "docs/element_tests.md", "docs/settings.md", "docs/python.md", "docs/other_hosts.md", "docs/running.md",
+            "docs/file_formats.md", "docs/own_contact_law/README.md"],
+    "Trust": ["docs/verification.md", "docs/performance.md", "docs/adaptivity.md", "docs/hard_cases.md", "docs/hard_cells.md",
+              "docs/trust.md"],
+    "Theory": ["docs/theory.md", "docs/studies/README.md"],
+    "Develop": ["CONTRIBUTING.md", "CHANGELOG.md"]}
 
 
-def main(source, folder):
+def write_pages_of_the_code(source, target):
+    """@returns whether doxygen is there and had nothing to say"""
+    if shutil.which("doxygen") is None:
+        return False
+    target.mkdir(parents=True)
+    settings = (source / "docs/Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {target}\n"
+    return subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=source, check=False).returncode == 0
+
+
+def main(source, folder, code):
     if shutil.which("mkdocs") is None:
         print("skipped: there is no mkdocs")
         return 77
     pages = folder / "pages"
     shutil.rmtree(folder, ignore_errors=True)
     missing = []
-    waiting = [source / name for name in MENU if (source / name).exists()]
+    waiting = [source / name for names in MENU.values() for name in names]
     seen = set(waiting)
     while waiting:
         file = waiting.pop()
@@ -55,7 +69,9 @@ def main(source, folder):
             return f"{start}{link}{place})"
 
         target.write_text(LINK.sub(followed, file.read_text()))
-    menu = "".join(f"  - {name}\n" for name in MENU if (source / name).exists())
+    menu = "".join(f"  - {title}:\n" + "".join(f"    - {name}\n" for name in names) for title, names in MENU.items())
+    if code and write_pages_of_the_code(source, pages / "code"):
+        menu += "    - The code: code/html/index.html\n"
     (folder / "mkdocs.yml").write_text(
         "site_name: polargrain\ndocs_dir: pages\nsite_dir: site\nuse_directory_urls: false\ntheme: {name: mkdocs, highlightjs: false}\n"
         f"plugins: [search]\nnav:\n{menu}")
@@ -70,4 +86,4 @@ def main(source, folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), "--code" in sys.argv[3:]))

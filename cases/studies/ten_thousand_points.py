@@ -71,7 +71,8 @@ def main():
     write_mesh(place / "footing.msh", *options.elements)
     shutil.copy(CASE / "packing100.h5", place)
     case = (CASE / "case.yaml").read_text(encoding="utf-8")
-    (place / "case.yaml").write_text(case.replace("../footing/footing.msh", "footing.msh"), encoding="utf-8")
+    case = case.replace("../footing/footing.msh", "footing.msh").replace("560", str(4 * options.elements[0] * options.elements[1]))
+    (place / "case.yaml").write_text(case, encoding="utf-8")
     command = [str((options.programs / "polargrain").resolve()), "run", "case.yaml", "-o", "out", "-w", str(options.workers)]
     for setting in options.settings:
         command += ["--set", setting]

@@ -15,4 +15,9 @@ if(TARGET polargrain)
   add_test(NAME LayerStudy.BandsAreAsThePageSays COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/layer_study.py --check
            -o ${CMAKE_CURRENT_BINARY_DIR}/layer_study --programs ${PROJECT_BINARY_DIR}/app)
   set_tests_properties(LayerStudy.BandsAreAsThePageSays PROPERTIES LABELS long TIMEOUT 3600)
+  # Two of the ten packings of docs/studies/far_biaxial.md (five minutes).
+  add_test(NAME FarBiaxial.BandsAreFollowedToFifteenPercent
+           COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/far_biaxial.py --check --packings 2 --schemes cell,informed
+           -o ${CMAKE_CURRENT_BINARY_DIR}/far_biaxial --programs ${PROJECT_BINARY_DIR}/app)
+  set_tests_properties(FarBiaxial.BandsAreFollowedToFifteenPercent PROPERTIES LABELS long TIMEOUT 3600)
 endif()

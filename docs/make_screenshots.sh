@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Pictures of the report and of the documentation's pages for docs/gallery.md, taken by chromium without a window:
+#   docs/make_screenshots.sh POLARGRAIN      from the root of the project, with chromium and mkdocs; half a minute on two cores
+set -euo pipefail
+polargrain=$(realpath "$1")
+images=$(realpath docs/images)
+source=$PWD
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# picture NAME WIDTH HEIGHT FILE [OPTION...]
+picture() {
+  chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --virtual-time-budget=5000 "--window-size=$2,$3" "${@:5}" \
+    "--screenshot=$images/$1.png" "file://$4" 2>/dev/null
+}
+cd "$work"
+"$polargrain" run "$source/cases/biaxial/case.yaml" -o result --quiet --set "title=Biaxial compression of 32 boxes of 400 grains between rough plates" --set mesh.rectangle.elements=[2,4] --set output.every=1
+"$polargrain" report result >/dev/null
+picture report 1200 1500 "$work/result/report.html"
+picture report_narrow_dark 420 1100 "$work/result/report.html" --force-dark-mode --enable-features=WebContentsForceDark
+"$source/cmake/make_site.py" "$source" "$work/site" >/dev/null
+picture site 1200 800 "$work/site/site/docs/tutorial.html"
