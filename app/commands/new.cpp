@@ -48,6 +48,9 @@ const std::vector<NewKind>& new_kinds() {
     NewCase sparing;
     sparing.scheme = "adaptive";
     sparing.grains = 100;
+    NewCase in_space;
+    in_space.spheres = true;
+    in_space.grains = 300;
     const std::vector<std::string> of_packing{"--grains", "--pressure", "--rolling", "--no-pack"};
     const auto with = [&](std::vector<std::string> more) {
       more.insert(more.end(), of_packing.begin(), of_packing.end());
@@ -58,11 +61,17 @@ const std::vector<NewKind>& new_kinds() {
         {"footing", "a strip footing pushed into ground of grains", with({"--scheme"}), sparing},
         {"slope", "a slope of an elastoplastic law, no grains: its weight, then a load on its crest", {}},
         {"element", "a laboratory test of one box of grains, for polargrain element", with({})},
+        {"triaxial", "a triaxial test of one box of spheres, for polargrain element", with({}), in_space},
         {"mesh", "a start on your own mesh (--mesh), its physical groups named in comments",
          with({"--mesh", "--scheme"}), sparing},
     };
   }();
   return kinds;
+}
+
+/// Whether it is a test of one box of grains and no case.
+bool is_test(const NewKind& kind) {
+  return kind.name == "element" || kind.name == "triaxial";
 }
 
 const NewKind& kind_named(const std::string& name) {
@@ -155,7 +164,7 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
   }
   std::vector<NewFile> files;
   if (kind.name == "biaxial") files.push_back({"case.yaml", biaxial_text(what)});
-  if (kind.name == "element") files.push_back({"test.yaml", element_text(what)});
+  if (is_test(kind)) files.push_back({"test.yaml", element_text(what)});
   if (kind.name == "footing") {
     files.push_back({"case.yaml", footing_text(what)});
     for (const std::string name : {"footing.msh", "footing.geo"})
@@ -173,8 +182,11 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
     files.push_back({name, coupler::content_of(options.mesh)});
   }
   files.push_back({"packing.yaml", packing_text(what)});
-  files.push_back(
-      {"cell.in", brought_file(what.rolling ? "cells/hooke_rolling.in" : "cells/hooke_radii.in")});
+  const char* const script = what.spheres
+                                 ? (what.rolling ? "cells/spheres_li_chu.in" : "cells/spheres_hooke_radii.in")
+                             : what.rolling ? "cells/hooke_rolling.in"
+                                            : "cells/hooke_radii.in";
+  files.push_back({"cell.in", brought_file(script)});
   return files;
 }
 
@@ -204,8 +216,9 @@ int write_new(const NewOptions& options, const CLI::App& command, const PackingT
     tell(stdout, "  polargrain pack {} -o {}\n", (options.directory / "packing.yaml").string(),
          packing.string());
   const std::string file = (options.directory / files.front().name).string();
-  if (kind.name == "element")
-    tell(stdout, "  polargrain element {} -o {}\n", file, (options.directory / "biaxial").string());
+  if (is_test(kind))
+    tell(stdout, "  polargrain element {} -o {}\n", file,
+         (options.directory / (kind.name == "triaxial" ? "triaxial" : "biaxial")).string());
   else
     tell(stdout, "  polargrain check {0}\n  polargrain run {0}\n", file);
   return 0;
@@ -220,10 +233,10 @@ std::string new_description() {
       "  polargrain new mesh --mesh dam.msh -o mine --pressure '200 kPa'\n\n"
       "Kinds:\n";
   for (const NewKind& kind : new_kinds())
-    text += fmt::format("  {:<9}{}{}{}\n", kind.name, kind.summary,
-                        kind.options.empty() ? "" : "\n           ", fmt::join(kind.options, " "));
+    text += fmt::format("  {:<10}{}{}{}\n", kind.name, kind.summary,
+                        kind.options.empty() ? "" : "\n            ", fmt::join(kind.options, " "));
   return text +
-         "\nThe grains are discs after packing.yaml: change it and make them again with polargrain pack. A folder with files in "
+         "\nThe grains are discs (triaxial: spheres) after packing.yaml: change it and make them again with polargrain pack. A folder with files in "
          "it is refused.";
 }
 
@@ -237,7 +250,9 @@ Command add_new(CLI::App& program, const Grains& grains) {
   command.add_option("-o,--output", options->directory, "Folder to write, new or empty")
       ->required()
       ->type_name("DIR");
-  command.add_option("--grains", options->grains, "Grains of the packing [400; footing and mesh 100]")
+  command
+      .add_option("--grains", options->grains,
+                  "Grains of the packing [400; footing and mesh 100, triaxial 300]")
       ->type_name("N")
       ->check(CLI::Range(4, 20000));
   command

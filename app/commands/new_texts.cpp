@@ -14,11 +14,11 @@ namespace {
 constexpr const char* kPackingText =
     R"(# The grains of the case. Make them again after a change: polargrain pack packing.yaml -o packing.h5
 # All keys: docs/user_guide.md, Packings
-title: @GRAINS@ dense discs under @PRESSURE@
+title: @GRAINS@ dense @SHAPES@ under @PRESSURE@
 grains: @GRAINS@                         # more of them scatter less and cost more
 sizes: {law: uniform, radius: [3 mm, 7 mm]}   # or a grading curve: {law: sieve, diameter: [...], passing: [0, ..., 100 %]}
 density: 2650                       # of the grains, kg/m^3
-thickness: 100 mm
+@SPACE@
 script: cell.in                     # contact model and its parameters, a LIGGGHTS input script
 pressure: @PRESSURE@
 friction: 0                         # while the packing is made: 0 gives the densest; the script's own afterwards
@@ -90,13 +90,13 @@ output: {every: 4, table: [settlement, pressure]}
 )";
 
 constexpr const char* kElementText =
-    R"(# A laboratory test of one box of grains: polargrain element test.yaml -o biaxial
+    R"(# A laboratory test of one box of grains: polargrain element test.yaml -o @TEST@
 # All keys, and tests in stages: docs/element_tests.md
-title: Dense discs at @PRESSURE@, drained biaxial compression
+title: Dense @SHAPES@ at @PRESSURE@, drained @TEST@ compression
 packing: [packing.h5]               # several packings give a mean with its interval: [packing.h5, packing2.h5, ...]
 script: cell.in                     # contact model and its parameters, a LIGGGHTS input script
 pressure: @PRESSURE@                   # all-round, before the test
-test: biaxial                       # others: polargrain element --help
+test: @TEST@                      # others: polargrain element --help
 axial_strain: 4 %                   # negative: extension
 rows: 80                            # of the table
 )";
@@ -198,6 +198,10 @@ std::string names_of(const Map& map) {
   return text.empty() ? "none" : text;
 }
 
+std::string shapes(const NewCase& what) {
+  return what.spheres ? "spheres" : "discs";
+}
+
 double mean_height(const fem::Mesh& mesh, const std::string& boundary) {
   double sum = 0.0;
   const std::vector<int> nodes = mesh.nodes_on(boundary);
@@ -209,7 +213,11 @@ double mean_height(const fem::Mesh& mesh, const std::string& boundary) {
 
 std::string packing_text(const NewCase& what) {
   return filled(kPackingText,
-                {{"GRAINS", std::to_string(what.grains)}, {"PRESSURE", pascals(what.pressure)}});
+                {{"GRAINS", std::to_string(what.grains)},
+                 {"SHAPES", shapes(what)},
+                 {"SPACE", what.spheres ? "dimension: 3                        # spheres in space"
+                                        : "thickness: 100 mm"},
+                 {"PRESSURE", pascals(what.pressure)}});
 }
 
 std::string biaxial_text(const NewCase& what) {
@@ -234,7 +242,9 @@ std::string footing_text(const NewCase& what) {
 }
 
 std::string element_text(const NewCase& what) {
-  return filled(kElementText, {{"PRESSURE", pascals(what.pressure)}});
+  return filled(kElementText, {{"SHAPES", shapes(what)},
+                               {"TEST", what.spheres ? "triaxial" : "biaxial"},
+                               {"PRESSURE", pascals(what.pressure)}});
 }
 
 std::string mesh_text(const NewCase& what, const fem::Mesh& mesh, const std::string& file) {

@@ -18,6 +18,7 @@ struct NewCase {
   int columns = 5;          ///< elements along the width
   int rows = 10;            ///< elements along the height
   bool rolling = false;     ///< whether contacts resist rolling
+  bool spheres = false;     ///< in space, in the place of discs
 };
 
 /// Text of the specification of the packing, for `polargrain pack`; its script is cell.in beside it.

@@ -96,6 +96,19 @@ TEST(NewCommand, FootingAndElementAreSound) {
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "element.csv"));
 }
 
+TEST(NewCommand, TriaxialIsATestOfSpheres) {
+  const Scratch scratch("new_triaxial");
+  const Outcome written = run_in(scratch.path(), kProgram + " new triaxial -o point --grains 40 --rolling");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome tested =
+      run_in(scratch.path(), "POLARGRAIN_DATA=/nowhere " + kProgram +
+                                 " element point/test.yaml -w 1 --quiet --set axial_strain=0.1% "
+                                 "--set rows=2");
+  ASSERT_EQ(tested.status, 0) << tested.errors;
+  const std::string curve = content(scratch.path() / "element.csv");
+  EXPECT_TRUE(has(curve, "e33,e12,e13,e23")) << curve;  // of space
+}
+
 TEST(NewCommand, ASlopeIsThatOfTheLibrary) {
   const Scratch scratch("new_slope");
   const Outcome written = run_in(scratch.path(), kProgram + " new slope -o hill");
@@ -133,7 +146,8 @@ TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
     std::string message;
   };
   const Refusal refusals[] = {
-      {"triangle -o new", "there is no kind 'triangle'; one of biaxial, footing, slope, element, mesh"},
+      {"triangle -o new",
+       "there is no kind 'triangle'; one of biaxial, footing, slope, element, triaxial, mesh"},
       {"biaxial -o full", "-o full: the folder has files in it"},
       {"biaxial -o full/mine.txt", "-o full/mine.txt: this is a file"},
       {"biaxial -o new --pressure 100kg", "--pressure 100kg: expected a pressure in Pa"},
