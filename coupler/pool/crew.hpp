@@ -26,7 +26,7 @@ struct CrewOptions {
   std::filesystem::path directory;                    ///< gets logs/worker-K.log
   std::vector<std::string> worker_command;            ///< the crew adds `--connect URL`
   Process::Network network = Process::Network::none;  ///< of local workers
-  double startup_seconds = 10.0;
+  double startup_seconds = 60.0;
   std::size_t cache_bytes = 0;         ///< what a worker is taken to keep
   double heartbeat_seconds = 1.0;      ///< asked of working workers
   std::optional<Listening> listening;  ///< for workers of other machines

@@ -28,7 +28,7 @@ struct PoolOptions {
   /// Local workers run any script (grains_io/script.hpp).
   bool trust_scripts = false;
   /// A worker that has not said Hello after so long is a start-up failure.
-  double startup_seconds = 10.0;
+  double startup_seconds = 60.0;
   /// What a worker is taken to keep; see StateCache.
   std::size_t cache_bytes = kWorkerCacheBytes;
   PatienceLimits patience;
