@@ -24,15 +24,8 @@ import matplotlib.patheffects
 import matplotlib.pyplot as plt
 import numpy
 import PIL.Image
-import vtk
+from plot_biaxial import read_fields
 from vtk.util.numpy_support import vtk_to_numpy
-
-
-def read(file):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def array(data, name):
@@ -44,7 +37,7 @@ def last_step(folder):
 
 
 def draw_field(axes, results, step, name, chosen):
-    grid = read(results / f"fields/step-{step:05}.vtu")
+    grid = read_fields(results / f"fields/step-{step:05}.vtu")
     places = array(grid.GetPointData(), "displacement")[:, :2] + vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
     triangles, values = [], []
     for element in range(grid.GetNumberOfCells()):
@@ -62,7 +55,7 @@ def draw_field(axes, results, step, name, chosen):
                            numpy.concatenate([at_nodes, at_middles]), shading="gouraud", cmap="magma_r")
     axes.add_collection(matplotlib.collections.LineCollection(
         [places[ring + ring[:1]] for ring in values], colors="0.5", linewidths=0.3))
-    points = read(results / f"fields/points-{step:05}.vtu")
+    points = read_fields(results / f"fields/points-{step:05}.vtu")
     at = vtk_to_numpy(points.GetPoints().GetData())[:, :2] + array(points.GetPointData(), "displacement")[:, :2]
     for letter, point in zip("ab", chosen):
         axes.plot(*at[point], "o", markersize=9, markerfacecolor="none", markeredgecolor="white", markeredgewidth=3.5)
@@ -118,13 +111,13 @@ def main():
     parser.add_argument("--program", default=shutil.which("polargrain") or "build/release/app/polargrain")
     asked = parser.parse_args()
     step = asked.step if asked.step is not None else last_step(asked.results / "fields")
-    points = read(asked.results / f"fields/points-{step:05}.vtu").GetPointData()
+    points = read_fields(asked.results / f"fields/points-{step:05}.vtu").GetPointData()
     field = array(points, asked.field)
     chosen = asked.points or [int(field.argmax()), int(field.argmin())]
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([asked.program, "grains", str(asked.results), "--quiet", "--step", str(step), "-o", folder]
                        + [word for point in chosen for word in ("--point", str(point))], check=True)
-        grids = [read(f"{folder}/point-{point}/step-{step:05}.vtu") for point in chosen]
+        grids = [read_fields(f"{folder}/point-{point}/step-{step:05}.vtu") for point in chosen]
 
     figure, (left, *right) = plt.subplots(1, 3, figsize=(12, 5.6), width_ratios=[0.75, 1, 1], layout="constrained")
     drawn = draw_field(left, asked.results, step, asked.field, chosen)

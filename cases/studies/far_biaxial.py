@@ -17,7 +17,7 @@ import subprocess
 import numpy
 
 from built_package import polargrain
-from internal_length import interval
+from intervals import table
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCHEMES = {"cell": [], "informed": ["materials.sand.model=informed"],
@@ -71,14 +71,6 @@ def difference(one, other):
             "difference of the peak": b.max() / a.max() - 1.0}
 
 
-def table(title, groups, keys):
-    print(f"| {title} | n | " + " | ".join(keys) + " |")
-    print("|" + "---|" * (len(keys) + 2))
-    for name, rows in groups.items():
-        print(f"| {name} | {len(rows)} | " + " | ".join(interval([row[key] for row in rows]) for key in keys) + " |")
-    print()
-
-
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", type=pathlib.Path, required=True)
@@ -97,6 +89,8 @@ def main():
     program = str((options.programs / "polargrain").resolve())
     seeds = range(1, options.packings + 1)
     schemes = options.schemes.split(",")
+    if unknown := sorted(set(schemes) - set(SCHEMES)):
+        arguments.error(f"--schemes: there is no {', '.join(unknown)}; the schemes are {', '.join(SCHEMES)}")
 
     found, compared, far = {}, {}, {}
     for scheme in schemes:

@@ -16,11 +16,11 @@ import json
 import math
 import os
 import pathlib
-import statistics
 
 import numpy
 
 from built_package import polargrain
+from intervals import interval
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -38,7 +38,7 @@ DENSE = {"sizes": {"law": "uniform", "radius": ["3 mm", "7 mm"]}, "density": 265
 # name: coefficient of rolling resistance, rolling friction force
 LAWS = {"no rolling resistance": (0.0, False), "0.2": (0.2, False), "0.4": (0.4, False),
         "0.4, with rolling friction force": (0.4, True)}
-STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 10: 2.262}  # 97.5 %, by number of packings
+
 
 def script_of(rolling, force):
     text = (ROOT / "liggghts_inputs/cells/hooke_li_chu.in").read_text(encoding="utf-8")
@@ -118,15 +118,6 @@ def follow(cell, increments):
         if answer.quality == "good":
             answers.append(answer.vector)
     return answers
-
-
-def interval(values):
-    values = [value for value in values if math.isfinite(value)]
-    if len(values) < 2:
-        return "-"
-    mean = statistics.mean(values)
-    half = STUDENT.get(len(values), 2.2) * statistics.stdev(values) / math.sqrt(len(values))
-    return f"{mean:.3g} +- {half:.2g}"
 
 
 def main():

@@ -22,7 +22,9 @@ import scipy.optimize
 
 import layer
 from built_package import polargrain
-from internal_length import DIAMETER, interval
+from gmsh_mesh import Grid
+from internal_length import DIAMETER
+from intervals import table
 from polargrain.table import read_table
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -82,37 +84,17 @@ def layer_figures(place):
 # --- columns of cells
 
 def write_column(file, elements):
-    """A column one element wide of eight-noded elements (Gmsh 2.2), with the sets of nodes `below` and `above` at 0.3 and 0.7."""
+    """A column one element wide, with the sets of nodes `below` and `above` at 0.3 and 0.7 of its height."""
     size = COLUMN / elements
-    nodes = {}
-
-    def node(x, y):  # in quarters of an element
-        return nodes.setdefault((x, y), len(nodes) + 1)
-
-    def row(y):
-        return [node(0, y), node(4, y), node(2, y)]
-
-    quads, left, right = [], [], []
-    for e in range(elements):
-        low, middle, high = 4 * e, 4 * e + 2, 4 * e + 4
-        quads.append([node(0, low), node(4, low), node(4, high), node(0, high), node(2, low), node(4, middle), node(2, high),
-                      node(0, middle)])
-        left.append([node(0, high), node(0, low), node(0, middle)])
-        right.append([node(4, low), node(4, high), node(4, middle)])
-    top = row(4 * elements)
-    groups = [(1, "bottom", 8, [row(0)]), (1, "top", 8, [[top[1], top[0], top[2]]]), (1, "left", 8, left), (1, "right", 8, right),
-              (0, "below", 15, [[n] for n in row(4 * round(0.3 * elements))]),
-              (0, "above", 15, [[n] for n in row(4 * round(0.7 * elements))]), (2, "sand", 16, quads)]
-    elements_ = [f"{kind} 2 {tag} {tag} " + " ".join(map(str, member))
-                 for tag, (_, _, kind, members) in enumerate(groups, start=1) for member in members]
-    file.write_text(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" +
-        f"$PhysicalNames\n{len(groups)}\n" +
-        "".join(f'{dimension} {tag} "{name}"\n' for tag, (dimension, name, _, _) in enumerate(groups, start=1)) +
-        f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n" +
-        "".join(f"{number} {x * size / 4:.17g} {y * size / 4:.17g} 0\n" for (x, y), number in nodes.items()) +
-        f"$EndNodes\n$Elements\n{len(elements_)}\n" + "".join(f"{k} {text}\n" for k, text in enumerate(elements_, start=1)) +
-        "$EndElements\n", encoding="utf-8")
+    grid = Grid([0.0, size], [k * size for k in range(elements + 1)])
+    grid.name("bottom", "line", grid.bottom())
+    grid.name("top", "line", grid.top())
+    grid.name("left", "line", grid.left())
+    grid.name("right", "line", grid.right())
+    for name, share in (("below", 0.3), ("above", 0.7)):
+        grid.name(name, "point", [[grid.node(i, 2 * round(share * elements))] for i in (0, 2, 1)])
+    grid.name("sand", "quad", grid.quads)
+    grid.write(file)
 
 
 def run_column(program, place, elements, packing, workers):
@@ -179,14 +161,6 @@ def draw(place, layers, columns):
     right.legend(frameon=False, title="columns of cells (grey: grains)", fontsize=8)
     figure.tight_layout()
     figure.savefig(place / "layer.png", dpi=110)
-
-
-def table(title, groups, keys):
-    print(f"| {title} | n | " + " | ".join(keys) + " |")
-    print("|" + "---|" * (len(keys) + 2))
-    for name, figures in groups.items():
-        print(f"| {name} | {len(figures)} | " + " | ".join(interval([one[key] for one in figures]) for key in keys) + " |")
-    print()
 
 
 def main():

@@ -15,6 +15,8 @@ import subprocess
 
 import numpy
 
+from gmsh_mesh import Grid
+
 HERE = pathlib.Path(__file__).resolve().parent
 CASE = HERE.parent / "footing_cells"
 FOOTING, WIDTH, DEPTH = 1.0, 6.0, 4.0  # m; half of the ground, the left side is the plane of symmetry
@@ -30,32 +32,13 @@ def write_mesh(file, across, down):
     under = max(2, round(0.28 * across))
     x = numpy.concatenate([graded(0.0, FOOTING, under, 1.0), graded(FOOTING, WIDTH, across - under, 4.0)[1:]])
     y = DEPTH - graded(0.0, DEPTH, down, 2.6)[::-1]  # finest at the top
-    nodes = {}
-
-    def node(i, j):  # in halves of an element
-        if (i, j) not in nodes:
-            at = [0.5 * (grid[k // 2] + grid[(k + 1) // 2]) for grid, k in ((x, i), (y, j))]
-            nodes[i, j] = (len(nodes) + 1, *at)
-        return nodes[i, j][0]
-
-    quads = [[node(2 * i, 2 * j), node(2 * i + 2, 2 * j), node(2 * i + 2, 2 * j + 2), node(2 * i, 2 * j + 2), node(2 * i + 1, 2 * j),
-              node(2 * i + 2, 2 * j + 1), node(2 * i + 1, 2 * j + 2), node(2 * i, 2 * j + 1)]
-             for j in range(down) for i in range(across)]
-    top = 2 * down
-    row = [[node(2 * i, 0), node(2 * i + 2, 0), node(2 * i + 1, 0)] for i in range(across)]
-    head = [[node(2 * i + 2, top), node(2 * i, top), node(2 * i + 1, top)] for i in range(across)]
-    sides = [[node(0, 2 * j + 2), node(0, 2 * j), node(0, 2 * j + 1)] for j in range(down)]
-    sides += [[node(2 * across, 2 * j), node(2 * across, 2 * j + 2), node(2 * across, 2 * j + 1)] for j in range(down)]
-    groups = [(1, "base", 8, row), (1, "sides", 8, sides), (1, "footing", 8, head[:under]), (1, "surface", 8, head[under:]),
-              (2, "ground", 16, quads)]
-    elements = [f"{kind} 2 {tag} {tag} " + " ".join(map(str, member))
-                for tag, (_, _, kind, members) in enumerate(groups, start=1) for member in members]
-    file.write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + f"$PhysicalNames\n{len(groups)}\n" +
-                    "".join(f'{dimension} {tag} "{name}"\n' for tag, (dimension, name, _, _) in enumerate(groups, start=1)) +
-                    f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n" +
-                    "".join(f"{number} {a:.17g} {b:.17g} 0\n" for number, a, b in nodes.values()) +
-                    f"$EndNodes\n$Elements\n{len(elements)}\n" + "".join(f"{k} {text}\n" for k, text in enumerate(elements, start=1)) +
-                    "$EndElements\n", encoding="utf-8")
+    grid = Grid(x, y)
+    grid.name("base", "line", grid.bottom())
+    grid.name("sides", "line", grid.left() + grid.right())
+    grid.name("footing", "line", grid.top(last=under))
+    grid.name("surface", "line", grid.top(first=under))
+    grid.name("ground", "quad", grid.quads)
+    grid.write(file)
 
 
 def main():

@@ -17,11 +17,13 @@ import pathlib
 import re
 import statistics
 import subprocess
+import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from intervals import mean_and_half  # noqa: E402
 SAND = (0.605, 0.977)    # least and largest void ratio of the sand (Lam and Tatsuoka 1988)
 DISCS = (0.20, 0.36)     # of the discs, friction 0.03 to 0.5
-STUDENT = [math.inf, math.inf, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262]  # 95 %, by the number of values
 LARGE = 0.30             # axial strain of the one test to large strain
 LONG = 0.065             # axial strain of the tests that the laboratory's curves belong to
 
@@ -172,16 +174,6 @@ def of_a_band(curve, softening=0.019):
     reached = next(k for k in range(peak, len(ratio)) if smooth[k] <= 1.05 * plateau)
     share = softening / (strain[reached] - strain[peak])
     return plateau, statistics.stdev(late), strain[reached], share, share * (volume[reached] - volume[peak])
-
-
-def mean_and_half(values):
-    values = [value for value in values if not math.isnan(value)]
-    if not values:
-        return math.nan, math.nan
-    if len(values) < 2:
-        return values[0], math.nan
-    half = STUDENT[min(len(values), len(STUDENT) - 1)] * statistics.stdev(values) / math.sqrt(len(values))
-    return statistics.mean(values), half
 
 
 def shown(values, digits):
