@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "fem/output/material_values.hpp"
+
 namespace polargrain::app {
 namespace {
 
@@ -53,20 +55,13 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh& mesh) {
 }
 
 /// What a cell, or a law, says of a point, in the words of the fields of the result.
-std::string words_of(const fem::Solver& solver, std::size_t point) {
-  const auto [material, local] = solver.material_of_point(point);
-  std::vector<double> values(material->field_names().size());
-  material->fields(local, values);
+std::string words_of(const fem::Solver& solver, fem::MaterialValues& values, std::size_t point) {
   const Vector7& stress = solver.state().responses[point].stress;
   Lines words{fmt::format("p {:.3g} kPa", -0.5e-3 * (stress(k11) + stress(k22)))};
   for (const char* const name : {"sliding_fraction", "coordination_number", "rattlers", "source",
-                                 "error_estimate", "stress_mismatch", "plastic_shear"}) {
-    const std::vector<std::string> names = material->field_names();
-    const auto place = std::ranges::find(names, name);
-    if (place != names.end())
-      words.push_back(
-          fmt::format("{} {:.2g}", name, values[static_cast<std::size_t>(place - names.begin())]));
-  }
+                                 "error_estimate", "stress_mismatch", "plastic_shear"})
+    if (const std::optional<double> value = values.at(point, name))
+      words.push_back(fmt::format("{} {:.2g}", name, *value));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -86,9 +81,10 @@ std::string neighbours(const fem::Trouble& trouble, const fem::Solver& solver) {
         (solver.position_of_point(place->second) - position).norm())
       place->second = point;
   }
+  fem::MaterialValues values(solver);
   std::string text = "  what is known there, before this step:";
   for (const auto& [element, point] : nearest)
-    text += fmt::format("\n    element {}, point {}: {}", element, point, words_of(solver, point));
+    text += fmt::format("\n    element {}, point {}: {}", element, point, words_of(solver, values, point));
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/overlap_limit.hpp"
 #include "common/packing.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/contact/contact_recorder.hpp"
@@ -13,10 +14,7 @@ namespace polargrain::dem {
 // Grains are rigid but for their contacts: laws of contacts mean something while overlaps are small against
 // the grains. What lies beyond is no answer about grains any more, however well it is balanced.
 
-/// Mean overlap over the smaller radius beyond which a scene is refused.
-/// packing400 has 0.006 at 100 kPa; 0.05 is about eight times that pressure.
-inline constexpr double kMostMeanOverlap = 0.05;
-/// The same for the largest overlap: forces of contacts reach some five times their mean.
+/// As kMostMeanOverlap for the largest overlap: forces of contacts reach some five times their mean.
 inline constexpr double kMostOverlap = 0.25;
 /// An answer is unreliable beyond twice these. Grains that a run has pressed into each other more than a scene may have
 /// at rest are shown and told (mean_overlap, largest_overlap), and do not end it: one contact of the many in a band would.

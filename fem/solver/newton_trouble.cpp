@@ -34,7 +34,6 @@ Trouble Newton::trouble(const std::string& reason, const StepReport& report) con
     trouble.first_force_residual = report.force_residuals.front();
     trouble.last_force_residual = report.force_residuals.back();
     trouble.least_force_residual = std::ranges::min(report.force_residuals);
-    trouble.least_moment_residual = std::ranges::min(report.moment_residuals);
   }
   if (unbalanced_.size() == 0) return trouble;
   std::vector<std::size_t> order(trial_.size());

@@ -27,16 +27,15 @@ struct Solver::Implementation : Newton {
   template <class GoalAt>
   StepReport march(StepReport report, GoalAt goal_at);
 
+  /// What became of a jump.
+  struct Passing {
+    bool passed = false;  ///< else nothing was committed
+    bool stuck = false;   ///< what was committed cannot be balanced
+    std::string reason;   ///< why it is stuck
+  };
   /// Passes the jump that the last attempt has met, when it may and the jump is not larger than `largest`, and lets go
   /// at the place reached what is out of balance then; further jumps on the way too.
-  /// @param goal what was aimed at @param growing its measure or time
-  /// @return not converged, and nothing committed, when there is nothing to pass; `stuck` when something was committed
-  /// that cannot be balanced.
-  struct Passing {
-    bool passed = false;
-    bool stuck = false;
-    std::string reason;
-  };
+  /// @param goal what was aimed at
   Passing pass(StepGoal goal, double largest, StepReport& report);
 };
 

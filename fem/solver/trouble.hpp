@@ -24,7 +24,6 @@ struct Trouble {
   std::vector<Point> points;          ///< the worst first; at most three
   std::size_t not_good = 0;           ///< number of points whose answer was not good
   double least_force_residual = 0.0;  ///< of all iterations of the attempt, relative; 0: there was none
-  double least_moment_residual = 0.0;
   double first_force_residual = 0.0;  ///< after the predictor
   double last_force_residual = 0.0;
   double force_noise = 0.0;  ///< what the noise of the stresses leaves of the residual

@@ -10,25 +10,16 @@
 #include "common/plane_in_space.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "tests/integration/command.hpp"
+#include "tests/integration/replay_reports.hpp"
 #include "tests/support/cell_fixture.hpp"
 
 namespace polargrain::dem {
 namespace {
 
 using polargrain::testing::Outcome;
+using polargrain::testing::replay_reports;
 using polargrain::testing::run_in;
 using polargrain::testing::Scratch;
-
-/// The part of each report that must not differ: increment, stress and couple stress.
-std::vector<std::string> reports(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (const auto at = line.find("cell: increment ");
-        at != std::string::npos && line.find(" stress ") != std::string::npos)
-      lines.push_back(line.substr(at, line.find(" unbalanced") - at));
-  return lines;
-}
 
 struct Reports {
   std::vector<std::string> expected;  ///< from the README
@@ -55,8 +46,8 @@ Reports replayed(const CellDefinition& definition, const std::vector<Increment>&
   const Outcome outcome =
       run_in(scratch.path() / "folder", std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.errors;
-  Reports both{reports(polargrain::testing::content(scratch.path() / "folder" / "README.md")),
-               reports(outcome.out)};
+  Reports both{replay_reports(polargrain::testing::content(scratch.path() / "folder" / "README.md")),
+               replay_reports(outcome.out)};
   EXPECT_EQ(both.expected.size(), path.size() - first);
   return both;
 }
@@ -134,11 +125,11 @@ TEST(Replay, OfARequestNeedsNoAnswer) {
                         "The worker died: reasons.");
   const std::string readme = polargrain::testing::content(scratch.path() / "README.md");
   EXPECT_NE(readme.find("The worker died: reasons."), std::string::npos);
-  EXPECT_TRUE(reports(readme).empty());
+  EXPECT_TRUE(replay_reports(readme).empty());
   const Outcome outcome =
       run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_EQ(reports(outcome.out).size(), 1u);
+  EXPECT_EQ(replay_reports(outcome.out).size(), 1u);
 }
 
 /// Scripts of version 1 give the numbers of the plane alone, and no version.
@@ -148,7 +139,7 @@ TEST(Replay, OfTheFirstVersionIsRead) {
     const Outcome outcome =
         run_in(scratch.path(), std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
     EXPECT_EQ(outcome.status, 0) << outcome.out;
-    return reports(outcome.out);
+    return replay_reports(outcome.out);
   };
   coupler::write_replay(scratch.path(), test::demo_cell(), CellRequest{nullptr, in_space(kPath[1])},
                         "A test.");
@@ -186,9 +177,9 @@ TEST(Replay, IsWrittenByPolargrainPoint) {
   const Outcome outcome =
       run_in(scratch.path() / "way", std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  const auto printed = reports(outcome.out);
+  const auto printed = replay_reports(outcome.out);
   ASSERT_EQ(printed.size(), 2u);
-  EXPECT_EQ(printed, reports(polargrain::testing::content(scratch.path() / "way" / "README.md")));
+  EXPECT_EQ(printed, replay_reports(polargrain::testing::content(scratch.path() / "way" / "README.md")));
   // The normal stresses of the last row are those of the answers, written with the same digits.
   const std::string answers = polargrain::testing::content(scratch.path() / "answers.csv");
   std::istringstream words(printed.back());

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "common/csv_table.hpp"
 #include "tests/faults/checkpoint_runs.hpp"
 #include "tests/integration/command.hpp"
+#include "tests/integration/replay_reports.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -40,17 +39,6 @@ std::string case_text(const std::string& material) {
          "output: {every: 1}\n";
 }
 
-/// The part of each report that must not differ: increment, stress and couple stress.
-std::vector<std::string> reports_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    if (const auto at = line.find("cell: increment ");
-        at != std::string::npos && line.find(" stress ") != std::string::npos)
-      lines.push_back(line.substr(at, line.find(" unbalanced") - at));
-  return lines;
-}
-
 class SphereRun : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -67,6 +55,36 @@ class SphereRun : public ::testing::Test {
     write(folder() / "case.yaml", case_text("model: cell, lc: 20 mm"));
   }
   static const std::filesystem::path& folder() { return scratch_->path(); }
+
+  /// Leads a point along path.csv and replays its way with the engine alone: the same digits.
+  static void expect_replay(const std::string& name) {
+    const Outcome walked =
+        run_in(folder(), kProgram + " point case.yaml sand path.csv -o answers.csv --replay " + name);
+    ASSERT_EQ(walked.status, 0) << walked.errors;
+    const Outcome replayed = run_in(folder() / name, POLARGRAIN_LIGGGHTS " -in in.replay -log none");
+    ASSERT_EQ(replayed.status, 0) << replayed.out << replayed.errors;
+    EXPECT_EQ(replay_reports(content(folder() / name / "README.md")), replay_reports(replayed.out));
+    EXPECT_EQ(replay_reports(replayed.out).size(), 2u);
+  }
+
+  /// Runs case.yaml whole, and once more killed behind its first checkpoint and resumed: the same bytes.
+  static void expect_resumed_alike(const std::string& prefix) {
+    const std::string whole = prefix + "whole";
+    const std::string killed = prefix + "killed";
+    const Outcome run = run_in(folder(), kProgram + " run case.yaml -o " + whole + " -w 2 --quiet");
+    ASSERT_EQ(run.status, 0) << run.errors;
+    {
+      RunningProgram program(folder(), "run case.yaml -o " + killed + " -w 1 --quiet --checkpoint-minutes 0");
+      for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder() / killed / "checkpoint.h5"); ++wait)
+        sleep_for(0.01);
+      program.end(SIGKILL);
+    }
+    ASSERT_TRUE(std::filesystem::exists(folder() / killed / "checkpoint.h5"));
+    const Outcome resumed =
+        run_in(folder(), kProgram + " run case.yaml -o " + killed + " -w 2 --quiet --resume");
+    ASSERT_EQ(resumed.status, 0) << resumed.errors;
+    EXPECT_TRUE(results_of(folder() / whole) == results_of(folder() / killed));
+  }
 
   static Scratch* scratch_;
   static Outcome made_;
@@ -98,28 +116,11 @@ TEST_F(SphereRun, PointKnowsTheStressNormalToThePlane) {
 
 TEST_F(SphereRun, AReplayPrintsTheSameDigits) {
   write(folder() / "path.csv", "h11,h12,h22\n5e-4,2e-4,-5e-4\n-5e-4,0,5e-4\n");
-  const Outcome walked =
-      run_in(folder(), kProgram + " point case.yaml sand path.csv -o answers.csv --replay way");
-  ASSERT_EQ(walked.status, 0) << walked.errors;
-  const Outcome replayed = run_in(folder() / "way", POLARGRAIN_LIGGGHTS " -in in.replay -log none");
-  ASSERT_EQ(replayed.status, 0) << replayed.out << replayed.errors;
-  EXPECT_EQ(reports_of(content(folder() / "way/README.md")), reports_of(replayed.out));
-  EXPECT_EQ(reports_of(replayed.out).size(), 2u);
+  expect_replay("way");
 }
 
 TEST_F(SphereRun, ARunThatWasKilledGoesOnToTheSameBytes) {
-  const Outcome whole = run_in(folder(), kProgram + " run case.yaml -o whole -w 2 --quiet");
-  ASSERT_EQ(whole.status, 0) << whole.errors;
-  {
-    RunningProgram program(folder(), "run case.yaml -o killed -w 1 --quiet --checkpoint-minutes 0");
-    for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder() / "killed/checkpoint.h5"); ++wait)
-      sleep_for(0.01);
-    program.end(SIGKILL);
-  }
-  ASSERT_TRUE(std::filesystem::exists(folder() / "killed/checkpoint.h5"));
-  const Outcome resumed = run_in(folder(), kProgram + " run case.yaml -o killed -w 2 --quiet --resume");
-  ASSERT_EQ(resumed.status, 0) << resumed.errors;
-  EXPECT_TRUE(results_of(folder() / "whole") == results_of(folder() / "killed"));
+  expect_resumed_alike("");
 }
 
 TEST_F(SphereRun, AdaptiveAndInformedTakeSpheresToo) {
@@ -146,30 +147,11 @@ TEST_F(SphereRun, ControlledRotationsThroughEveryCommand) {
   write(folder() / "case.yaml", with_li_chu(case_text(sand + "model: cell")));
   write(folder() / "path.csv",
         "h11,h12,h22,w,k1,k2\n5e-4,2e-4,-5e-4,1e-3,0.05,-0.02\n-5e-4,0,5e-4,0,0,0.1\n");
-  const Outcome walked =
-      run_in(folder(), kProgram + " point case.yaml sand path.csv -o answers.csv --replay turned");
-  ASSERT_EQ(walked.status, 0) << walked.errors;
-  const Outcome replayed = run_in(folder() / "turned", POLARGRAIN_LIGGGHTS " -in in.replay -log none");
-  ASSERT_EQ(replayed.status, 0) << replayed.out << replayed.errors;
-  EXPECT_EQ(reports_of(content(folder() / "turned/README.md")), reports_of(replayed.out));
-  EXPECT_EQ(reports_of(replayed.out).size(), 2u);
+  ASSERT_NO_FATAL_FAILURE(expect_replay("turned"));
   const CsvTable answers(folder() / "answers.csv");
   EXPECT_GT(std::abs(answers.number(2, answers.column("m1"))), 0.0);
 
-  const Outcome whole = run_in(folder(), kProgram + " run case.yaml -o turned_whole -w 2 --quiet");
-  ASSERT_EQ(whole.status, 0) << whole.errors;
-  {
-    RunningProgram program(folder(), "run case.yaml -o turned_killed -w 1 --quiet --checkpoint-minutes 0");
-    for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder() / "turned_killed/checkpoint.h5");
-         ++wait)
-      sleep_for(0.01);
-    program.end(SIGKILL);
-  }
-  ASSERT_TRUE(std::filesystem::exists(folder() / "turned_killed/checkpoint.h5"));
-  const Outcome resumed =
-      run_in(folder(), kProgram + " run case.yaml -o turned_killed -w 2 --quiet --resume");
-  ASSERT_EQ(resumed.status, 0) << resumed.errors;
-  EXPECT_TRUE(results_of(folder() / "turned_whole") == results_of(folder() / "turned_killed"));
+  ASSERT_NO_FATAL_FAILURE(expect_resumed_alike("turned_"));
   for (const char* model : {"adaptive", "informed"}) {
     write(folder() / "case.yaml", with_li_chu(case_text(sand + "model: " + model)));
     const Outcome run = run_in(folder(), kProgram + " run case.yaml -w 2 --quiet -o turned_" + model);

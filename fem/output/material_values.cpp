@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/output/material_values.hpp"
+
+#include <algorithm>
+
+namespace polargrain::fem {
+
+std::optional<double> MaterialValues::at(std::size_t point, std::string_view name) {
+  if (point_ != point) {
+    const auto [material, number] = solver_.material_of_point(point);
+    const auto [known, added] = names_.try_emplace(material);
+    if (added) known->second = material->field_names();
+    own_names_ = &known->second;
+    values_.assign(own_names_->size(), 0.0);
+    material->fields(number, values_);
+    point_ = point;
+  }
+  const auto place = std::ranges::find(*own_names_, name);
+  if (place == own_names_->end()) return std::nullopt;
+  return values_[static_cast<std::size_t>(place - own_names_->begin())];
+}
+
+}  // namespace polargrain::fem
