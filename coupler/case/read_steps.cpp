@@ -123,7 +123,7 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive, 1e-3);
   solver.moment_tolerance =
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
-  for (const char* const key : {"tolerance", "moment_tolerance"})
+  for (const char* const key : {"tolerance", "moment_tolerance", "jump_residual"})
     steps.require_below(key, 1.0, "what is out of balance may not be as large as the loads");
   solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
   // Grains rearrange: without passing their jumps no band is followed far.

@@ -84,7 +84,7 @@ Cell::Cell(const CellDefinition& definition)
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
   if (controlled()) check_rolling_model(lammps);
   const Packing& packing = definition.packing;
-  if (packing.state) restore_state(lammps, *packing.state);
+  if (packing.state) restore_packing([&] { restore_state(lammps, *packing.state); });
   driver_.set_up();
   const std::string remark = driver_.settle_time_step(control_.damping);
   inertia_ = inertia_of(lammps);
@@ -163,7 +163,7 @@ CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
   CellReply reply;
   reply.diagnostics = measure();
   reply.response = respond(loading_tangent);
-  judge(reply.response, protocol_, control_, rest, grains_->contacts(), inertia_,
+  judge(reply.response, reply.diagnostics, protocol_, control_, rest, grains_->contacts(), inertia_,
         driver_.strain().time_step(), kMostVoidRatio);
   reply.diagnostics.dem_steps = protocol_.done();
   shown_ = reply.state = grains_->save();

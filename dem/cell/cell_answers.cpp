@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "common/error.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/script_time_step.hpp"
 #include "dem/engine/liggghts.hpp"
@@ -25,6 +26,17 @@ void check_rolling_model(LAMMPS_NS::LAMMPS& lammps) {
         "not feel the curvature of the cell");
 }
 
+void restore_packing(const std::function<void()>& restore) {
+  try {
+    restore();
+  } catch (const RunError& error) {
+    throw RunError(fmt::format(
+        "the springs of the contacts that the packing brings do not fit the script ({}); bring it to rest with "
+        "'polargrain pack --settle PACKING SCRIPT -o NEW.h5'",
+        error.what()));
+  }
+}
+
 std::optional<CellReply> gone_astray(double size) {
   if (size <= kLargestIncrement) return std::nullopt;
   // Running it would cost hours and answer nothing.
@@ -37,10 +49,11 @@ std::optional<CellReply> gone_astray(double size) {
   return reply;
 }
 
-void judge(CellResponse& response, const QuasiStatic& protocol, const CellControl& control,
-           const Equilibrium& rest, std::span<const Contact> contacts, const Inertia& inertia,
-           double time_step, double most_void_ratio) {
-  std::string reason = answer_fault(overlaps_of(contacts, inertia.radii), rest.void_ratio, most_void_ratio);
+void judge(CellResponse& response, const CellDiagnostics& diagnostics, const QuasiStatic& protocol,
+           const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
+           const Inertia& inertia, double time_step, double most_void_ratio) {
+  std::string reason =
+      answer_fault({diagnostics.mean_overlap, diagnostics.largest_overlap}, rest.void_ratio, most_void_ratio);
   if (reason.empty()) reason = step_fault(contacts, inertia, protocol.damping_rate(), time_step);
   if (reason.empty() && !protocol.at_rest(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio))
     reason = fmt::format(

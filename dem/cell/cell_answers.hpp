@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -22,14 +23,19 @@ inline constexpr double kLargestIncrement = 0.25;
 /// Ends the process where rotations are controlled and the rolling model is one that would not feel a curvature.
 void check_rolling_model(LAMMPS_NS::LAMMPS& lammps);
 
+/// Gives the cell the contacts of its packing.
+/// @param restore does it @throws RunError what it throws, with what the user can do about it
+void restore_packing(const std::function<void()>& restore);
+
 /// The answer to an increment beyond kLargestIncrement, an iteration gone astray; nothing where it is not.
 std::optional<CellReply> gone_astray(double size);
 
 /// Marks an answer as not to be committed, with the reason, where its grains did not come to rest or are beyond what the
 /// laws of their contacts, or the time step, are good for.
-void judge(CellResponse& response, const QuasiStatic& protocol, const CellControl& control,
-           const Equilibrium& rest, std::span<const Contact> contacts, const Inertia& inertia,
-           double time_step, double most_void_ratio);
+/// @param diagnostics of the answer, whose overlaps are judged
+void judge(CellResponse& response, const CellDiagnostics& diagnostics, const QuasiStatic& protocol,
+           const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
+           const Inertia& inertia, double time_step, double most_void_ratio);
 
 /// What the contacts of a cell tell of it, but for fabric and rotations.
 /// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres

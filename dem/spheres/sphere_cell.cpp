@@ -46,7 +46,7 @@ class SphereEngine : public GrainEngine {
     box.frame = frame_of_packing_data(definition.packing);
     strain_->begin(SpacePath(box, Eigen::Matrix3d::Zero(), 0), 0.0);
     start();
-    if (definition.packing.state) restore(*definition.packing.state);
+    if (definition.packing.state) restore_packing([&] { restore(*definition.packing.state); });
   }
   FixSpaceStrain& strain() { return *strain_; }
   [[nodiscard]] const FixSpaceStrain& strain() const { return *strain_; }
@@ -187,8 +187,8 @@ std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const Ce
   CellReply reply;
   reply.diagnostics = measure();
   reply.response = respond(loading_tangent);
-  judge(reply.response, protocol_, control_, rest, engine_.contacts(), inertia_, engine_.strain().time_step(),
-        kMostVoidRatioInSpace);
+  judge(reply.response, reply.diagnostics, protocol_, control_, rest, engine_.contacts(), inertia_,
+        engine_.strain().time_step(), kMostVoidRatioInSpace);
   if (reply.response.quality == Quality::unreliable &&
       engine_.shorten_time_step(inertia_, protocol_.damping_rate()))
     return {};

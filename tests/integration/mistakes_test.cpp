@@ -124,6 +124,8 @@ std::vector<Mistake> mistakes() {
        "unbalanced_force_ratio: must be below 1, found '5': any state at all would count as at rest"},
       {"Tolerance", "tolerance: 1e-2", "tolerance: 10",
        "tolerance: must be below 1, found '10': what is out of balance may not be as large as the loads"},
+      {"JumpResidual", "tolerance: 1e-2", "tolerance: 1e-2, jump_residual: 200 %",
+       "jump_residual: must be below 1, found '200 %': what is out of balance may not be as large as the loads"},
       {"ToleranceInPerCent", "model: cell, script: cell.in", "model: adaptive, tolerance: 3, script: cell.in",
        "tolerance: must be below 1, found '3': it is a share of the confining pressure, 3 % is '3 %' or 0.03"},
       {"UnitInAFormula", "0.4 m * 100 kPa", "0.4 m * 100 kpa", "'kpa' is no unit (%, m, mm,"},

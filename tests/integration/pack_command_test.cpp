@@ -123,6 +123,29 @@ TEST(PackCommand, AScriptAFifthAsStiffIsRefusedAndSettlingRepairs) {
   EXPECT_NE(content(scratch.path() / "out.csv").find("good"), std::string::npos);
 }
 
+TEST(PackCommand, SpringsOfAnotherContactModelAreRefusedAndSettlingRepairs) {
+  const Scratch scratch("pack_springs");
+  make_discs(scratch);
+  const Outcome made =  // with friction, so that tangential springs lie ready in it
+      run_in(scratch.path(), kProgram + " pack discs.yaml -o springs.h5 --quiet --set friction=0.3");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  write(scratch.path() / "rolling.in", content("liggghts_inputs/cells/hooke_rolling.in"));
+  write_material(scratch, "rolling.in", "springs.h5");
+  const std::string point = kProgram + " point case.yaml sand path.csv -o out.csv";
+  const Outcome refused = run_in(scratch.path(), point);
+  EXPECT_EQ(refused.status, 1);
+  for (const char* const words :
+       {"rolling.in): the springs of the contacts that the packing brings do not fit the script",
+        "'polargrain pack --settle PACKING SCRIPT -o NEW.h5'"})
+    EXPECT_NE(refused.errors.find(words), std::string::npos) << refused.errors;
+  const Outcome settled =
+      run_in(scratch.path(), kProgram + " pack --settle springs.h5 rolling.in -o settled.h5");
+  ASSERT_EQ(settled.status, 0) << settled.errors;
+  write_material(scratch, "rolling.in", "settled.h5");
+  const Outcome good = run_in(scratch.path(), point);
+  EXPECT_EQ(good.status, 0) << good.errors;
+}
+
 TEST(PackCommand, AScriptAHundredthAsStiffCannotBeSettledIntoACell) {
   const Scratch scratch("pack_softest");
   make_discs(scratch);
