@@ -13,6 +13,7 @@
 #include "common/record_table.hpp"
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cell_limits.hpp"
+#include "coupler/cells/cell_noise.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -108,12 +109,19 @@ void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
 }
 
 InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters,
-                                   const std::string& note)
+                                   const std::string& note, CellCalls with_tangent)
     : calls_(std::move(calls)),
+      with_tangent_(std::move(with_tangent)),
       parameters_(parameters),
       frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights.value_or(fem::InvariantWeights{})),
              parameters.elastic.internal_length, 1e-3} {
   if (!note.empty()) notes_.push_back(note);
+  const fem::ElasticParameters& elastic = parameters.elastic;
+  own_rules_ = {{elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)),
+                 elastic.cosserat_shear_modulus, elastic.internal_length},
+                controlled(),
+                elastic.internal_length,
+                parameters.mobilisation.drift_shear};
 }
 
 void InformedMaterial::allocate(std::size_t points) {
@@ -158,6 +166,29 @@ void InformedMaterial::evaluate(std::span<const Increment> increments, std::span
   } else {
     evaluate_fixed_point(increments, responses);
   }
+  if (may_change()) evaluate_own(increments, responses);
+}
+
+void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::span<Response> responses) {
+  std::vector<PlaneRequest> requests;
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    if (!committed_[point].own.active || is_zero(increments[point])) continue;
+    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
+    points.push_back(point);
+  }
+  if (!points.empty()) {
+    std::vector<PlaneReply> replies = with_tangent_.evaluate(requests, points);
+    for (std::size_t r = 0; r < replies.size(); ++r) trial_[points[r]].cell = std::move(replies[r]);
+  }
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    const OwnAnswer& before = committed_[point].own;
+    if (!before.active) continue;
+    PointState& trial = trial_[point];
+    responses[point] = own_answer(own_rules_, before, increments[point], trial.cell.response, trial.own);
+    responses[point].noise = noise_of(trial.cell, 0.5 * parameters_.mean_diameter);
+    trial.law.scaled_stress = scaled_stress(responses[point].stress);
+  }
 }
 
 Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
@@ -180,7 +211,7 @@ Response InformedMaterial::integrate(std::size_t point, const Increment& increme
 void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
-    responses[point] = integrate(point, increments[point]);
+    if (!committed_[point].own.active) responses[point] = integrate(point, increments[point]);
   }
 }
 
@@ -191,10 +222,13 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
   std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
-    if (is_zero(increments[point]) || responses[point].quality == Quality::failed) continue;
+    if (committed_[point].own.active || is_zero(increments[point]) ||
+        responses[point].quality == Quality::failed)
+      continue;
     requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
     points.push_back(point);
   }
+  if (points.empty()) return;
   const std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     const std::size_t point = points[r];
@@ -220,9 +254,9 @@ void InformedMaterial::commit() {
   if (parameters_.update == InformedUpdate::frozen) {
     std::vector<std::size_t> points;
     for (std::size_t point = 0; point < committed_.size(); ++point) {
-      if (!is_zero(increments_[point])) points.push_back(point);
+      if (!committed_[point].own.active && !is_zero(increments_[point])) points.push_back(point);
     }
-    follow(points);
+    follow(calls_, points);
   }
   watch_mismatch();
   std::vector<StatePointer*> states;
@@ -231,16 +265,36 @@ void InformedMaterial::commit() {
   committed_ = trial_;
 }
 
+void InformedMaterial::leave_laws() {
+  std::vector<std::size_t> leaving;
+  for (std::size_t point = 0; point < trial_.size(); ++point) {
+    if (has_left_cell(trial_[point]) && !is_zero(increments_[point])) leaving.push_back(point);
+  }
+  // Once more, for the tangent: from now on Newton's method needs it.
+  follow(with_tangent_, leaving);
+  for (const std::size_t point : leaving) {
+    PointState& trial = trial_[point];
+    trial.own = left_law(own_rules_, frame_.unscaled_stress(trial.law.scaled_stress), trial.cell.response);
+  }
+}
+
 void InformedMaterial::watch_mismatch() {
-  if (told_of_mismatch_) return;
-  const std::string left = left_cells(trial_);
+  if (told_of_mismatch_ && !may_change()) return;
+  std::string left = left_cells(trial_);
   if (left.empty()) return;
-  if (parameters_.stop_beyond_mismatch)
+  if (parameters_.beyond_mismatch == BeyondMismatch::stop)
     throw RunError(
         left +
-        "; 'beyond_mismatch: tell' goes on, smaller steps or 'update: fixed_point' may bring them together");
-  notes_.push_back(left);
+        "; 'beyond_mismatch: tell' goes on, 'beyond_mismatch: cell' takes the cell's stress there, smaller steps or "
+        "'update: fixed_point' may bring them together");
+  if (may_change()) left += "; such points go by the stress of their cells from the next step on";
+  if (!told_of_mismatch_) notes_.push_back(left);
   told_of_mismatch_ = true;
+  if (may_change()) leave_laws();
+}
+
+bool InformedMaterial::has_left_cell(const PointState& point) const {
+  return !point.own.active && mismatch(point) > parameters_.mismatch_limit;
 }
 
 std::string InformedMaterial::doubt() const {
@@ -252,8 +306,8 @@ std::string InformedMaterial::left_cells(const std::vector<PointState>& points) 
   std::size_t worst = 0;
   double largest = 0.0;
   for (std::size_t point = 0; point < points.size(); ++point) {
+    if (!has_left_cell(points[point])) continue;
     const double found = mismatch(points[point]);
-    if (!(found > parameters_.mismatch_limit)) continue;
     ++left;
     if (found > largest) worst = point, largest = found;
   }
@@ -264,7 +318,7 @@ std::string InformedMaterial::left_cells(const std::vector<PointState>& points) 
       left, points.size(), 100.0 * parameters_.mismatch_limit, 100.0 * largest, worst);
 }
 
-void InformedMaterial::follow(std::span<const std::size_t> points) {
+void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_t> points) {
   std::vector<std::size_t> pending(points.begin(), points.end());
   std::vector<PlaneReply> last(committed_.size());
   for (int parts = 1; !pending.empty(); parts *= 2) {
@@ -282,7 +336,7 @@ void InformedMaterial::follow(std::span<const std::size_t> points) {
       for (const std::size_t point : following) {
         requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), parts)});
       }
-      std::vector<PlaneReply> replies = calls_.evaluate(requests, following);
+      std::vector<PlaneReply> replies = calls.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {
         replies[r].diagnostics.dem_steps += last[following[r]].diagnostics.dem_steps;
         last[following[r]] = std::move(replies[r]);
@@ -330,6 +384,12 @@ fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& 
   return scaled;
 }
 
+fem::ScaledVector<double> InformedMaterial::scaled_stress(const Vector7& stress) const {
+  fem::ScaledVector<double> scaled = stress;
+  if (frame_.length > 0.0) scaled.tail<2>() /= frame_.length;
+  return scaled;
+}
+
 double InformedMaterial::mismatch(const PointState& point) const {
   const auto in_plane = [this](const fem::ScaledVector<double>& s) {
     const double shear = 0.5 * (s(k12) + s(k21)) * (s(k12) + s(k21));
@@ -346,12 +406,15 @@ double InformedMaterial::mismatch(const PointState& point) const {
 void InformedMaterial::save(ArchiveWriter& archive) const {
   std::vector<double> values;
   std::vector<PlaneReply> cells;
+  std::vector<OwnAnswer> own;
   for (PointState point : committed_) {
     Packer pack{values};
     visit_numbers(pack, point, parameters_.mobilisation.window);
     cells.push_back(point.cell);
+    own.push_back(point.own);
   }
   archive.write("laws", std::span<const double>(values));
+  if (may_change()) write_records(archive, "own", std::span<const OwnAnswer>(own));
   write_records(archive, "cells", std::span<const PlaneReply>(cells));
 }
 
@@ -368,22 +431,28 @@ void InformedMaterial::restore(ArchiveReader& archive) {
     visit_numbers(unpack, committed_[point], parameters_.mobilisation.window);
     committed_[point].cell = std::move(cells[point]);
   }
+  if (may_change()) {
+    const std::vector<OwnAnswer> own = read_records<OwnAnswer>(archive, "own", committed_.size());
+    for (std::size_t point = 0; point < committed_.size(); ++point) committed_[point].own = own[point];
+  }
   trial_ = committed_;
 }
 
 std::vector<std::string> InformedMaterial::field_names() const {
-  return joined_names(
-      {"friction", "dilatancy", "dilatancy_limited", "plastic_shear", "regime", "stress_mismatch"},
-      names_of_columns<CellDiagnostics>());
+  std::vector<std::string> own{"friction",      "dilatancy", "dilatancy_limited",
+                               "plastic_shear", "regime",    "stress_mismatch"};
+  if (may_change()) own.emplace_back("stress_of_cell");
+  return joined_names(own, names_of_columns<CellDiagnostics>());
 }
 
 void InformedMaterial::fields(std::size_t point, std::span<double> values) const {
   const PointState& p = committed_[point];
-  const std::array<double, 6> own{p.mobilisation.cone.friction,       p.mobilisation.cone.dilatancy,
-                                  p.mobilisation.limited ? 1.0 : 0.0, p.law.gamma_p,
-                                  static_cast<double>(p.law.regime),  mismatch(p)};
-  std::ranges::copy(own, values.begin());
-  std::ranges::copy(values_of(p.cell.diagnostics), values.begin() + own.size());
+  std::vector<double> own{p.mobilisation.cone.friction,       p.mobilisation.cone.dilatancy,
+                          p.mobilisation.limited ? 1.0 : 0.0, p.law.gamma_p,
+                          static_cast<double>(p.law.regime),  mismatch(p)};
+  if (may_change()) own.push_back(p.own.active ? 1.0 : 0.0);
+  const auto rest = std::ranges::copy(own, values.begin()).out;
+  std::ranges::copy(values_of(p.cell.diagnostics), rest);
 }
 
 std::vector<fem::Figure> InformedMaterial::figures() const {
@@ -391,18 +460,22 @@ std::vector<fem::Figure> InformedMaterial::figures() const {
   std::vector<double> mismatches;
   double sum = 0.0;
   double limited = 0.0;
+  double by_cell = 0.0;
   for (const PointState& point : committed_) {
     mismatches.push_back(mismatch(point));
     sum += mismatches.back();
     if (point.mobilisation.limited) limited += 1.0;
+    if (point.own.active) by_cell += 1.0;
   }
   std::sort(mismatches.begin(), mismatches.end());
   const auto count = static_cast<double>(mismatches.size());
   const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count)) - 1;
-  return {{"stress_mismatch_mean", sum / count},
-          {"stress_mismatch_percentile_95", mismatches[rank]},
-          {"stress_mismatch_largest", mismatches.back()},
-          {"dilatancy_limited", limited / count}};
+  std::vector<fem::Figure> figures{{"stress_mismatch_mean", sum / count},
+                                   {"stress_mismatch_percentile_95", mismatches[rank]},
+                                   {"stress_mismatch_largest", mismatches.back()},
+                                   {"dilatancy_limited", limited / count}};
+  if (may_change()) figures.push_back({"stress_of_cell", by_cell / count});
+  return figures;
 }
 
 }  // namespace polargrain::coupler

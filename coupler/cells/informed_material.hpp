@@ -9,6 +9,7 @@
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
+#include "coupler/cells/own_answer.hpp"
 #include "fem/material/elastoplastic.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/mobilisation.hpp"
@@ -21,6 +22,13 @@ enum class InformedUpdate {
   fixed_point  ///< in every evaluation, for the cone of this step: a cell call a Newton iteration
 };
 
+/// What follows where law and cell disagree by more than the limit.
+enum class BeyondMismatch {
+  tell,  ///< the run goes on with the law, and says so
+  stop,  ///< the run ends before the step is committed
+  cell   ///< from the next step on the point's stress and tangent are those of its cell, for good
+};
+
 struct InformedParameters {
   fem::ElasticParameters elastic;  ///< of the law; its initial stress is that of the packing
   /// Of the law's invariant. Nothing: the standard ones, or, with controlled rotations, those of the cell (cell_limits.hpp).
@@ -31,7 +39,7 @@ struct InformedParameters {
   double mean_diameter = 0.0;
   /// Mismatch of law and cell (field stress_mismatch) beyond which a point's stress is no longer its grains'.
   double mismatch_limit = 0.3;
-  bool stop_beyond_mismatch = false;  ///< else the run goes on, and says so
+  BeyondMismatch beyond_mismatch = BeyondMismatch::tell;
 
   /// Takes over the moduli of G, Gc and lc; Poisson's ratio must be set.
   void set_moduli(const CosseratParameters& cosserat);
@@ -41,12 +49,14 @@ struct InformedParameters {
 /// closed-form law carries the stress, and a cell that follows the point's strain tells it friction and
 /// dilatancy. A cell with controlled rotations follows micro-rotation and curvature too; its limits of skew and couple
 /// stress are the law's weights, and friction is read from its whole stress. What law and cell disagree about is shown
-/// as the field stress_mismatch.
+/// as the field stress_mismatch; where it is too much a point may go over to its cell's answer (own_answer.hpp).
 class InformedMaterial : public fem::Material, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param note what the user is to know of the parameters; may be empty
-  InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note = {});
+  /// @param with_tangent the same cells, answering with tangents; asked only with BeyondMismatch::cell
+  InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note = {},
+                   CellCalls with_tangent = {});
 
   [[nodiscard]] double moment_length() const override { return parameters_.mean_diameter; }
   /// Every point starts from the packing at rest, which is first taken to its limits where the weights are its own; where the cell has no out-of-plane stress, from the mean of
@@ -61,7 +71,8 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   void restore(ArchiveReader& archive) override;
 
   /// friction, dilatancy (M_phi, M_psi of the cone), dilatancy_limited (1: a limit acts), plastic_shear,
-  /// regime, stress_mismatch, and of the cell void_ratio, coordination_number, unbalanced_force_ratio,
+  /// regime, stress_mismatch, with BeyondMismatch::cell stress_of_cell (1: the point goes by its cell's own answer), and
+  /// of the cell void_ratio, coordination_number, unbalanced_force_ratio,
   /// sliding_fraction, dem_steps.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
@@ -69,9 +80,10 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
     return committed_[point].cell.state;
   }
   /// stress_mismatch_mean, stress_mismatch_percentile_95, stress_mismatch_largest over the points of the last
-  /// committed step, and dilatancy_limited: the share of them where a limit acts.
+  /// committed step, and dilatancy_limited: the share of them where a limit acts; with BeyondMismatch::cell
+  /// stress_of_cell: the share that goes by the answers of their cells.
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
-  /// At how many points the law has left its cell, and by how much at the worst.
+  /// At how many points that go by their law it has left its cell, and by how much at the worst.
   [[nodiscard]] std::string doubt() const override;
   /// What the engine remarked on the packing and its script, and that a law has left its cell; once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
@@ -85,6 +97,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
     double held_friction = 0.0;
     double take_up = 0.0;
     PlaneReply cell;  ///< its last answer, with its state
+    OwnAnswer own;    ///< active: the law has been left, and holds the stress of the point
   };
 
   template <class Visitor>
@@ -92,19 +105,27 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] Response integrate(std::size_t point, const Increment& increment);
   void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);
   void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
+  /// The points that go by their cells' answers.
+  void evaluate_own(std::span<const Increment> increments, std::span<Response> responses);
   /// Law and cell turned to the frame at the end of the increment.
   [[nodiscard]] fem::ElastoplasticState law_start(std::size_t point, const Increment& increment) const;
   [[nodiscard]] Vector7 cell_start(std::size_t point, const Increment& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
-  void follow(std::span<const std::size_t> points);
+  void follow(const CellCalls& calls, std::span<const std::size_t> points);
+  /// Where law and cell disagree by more than they may, the point goes by its cell from the next step on.
+  void leave_laws();
   void take(const PlaneReply& reply, const Increment& increment, std::size_t point);
   /// Norm of the difference of the in-plane stresses of law and cell, over that of the law; controlled rotations: skew
   /// stress and couple stress over lc included.
   [[nodiscard]] double mismatch(const PointState& point) const;
-  /// Tells, or throws, where the law is leaving its cell in the step on trial.
+  /// Tells, throws, or leaves the law, where it is leaving its cell in the step on trial.
   void watch_mismatch();
+  [[nodiscard]] bool has_left_cell(const PointState& point) const;
   [[nodiscard]] std::string left_cells(const std::vector<PointState>& points) const;
   [[nodiscard]] bool controlled() const { return parameters_.mean_diameter > 0.0; }
+  [[nodiscard]] bool may_change() const { return parameters_.beyond_mismatch == BeyondMismatch::cell; }
+  /// The stress of a point as a law keeps it.
+  [[nodiscard]] fem::ScaledVector<double> scaled_stress(const Vector7& stress) const;
   /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
   [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& increment) const;
@@ -112,6 +133,8 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
                                                                const fem::ScaledVector<double>& law) const;
 
   CellCalls calls_;
+  CellCalls with_tangent_;
+  OwnAnswerRules own_rules_;
   bool told_of_mismatch_ = false;
   std::vector<std::string> notes_;
   InformedParameters parameters_;

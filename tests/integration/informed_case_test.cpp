@@ -100,6 +100,42 @@ TEST_F(InformedCaseTest, AnyNumberOfWorkersWritesTheSameHistory) {
   }
 }
 
+TEST_F(InformedCaseTest, PointsThatGoByTheirCellsWriteTheSameWithAnyNumberOfWorkers) {
+  for (const char* update : {"frozen", "fixed_point"}) {
+    const std::string options =
+        std::string("--quiet --set materials.sand.update=") + update +
+        // A law of another stiffness than the cell, which does not yield.
+        " --set materials.sand.initial_friction='60 deg' --set materials.sand.G='20 MPa'"
+        " --set materials.sand.beyond_mismatch=cell --set materials.sand.mismatch_limit='1 %'";
+    const Outcome one = polargrain("run case.yaml -o one -w 1 " + options);
+    ASSERT_EQ(one.status, 0) << one.errors;
+    EXPECT_NE((one.out + one.errors).find("go by the stress of their cells"), std::string::npos)
+        << one.out << one.errors;
+    const Outcome three = polargrain("run case.yaml -o three -w 3 " + options);
+    ASSERT_EQ(three.status, 0) << three.errors;
+    for (const char* file : {"history.csv", "fields/step-00004.vtu", "fields/points-00004.vtu"})
+      EXPECT_TRUE(content(directory() / "one" / file) == content(directory() / "three" / file)) << file;
+    EXPECT_NE(content(directory() / "one/fields/points-00004.vtu").find("stress_of_cell"), std::string::npos);
+    EXPECT_NE(content(directory() / "one/summary.json").find("\"stress_of_cell\": 1.0"), std::string::npos)
+        << content(directory() / "one/summary.json");
+  }
+}
+
+TEST_F(InformedCaseTest, WhatFollowsAMismatchIsCheckedBeforeTheRun) {
+  const std::string check = "check case.yaml --set materials.sand.";
+  EXPECT_EQ(polargrain(check + "beyond_mismatch=cell").status, 0);
+  const Outcome word = polargrain(check + "beyond_mismatch=cells");
+  EXPECT_EQ(word.status, 2);
+  EXPECT_NE(word.errors.find("beyond_mismatch: expected one of tell, stop, cell, found 'cells'"),
+            std::string::npos)
+      << word.errors;
+  for (const char* limit : {"-10 %", "0"}) {
+    const Outcome outcome = polargrain(check + "mismatch_limit='" + limit + "'");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.errors.find("mismatch_limit: "), std::string::npos) << outcome.errors;
+  }
+}
+
 TEST_F(InformedCaseTest, APatchOfARectangleIsARegion) {
   std::string text = content(directory() / "case.yaml");
   const std::string all = "regions: {all: sand}";

@@ -131,6 +131,14 @@ TEST_F(SphereRun, AdaptiveAndInformedTakeSpheresToo) {
   }
 }
 
+TEST_F(SphereRun, PointsThatHaveLeftTheirLawGoOnToTheSameBytes) {
+  write(folder() / "case.yaml",
+        case_text("model: informed, beyond_mismatch: cell, mismatch_limit: 5 %, lc: 20 mm"));
+  expect_resumed_alike("left_law_");
+  EXPECT_EQ(content(folder() / "left_law_whole/summary.json").find("\"stress_of_cell\": 0.0"),
+            std::string::npos);
+}
+
 TEST_F(SphereRun, ControlledRotationsThroughEveryCommand) {
   // Rolling resistance with torsion, the couple stress of the grains, no lc; a packing made under the same script.
   const std::string sand = "rotations: controlled, ";

@@ -218,6 +218,28 @@ TEST(InformedCosserat, GoesOnFromAnArchiveBitForBit) {
   }
 }
 
+TEST(InformedCosserat, APointThatHasLeftItsLawTakesTheWholeAnswerOfItsCell) {
+  const ConeCells cells(kWeights);
+  InformedParameters given = parameters(InformedUpdate::frozen);
+  given.weights = fem::InvariantWeights{};  // not the cell's, so that they part
+  given.mismatch_limit = 0.05;
+  given.beyond_mismatch = BeyondMismatch::cell;
+  given.mobilisation.drift_shear = 1e-3;
+  InformedMaterial law(cells.calls(), given, "", cells.calls());
+  law.allocate(1);
+  PlaneReply cell = cells.initial();
+  Response response;
+  for (int step = 1; step <= 40; ++step) {
+    const Increment increment = increment_of_path(step, 40);
+    law.evaluate({&increment, 1}, {&response, 1});
+    law.commit();
+    cell = cells.evaluate({cell.state, increment});
+  }
+  EXPECT_EQ(law.figures().back().value, 1.0);
+  EXPECT_EQ(response.stress, cell.response.stress);
+  EXPECT_GT(std::abs(response.stress(kCurvature1)), 1.0);
+}
+
 TEST(InformedCosserat, TellsWhatItFoundAndMeasuresMomentsByTheGrains) {
   const ConeCells cells(kWeights);
   InformedMaterial law(cells.calls(), parameters(InformedUpdate::frozen));

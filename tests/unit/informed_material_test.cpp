@@ -182,7 +182,7 @@ class LateLaw {
   static InformedParameters late(double limit, bool stops) {
     InformedParameters given = parameters(InformedUpdate::frozen);
     given.mismatch_limit = limit;
-    given.stop_beyond_mismatch = stops;
+    given.beyond_mismatch = stops ? BeyondMismatch::stop : BeyondMismatch::tell;
     return given;
   }
   KnownCells grains_{false};
@@ -210,6 +210,67 @@ TEST(InformedMaterial, MayNotLeaveItsCellWhereToldSo) {
   }
 }
 
+/// A point that leaves its law in the step where they differ by more than `limit`, and its cell alone on the same path.
+TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
+  for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
+    KnownCells grains(true), same(true);
+    InformedParameters given = parameters(update);
+    given.mobilisation.drift_shear = 2e-3;  // worked off within three steps
+    given.mismatch_limit = 1e-3;
+    given.beyond_mismatch = BeyondMismatch::cell;
+    InformedMaterial sand(grains.calls_to_it(), given, "", grains.calls_to_it());
+    sand.allocate(2);
+    const std::vector<std::string> names = sand.field_names();
+    const auto field = [&](const char* name, std::size_t point) {
+      std::vector<double> values(names.size());
+      sand.fields(point, values);
+      return values[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
+    };
+    PlaneReply alone = same.initial();
+    Increment step;  // no rotation, and no shear: all of it is the grains'
+    step.displacement_gradient << 4e-4, 0.0, 0.0, -1e-3;
+    const std::vector<Increment> increments{step, Increment{}};
+    std::vector<Response> responses(2);
+    Vector7 of_law;
+    int left_at = 0;
+    for (int number = 1; number <= 8; ++number) {
+      sand.evaluate(increments, responses);
+      ASSERT_EQ(responses[0].quality, Quality::good);
+      sand.commit();
+      alone = same.evaluate({alone.state, step});
+      if (left_at == 0 && field("stress_of_cell", 0) == 1.0) {
+        left_at = number;
+        of_law = responses[0].stress;
+        std::vector<Response> rest(2);
+        sand.evaluate(std::vector<Increment>(2), rest);
+        EXPECT_LT((rest[0].stress - of_law).norm(), 1e-9 * of_law.norm()) << "the stress jumps";
+        EXPECT_GT((of_law - alone.response.stress).head<2>().norm(), 1e-3 * of_law.head<2>().norm());
+        sand.revert();
+      } else if (left_at > 0) {
+        const double expected = std::max(0.0, 1.0 - (number - left_at) * std::hypot(4e-4, 1e-3) / 2e-3);
+        const Vector7 beyond = responses[0].stress - alone.response.stress;
+        EXPECT_EQ(field("stress_of_cell", 0), 1.0);
+        EXPECT_NEAR(field("stress_mismatch", 0),
+                    beyond.head<2>().norm() / responses[0].stress.head<2>().norm(), 1e-9);
+        if (expected == 0.0) {
+          EXPECT_LT(beyond.norm(), 1e-9 * of_law.norm());
+        } else {
+          EXPECT_GT(beyond.norm(), 1.0);
+        }
+      }
+    }
+    ASSERT_GT(left_at, 0);
+    ASSERT_LE(left_at, 5);
+    EXPECT_EQ(field("stress_of_cell", 1), 0.0) << "a point that nothing has happened to";
+    EXPECT_EQ(sand.doubt(), "");
+    const std::vector<std::string> notes = sand.take_notes();
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes.front().find("go by the stress of their cells"), std::string::npos) << notes.front();
+    EXPECT_EQ(sand.figures().back().name, "stress_of_cell");
+    EXPECT_EQ(sand.figures().back().value, 0.5);
+  }
+}
+
 TEST(InformedMaterial, DiscsAreLentTheOutOfPlaneStressOfTheLaw) {
   // The cell hides its s33. What the law lends it instead follows the same flow rule, one step late.
   const Curve fine = reference();
@@ -231,6 +292,16 @@ class InformedPointTest : public ::testing::Test {
  protected:
   InformedMaterial make(InformedUpdate update) {
     InformedMaterial material(cells_.calls_to_it(), parameters(update));
+    material.allocate(1);
+    return material;
+  }
+  /// One that leaves its law beyond a mismatch of `limit`.
+  InformedMaterial make(InformedUpdate update, double limit) {
+    InformedParameters given = parameters(update);
+    given.mobilisation.drift_shear = 0.01;
+    given.mismatch_limit = limit;
+    given.beyond_mismatch = BeyondMismatch::cell;
+    InformedMaterial material(cells_.calls_to_it(), given, "", cells_.calls_to_it());
     material.allocate(1);
     return material;
   }
@@ -318,6 +389,51 @@ TEST_F(InformedPointTest, WithTheFixedPointACellThatFailsCutsTheStep) {
   EXPECT_EQ(response.quality, Quality::failed);
   EXPECT_EQ(response.message, "the box collapsed");
   EXPECT_EQ(response.step_factor, 0.5);
+}
+
+TEST_F(InformedPointTest, ACellThatFailsCutsTheStepOfAPointThatGoesByIt) {
+  InformedMaterial sand = make(InformedUpdate::frozen, 1e-6);
+  for (int step = 0; step < 3; ++step) {
+    evaluate(sand, compression(1e-3));
+    sand.commit();
+  }
+  ASSERT_EQ(fields(sand)[6], 1.0);
+  cells_.fails_beyond = 1e-6;
+  const Response response = evaluate(sand, compression(1e-3));
+  EXPECT_EQ(response.quality, Quality::failed);
+  EXPECT_EQ(response.step_factor, 0.5);
+  sand.revert();
+  cells_.fails_beyond = 1.0;
+  EXPECT_EQ(evaluate(sand, compression(1e-3)).quality, Quality::good);
+}
+
+TEST_F(InformedPointTest, OfAPointThatGoesByItsCellAnArchiveKeepsAll) {
+  for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
+    InformedMaterial sand = make(update, 1e-6);
+    for (int step = 0; step < 3; ++step) {
+      evaluate(sand, compression(1e-3));
+      sand.commit();
+    }
+    ASSERT_EQ(fields(sand)[6], 1.0);
+    MemoryArchive archive;
+    sand.save(archive);
+    InformedMaterial other = make(update, 1e-6);
+    other.restore(archive);
+    for (int i = 0; i < 4; ++i) {
+      const Response a = evaluate(sand, compression(1e-3));
+      const Response b = evaluate(other, compression(1e-3));
+      EXPECT_EQ(a.stress, b.stress);
+      EXPECT_EQ(a.tangent, b.tangent);
+      sand.commit();
+      other.commit();
+    }
+    EXPECT_EQ(fields(sand), fields(other));
+    EXPECT_EQ(fields(other)[6], 1.0);
+    // A run that asks for it does not go on from one that did not.
+    MemoryArchive without;
+    make(update).save(without);
+    EXPECT_THROW(other.restore(without), RunError);
+  }
 }
 
 TEST_F(InformedPointTest, GoesOnFromAnArchiveBitForBit) {

@@ -16,18 +16,31 @@ class InformedRecipe : public MaterialRecipe {
  public:
   InformedRecipe(CellDefinition definition, const InformedParameters& parameters,
                  const std::optional<CosseratChoice>& cosserat)
-      : definition_(std::move(definition)), parameters_(parameters), cosserat_(cosserat) {}
+      : definition_(std::move(definition)),
+        tangent_(definition_.control.tangent),
+        parameters_(parameters),
+        cosserat_(cosserat) {
+    definition_.control.tangent = CellTangent::none;  // the law has one of its own
+  }
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     InformedParameters parameters = parameters_;
     std::string note;
     // Controlled rotations leave nothing to the case: stiffness and strength are the cell's.
     parameters.set_moduli(resolved(cosserat_.value_or(CosseratChoice{}), *pool, definition_, note));
-    return std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters, note);
+    CellCalls with_tangent;
+    if (parameters.beyond_mismatch == BeyondMismatch::cell) {
+      CellDefinition definition = definition_;
+      definition.control.tangent = tangent_;
+      with_tangent = calls_of(*pool, pool->define(std::move(definition)));
+    }
+    return std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters, note,
+                                              std::move(with_tangent));
   }
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
   CellDefinition definition_;
+  CellTangent tangent_;  ///< of the case: for points that go by their cells
   InformedParameters parameters_;
   std::optional<CosseratChoice> cosserat_;
 };
@@ -41,7 +54,6 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   read_adaptivity_options(section);  // checked, and no more: see there
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
-  definition.control.tangent = CellTangent::none;  // the law has one of its own
   return std::make_unique<InformedRecipe>(std::move(definition), parameters, cosserat);
 }
 

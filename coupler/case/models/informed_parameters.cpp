@@ -16,7 +16,10 @@ InformedParameters read_informed_parameters(Section& section) {
                           : InformedUpdate::frozen;
   parameters.mismatch_limit =
       section.quantity_or("mismatch_limit", Dimension::number, Limit::positive, parameters.mismatch_limit);
-  parameters.stop_beyond_mismatch = section.choice_or("beyond_mismatch", {"tell", "stop"}, "tell") == "stop";
+  const std::string beyond = section.choice_or("beyond_mismatch", {"tell", "stop", "cell"}, "tell");
+  parameters.beyond_mismatch = beyond == "stop"   ? BeyondMismatch::stop
+                               : beyond == "cell" ? BeyondMismatch::cell
+                                                  : BeyondMismatch::tell;
   fem::MobilisationOptions& reading = parameters.mobilisation;
   reading.window = section.whole_or("window", 1, reading.window);
   if (section.find("dilatancy_limits") != nullptr) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+
+#include "common/increment.hpp"
+#include "common/record.hpp"
+#include "common/response.hpp"
+#include "coupler/cells/cosserat_part.hpp"
+
+namespace polargrain::coupler {
+
+/// What a point of `informed` needs to go by the answer of its cell once its law has left it
+/// (docs/theory/plasticity.md, B.9). The point starts in balance: the stress that its law had beyond the cell's is
+/// carried along, turns with the material, and is worked off in a straight line over the strain that follows. So no
+/// stress jumps, and a smaller step lets go of less.
+struct OwnAnswer {
+  bool active = false;
+  /// Skew and couple stress of a cell with free rotations; they go on from the law's.
+  CosseratPart cosserat;
+  Vector7 carried = Vector7::Zero();  ///< stress of the law less that of the cell at the change, Pa and N/m
+  double strained = 0.0;              ///< norms of the strain increments since, summed
+};
+
+template <RecordOf<OwnAnswer> Record, class Visit>
+void describe(Record& own, Visit&& visit) {
+  visit(FieldNotes{"active", "", "whether the point goes by its cell's answer"}, own.active);
+  visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, own.cosserat);
+  visit(FieldNotes{"carried", "Pa, N/m", "stress of the law less that of the cell when it was left",
+                   "_11 _22 _33 _12 _21 _m1 _m2"},
+        own.carried);
+  visit(FieldNotes{"strained", "1", "strain since"}, own.strained);
+}
+
+/// How points go by their cells' answers.
+struct OwnAnswerRules {
+  /// Of cells with free rotations; the answer of controlled ones is taken whole.
+  CosseratParameters cosserat;
+  bool controlled = false;
+  /// Over which the strain of a curvature is counted, m; of no effect with free rotations.
+  double length = 0.0;
+  double work_off_strain = 0.0;  ///< over which a carried stress goes to zero; 0: at once
+};
+
+/// From the law's stress to the cell's answer. @param law, cell stresses at the end of the step, Pa and N/m
+OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const Response& cell);
+
+/// The answer of a point that goes by its cell. @param start at the start of the step @param cell what the cell answered
+/// to the increment @param end gets the point at the end of the step
+Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
+                    const Response& cell, OwnAnswer& end);
+
+}  // namespace polargrain::coupler
