@@ -80,7 +80,10 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
     target_[point] = followed_by(points_[point].offset, increment_of_step(point));
   }
   settle(kUnderWay * tolerance());
-  for (std::size_t point = 0; point < points_.size(); ++point) responses[point] = response_of(point);
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    CosseratPart part = points_[point].cosserat;
+    responses[point] = answer_to(point, part);
+  }
   seconds_ += seconds_since(start) - (seconds_of_cells_ - cells_before);
 }
 
@@ -240,14 +243,11 @@ Vector7 AdaptiveMaterial::stress_of_cells(std::size_t point) const {
   return linearised_stress(branch.answer.response, offset_between(branch.place, target_[point]));
 }
 
-Response AdaptiveMaterial::response_of(std::size_t point) const {
+Response AdaptiveMaterial::answer_to(std::size_t point, CosseratPart& part) const {
   Response response = branches_[branch_of_point_[point]].answer.response;
   if (response.quality == Quality::failed) return response;
   response.stress = stress_of_cells(point);
-  if (!cosserat_) return response;
-  CosseratPart part = points_[point].cosserat;
-  part.add(increments_[point], *cosserat_);
-  return part.joined_to(response, *cosserat_);
+  return cosserat_ ? part.follow(increments_[point], response, *cosserat_) : response;
 }
 
 bool AdaptiveMaterial::confirm() {
@@ -298,7 +298,7 @@ void AdaptiveMaterial::commit() {
     if (!is_zero(point.offset)) point.path.push_back(point.offset);
     point.source = !was_run ? Source::tangent : branch.leader == p ? Source::own : Source::neighbour;
     ++sources_[static_cast<std::size_t>(point.source)];
-    if (cosserat_) point.cosserat.add(increments_[p], *cosserat_);
+    answer_to(p, point.cosserat);
     point.cell = static_cast<std::uint32_t>(cell_of_branch[b]);
   }
   std::vector<StatePointer*> states;

@@ -149,7 +149,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] Increment increment_of_step(std::size_t point) const;
   /// Size of an error of a stress, as a share of the confining pressure.
   [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / confining_; }
-  [[nodiscard]] Response response_of(std::size_t point) const;
+  /// @param part skew and couple stress of the point at the start of the step; goes along to its end
+  Response answer_to(std::size_t point, CosseratPart& part) const;
   /// What the cells say of a point, carried to it; without the Cosserat part of the case.
   [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * confining_; }

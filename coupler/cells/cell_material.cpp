@@ -42,13 +42,17 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
   for (std::size_t r = 0; r < replies.size(); ++r) {
     PointState& point = trial_[points[r]];
     point.cell = std::move(replies[r]);
-    if (cosserat_) point.cosserat.add(increments[points[r]], *cosserat_);
   }
   for (std::size_t point = 0; point < committed_.size(); ++point) {
-    const PointState& state = trial_[point];
-    responses[point] =
-        cosserat_ ? state.cosserat.joined_to(state.cell.response, *cosserat_) : state.cell.response;
-    responses[point].noise = noise_of(trial_[point].cell, mean_radius_);
+    PointState& state = trial_[point];
+    if (!cosserat_) {
+      responses[point] = state.cell.response;
+    } else if (is_zero(increments[point])) {
+      responses[point] = state.cosserat.joined_to(state.cell.response, *cosserat_);
+    } else {
+      responses[point] = state.cosserat.follow(increments[point], state.cell.response, *cosserat_);
+    }
+    responses[point].noise = noise_of(state.cell, mean_radius_);
   }
 }
 

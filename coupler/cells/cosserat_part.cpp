@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/cells/cosserat_part.hpp"
 
+#include <algorithm>
+
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
@@ -22,12 +24,32 @@ Matrix7 symmetric_tangent(const Matrix7& cell) {
   return tangent;
 }
 
-void CosseratPart::add(const Increment& increment, const CosseratParameters& cosserat) {
+Response CosseratPart::follow(const Increment& increment, const Response& cell,
+                              const CosseratParameters& cosserat) {
   const Vector7 strain = increment.strain();
   skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
   if (increment.configuration != Configuration::fixed)
     couple_stress = fem::rotated(couple_stress, fem::rotation_angle(increment));
   couple_stress += cosserat.couple_modulus() * increment.curvature;  // A.4
+  Response response = joined_to(cell, cosserat);
+  if (!cosserat.plastic_length || response.quality == Quality::failed) return response;
+
+  const double length = *cosserat.plastic_length;
+  const double pressure = -0.5 * (response.stress[k11] + response.stress[k22]);
+  const double limit = length * std::max(0.0, pressure);
+  const double trial = couple_stress.norm();
+  if (trial <= limit) return response;
+  const Eigen::Vector2d direction = couple_stress / trial;
+  couple_stress = limit * direction;
+  response.stress.tail<2>() = couple_stress;
+  response.tangent.bottomRightCorner<2, 2>() =
+      cosserat.couple_modulus() * limit / trial *
+      (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+  if (pressure > 0.0) {  // the limit goes with it
+    const Vector7 rise = -0.5 * (response.tangent.row(k11) + response.tangent.row(k22)).transpose();
+    response.tangent.bottomLeftCorner<2, 5>() = length * direction * rise.head<5>().transpose();
+  }
+  return response;
 }
 
 Response CosseratPart::joined_to(const Response& cell, const CosseratParameters& cosserat) const {

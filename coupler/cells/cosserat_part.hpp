@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 
 #include "common/increment.hpp"
 #include "common/response.hpp"
@@ -13,6 +14,8 @@ struct CosseratParameters {
   double shear_modulus = 0.0;           ///< G, Pa
   double cosserat_shear_modulus = 0.0;  ///< Gc, Pa
   double internal_length = 0.0;         ///< lc, m; the couple modulus is 2 G lc^2
+  /// lp, m: the couple stress is at most lp times the pressure in the plane; nothing: it has no limit
+  std::optional<double> plastic_length = {};
 
   [[nodiscard]] double couple_modulus() const {
     return 2.0 * shear_modulus * internal_length * internal_length;
@@ -24,13 +27,17 @@ struct CosseratParameters {
 ///     s21 - s12  +=  2 Gc (eps21 - eps12)        m_i  +=  2 G lc^2 kappa_i
 ///
 /// In large deformation the couple stress turns with the material before the curvature adds to it; the skew stress
-/// is the same in any frame.
+/// is the same in any frame. With a plastic length lp the couple stress is elastic and perfectly plastic: where
+/// |m| would exceed lp p, p = -(s11 + s22) / 2 of the cell at the end of the increment, it returns radially to that circle
+/// (closed form, backward Euler; docs/theory/grains.md, C.6). In tension there is none.
 struct CosseratPart {
   double skew_stress = 0.0;                                 ///< s21 - s12, Pa
   Eigen::Vector2d couple_stress = Eigen::Vector2d::Zero();  ///< N/m
 
-  void add(const Increment& increment, const CosseratParameters& cosserat);
-  /// The answer of a point: the symmetric part of what its cell answered, with this part.
+  /// Goes along an increment. @param cell what the cell answered to it @returns the answer of the point, as joined_to,
+  /// with the tangent of the couple stress that has reached its limit
+  Response follow(const Increment& increment, const Response& cell, const CosseratParameters& cosserat);
+  /// The answer of a point where nothing has happened: the symmetric part of what its cell answered, with this part.
   [[nodiscard]] Response joined_to(const Response& cell, const CosseratParameters& cosserat) const;
 };
 

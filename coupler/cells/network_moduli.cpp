@@ -64,6 +64,7 @@ CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const Cell
   parameters.shear_modulus = choice.shear_modulus.value_or(packing.shear);
   parameters.cosserat_shear_modulus = choice.cosserat_shear_modulus.value_or(packing.cosserat_shear);
   parameters.internal_length = choice.internal_length.value_or(packing.length());
+  parameters.plastic_length = choice.plastic_length;
   return parameters;
 }
 

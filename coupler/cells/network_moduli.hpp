@@ -33,6 +33,7 @@ struct CosseratChoice {
   std::optional<double> shear_modulus;           ///< Pa
   std::optional<double> cosserat_shear_modulus;  ///< Pa
   std::optional<double> internal_length;         ///< m
+  std::optional<double> plastic_length;          ///< m; nothing: the couple stress has no limit
 };
 
 /// Fills in what is left to the packing by asking a worker for its network, if anything is.

@@ -213,6 +213,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:7: material 'sand': Gc: with 'rotations: controlled' the grains give the skew "
                  "stress and the couple "
                  "stresses themselves; leave Gc out, or set 'rotations: free'"},
+        BadInput{"PlasticLengthTwice", "G: 40 MPa, Gc: 10 MPa, lc: 10 mm", "rotations: controlled, lp: 10 mm",
+                 "case.yaml:7: material 'sand': lp: with 'rotations: controlled' the grains give the skew "
+                 "stress and the couple "
+                 "stresses themselves; leave lp out, or set 'rotations: free'"},
+        BadInput{"PlasticLengthBelowNothing", "lc: 10 mm", "lc: 10 mm, lp: -1 mm",
+                 "case.yaml:7: material 'sand': lp: must be greater than zero, found '-1 mm'"},
+        BadInput{"PlasticLengthOfAnInformedLaw", "model: cell", "model: informed, lp: 10 mm",
+                 "case.yaml:7: material 'sand': lp: the law of 'model: informed' limits the couple stress "
+                 "itself, by the third of its 'invariants'; leave lp out, or take 'model: cell'"},
         BadInput{"UnknownRegion", "  all: sand", "  all: sand\n  core: sand",
                  "case.yaml:11: regions: the mesh has no region 'core'; it has all"},
         BadInput{

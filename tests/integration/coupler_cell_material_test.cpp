@@ -135,6 +135,36 @@ TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
   EXPECT_EQ(evaluate(sand, Increment{}).stress, testing::fake_stress(Increment{}));
 }
 
+TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
+  CosseratParameters limited = kCosserat;  // couple modulus 3.2e4 N
+  limited.plastic_length = 2e-3;
+  CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), limited);
+  CellMaterial resumed(pool_, pool_.define(testing::fake_definition("")), limited);
+  sand.allocate(1);
+  resumed.allocate(1);
+  Increment bent;
+  bent.curvature << 0.0, 0.02;
+  const auto stress_after = [&](CellMaterial& material, double turn) {
+    bent.curvature.y() = turn;
+    const Vector7 stress = evaluate(material, bent).stress;
+    material.commit();
+    return stress;
+  };
+  const Vector7 yielded = stress_after(sand, 0.02);
+  const double limit = 2e-3 * -0.5 * (yielded[k11] + yielded[k22]);
+  ASSERT_GT(limit, 100.0);
+  ASSERT_LT(limit, 640.0);  // what it would be without
+  EXPECT_DOUBLE_EQ(yielded[kCurvature2], limit);
+  MemoryArchive archive;
+  sand.save(archive);
+  resumed.restore(archive);
+  const Vector7 unloaded = stress_after(sand, -0.002);
+  EXPECT_NEAR(unloaded[kCurvature2], limit - 64.0, 1e-9);
+  const Vector7 again = stress_after(resumed, -0.002);
+  EXPECT_EQ(std::memcmp(again.data(), unloaded.data(), sizeof(Vector7)), 0);
+  EXPECT_EQ(evaluate(sand, Increment{}).stress, unloaded);  // nothing happens where nothing moves
+}
+
 TEST_F(CellMaterialTest, WithoutACosseratPartTheCellAnswersWhole) {
   CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), std::nullopt);
   sand.allocate(1);

@@ -70,13 +70,15 @@ CosseratChoice read_cosserat_choice(Section& section, const CaseFiles& files) {
   // A classical continuum has no curvature: its length is of no effect.
   if (files.cosserat || section.find("lc") != nullptr)
     choice.internal_length = value("lc", Dimension::length);
+  if (section.find("lp") != nullptr)
+    choice.plastic_length = section.quantity("lp", Dimension::length, Limit::positive);
   return choice;
 }
 
 /// Two answers to one question would be one too many: a cell that controls its rotations has a skew
 /// stiffness, a couple modulus and limits of both.
 void refuse_cosserat_parameters(Section& section) {
-  for (const char* const key : {"G", "Gc", "lc"}) {
+  for (const char* const key : {"G", "Gc", "lc", "lp"}) {
     if (section.find(key) == nullptr) continue;
     section.fault(
         key, fmt::format("{0}: with 'rotations: controlled' the grains give the skew stress and the couple "

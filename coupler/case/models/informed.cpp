@@ -51,6 +51,10 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   InformedParameters parameters = read_informed_parameters(section);
+  if (cosserat && cosserat->plastic_length)
+    section.fault("lp",
+                  "lp: the law of 'model: informed' limits the couple stress itself, by the third of its "
+                  "'invariants'; leave lp out, or take 'model: cell'");
   read_adaptivity_options(section);  // checked, and no more: see there
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
