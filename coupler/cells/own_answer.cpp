@@ -6,10 +6,6 @@
 namespace polargrain::coupler {
 namespace {
 
-Response whole(const OwnAnswerRules& rules, const OwnAnswer& own, const Response& cell) {
-  return rules.controlled ? cell : own.cosserat.joined_to(cell, rules.cosserat);
-}
-
 /// The share of a carried stress that is left.
 double share_left(const OwnAnswerRules& rules, double strained) {
   return strained < rules.work_off_strain ? 1.0 - strained / rules.work_off_strain : 0.0;
@@ -24,14 +20,13 @@ OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const Respon
     own.cosserat.skew_stress = law(k21) - law(k12);
     own.cosserat.couple_stress = law.tail<2>();
   }
-  own.carried = law - whole(rules, own, cell).stress;
+  own.carried = law - (rules.controlled ? cell : own.cosserat.joined_to(cell, rules.cosserat)).stress;
   return own;
 }
 
 Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
                     const Response& cell, OwnAnswer& end) {
   end = start;
-  if (!rules.controlled) end.cosserat.add(increment, rules.cosserat);
   if (increment.configuration != Configuration::fixed)
     end.carried = fem::rotated(end.carried, fem::rotation_angle(increment));
   Vector7 strain = increment.strain();
@@ -41,7 +36,7 @@ Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const I
   const double size = strain.norm();
   end.strained += size;
 
-  Response response = whole(rules, end, cell);
+  Response response = rules.controlled ? cell : end.cosserat.follow(increment, cell, rules.cosserat);
   if (response.quality == Quality::failed) return response;
   const double left = share_left(rules, end.strained);
   if (!(left > 0.0)) {
