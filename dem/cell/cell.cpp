@@ -55,8 +55,8 @@ class Cell final : public CellOfGrains {
   [[nodiscard]] CellDiagnostics measure() const;
   /// Stress of the recorded contacts, in the laboratory frame.
   [[nodiscard]] CellResponse respond(const Matrix7& tangent) const;
-  /// Tangent of the recorded contacts, in the laboratory frame.
-  [[nodiscard]] Matrix7 tangent();
+  /// Tangent of the recorded contacts, in the laboratory frame. @param strain size of the increment that led to them
+  [[nodiscard]] Matrix7 tangent(double strain);
 
   CellControl control_;
   QuasiStatic protocol_;
@@ -95,7 +95,7 @@ Cell::Cell(const CellDefinition& definition)
   // The forces of the start are there; setting them up twice would fold the grains back twice, to other last bits.
   if (controlled()) renew_weights();
 
-  initial_.response = respond(tangent());
+  initial_.response = respond(tangent(0.0));
   initial_.response.message = remark;
   initial_.diagnostics = measure();
   const double pressure = -0.5 * (initial_.response.stress(0, 0) + initial_.response.stress(1, 1));
@@ -154,7 +154,7 @@ CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
   while (!protocol_.loaded()) run();
   // Taken while the box still moves: the contacts that slide now are those that slide along the increment. At
   // rest most of them have just come off their limit, and the tangent would be that of unloading.
-  const Matrix7 loading_tangent = tangent();
+  const Matrix7 loading_tangent = tangent(protocol_.size());
   Equilibrium rest = equilibrium();
   while (!protocol_.ended(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
     run();
@@ -261,7 +261,7 @@ CellResponse Cell::respond(const Matrix7& tangent) const {
   return in_space(response, KnownComponents::plane);
 }
 
-Matrix7 Cell::tangent() {
+Matrix7 Cell::tangent(double strain) {
   if (control_.tangent == CellTangent::none) return Matrix7::Zero();
   const std::span<const Contact> contacts = grains_->contacts();
   const Eigen::Matrix2d frame = grains_->box().frame();
@@ -269,7 +269,7 @@ Matrix7 Cell::tangent() {
   if (control_.tangent == CellTangent::voigt) {
     return controlled() ? voigt_cosserat_tangent(contacts, frame, v) : voigt_tangent(contacts, frame, v);
   }
-  const ContactNetwork network{contacts, driver_.grains(), frame, v, kHold};
+  const ContactNetwork network{contacts, driver_.grains(), frame, v, kHold, strain};
   if (!controlled() && control_.tangent == CellTangent::condensed) {
     return condensed_tangent_.classical(network).value_or(voigt_tangent(contacts, frame, v));
   }

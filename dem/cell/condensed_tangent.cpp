@@ -53,7 +53,7 @@ std::optional<CondensedTangent::Columns<Strains>> CondensedTangent::relaxed_stre
   const double arm = contacts.front().arm_first;
   laws_.clear();
   for (const Contact& contact : contacts) {
-    LinearContact& law = laws_.emplace_back(contact, network.frame);
+    LinearContact& law = laws_.emplace_back(contact, network.frame, network.strain);
     law.motions.col(2) /= arm;
     law.motions.col(5) /= arm;
   }

@@ -22,6 +22,7 @@ struct ContactNetwork {
   /// spring of `hold` times the mean normal stiffness, which leaves those motions as they are and changes the
   /// rest little.
   double hold = 0.0;
+  double strain = 0.0;  ///< size of the increment that the tangent is for; 0: of the next infinitesimal one
 };
 
 /// The condensed tangents (C.7 (ii)) let the grains find their own equilibrium: the stiffness of the contact

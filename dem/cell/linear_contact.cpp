@@ -3,25 +3,48 @@
 
 #include <cmath>
 
-namespace polargrain::dem {
+#include "dem/cell/near_limit.hpp"
 
-LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& frame) {
+namespace polargrain::dem {
+namespace {
+
+double sliding_share(const Contact& contact, const WayOfSprings& way) {
+  if (contact.sliding()) return 0.0;
+  const double limit = contact.friction * std::max(0.0, contact.normal_force());
+  return limit > 0.0 ? spring_share(std::abs(contact.tangential_force()), limit, contact.tangential_stiffness,
+                                    way.slip)
+                     : 1.0;
+}
+
+double rolling_share(const Contact& contact, const WayOfSprings& way) {
+  if (contact.rolling_at_limit) return 0.0;
+  return contact.rolling_limit > 0.0 ? spring_share(std::abs(contact.moment), contact.rolling_limit,
+                                                    contact.rolling_stiffness, way.turn)
+                                     : 1.0;
+}
+
+}  // namespace
+
+LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& frame, double strain) {
   const Eigen::Vector2d branch = frame * contact.branch;
   const Eigen::Vector2d n = branch.normalized();
   const Eigen::Vector2d t(-n.y(), n.x());
 
   stiffness.setZero();
   stiffness.topLeftCorner<2, 2>() = contact.normal_stiffness * n * n.transpose();
-  // The compressive normal force falls by k_n as the contact opens, and friction falls with it.
-  if (contact.sliding())
-    stiffness.topLeftCorner<2, 2>() -= std::copysign(contact.friction, contact.tangential_force()) *
-                                       contact.normal_stiffness * t * n.transpose();
-  else
-    stiffness.topLeftCorner<2, 2>() += contact.tangential_stiffness * t * t.transpose();
-  if (!contact.rolling_at_limit)
-    stiffness(2, 2) = contact.rolling_stiffness;
-  else if (const double normal_force = contact.normal_force(); normal_force > 0.0)
-    stiffness.row(2).head<2>() = -contact.moment / normal_force * contact.normal_stiffness * n.transpose();
+  // What a spring no longer answers, the limit does: it falls with the compressive normal force, which falls by k_n as
+  // the contact opens.
+  const WayOfSprings way = WayOfSprings::of(strain, branch.norm());
+  const double normal_force = contact.normal_force();
+  const double held = sliding_share(contact, way);
+  stiffness.topLeftCorner<2, 2>() += held * contact.tangential_stiffness * t * t.transpose();
+  const double turning = rolling_share(contact, way);
+  stiffness(2, 2) = turning * contact.rolling_stiffness;
+  if (normal_force > 0.0) {
+    const Eigen::RowVector2d of_opening = contact.normal_stiffness / normal_force * n.transpose();
+    stiffness.topLeftCorner<2, 2>() -= (1.0 - held) * contact.tangential_force() * t * of_opening;
+    stiffness.row(2).head<2>() = -(1.0 - turning) * contact.moment * of_opening;
+  }
 
   // (v_B - v_A) . t - r_A w_A - r_B w_B (D.1); spins move the surfaces along t only.
   motions.setZero();

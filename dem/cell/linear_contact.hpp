@@ -12,7 +12,7 @@ namespace polargrain::dem {
 /// grain against the first) to the change of (force, moment) on the first grain.
 ///
 /// A sliding contact keeps f_t = +-mu f_n, a rolling contact at its limit M = +-(limit / f_n) f_n; either
-/// makes the law non-symmetric. The rolling stiffness of models that do not tell it (all but li_chu
+/// makes the law non-symmetric. Along an increment contacts near a limit do so in part (near_limit.hpp). The rolling stiffness of models that do not tell it (all but li_chu
 /// and epsd2) counts as zero.
 struct LinearContact {
   Eigen::Matrix3d stiffness;  ///< N/m, N; N, N m/rad
@@ -22,7 +22,8 @@ struct LinearContact {
       affine;  ///< opening from a Cosserat strain; transposed: V stress from the force
 
   /// @param frame turns vectors of the contact into the frame of the strain
-  LinearContact(const Contact& contact, const Eigen::Matrix2d& frame);
+  /// @param strain size of the increment that the tangent is for; 0: of the next infinitesimal one
+  LinearContact(const Contact& contact, const Eigen::Matrix2d& frame, double strain = 0.0);
 };
 
 }  // namespace polargrain::dem

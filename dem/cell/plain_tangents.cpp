@@ -28,7 +28,7 @@ std::optional<Eigen::Matrix<double, 7, Strains>> relaxed_stresses(
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(unknowns, Strains);
   for (const Contact& contact : contacts) {
-    LinearContact& law = laws.emplace_back(contact, network.frame);
+    LinearContact& law = laws.emplace_back(contact, network.frame, network.strain);
     law.motions *= units.asDiagonal();
     const Eigen::Matrix<double, 6, 6> stiffness = law.motions.transpose() * law.stiffness * law.motions;
     const Eigen::Matrix<double, 6, Strains> load =

@@ -92,14 +92,14 @@ BoxPath QuasiStatic::begin(const Box& box, const Increment& increment, double ti
 }
 
 void QuasiStatic::begin(double strain, double turn, double curvature, double time_step, double reach) {
-  double size = strain;
+  size_ = strain;
   if (controlled()) {
     // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
     // them; a curvature turns them against each other by that times their distance.
     const double distance = reach > 0.0 ? reach : 2.0 * mean_radius_;
-    size = std::max({size, turn, curvature * distance});
+    size_ = std::max({size_, turn, curvature * distance});
   }
-  const double steps = std::ceil(size * time_of_grain_ / (control_.inertial_number * time_step));
+  const double steps = std::ceil(size_ * time_of_grain_ / (control_.inertial_number * time_step));
   if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
   loading_ = std::max(control_.least_steps, static_cast<int>(steps));
   done_ = 0;

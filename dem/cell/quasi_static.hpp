@@ -97,6 +97,8 @@ class QuasiStatic {
   void advance(int steps) { done_ += steps; }
   /// Whether the steps done so far end with a look at the contacts.
   [[nodiscard]] bool looks_now() const;
+  /// Of the increment: the largest of its principal strain, turn and curvature times reach.
+  [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] int loading() const { return loading_; }  ///< DEM steps
   [[nodiscard]] int done() const { return done_; }        ///< DEM steps of this increment
   [[nodiscard]] int relaxed() const { return std::max(0, done_ - loading_); }
@@ -121,6 +123,7 @@ class QuasiStatic {
   double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this
   double damping_rate_ = 0.0;
   double least_force_ = 0.0;
+  double size_ = 0.0;
   int loading_ = 0;
   int done_ = 0;
 };

@@ -41,7 +41,8 @@ void StockLaws::complete(std::vector<Contact>& contacts) const {
     const double length = std::sqrt(contact.branch.squaredNorm() + contact.branch_3 * contact.branch_3);
     const double normal_force =
         std::abs(contact.force.dot(contact.branch) + contact.force_3 * contact.branch_3) / length;
-    contact.rolling_at_limit = moment >= friction * radius * normal_force * (1.0 - 1e-6);
+    contact.rolling_limit = friction * radius * normal_force;
+    contact.rolling_at_limit = moment >= contact.rolling_limit * (1.0 - 1e-6);
   }
 }
 

@@ -27,6 +27,7 @@ struct Contact {
   double moment = 0.0;
   double rolling_stiffness = 0.0;  ///< k_th, N m/rad; known for rolling models li_chu and epsd2, otherwise 0
   bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling models li_chu, epsd2)
+  double rolling_limit = 0.0;      ///< of the rolling moment, N m; 0 where it is not known
   double branch_3 = 0.0;           ///< component of the branch along e_3, m; 0 between discs
   double force_3 = 0.0;            ///< component of the force along e_3, N; 0 between discs
   /// The rolling resistance moment about e_1 and e_2, N m; 0 between discs.
@@ -62,6 +63,7 @@ struct ContactRecorder {
   struct Rolling {
     double stiffness = 0.0;
     bool at_limit = false;
+    double limit = 0.0;
     double torsion_stiffness = 0.0;
     bool torsion_at_limit = false;
   };

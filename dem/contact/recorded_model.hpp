@@ -119,6 +119,7 @@ class RecordedModel : public Model {
                          torque[1] + towards * (delta[2] * force[0] - delta[0] * force[2])};
     contact.rolling_stiffness = rolling.stiffness;
     contact.rolling_at_limit = rolling.at_limit;
+    contact.rolling_limit = rolling.limit;
     contact.torsion_stiffness = rolling.torsion_stiffness;
     contact.torsion_at_limit = rolling.torsion_at_limit;
     recorder_.contacts.push_back(contact);

@@ -116,7 +116,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
         torsion_on_ && add_torsion(contact, advance, stiffness, damping, limit, torsion_rate, moment);
 
     if (recorder_.on)
-      recorder_.rolling = {stiffness, at_limit, torsion_on_ ? stiffness : 0.0, torsion_at_limit};
+      recorder_.rolling = {stiffness, at_limit, limit, torsion_on_ ? stiffness : 0.0, torsion_at_limit};
     const double share = contact.is_wall ? contact.area_ratio : 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       force_i.delta_torque[axis] -= share * moment[axis];

@@ -151,6 +151,7 @@ struct RollingAnswer {
   double moment = 0.0;     ///< on the second about e_3, N m; the first gets the opposite
   double stiffness = 0.0;  ///< N m/rad
   bool at_limit = false;
+  double limit = 0.0;  ///< of the moment, N m
 };
 
 /// Rolling resistance; comes after the tangential law of the same contact.
@@ -164,7 +165,8 @@ template <RollingLaw Law>
     answer.stiffness = normal.kt * radius * radius;
     // As in the engine, which looks a step ahead even where it does not keep it.
     answer.moment = springs[kRollingSpring] + answer.stiffness * touch.spin_difference * step;
-    answer.at_limit = cut(answer.moment, p.rolling_friction * radius * std::abs(normal.force));
+    answer.limit = p.rolling_friction * radius * std::abs(normal.force);
+    answer.at_limit = cut(answer.moment, answer.limit);
     if (advance) springs[kRollingSpring] = answer.moment;
   } else if constexpr (Law == RollingLaw::li_chu) {
     const double radius =
@@ -175,7 +177,8 @@ template <RollingLaw Law>
     const double coupling =
         settings.symmetric ? p.rolling_force_stiffness * normal.kt * touch.harmonic * springs[0] : 0.0;
     answer.moment = answer.stiffness * angle - coupling;
-    answer.at_limit = cut(answer.moment, p.rolling_friction * radius * push);
+    answer.limit = p.rolling_friction * radius * push;
+    answer.at_limit = cut(answer.moment, answer.limit);
     if (advance)
       springs[kRollingSpring] = answer.at_limit ? (answer.moment + coupling) / answer.stiffness : angle;
     if (settings.rolling_damped && !answer.at_limit)

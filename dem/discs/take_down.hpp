@@ -25,6 +25,7 @@ inline Contact take_down(int first, int second, double dx, double dy, const Touc
   contact.moment = -rolling.moment;
   contact.rolling_stiffness = rolling.stiffness;
   contact.rolling_at_limit = rolling.at_limit;
+  contact.rolling_limit = rolling.limit;
   return contact;
 }
 

@@ -108,23 +108,26 @@ TEST(Tangent, AfterYieldItKnowsWhatSlides) {
     const PlaneReply reply = evaluate(*condensed_cell, state, step);
     state = reply.state;
     if (k != 1 && k != 3 && k != 10) continue;
-    // What Newton asks for: the derivative with respect to the increment, at an increment that goes on.
-    const Vector7 further = 0.1 * step;
-    const Matrix7 derivative = differences(*condensed_cell, state, further, 1e-5);
-    const auto error = [&](const PlaneCell& cell) {
-      return (scaled(evaluate(cell, state, further).response.tangent) - derivative).norm() /
-             derivative.norm();
-    };
-    const double condensed = error(*condensed_cell);
-    const double affine = error(*affine_cell);
-    std::printf(
-        "[figure] after %d e-3 of isochoric strain, %.0f %% of the contacts sliding, %.0f %% at the rolling "
-        "limit: condensed tangent %.2f of the derivative away, Voigt tangent %.2f\n",
-        k, 100.0 * reply.diagnostics.sliding_fraction, 100.0 * reply.diagnostics.rolling_fraction, condensed,
-        affine);
-    // Contacts that come to slide or stop sliding within the difference make the rest.
-    EXPECT_LT(condensed, 0.15);
-    EXPECT_LT(condensed, 0.3 * affine);
+    // What Newton asks for: the derivative with respect to the increment, at increments that go on, short and long.
+    for (const double length : {0.1, 1.0, 3.0}) {
+      const Vector7 further = length * step;
+      const Matrix7 derivative = differences(*condensed_cell, state, further, 0.1 * length * 1e-3);
+      const auto error = [&](const PlaneCell& cell) {
+        return (scaled(evaluate(cell, state, further).response.tangent) - derivative).norm() /
+               derivative.norm();
+      };
+      const double condensed = error(*condensed_cell);
+      const double affine = error(*affine_cell);
+      std::printf(
+          "[figure] after %d e-3 of isochoric strain, %.0f %% of the contacts sliding, %.0f %% at the rolling "
+          "limit, an increment of %.0e: condensed tangent %.2f of the derivative away, Voigt tangent %.2f\n",
+          k, 100.0 * reply.diagnostics.sliding_fraction, 100.0 * reply.diagnostics.rolling_fraction,
+          length * 1e-3, condensed, affine);
+      // Grains that rearrange within the difference make the rest. Without regard to the contacts that come to their limit
+      // on the way it is 0.2 to 0.3 at the long increments.
+      EXPECT_LT(condensed, 0.2);
+      EXPECT_LT(condensed, 0.3 * affine);
+    }
   }
 }
 
