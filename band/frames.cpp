@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "band/local_strain.hpp"
 #include "common/csv_table.hpp"
@@ -19,9 +20,6 @@
 
 namespace polargrain::band {
 namespace {
-
-/// Radius of the neighbourhood that a grain's strain is taken from, in mean distances of the grains.
-constexpr double kNeighbourhood = 2.5;
 
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& message) {
   throw InputError({file.string(), line, message});
@@ -103,13 +101,23 @@ Frame read_grain_dump(const std::filesystem::path& file) {
   return frame;
 }
 
-Frames::Frames(const std::filesystem::path& directory, const std::string& strain_column) {
+Frames::Frames(const std::filesystem::path& directory, const std::string& strain_column,
+               const FieldUnits& units, double radius)
+    : units_(units), radius_(radius) {
   std::map<long, std::filesystem::path> files = frame_files(directory / "grains", ".dump");
-  of_grains_ = !files.empty();
-  if (!of_grains_) files = frame_files(directory / "fields", ".vtu");
+  if (!files.empty()) kind_ = FrameKind::grains;
+  if (files.empty()) {
+    files = frame_files(directory / "displacements", ".csv");
+    if (!files.empty()) {
+      kind_ = FrameKind::images;
+      files.try_emplace(0);  // the reference image: nothing has moved
+    }
+  }
+  if (files.empty()) files = frame_files(directory / "fields", ".vtu");
   if (files.size() < 2)
     fail(directory, 0,
-         "a result directory with at least two frames was expected: fields/step-*.vtu or grains/step-*.dump");
+         "a result directory with at least two frames was expected: fields/step-*.vtu, grains/step-*.dump or "
+         "displacements/step-*.csv");
   const std::filesystem::path history = directory / "history.csv";
   const std::map<long, double> strains = read_strains(history, strain_column);
   for (const auto& [step, file] : files) {
@@ -133,25 +141,19 @@ std::size_t Frames::nearest(double axial_strain) const {
 }
 
 Frame Frames::read(std::size_t index) const {
-  return of_grains_ ? read_grain_dump(files_[index]) : read_element_fields(files_[index]);
+  return kind_ == FrameKind::grains ? read_grain_dump(files_[index]) : read_element_fields(files_[index]);
 }
 
 Samples Frames::grains(const Frame& first, const Frame& from, const Frame& to, bool current) const {
   const std::size_t count = from.positions.size();
   if (count == 0 || to.positions.size() != count || first.positions.size() != count)
     fail(files_.back(), 0, "the dumps do not hold the same grains");
-  Eigen::Vector2d low = from.positions.front();
-  Eigen::Vector2d high = low;
   std::vector<Eigen::Vector2d> displacements;
-  for (std::size_t k = 0; k < count; ++k) {
-    displacements.push_back(to.positions[k] - from.positions[k]);
-    low = low.cwiseMin(from.positions[k]);
-    high = high.cwiseMax(from.positions[k]);
-  }
-  const double area = (high - low).prod() / static_cast<double>(count);
+  for (std::size_t k = 0; k < count; ++k) displacements.push_back(to.positions[k] - from.positions[k]);
+  const double area = mean_area(from.positions);
   if (!(area > 0.0 && std::isfinite(area))) fail(files_.back(), 0, "the grains fill no area");
-  const std::vector<Eigen::Matrix2d> gradients =
-      displacement_gradients(from.positions, displacements, kNeighbourhood * std::sqrt(area));
+  const std::vector<Eigen::Matrix2d> gradients = displacement_gradients(
+      from.positions, displacements, radius_ > 0.0 ? radius_ : kNeighbourhood * std::sqrt(area));
   Samples samples;
   for (std::size_t k = 0; k < count; ++k)
     if (gradients[k].allFinite())  // a grain that was lost from the rest has no strain
@@ -160,10 +162,28 @@ Samples Frames::grains(const Frame& first, const Frame& from, const Frame& to, b
   return samples;
 }
 
+FieldIncrement Frames::between(std::size_t from, std::size_t to) const {
+  const DisplacementField end = read_displacement_field(files_[to], units_);
+  if (files_[from].empty()) return increment_between(nullptr, end);
+  const DisplacementField start = read_displacement_field(files_[from], units_);
+  return increment_between(&start, end);
+}
+
+std::size_t Frames::missing(std::size_t from, std::size_t to) const {
+  return kind_ == FrameKind::images ? between(from, to).missing : 0;
+}
+
 Samples Frames::increment(std::size_t from, std::size_t to, bool current) const {
+  if (kind_ == FrameKind::images) {
+    try {
+      return samples_of(between(from, to), radius_, current);
+    } catch (const std::invalid_argument& error) {
+      fail(files_[to], 0, error.what());
+    }
+  }
   const Frame start = read(from);
   const Frame end = read(to);
-  if (of_grains_) return grains(from == 0 ? start : read(0), start, end, current);
+  if (kind_ == FrameKind::grains) return grains(from == 0 ? start : read(0), start, end, current);
   if (start.positions.size() != end.positions.size())
     fail(files_[to], 0, "the mesh is not that of the frame before");
   Samples samples;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "band/displacement_field.hpp"
 #include "band/sample.hpp"
 
 namespace polargrain::band {
@@ -28,13 +29,21 @@ Frame read_grain_dump(const std::filesystem::path& file);
 /// @throws InputError naming the file when it is another kind of .vtu
 Frame read_element_fields(const std::filesystem::path& file);
 
-/// The frames of a result directory, of `polargrain run` (fields/step-*.vtu) or of a specimen made of grains
-/// (grains/step-*.dump).
+/// Whose frames they are.
+enum class FrameKind { elements, grains, images };
+
+/// The frames of a result directory: of `polargrain run` (fields/step-*.vtu), of a specimen made of grains
+/// (grains/step-*.dump), or of image correlation (displacements/step-*.csv: displacements since step 0, whose own file may
+/// be left out).
 class Frames {
  public:
   /// @param strain_column column of history.csv with the axial strain (compression positive)
+  /// @param units of the files of image correlation
+  /// @param radius of the neighbourhood that the strain of a grain or of a place of an image is taken from, m; 0:
+  /// kNeighbourhood mean distances
   /// @throws InputError when the folder has no frames, or history.csv no row for one of them
-  Frames(const std::filesystem::path& directory, const std::string& strain_column);
+  Frames(const std::filesystem::path& directory, const std::string& strain_column,
+         const FieldUnits& units = {}, double radius = 0.0);
 
   /// Axial strain of each frame, in the order of their steps.
   [[nodiscard]] const std::vector<double>& axial_strains() const { return axial_strains_; }
@@ -43,15 +52,20 @@ class Frames {
   /// What happened between two frames. Places stand where they were at the start of the test.
   /// @param current stand where they are at frame `from` instead
   [[nodiscard]] Samples increment(std::size_t from, std::size_t to, bool current) const;
-  [[nodiscard]] bool of_grains() const { return of_grains_; }
+  [[nodiscard]] FrameKind kind() const { return kind_; }
+  /// Places of images that have no displacement in one of two frames or in both; of grains and elements 0.
+  [[nodiscard]] std::size_t missing(std::size_t from, std::size_t to) const;
 
  private:
   [[nodiscard]] Frame read(std::size_t index) const;
   [[nodiscard]] Samples grains(const Frame& first, const Frame& from, const Frame& to, bool current) const;
+  [[nodiscard]] FieldIncrement between(std::size_t from, std::size_t to) const;
 
-  std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::path> files_;  ///< empty: of the reference image itself
   std::vector<double> axial_strains_;
-  bool of_grains_ = false;
+  FrameKind kind_ = FrameKind::elements;
+  FieldUnits units_;
+  double radius_ = 0.0;
 };
 
 }  // namespace polargrain::band

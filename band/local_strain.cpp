@@ -40,6 +40,16 @@ class Boxes {
 
 }  // namespace
 
+double mean_area(const std::vector<Eigen::Vector2d>& positions) {
+  Eigen::Vector2d low = positions.front();
+  Eigen::Vector2d high = low;
+  for (const Eigen::Vector2d& position : positions) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  return (high - low).prod() / static_cast<double>(positions.size());
+}
+
 std::vector<Eigen::Matrix2d> displacement_gradients(const std::vector<Eigen::Vector2d>& positions,
                                                     const std::vector<Eigen::Vector2d>& displacements,
                                                     double radius) {

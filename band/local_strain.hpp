@@ -5,6 +5,12 @@
 
 namespace polargrain::band {
 
+/// Radius of the neighbourhood that the strain of a place is taken from, where nothing else is said, in mean distances.
+inline constexpr double kNeighbourhood = 2.5;
+
+/// Area that a place stands for, m^2: of the upright rectangle around all of them over their number, at least one.
+double mean_area(const std::vector<Eigen::Vector2d>& positions);
+
 /// Displacement gradients at scattered points (grains): at each the affine field that fits the displacements
 /// of the points within `radius` best, weighted least squares with weights (1 - (d / radius)^2)^2. An affine
 /// field is reproduced exactly. A strain that varies is smoothed over a width (full width at half maximum) of

@@ -21,7 +21,7 @@ constexpr double kFarthest = 0.25;
 BenchBand bench_band(const std::filesystem::path& directory, const std::string& strain, double from,
                      double to) {
   BandCommandOptions options;
-  options.directory = directory;
+  options.places = {directory};
   options.strain_column = strain;
   options.from = from;
   options.to = to;
@@ -29,9 +29,9 @@ BenchBand bench_band(const std::filesystem::path& directory, const std::string& 
   try {
     const BandMeasurement measured = measure_band(options);
     const double farthest = kFarthest * (to - from);
-    if (std::abs(measured.begin - from) > farthest || std::abs(measured.end - to) > farthest) {
+    if (std::abs(*measured.begin - from) > farthest || std::abs(*measured.end - to) > farthest) {
       band.none = fmt::format("the fields nearest to {:g} and {:g} are of {:.4g} and {:.4g}", from, to,
-                              measured.begin + 0.0, measured.end);  // no -0
+                              *measured.begin + 0.0, *measured.end);  // no -0
     } else if (!measured.search.band) {
       band.none = measured.search.reason;
     } else {

@@ -7,14 +7,19 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "app/run/json_text.hpp"
+#include "band/displacement_field.hpp"
 #include "band/frames.hpp"
 #include "band/shear_band.hpp"
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 #include "common/standard_streams.hpp"
+#include "coupler/case/quantity.hpp"
 #include "fem/output/write_file.hpp"
 
 namespace polargrain::app {
@@ -22,11 +27,24 @@ namespace {
 
 using polargrain::band::Band;
 using polargrain::band::BandSearch;
+using polargrain::band::DisplacementField;
+using polargrain::band::FieldIncrement;
+using polargrain::band::FrameKind;
 using polargrain::band::Frames;
 using polargrain::band::Sample;
 using polargrain::band::Samples;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A length of the command line, m.
+double positive_length(const std::string& option, const std::string& text) {
+  const std::optional<double> length = coupler::parse_quantity(text, coupler::Dimension::length);
+  if (!length || *length <= 0.0)
+    throw InputError({"", 0,
+                      fmt::format("{} {}: {} above 0 was expected", option, plain_text(text),
+                                  expectation(coupler::Dimension::length))});
+  return *length;
+}
 
 /// The increments between frames a window apart, and how each deforms.
 struct Increments {
@@ -42,12 +60,34 @@ std::vector<std::size_t> frames_apart(const Frames& frames, double window) {
   return chosen;
 }
 
+void write_samples(const std::filesystem::path& file, const Samples& samples) {
+  std::string text = "x,y,area,shear,volume_strain,rotation\n";
+  for (const Sample& sample : samples)
+    text +=
+        fmt::format("{:.7g},{:.7g},{:.5g},{:.5g},{:.5g},{:.5g}\n", sample.position.x(), sample.position.y(),
+                    sample.area, sample.shear, sample.volume_strain, sample.rotation);
+  fem::write_file(file, text);
+}
+
+/// What there is in an increment without a word of its frames.
+BandMeasurement measured_in(const Samples& samples, const BandCommandOptions& options) {
+  if (!options.fields.empty()) write_samples(options.fields, samples);
+  BandMeasurement measured;
+  measured.places = samples.size();
+  measured.search = find_band(samples, {options.contrast});
+  if (const std::optional<Band>& found = measured.search.band) {
+    measured.rotation = means(samples, *found, &Sample::rotation);
+    measured.volume_strain = means(samples, *found, &Sample::volume_strain);
+  }
+  return measured;
+}
+
 /// Localisation of all increments in the band found last, and the band that each has by itself, into
 /// band.csv.
 Increments follow(const Frames& frames, const BandCommandOptions& options, const Band& last) {
   Increments increments;
-  CsvFile table(options.directory / "band.csv", {"axial_strain", "localisation", "inclination_degrees",
-                                                 "thickness", "rotation_inside", "rotation_outside"});
+  CsvFile table(options.places.front() / "band.csv", {"axial_strain", "localisation", "inclination_degrees",
+                                                      "thickness", "rotation_inside", "rotation_outside"});
   const std::vector<std::size_t> chosen = frames_apart(frames, options.window);
   for (std::size_t k = 1; k < chosen.size(); ++k) {
     const Samples samples = frames.increment(chosen[k - 1], chosen[k], options.current);
@@ -63,18 +103,14 @@ Increments follow(const Frames& frames, const BandCommandOptions& options, const
   return increments;
 }
 
-void write_samples(const std::filesystem::path& file, const Samples& samples) {
-  std::string text = "x,y,area,shear,volume_strain,rotation\n";
-  for (const Sample& sample : samples)
-    text +=
-        fmt::format("{:.7g},{:.7g},{:.5g},{:.5g},{:.5g},{:.5g}\n", sample.position.x(), sample.position.y(),
-                    sample.area, sample.shear, sample.volume_strain, sample.rotation);
-  fem::write_file(file, text);
-}
-
 void write_summary(const std::filesystem::path& file, const BandMeasurement& measured) {
-  nlohmann::ordered_json summary{
-      {"from", measured.begin}, {"to", measured.end}, {"found", measured.search.band.has_value()}};
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json summary{{"from", or_null(measured.begin)},
+                                 {"to", or_null(measured.end)},
+                                 {"found", measured.search.band.has_value()}};
+  if (measured.kind == FrameKind::images) summary["missing"] = measured.missing;
   if (const std::optional<Band>& found = measured.search.band) {
     summary["inclination_degrees"] = found->inclination / kDegree;
     summary["thickness"] = found->thickness;
@@ -86,7 +122,7 @@ void write_summary(const std::filesystem::path& file, const BandMeasurement& mea
     summary["rotation_outside"] = measured.rotation.outside;
     summary["volume_strain_inside"] = measured.volume_strain.inside;
     summary["volume_strain_outside"] = measured.volume_strain.outside;
-    summary["onset_strain"] = measured.onset ? nlohmann::ordered_json(*measured.onset) : nullptr;
+    summary["onset_strain"] = or_null(measured.onset);
   } else {
     summary["reason"] = measured.search.reason;
   }
@@ -96,7 +132,8 @@ void write_summary(const std::filesystem::path& file, const BandMeasurement& mea
 }  // namespace
 
 BandMeasurement measure_band(const BandCommandOptions& options) {
-  const Frames frames(options.directory, options.strain_column);
+  const std::filesystem::path& directory = options.places.front();
+  const Frames frames(directory, options.strain_column, options.units, options.neighbourhood);
   const double last_strain = frames.axial_strains().back();
   const std::size_t to = frames.nearest(options.to >= 0.0 ? options.to : last_strain);
   const std::size_t from = frames.nearest(options.from >= 0.0 ? options.from : 2.0 / 3.0 * last_strain);
@@ -104,31 +141,62 @@ BandMeasurement measure_band(const BandCommandOptions& options) {
     throw InputError({"", 0,
                       fmt::format("--from {} and --to {} are one frame; the frames go from {:.4g} to {:.4g}",
                                   options.from, options.to, frames.axial_strains().front(), last_strain)});
-  const Samples samples = frames.increment(from, to, options.current);
-  if (!options.fields.empty()) write_samples(options.fields, samples);
-  BandMeasurement measured{frames.axial_strains()[from],
-                           frames.axial_strains()[to],
-                           samples.size(),
-                           frames.of_grains(),
-                           find_band(samples, {options.contrast}),
-                           {},
-                           {},
-                           {}};
+  BandMeasurement measured = measured_in(frames.increment(from, to, options.current), options);
+  measured.begin = frames.axial_strains()[from];
+  measured.end = frames.axial_strains()[to];
+  measured.kind = frames.kind();
+  measured.missing = frames.missing(from, to);
   if (measured.search.band) {
-    const Band& found = *measured.search.band;
-    const Increments increments = follow(frames, options, found);
+    const Increments increments = follow(frames, options, *measured.search.band);
     measured.onset = polargrain::band::onset_strain(increments.strains, increments.localisations);
-    measured.rotation = means(samples, found, &Sample::rotation);
-    measured.volume_strain = means(samples, found, &Sample::volume_strain);
   }
-  write_summary(options.directory / "band.json", measured);
+  write_summary(directory / "band.json", measured);
+  return measured;
+}
+
+BandMeasurement measure_band_of_fields(const BandCommandOptions& options) {
+  const std::filesystem::path& last = options.places.back();
+  std::optional<DisplacementField> first;
+  if (options.places.size() > 1) first = read_displacement_field(options.places.front(), options.units);
+  const FieldIncrement increment =
+      increment_between(first ? &*first : nullptr, read_displacement_field(last, options.units));
+  if (increment.positions.empty())
+    throw InputError(
+        {last.string(), 0,
+         first ? "no place has a displacement here and in the other field: both must have the same "
+                 "columns x and y, places of one reference image"
+               : "no place has a displacement"});
+  BandMeasurement measured;
+  try {
+    measured = measured_in(samples_of(increment, options.neighbourhood, options.current), options);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({last.string(), 0, error.what()});
+  }
+  measured.kind = FrameKind::images;
+  measured.missing = increment.missing;
+  write_summary(last.parent_path() / (last.stem().string() + ".band.json"), measured);
   return measured;
 }
 
 int band(const BandCommandOptions& options) {
-  const BandMeasurement measured = measure_band(options);
-  tell(stdout, "{}: increment of axial strain {:.4f} to {:.4f}, {} {}\n", options.directory.string(),
-       measured.begin, measured.end, measured.places, measured.of_grains ? "grains" : "integration points");
+  const bool of_fields = std::ranges::none_of(options.places, [](const std::filesystem::path& place) {
+    return std::filesystem::is_directory(place);
+  });
+  if (!of_fields && options.places.size() > 1)
+    throw InputError({options.places.back().string(), 0,
+                      "one result directory was expected, or one or two CSV files of displacements"});
+  // A name that ends otherwise is meant as a directory, and there is none.
+  const bool is_csv = of_fields && options.places.front().extension() == ".csv";
+  const BandMeasurement measured = is_csv ? measure_band_of_fields(options) : measure_band(options);
+  constexpr const char* kPlaces[] = {"integration points", "grains", "places of the images"};
+  std::string where = options.places.front().string();
+  if (measured.begin) {
+    where += fmt::format(": increment of axial strain {:.4f} to {:.4f}", *measured.begin, *measured.end);
+  } else if (options.places.size() > 1) {
+    where += fmt::format(" to {}", options.places.back().string());
+  }
+  tell(stdout, "{}, {} {}{}\n", where, measured.places, kPlaces[static_cast<int>(measured.kind)],
+       measured.missing > 0 ? fmt::format("; {} without a displacement are left out", measured.missing) : "");
   if (!measured.search.band) {
     tell(stdout, "  no band: {}\n", measured.search.reason);
     return 0;
@@ -139,22 +207,30 @@ int band(const BandCommandOptions& options) {
        "  thickness     {:.4g} m at half maximum (resolution {:.2g} m)\n"
        "  shear strain  {:.4f} at its greatest, {:.4f} in the background\n"
        "  volume strain {:.4f} inside, {:.4f} outside\n"
-       "  rotation      {:.4f} rad inside, {:.4f} rad outside\n"
-       "  onset         {}\n",
+       "  rotation      {:.4f} rad inside, {:.4f} rad outside\n",
        found.inclination / kDegree, found.thickness, found.resolution, found.peak, found.background,
        measured.volume_strain.inside, measured.volume_strain.outside, measured.rotation.inside,
-       measured.rotation.outside,
-       measured.onset ? fmt::format("axial strain {:.4f}", *measured.onset)
-                      : "not within the increments: the last is not localised");
+       measured.rotation.outside);
+  if (measured.begin)
+    tell(stdout, "  onset         {}\n",
+         measured.onset ? fmt::format("axial strain {:.4f}", *measured.onset)
+                        : "not within the increments: the last is not localised");
   return 0;
 }
 
 Command add_band(CLI::App& program, const Grains&) {
   const auto options = std::make_shared<BandCommandOptions>();
+  const auto lengths = std::make_shared<std::pair<std::string, std::string>>();
   CLI::App& command =
       *program.add_subcommand("band", "Measure the shear band of a result: inclination, thickness, onset");
-  command.add_option("DIR", options->directory, "Results of run, or of a specimen made of grains")
-      ->required();
+  command
+      .add_option(
+          "DIR", options->places,
+          "Results of run, of a specimen made of grains, or of image correlation (displacements/step-*.csv, "
+          "history.csv); or FIELD.csv, an increment of image correlation; or FROM.csv TO.csv, the increment "
+          "between two fields (columns x, y, u, v)")
+      ->required()
+      ->expected(1, 2);
   command.add_option("--from", options->from, "Axial strain where the increment begins [2/3 of the last]");
   command.add_option("--to", options->to, "Axial strain where it ends [the last]");
   command.add_option("--window", options->window, "Axial strain of the increments for the onset [0.005]")
@@ -165,9 +241,24 @@ Command add_band(CLI::App& program, const Grains&) {
       ->type_name("COLUMN")
       ->capture_default_str();
   command.add_flag("--current", options->current, "Measure where places are at --from, not at the start");
+  command
+      .add_option("--unit", lengths->first,
+                  "Length of 1 in fields of images, such as 0.08mm: of a pixel [1 m]")
+      ->type_name("LENGTH");
+  command.add_flag("--y-down", options->units.y_down, "y and v of fields of images point down");
+  command
+      .add_option(
+          "--neighbourhood", lengths->second,
+          "Radius that the strain of a grain or of a place of an image is taken from [2.5 mean distances]")
+      ->type_name("LENGTH");
   command.add_option("--fields", options->fields, "Write the samples of the increment as CSV")
       ->type_name("FILE");
-  return {&command, [options] { return band(*options); }};
+  return {&command, [options, lengths] {
+            if (!lengths->first.empty()) options->units.length = positive_length("--unit", lengths->first);
+            if (!lengths->second.empty())
+              options->neighbourhood = positive_length("--neighbourhood", lengths->second);
+            return band(*options);
+          }};
 }
 
 }  // namespace polargrain::app

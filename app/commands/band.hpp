@@ -3,40 +3,52 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "band/frames.hpp"
 #include "band/shear_band.hpp"
 
 namespace polargrain::app {
 
 struct BandCommandOptions {
-  std::filesystem::path directory;             ///< of a run, or of a specimen made of grains
+  /// A result directory (of a run, of a specimen made of grains, of image correlation), or one or two fields of image
+  /// correlation (CSV).
+  std::vector<std::filesystem::path> places;
   std::string strain_column = "axial_strain";  ///< of history.csv
   double from = -1.0;                          ///< axial strain; negative: two thirds of the last
   double to = -1.0;                            ///< negative: the last
   double window = 0.005;                       ///< of the increments that the onset is looked for in
   double contrast = 2.0;                       ///< least peak over background of a band
   bool current = false;                        ///< positions at the start of the increment, not of the test
-  std::filesystem::path fields;                ///< CSV of the samples of the increment; empty: none
+  polargrain::band::FieldUnits units = {};     ///< of fields of image correlation
+  double neighbourhood = 0.0;         ///< radius that strains are taken from, m; 0: 2.5 mean distances
+  std::filesystem::path fields = {};  ///< CSV of the samples of the increment; empty: none
 };
 
-/// What there is to say of the band of a result directory.
+/// What there is to say of a band.
 struct BandMeasurement {
-  double begin = 0.0;  ///< axial strain of the frame the increment begins with
-  double end = 0.0;    ///< and ends with
+  std::optional<double> begin;  ///< axial strain of the frame the increment begins with; none: of fields
+  std::optional<double> end;    ///< and ends with
   std::size_t places = 0;
-  bool of_grains = false;
-  polargrain::band::BandSearch search;
-  std::optional<double> onset;  ///< axial strain; none without a band, or where the last increment is none
-  polargrain::band::InsideOutside rotation;       ///< with a band
-  polargrain::band::InsideOutside volume_strain;  ///< with a band
+  std::size_t missing = 0;  ///< places of images without a displacement
+  polargrain::band::FrameKind kind = polargrain::band::FrameKind::elements;
+  polargrain::band::BandSearch search = {};
+  std::optional<double>
+      onset;  ///< axial strain; none without a band, of fields, or where the last increment is none
+  polargrain::band::InsideOutside rotation = {};       ///< with a band
+  polargrain::band::InsideOutside volume_strain = {};  ///< with a band
 };
 
 /// Looks for the shear band of a result directory and writes band.json and band.csv there
 /// (docs/file_formats.md). @throws InputError when the directory does not hold what is needed
 BandMeasurement measure_band(const BandCommandOptions& options);
 
-/// measure_band, and prints what it found. @returns 0, also when there is no band
-/// @throws InputError as measure_band
+/// Looks for the band of one field of image correlation, or of the increment between two, and writes band.json beside the
+/// last, NAME.band.json. @throws InputError as read_displacement_field
+BandMeasurement measure_band_of_fields(const BandCommandOptions& options);
+
+/// One of the two, and prints what it found. @returns 0, also when there is no band
+/// @throws InputError as these
 int band(const BandCommandOptions& options);
 
 }  // namespace polargrain::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A result directory whose last frame (first byte 0 a field file, 1 a dump of grains) or history (2) is made of the bytes.
+// A result directory whose last frame (first byte 0 a field file, 1 a dump of grains, 3 a field of images) or history (2) is made of the bytes.
 // Its band is looked for, by what happened since the frame before: refused with an InputError, or a band, or none.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,7 +24,7 @@ namespace {
 using namespace polargrain;
 namespace fs = std::filesystem;
 
-constexpr int kKinds = 3;
+constexpr int kKinds = 4;
 
 /// The fields of 6 elements, 24 places, that a shear has moved a little.
 void write_good_fields(const fs::path& file) {
@@ -43,17 +43,25 @@ void write_good_grains(const fs::path& file) {
   for (int k = 0; k < 25; ++k) out << k << ' ' << k % 5 + 0.1 * (k / 5) << ' ' << k / 5 << " 0.01 \n";
 }
 
-/// Three directories, whole but for what the bytes are to be.
+void write_good_images(const fs::path& file) {
+  std::ofstream out(file);
+  out << "x,y,u,v\n";
+  for (int k = 0; k < 25; ++k) out << k % 5 + 0.1 * (k / 5) << ',' << k / 5 << ",0.01," << 0.001 * k << '\n';
+}
+
+/// Four directories, whole but for what the bytes are to be.
 class Place {
  public:
   Place() : path_("/dev/shm/polargrain_fuzz_fields_" + std::to_string(getpid())) {
     for (int kind = 0; kind < kKinds; ++kind) {
-      const bool grains = kind == 1;
-      const fs::path folder = at(kind) / (grains ? "grains" : "fields");
+      static constexpr const char* kFolders[kKinds] = {"fields", "grains", "fields", "displacements"};
+      const fs::path folder = at(kind) / kFolders[kind];
       fs::create_directories(folder);
       for (const int step : {0, 1}) {
-        if (grains)
+        if (kind == 1)
           write_good_grains(folder / fmt::format("step-{}.dump", step));
+        else if (kind == 3)
+          write_good_images(folder / fmt::format("step-{}.csv", step));
         else
           write_good_fields(folder / fmt::format("step-{}.vtu", step));
       }
@@ -68,7 +76,8 @@ class Place {
   Place& operator=(const Place&) = delete;
   [[nodiscard]] fs::path at(int kind) const { return path_ / std::to_string(kind); }
   [[nodiscard]] fs::path file(int kind) const {
-    static constexpr const char* kFiles[kKinds] = {"fields/step-1.vtu", "grains/step-1.dump", "history.csv"};
+    static constexpr const char* kFiles[kKinds] = {"fields/step-1.vtu", "grains/step-1.dump", "history.csv",
+                                                   "displacements/step-1.csv"};
     return at(kind) / kFiles[kind];
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// polargrain band on result directories whose band is known: grain dumps and the fields of a run.
+// polargrain band on results whose band is known: grain dumps, fields of a run, fields of image correlation.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -68,6 +68,161 @@ TEST(BandCommand, MeasuresGrains) {
   EXPECT_NEAR(value("onset_strain"), 0.0155, 5e-4);
   const std::string samples = content(scratch.path() / "samples.csv");
   EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 801);
+}
+
+// ---- image correlation
+
+/// A band whose displacement along it is slide / 2 tanh(s / kScale): its shear strain is slide / (2 kScale) sech^2(s /
+/// kScale), 17.6 mm wide at half maximum.
+constexpr double kScale = 0.01;
+constexpr double kPlaceSpacing = 0.0025;
+
+Eigen::Vector2d tanh_displacement(const Eigen::Vector2d& place, double slide) {
+  const Eigen::Vector2d along(std::cos(kInclination), std::sin(kInclination));
+  const double s = -along.y() * (place.x() - 0.05) + along.x() * (place.y() - 0.1);
+  return 0.5 * slide * std::tanh(s / kScale) * along;
+}
+
+/// An irregular grid of 40 x 80 places, 2.5 mm apart, each off its place by up to a third of that; every seventeenth has no
+/// displacement, in two spellings. Lengths in pixels of 0.1 mm, y downwards, where asked for.
+std::string correlation(double slide, bool pixels, int first_missing = 3) {
+  std::string text = "# a correlation\nx,y,u,v,correlation\n";
+  const double unit = pixels ? 1e-4 : 1.0;
+  const double up = pixels ? -1.0 : 1.0;
+  for (int k = 0; k < 40 * 80; ++k) {
+    const Eigen::Vector2d place(kPlaceSpacing * (k % 40 + 0.5 + 0.33 * std::sin(7.0 * k)),
+                                kPlaceSpacing * (k / 40 + 0.5 + 0.33 * std::cos(11.0 * k)));
+    const Eigen::Vector2d moved = tanh_displacement(place, slide);
+    text += fmt::format("{:.12g},{:.12g},", place.x() / unit, up * place.y() / unit);
+    if (k % 17 == first_missing)
+      text += k % 2 == 0 ? ",,0\n" : "nan,NaN,0\n";
+    else
+      text += fmt::format("{:.12g},{:.12g},0.99\n", moved.x() / unit, up * moved.y() / unit);
+  }
+  return text;
+}
+
+double number_of(const std::string& json, const std::string& key) {
+  return std::stod(json.substr(json.find("\"" + key + "\": ") + key.size() + 4));
+}
+
+/// Width at half maximum of the sech^2 band once it is smoothed: by a neighbourhood of strain, whose kernel (1 - r^2 /
+/// radius^2)^3, seen across the band, is (1 - t^2 / radius^2)^3.5; and by the bell of the profile. By sums of 0.1 mm.
+double smoothed_width(double radius, double resolution) {
+  constexpr double kStep = 1e-4;
+  constexpr int kReach = 600;
+  const double deviation = resolution / 2.354820045;
+  const auto smoothed = [](const std::vector<double>& values, const auto& kernel) {
+    std::vector<double> result(values.size());
+    for (int at = 0; at <= 2 * kReach; ++at) {
+      double sum = 0.0;
+      double weights = 0.0;
+      for (int from = 0; from <= 2 * kReach; ++from) {
+        const double weight = kernel(kStep * (at - from));
+        sum += weight * values[static_cast<std::size_t>(from)];
+        weights += weight;
+      }
+      result[static_cast<std::size_t>(at)] = sum / weights;
+    }
+    return result;
+  };
+  std::vector<double> values;
+  for (int at = -kReach; at <= kReach; ++at) values.push_back(std::pow(std::cosh(kStep * at / kScale), -2.0));
+  values = smoothed(values,
+                    [&](double t) { return std::pow(std::max(0.0, 1.0 - t * t / (radius * radius)), 3.5); });
+  values = smoothed(values, [&](double t) { return std::exp(-0.5 * t * t / (deviation * deviation)); });
+  int at = kReach;
+  while (values[static_cast<std::size_t>(at)] > 0.5 * values[kReach]) ++at;
+  const double above = values[static_cast<std::size_t>(at) - 1] - 0.5 * values[kReach];
+  const double below = 0.5 * values[kReach] - values[static_cast<std::size_t>(at)];
+  return 2.0 * kStep * (at - 1 - kReach + above / (above + below));
+}
+
+/// Inclination and thickness of band.json are those of the tanh band.
+void expect_tanh_band(const std::string& json) {
+  // Inclination: a tenth of a spacing over half the length of the band is 0.23 degrees. Thickness: the background of a body
+  // of this size, its lowest quartile, is 0.3 % of the peak; places are a quarter of a spacing out of their kernels' middle: 1 %.
+  EXPECT_NEAR(number_of(json, "inclination_degrees"), 55.0, 0.23);
+  const double expected = smoothed_width(2.5 * kPlaceSpacing, number_of(json, "resolution"));
+  std::cout << "[figure] thickness / exact " << number_of(json, "thickness") / expected << "\n";
+  EXPECT_NEAR(number_of(json, "thickness"), expected, 0.015 * expected);
+}
+
+TEST(BandCommand, MeasuresOneFieldOfImageCorrelation) {
+  const Scratch scratch("band_images");
+  write(scratch.path() / "field.csv", correlation(0.004, false));
+  const Outcome outcome =
+      run_in(scratch.path(), std::string(POLARGRAIN) + " band field.csv --fields samples.csv");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  std::cout << outcome.out;
+  EXPECT_NE(outcome.out.find("3011 places of the images; 189 without a displacement are left out"),
+            std::string::npos);
+  const std::string json = content(scratch.path() / "field.band.json");
+  expect_tanh_band(json);
+  EXPECT_EQ(number_of(json, "missing"), 189.0);
+  // Pixels and y downwards are another way to write the same; a half shift of the field is the same increment.
+  write(scratch.path() / "pixels1.csv", correlation(0.001, true));
+  write(scratch.path() / "pixels2.csv", correlation(0.005, true, 5));
+  const Outcome pixels =
+      run_in(scratch.path(), std::string(POLARGRAIN) + " band pixels1.csv pixels2.csv --unit 0.1mm --y-down");
+  ASSERT_EQ(pixels.status, 0) << pixels.errors;
+  const std::string second = content(scratch.path() / "pixels2.band.json");
+  expect_tanh_band(second);
+  EXPECT_EQ(number_of(second, "missing"), 377.0);
+  EXPECT_NEAR(number_of(second, "peak_shear"), number_of(json, "peak_shear"),
+              0.005 * number_of(json, "peak_shear"));
+  // A larger neighbourhood smears the band, as its own filter says.
+  ASSERT_EQ(run_in(scratch.path(), std::string(POLARGRAIN) + " band field.csv --neighbourhood 12mm").status,
+            0);
+  const double wide = number_of(content(scratch.path() / "field.band.json"), "thickness");
+  EXPECT_NEAR(wide, smoothed_width(0.012, number_of(json, "resolution")), 0.015 * wide);
+}
+
+TEST(BandCommand, FollowsImagesToTheirOnset) {
+  const Scratch scratch("band_onset");
+  std::filesystem::create_directories(scratch.path() / "run/displacements");
+  std::string history = "step,axial_strain\n";
+  for (int frame = 1; frame <= 6; ++frame) {
+    write(scratch.path() / fmt::format("run/displacements/step-{}.csv", frame),
+          correlation(0.002 * std::max(0, frame - 2), false));
+    history += fmt::format("{},{}\n", frame, 0.01 * frame);
+  }
+  write(scratch.path() / "run/history.csv", history);
+  const Outcome outcome =
+      run_in(scratch.path(), std::string(POLARGRAIN) + " band run --from 0.03 --window 0.01");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string json = content(scratch.path() / "run/band.json");
+  expect_tanh_band(json);
+  // As with grains: nothing moves until 0.02, the next increment is all band.
+  EXPECT_NEAR(number_of(json, "onset_strain"), 0.0155, 5e-4);
+}
+
+TEST(BandCommand, NamesWhatIsWrongWithFieldsOfImages) {
+  const Scratch scratch("band_bad_images");
+  const auto refused = [&](const std::string& text, const std::string& message,
+                           const std::string& options = "") {
+    write(scratch.path() / "f.csv", text);
+    const Outcome outcome = run_in(scratch.path(), std::string(POLARGRAIN) + " band f.csv " + options);
+    EXPECT_EQ(outcome.status, 2) << text;
+    EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "f.band.json"));
+  };
+  refused("x,y,u\n0,0,1\n", "f.csv:1: there is no column 'v'; there are x, y, u");
+  refused("x,y,u,v\n0,0,1,1\n1,0,ja,1\n", "f.csv:3: 'ja' in column 'u' is not a number");
+  refused("x,y,u,v\n0,,1,1\n", "f.csv:2: '' in column 'y' is not a number");
+  refused("x,y,u,v\n0,0,1,1\n1,0,inf,1\n", "f.csv:3: 'inf' in column 'u' is not a number");
+  refused("x,y,u,v\n0,0,1,1\n1,0,1\n", "f.csv:3: there are 4 columns");
+  refused("x,y,u,v\n0,0,1,1\n\n0.0,0,1,2\n", "f.csv:4: the place x = 0, y = 0 stands already in line 2");
+  refused("x,y,u,v\n0,0,nan,1\n", "no place has a displacement");
+  refused("x,y,u,v\n0,0,0,1\n1,0,0,1\n", "the places fill no area");
+  refused(correlation(0.001, false), "--unit 3kPa: a length in m", "--unit 3kPa");
+  refused(correlation(0.001, false), "--neighbourhood -1mm: a length in m", "--neighbourhood -1mm");
+  write(scratch.path() / "other.csv", "x,y,u,v\n7,7,0,0\n");
+  const Outcome apart = run_in(scratch.path(), std::string(POLARGRAIN) + " band other.csv f.csv");
+  EXPECT_EQ(apart.status, 2);
+  EXPECT_NE(apart.errors.find("f.csv: no place has a displacement here and in the other field"),
+            std::string::npos)
+      << apart.errors;
 }
 
 TEST(BandCommand, ReadsTheFieldsOfARun) {
