@@ -100,6 +100,12 @@ void InformedMaterial::visit_numbers(Visitor& visit, PointState& point, int wind
     visit(*value);
   visit_whole(visit, m.limited);
   visit_samples(visit, m.samples, window);
+  bool unloaded = m.unloading.has_value();
+  fem::UnloadingMode unloading = m.unloading.value_or(fem::UnloadingMode{});
+  visit_whole(visit, unloaded);
+  visit(unloading.stiffness);
+  visit(unloading.contraction);
+  m.unloading = unloaded ? std::optional(unloading) : std::nullopt;
 }
 
 void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
@@ -191,11 +197,32 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
   }
 }
 
+Response InformedMaterial::integrate_unloading(const fem::Mobilisation& mobilisation,
+                                               const fem::ElastoplasticState& start,
+                                               const Increment& increment,
+                                               fem::ElastoplasticState& end) const {
+  Vector7 scale = Vector7::Ones();
+  scale.tail<2>().setConstant(frame_.length);
+  Vector7 unscale = Vector7::Ones();
+  unscale.tail<2>().setConstant(frame_.length > 0.0 ? 1.0 / frame_.length : 0.0);
+  const fem::UnloadingMode::Felt felt =
+      mobilisation.unloading->felt(increment.strain().cwiseProduct(scale), controlled() ? 3 : 1);
+  const fem::FrozenCone& cone = mobilisation.cone;
+  Response response =
+      fem::integrate_elastoplastic(frame_,
+                                   {fem::PiecewiseLinear(cone.friction), fem::PiecewiseLinear(cone.dilatancy),
+                                    fem::PiecewiseLinear(cone.cohesion)},
+                                   start, Vector7(felt.strain.cwiseProduct(unscale)), end);
+  response.tangent *= unscale.asDiagonal() * felt.slope * scale.asDiagonal();
+  return response;
+}
+
 Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
   const PointState& before = committed_[point];
   const fem::FrozenCone& cone = before.mobilisation.cone;
   const fem::ElastoplasticState start = law_start(point, increment);
   fem::ElastoplasticState& end = trial_[point].law;
+  if (before.mobilisation.unloading) return integrate_unloading(before.mobilisation, start, increment, end);
   if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
     using fem::PiecewiseLinear;
     const fem::HardeningCone taken_up{PiecewiseLinear({{start.gamma_p, before.held_friction},
@@ -238,9 +265,14 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
       const fem::ElastoplasticState start = law_start(point, increments[point]);
       const fem::FrozenCone& cone = trial_[point].mobilisation.cone;
       Response& response = responses[point];
-      response = fem::integrate_elastoplastic(frame_, cone, start, increments[point], trial_[point].law);
-      add_hardening(frame_, committed_[point].mobilisation.cone, cone, start, increments[point],
-                    trial_[point].law, response);
+      fem::ElastoplasticState& end = trial_[point].law;
+      if (trial_[point].mobilisation.unloading) {
+        response = integrate_unloading(trial_[point].mobilisation, start, increments[point], end);
+      } else {
+        response = fem::integrate_elastoplastic(frame_, cone, start, increments[point], end);
+        add_hardening(frame_, committed_[point].mobilisation.cone, cone, start, increments[point], end,
+                      response);
+      }
     }
     if (cell.quality < responses[point].quality) {
       responses[point].quality = cell.quality;

@@ -103,6 +103,10 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   template <class Visitor>
   static void visit_numbers(Visitor& visit, PointState& point, int window);
   [[nodiscard]] Response integrate(std::size_t point, const Increment& increment);
+  /// A step inside of the cone, or back to it, with the stiffness and contraction that the cell shows there.
+  [[nodiscard]] Response integrate_unloading(const fem::Mobilisation& mobilisation,
+                                             const fem::ElastoplasticState& start, const Increment& increment,
+                                             fem::ElastoplasticState& end) const;
   void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);
   void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
   /// The points that go by their cells' answers.

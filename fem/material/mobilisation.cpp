@@ -51,6 +51,7 @@ Mobilisation initial_mobilisation(const MobilisationOptions& options) {
 Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,
                      const MobilisationOptions& options) {
   Mobilisation end = start;
+  end.unloading.reset();
   const bool loading = is_loading(step);
   if (loading) {
     add_to_window(step, moduli, options.window, end.samples);
@@ -61,6 +62,9 @@ Mobilisation advance(const Mobilisation& start, const MicroStep& step, const Sub
   end.limited = !friction;
   if (!friction) return end;
   end.micro_friction = *friction;
+  // A micro scale beyond the cone is one that the law has yet to catch up with: as stiff as it is.
+  if (!step.macro_plastic && *friction < start.cone.friction)
+    end.unloading = unloading_mode(moduli, step.strain, step.stress_after - step.stress_before);
   if (!loading || !step.macro_plastic) return end;
   const bool softening = *friction < start.micro_friction;
   if (*friction >= start.cone.friction || softening) end.cone.friction = *friction;

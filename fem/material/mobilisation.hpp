@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "fem/material/cone.hpp"
 #include "fem/material/mobilised.hpp"
+#include "fem/material/unloading.hpp"
 
 namespace polargrain::fem {
 
@@ -42,6 +44,9 @@ struct Mobilisation {
   bool limited = false;         ///< what was read last was outside the limits, or the micro scale in tension
   /// Oldest first, at most window + 1, all of one loading; empty in unloading.
   std::vector<Sample> samples;
+  /// How the micro scale answered in the last step, where the macro law did not flow and the micro scale was inside of the
+  /// law's cone too; else nothing.
+  std::optional<UnloadingMode> unloading;
 };
 
 /// Before anything has been read: the cone of the initial friction without dilatancy.
