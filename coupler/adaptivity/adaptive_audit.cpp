@@ -79,7 +79,7 @@ double AdaptiveMaterial::bound_of(std::span<const double> errors) const {
 double AdaptiveMaterial::neglected(std::span<const double> errors) const {
   if (errors.empty()) return 1.0;
   const auto estimate_now = [&](std::size_t point) {
-    return estimate(point, branches_[branch_of_point_[point]]) / confining_;
+    return estimate(point, branches_[branch_of_point_[point]]) / reference_;
   };
   double all = 0.0;
   for (std::size_t point = 0; point < points_.size(); ++point) all += estimate_now(point);
@@ -91,12 +91,16 @@ double AdaptiveMaterial::neglected(std::span<const double> errors) const {
   return mean > 0.0 ? std::max(1.0, (all + mean) / (followed + mean)) : 1.0;
 }
 
+std::string AdaptiveMaterial::reference_name() const {
+  return options_.reference_pressure ? fmt::format("{:g} kPa", reference_ / 1e3) : "the confining pressure";
+}
+
 void AdaptiveMaterial::note_tightening(double bound_before, double bound) {
   notes_.push_back(fmt::format(
-      "step {}: the mean error is at most {:.3g} of the confining pressure (95 % confidence, {} points followed), more "
+      "step {}: the mean error is at most {:.3g} of {} (95 % confidence, {} points followed), more "
       "than the tolerance of {:.3g}; with estimates below {:.3g} it is {:.3g}",
-      step_ + 1, bound_before, followed_.size(), options_.tolerance, options_.tolerance / tightening_,
-      bound));
+      step_ + 1, bound_before, reference_name(), followed_.size(), options_.tolerance,
+      options_.tolerance / tightening_, bound));
 }
 
 void AdaptiveMaterial::keep_audit() {
@@ -125,8 +129,9 @@ std::string AdaptiveMaterial::doubt() const {
   if (bounds_.steps_beyond == 0.0) return {};
   return fmt::format(
       "its stresses cannot be vouched for: in {:.0f} of {} steps, from step {:.0f} on, the mean error may be above the "
-      "tolerance of {:.3g} of the confining pressure; with 95 % confidence it is at most {:.3g}, at the end {:.3g}",
-      bounds_.steps_beyond, step_, bounds_.first_beyond, options_.tolerance, bounds_.largest, bounds_.last);
+      "tolerance of {:.3g} of {}; with 95 % confidence it is at most {:.3g}, at the end {:.3g}",
+      bounds_.steps_beyond, step_, bounds_.first_beyond, options_.tolerance, reference_name(),
+      bounds_.largest, bounds_.last);
 }
 
 std::vector<fem::Figure> AdaptiveMaterial::figures() const {
@@ -173,7 +178,7 @@ std::vector<std::string> AdaptiveMaterial::field_names() const {
 void AdaptiveMaterial::fields(std::size_t point, std::span<double> values) const {
   values[0] = static_cast<double>(points_[point].source);
   values[1] = static_cast<double>(points_[point].cell);
-  values[2] = points_[point].estimate / confining_;
+  values[2] = points_[point].estimate / reference_;
   std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3);
 }
 

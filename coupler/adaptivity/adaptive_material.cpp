@@ -46,13 +46,15 @@ void AdaptiveMaterial::allocate(std::size_t points) {
   Cell packing{packing_at_rest(calls_, notes_), {}};
   if (!measure_.controlled()) keep_symmetric(packing.answer.response);
   const Vector7& stress = packing.answer.response.stress;
-  confining_ = -0.5 * (stress[k11] + stress[k22]);
-  if (!(confining_ > 0.0)) {
-    throw RunError("an adaptive material needs a packing under pressure: its tolerance is a share of it");
+  reference_ = options_.reference_pressure.value_or(-0.5 * (stress[k11] + stress[k22]));
+  if (!(reference_ > 0.0)) {
+    throw RunError(
+        "an adaptive material needs a packing under pressure, which its tolerance is a share of, or another "
+        "pressure to measure by (reference_pressure)");
   }
   const Matrix7& elastic = packing.answer.response.tangent;
   // Strain whose elastic stress is the tolerance.
-  turn_tolerance_ = options_.tolerance * confining_ / elastic.topLeftCorner<2, 2>().norm();
+  turn_tolerance_ = options_.tolerance * reference_ / elastic.topLeftCorner<2, 2>().norm();
   estimate_ = ErrorEstimate(measure_, elastic, turn_tolerance_);
   cells_.assign(1, packing);
   points_.assign(points, Point{});

@@ -15,8 +15,8 @@
 namespace polargrain::coupler {
 
 struct AdaptivityOptions {
-  /// Error in the in-plane norm of stress that a point may have, as a share of the confining pressure of the
-  /// packing. 0: every point has a cell of its own.
+  /// Error in the in-plane norm of stress that a point may have, as a share of the reference pressure. 0: every point
+  /// has a cell of its own.
   double tolerance = 0.02;
   /// Share of the points that are followed by a cell of their own through all steps, which measures the error; at
   /// least six, twelve at the start. 0: none, and nothing is known of the error.
@@ -25,6 +25,9 @@ struct AdaptivityOptions {
   /// Of grains whose rotations are controlled, m: what makes curvatures and couple stresses comparable with strains and
   /// stresses. 0: rotations are free.
   double mean_diameter = 0.0;
+  /// Pa; nothing: the mean in-plane pressure of the packing. A scene that begins almost without stress and is loaded by
+  /// its weight has no use for the latter.
+  std::optional<double> reference_pressure = {};
 };
 
 /// Where the stress of a point came from in a committed step.
@@ -74,7 +77,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   void restore(ArchiveReader& archive) override;
 
   [[nodiscard]] double moment_length() const override { return options_.mean_diameter; }
-  /// source (see Source), cell (its number), error_estimate (of the confining pressure), and of the cell
+  /// source (see Source), cell (its number), error_estimate (of the reference pressure), and of the cell
   /// void_ratio, coordination_number, unbalanced_force_ratio, sliding_fraction, dem_steps.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
@@ -147,23 +150,25 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
                                             std::span<const std::size_t> points, std::int64_t& steps);
   /// What takes the cell of a point through the step.
   [[nodiscard]] Increment increment_of_step(std::size_t point) const;
-  /// Size of an error of a stress, as a share of the confining pressure.
-  [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / confining_; }
+  /// Size of an error of a stress, as a share of the reference pressure.
+  [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / reference_; }
   /// @param part skew and couple stress of the point at the start of the step; goes along to its end
   Response answer_to(std::size_t point, CosseratPart& part) const;
   /// What the cells say of a point, carried to it; without the Cosserat part of the case.
   [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
-  [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * confining_; }
+  [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * reference_; }
   void choose_followed();
   /// Runs the cells that follow points through the step at work, those that have not been. One that fails is let go.
   void run_followed();
-  /// What the answers to the followed points miss, shares of the confining pressure.
+  /// What the answers to the followed points miss, shares of the reference pressure.
   [[nodiscard]] std::vector<double> measured_errors() const;
-  /// What the mean error of all points is at most, a share of the confining pressure, with 95 % confidence.
+  /// What the mean error of all points is at most, a share of the reference pressure, with 95 % confidence.
   [[nodiscard]] double bound_of(std::span<const double> errors) const;
   /// By how much the estimates of all points, on the average, are above those of the points that are followed, which may
   /// happen to be calm ones: at least 1.
   [[nodiscard]] double neglected(std::span<const double> errors) const;
+  /// The reference pressure in words.
+  [[nodiscard]] std::string reference_name() const;
   void note_tightening(double bound_before, double bound);
   /// Ends the audit of a step: what was measured is kept, and where it leaves much room one point less is followed.
   void keep_audit();
@@ -177,7 +182,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   std::optional<CosseratParameters> cosserat_;
   AdaptivityOptions options_;
   GrainMeasure measure_;
-  double confining_ = 0.0;  ///< mean in-plane pressure of the packing, Pa
+  double reference_ = 0.0;  ///< the pressure that errors are shares of, Pa
   ErrorEstimate estimate_;
   double turn_tolerance_ =
       0.0;  ///< strain by which a path must leave a straight one to be replayed in pieces
@@ -194,7 +199,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   std::vector<Increment> increments_;
 
   std::vector<Followed> followed_;  ///< in the order they were drawn
-  MeasuredErrors errors_;           ///< of the points followed, shares of the confining pressure
+  MeasuredErrors errors_;           ///< of the points followed, shares of the reference pressure
   double tightening_ = 1.0;         ///< the tolerance asked for is divided by it
   bool tightening_helps_ = true;    ///< in this step
   bool shares_ = true;              ///< points may follow others; false: there was nothing left to share

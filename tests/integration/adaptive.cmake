@@ -12,3 +12,10 @@ polargrain_test(request_sharing_test integration integration/request_sharing_tes
                 LIBS polargrain_pool polargrain_fake_engine)
 target_compile_definitions(request_sharing_test PRIVATE FAKE_WORKER="$<TARGET_FILE:fake_worker>")
 add_dependencies(request_sharing_test fake_worker)
+
+if(TARGET polargrain)
+  polargrain_test(own_weight_test integration integration/own_weight_test.cpp LIBS polargrain_options)
+  target_compile_definitions(own_weight_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                     POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  add_dependencies(own_weight_test polargrain)
+endif()

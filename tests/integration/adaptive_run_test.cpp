@@ -83,6 +83,21 @@ TEST_F(AdaptiveRunTest, WhatCannotBeVouchedForIsSaidInTheTableTheSummaryAndTheEx
     EXPECT_NE(text.find(words), std::string::npos) << text;
 }
 
+// 1 % of 100 kPa is 0.5 % of 200 kPa: the same decisions and the same digits.
+TEST_F(AdaptiveRunTest, AToleranceIsAShareOfTheReferencePressure) {
+  ASSERT_EQ(polargrain("run case.yaml -o own -w 2").status, 0);
+  write_case("adaptive, tolerance: 0.5 %, audit: 5 %, reference_pressure: 200 kPa");
+  const Outcome outcome = polargrain("run case.yaml -o stated -w 2");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(result("own/history.csv"), result("stated/history.csv"));
+  EXPECT_EQ(figure("own", "cell_runs"), figure("stated", "cell_runs"));
+  // Shares of twice the pressure; the fake's packing carries 100 kPa but for rounding.
+  EXPECT_NEAR(figure("stated", "error_bound"), 0.5 * figure("own", "error_bound"),
+              1e-9 * figure("own", "error_bound"));
+  write_case("adaptive, reference_pressure: 0");
+  EXPECT_NE(polargrain("check case.yaml").errors.find("reference_pressure: "), std::string::npos);
+}
+
 TEST_F(AdaptiveRunTest, OneAndTwoWorkersDecideAlike) {
   ASSERT_EQ(polargrain("run case.yaml -o one -w 1").status, 0);
   ASSERT_EQ(polargrain("run case.yaml -o two -w 2").status, 0);

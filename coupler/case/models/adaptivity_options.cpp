@@ -8,6 +8,10 @@ AdaptivityOptions read_adaptivity_options(Section& section) {
   options.tolerance =
       section.quantity_or("tolerance", Dimension::number, Limit::not_negative, options.tolerance);
   section.require_below("tolerance", 1.0, "it is a share of the confining pressure, 3 % is '3 %' or 0.03");
+  if (section.find("reference_pressure") != nullptr) {
+    options.reference_pressure =
+        section.quantity_or("reference_pressure", Dimension::pressure, Limit::positive, 0.0);
+  }
   options.audit = section.quantity_or("audit", Dimension::number, Limit::not_negative, options.audit);
   if (options.audit > 1.0) section.fault("audit", "audit: is a share of the points, at most 1 (100 %)");
   options.seed = static_cast<std::uint64_t>(section.whole_or("seed", 0, static_cast<int>(options.seed)));
