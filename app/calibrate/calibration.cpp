@@ -50,13 +50,15 @@ Parameter read_parameter(const Entry::Member& member, Faults& faults) {
   parameter.name = member.key;
   parameter.linear = section.choice_or("scale", {"logarithmic", "linear"}, "logarithmic") == "linear";
   const Limit limit = parameter.linear ? Limit::any : Limit::positive;
+  const std::size_t before = faults.size();
   const std::vector<double> bounds = section.quantities("bounds", 2, Dimension::number, limit);
+  const bool has_bounds = section.find("bounds") != nullptr && faults.size() == before;
   parameter.low = bounds[0];
   parameter.high = bounds[1];
   parameter.start = section.quantity("start", Dimension::number, limit);
-  if (section.find("bounds") != nullptr && !(parameter.low < parameter.high))
+  if (has_bounds && !(parameter.low < parameter.high))
     section.fault("bounds", "bounds: the first must be the smaller one");
-  else if (!(parameter.start >= parameter.low && parameter.start <= parameter.high))
+  else if (has_bounds && !(parameter.start >= parameter.low && parameter.start <= parameter.high))
     section.fault("start", fmt::format("start: {:.6g} is outside of the bounds {:.6g} to {:.6g}",
                                        parameter.start, parameter.low, parameter.high));
   section.finish();
@@ -138,6 +140,15 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
       return;
     }
   const bool names_tests = std::ranges::find(table.names(), test_column) != table.names().end();
+  // Rows of all tests would be taken for those of one.
+  if (!names_tests && (section.find("test_column") != nullptr || section.find("lab_test") != nullptr)) {
+    section.fault(
+        "test_column",
+        fmt::format(
+            "the laboratory's table has no column '{}' that says which test a row belongs to; it has {}",
+            test_column, coupler::listed(table.names())));
+    return;
+  }
   std::size_t count = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (names_tests && table.cell(row, test_column) != lab_test) continue;
@@ -262,6 +273,21 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
     }
   calibration.identity = name_of(std::as_bytes(std::span(all))).text();
   return calibration;
+}
+
+std::vector<std::size_t> missed_points(
+    const std::vector<TargetPoint>& points, const std::vector<std::vector<std::string>>& columns,
+    const std::vector<std::vector<std::vector<std::vector<double>>>>& curves) {
+  std::vector<std::size_t> missed;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t test = points[k].test;
+    if (std::ranges::any_of(curves[test], [&](const auto& rows) {
+          const std::optional<double> value = value_of(points[k], columns[test], rows);
+          return !value || !std::isfinite(*value);
+        }))
+      missed.push_back(k);
+  }
+  return missed;
 }
 
 std::vector<double> differences(const std::vector<TargetPoint>& points,

@@ -60,4 +60,9 @@ std::vector<double> differences(const std::vector<TargetPoint>& points,
                                 const std::vector<std::vector<std::string>>& columns,
                                 const std::vector<std::vector<std::vector<std::vector<double>>>>& curves);
 
+/// The points that one of the packings or more did not come as far as: their numbers in `points`.
+std::vector<std::size_t> missed_points(
+    const std::vector<TargetPoint>& points, const std::vector<std::vector<std::string>>& columns,
+    const std::vector<std::vector<std::vector<std::vector<double>>>>& curves);
+
 }  // namespace polargrain::app

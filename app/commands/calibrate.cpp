@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "app/calibrate/calibration_page.hpp"
 #include "app/calibrate/script_parameters.hpp"
@@ -38,8 +39,27 @@ std::vector<ElementSpecification> tests_with(const Calibration& calibration,
   return tests;
 }
 
+/// What a point is, for messages.
+std::string name_of_point(const Calibration& calibration, const TargetPoint& point) {
+  const std::string of = fmt::format("{} of test '{}'", point.column, calibration.test_names[point.test]);
+  return point.where == TargetPoint::Where::along ? fmt::format("{} at {} {:.4g}", of, point.along, point.at)
+                                                  : of;
+}
+
+/// A search among points that no test can reach would go on to its end and say nothing.
+void tell_missed(const Calibration& calibration, const std::vector<std::size_t>& missed) {
+  if (missed.empty()) return;
+  tell(
+      stderr,
+      "warning: {} of {} points lie where not all packings came, the first is {}; each counts as {:g} errors a packing. Where "
+      "the test ends before them, let it end later, or leave them out with 'to' of the target\n",
+      missed.size(), calibration.points.size(),
+      name_of_point(calibration, calibration.points[missed.front()]), kMissed);
+}
+
+/// @param first tell of points that the tests did not reach
 std::vector<double> evaluate(const Calibration& calibration, const std::vector<double>& values,
-                             const CalibrateOptions& options) {
+                             const CalibrateOptions& options, bool first) {
   const std::vector<ElementSpecification> tests = tests_with(calibration, values);
   std::vector<std::vector<std::string>> columns;
   std::vector<std::vector<std::vector<std::vector<double>>>> curves;
@@ -48,6 +68,7 @@ std::vector<double> evaluate(const Calibration& calibration, const std::vector<d
     curves.emplace_back();
     for (const ElementCurve& curve : result.curves) curves.back().push_back(curve.rows);
   }
+  if (first) tell_missed(calibration, missed_points(calibration.points, columns, curves));
   return differences(calibration.points, columns, curves);
 }
 
@@ -144,8 +165,12 @@ int run_calibration(const CalibrateOptions& options, const PackingTools& tools) 
   for (const Evaluation& one : known) text += row_of(one);
   CsvFile record(file, text);
   std::size_t count = known.size();
+  bool first = true;
   const CalibrationResult result = calibrate(
-      calibration, [&](const std::vector<double>& values) { return evaluate(calibration, values, options); },
+      calibration,
+      [&](const std::vector<double>& values) {
+        return evaluate(calibration, values, options, std::exchange(first, false));
+      },
       known,
       [&](const Evaluation& one) {
         std::string row = row_of(one);

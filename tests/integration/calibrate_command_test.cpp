@@ -118,6 +118,23 @@ TEST_F(Calibrate, ASearchWithTooFewEvaluationsIsNotDone) {
   EXPECT_NE(outcome.out.find("not converged: 6 evaluations"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Calibrate, TellsOfPointsThatNoTestReaches) {
+  make_laboratory();
+  const std::string far = specification(kBoth, kStress + "evaluations: 2\n");
+  std::string shorter = far;
+  shorter.replace(shorter.find("axial_strain: 1 %"), 17, "axial_strain: 0.5 %");
+  // The laboratory's five points are 0.2 % apart and end at 1 %.
+  write(scratch.path() / "spec.yaml", shorter);
+  const Outcome missed = run("calibrate lab.csv spec.yaml -o short -w 1");
+  EXPECT_NE(missed.errors.find("warning: 3 of "), std::string::npos) << missed.errors;
+  EXPECT_NE(missed.errors.find("the first is s22_Pa of test 'drained' at axial_strain 0.006"),
+            std::string::npos)
+      << missed.errors;
+  EXPECT_EQ(missed.errors.find("warning"), missed.errors.rfind("warning")) << "told once";
+  write(scratch.path() / "spec.yaml", far);
+  EXPECT_EQ(run("calibrate lab.csv spec.yaml -o far -w 1").errors.find("warning"), std::string::npos);
+}
+
 TEST_F(Calibrate, TheProfileSeeksTheOtherParametersAnew) {
   make_laboratory();
   write(scratch.path() / "spec.yaml",
@@ -222,6 +239,21 @@ TEST_F(Calibrate, SaysWhatIsWrongBeforeAnythingRuns) {
   expect_fault(
       specification(kBoth, "  - {column: s22_Pa, lab: sigma1, error: 1e3}\n"),
       "spec.yaml:10: target 1: the laboratory's table has no column 'sigma1'; it has packing, stage");
+  expect_fault(specification("  stiffness: {bounds: [2e8, 1e8], start: 1.5e8}\n", kStress),
+               "spec.yaml:5: parameter 'stiffness': bounds: the first must be the smaller one");
+  expect_fault(
+      specification(kBoth, "  - {column: s22_Pa, error: 1e3, test_column: id}\n"),
+      "spec.yaml:10: target 1: the laboratory's table has no column 'id' that says which test a row belongs to");
+  expect_fault(specification(kBoth, "  - {column: s22_Pa, error: 1e3, lab_test: other}\n"),
+               "has no column 'test' that says which test a row belongs to");
+  // A bound that is refused is not compared with the others.
+  write(scratch.path() / "spec.yaml",
+        specification("  stiffness: {bounds: [0, 2e8], start: 1.5e8}\n", kStress));
+  const std::string bound = run("calibrate lab.csv spec.yaml").errors;
+  EXPECT_NE(bound.find("spec.yaml:5: parameter 'stiffness': bounds: must be greater than zero"),
+            std::string::npos)
+      << bound;
+  EXPECT_EQ(std::ranges::count(bound, '\n'), 1) << bound;
   expect_fault(specification(kBoth, "  - {column: s22, error: 1e3}\n"),
                "target 1: column: expected one of stage, row");
   expect_fault(specification(kBoth, "  - {column: s22_Pa, last: -1, error: 1e3}\n"),
