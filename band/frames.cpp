@@ -82,7 +82,8 @@ Frame read_grain_dump(const std::filesystem::path& file) {
     return static_cast<std::size_t>(found - names.begin());
   };
   const std::size_t id = place("id");
-  const std::size_t x = place("x");
+  // Positions that go on over periodic sides, where there are any.
+  const std::size_t x = place(std::ranges::find(names, "xu") == names.end() ? "x" : "xu");
   const std::size_t y = place("y");
   const std::size_t turned = place("f_turned");
   std::map<long, std::array<double, 3>> grains;

@@ -19,7 +19,7 @@ struct Frame {
   std::vector<double> rotations;         ///< since the start, rad
 };
 
-/// A LIGGGHTS dump with the columns id, x, y and f_turned (others are skipped), grains in the order of their
+/// A LIGGGHTS dump with the columns id, x or xu, y and f_turned (others are skipped), grains in the order of their
 /// ids.
 /// @throws InputError naming file and line
 Frame read_grain_dump(const std::filesystem::path& file);

@@ -17,6 +17,8 @@ struct PackingTools {
   std::function<void()> start_process;
   PackingMaker make;
   PackingSettler settle = {};  ///< empty where no packing is ever settled
+  /// LIGGGHTS with a command line of its own (program first), in a process of its own. @returns its exit status
+  std::function<int(const std::vector<std::string>&)> run_script = {};
 };
 
 struct PackOptions {

@@ -6,6 +6,7 @@
 #include "common/state.hpp"
 #include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/measured_length.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -21,6 +22,13 @@ void collect(const Entry& entry, const std::string& key, const std::filesystem::
   const auto below = [&](const std::string& name) { return key.empty() ? name : key + "." + name; };
   for (const Entry::Member& member : entry.members) {
     collect(member.value, below(member.key), directory, identity);
+  }
+  // `lc: measured` is what stands beside the packing.
+  const Entry* const length = entry.find("lc");
+  const Entry* const packing = entry.find("packing");
+  if (length != nullptr && packing != nullptr && length->text == "measured") {
+    if (const auto file = find_data_file(packing->text, directory))
+      identity.files[below("lc")] = name_of_content(length_file_of(*file), "");
   }
   for (std::size_t i = 0; i < entry.items.size(); ++i) {
     collect(entry.items[i], below(std::to_string(i)), directory, identity);

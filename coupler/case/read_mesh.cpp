@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/mesh/gmsh.hpp"
@@ -21,6 +23,31 @@ void make_patch(const Eigen::Vector2d& size, Section& section, fem::Mesh& mesh) 
                   "patch: holds no element, or all of them; its size is measured from the lower left corner "
                   "to the centres of elements");
   }
+}
+
+/// Makes node sets of the rows of nodes at given heights.
+void make_levels(const Entry& entry, CaseParts& parts) {
+  fem::Mesh& mesh = parts.result.problem.mesh;
+  Section levels(entry, "mesh.rectangle.levels", parts.faults);
+  for (const Entry::Member& member : entry.members) {
+    const double height = levels.quantity(member.key, Dimension::length, Limit::not_negative);
+    if (mesh.node_sets.count(member.key) > 0 || mesh.boundaries.count(member.key) > 0) {
+      levels.fault(member.key, fmt::format("{}: a part of every rectangle has that name", member.key));
+      continue;
+    }
+    // Rows are whole parts of the height: what is farther off than rounding is no row.
+    std::vector<int> nodes;
+    for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node)
+      if (std::abs(mesh.nodes[node].y() - height) < 1e-9 * mesh.nodes.back().y()) nodes.push_back(node);
+    if (nodes.empty())
+      levels.fault(
+          member.key,
+          fmt::format("{}: no nodes are at a height of {} m; elements have theirs at their edges and "
+                      "in the middle of these",
+                      member.key, height));
+    mesh.node_sets[member.key] = nodes;
+  }
+  levels.finish();
 }
 
 /// Most elements of a case: beyond, the numbers of the entries of the equations outgrow 32 bits.
@@ -52,11 +79,13 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
     const std::vector<double> corner = section.quantities("patch", 2, Dimension::length, Limit::positive);
     patch << corner[0], corner[1];
   }
+  const Entry* levels = section.find("levels");
   section.finish();
   check_number(section, specification);
   if (parts.faults.size() == faults_before && !element.empty()) {
     parts.result.problem.mesh = fem::rectangle(specification, element);
     if (has_patch) make_patch(patch, section, parts.result.problem.mesh);
+    if (levels != nullptr) make_levels(*levels, parts);
   }
 }
 

@@ -133,6 +133,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:7: material 'sand': Gc: must be greater than zero, found '0'"},
         BadInput{"FractionOfASteps", "count: 4", "count: 2.5",
                  "case.yaml:17: steps: count: expected a whole number of at least 1, found '2.5'"},
+        BadInput{"LevelBetweenNodes", "elements: [2, 4]", "elements: [2, 4], levels: {middle: 0.41 m}",
+                 "case.yaml:3: mesh.rectangle.levels: middle: no nodes are at a height of 0.41 m; elements "
+                 "have theirs at their edges and in the middle of these"},
+        BadInput{"LevelOfAKnownName", "elements: [2, 4]", "elements: [2, 4], levels: {top: 0.8 m}",
+                 "case.yaml:3: mesh.rectangle.levels: top: a part of every rectangle has that name"},
         BadInput{"NoElements", "elements: [2, 4]", "elements: [2, 0]",
                  "case.yaml:3: mesh.rectangle: elements: expected a whole number of at least 1, found '0'"},
         BadInput{

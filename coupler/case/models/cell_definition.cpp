@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "common/error.hpp"
 #include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/measured_length.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -60,7 +62,48 @@ CellControl read_control(Section& section) {
   return control;
 }
 
-CosseratChoice read_cosserat_choice(Section& section, const CaseFiles& files) {
+/// Sizes of grains may differ by so much, relative, from those a length was measured with.
+constexpr double kSameGrains = 0.05;
+
+/// `lc: measured`: what polargrain layer has left beside the packing.
+void take_measured_length(Section& section, const CellDefinition& definition, const CaseFiles& files,
+                          CosseratChoice& choice) {
+  choice.internal_length = 1.0;  // fit for reading on
+  const Entry* const packing = section.find("packing");
+  const auto place = packing == nullptr ? std::nullopt : find_data_file(packing->text, files.directory);
+  if (!place || definition.packing.grains.empty()) return;  // is a fault already
+  const std::filesystem::path file = length_file_of(*place);
+  if (!std::filesystem::exists(file)) {
+    section.fault("lc", fmt::format("lc: measured: there is no {}; 'polargrain layer SPEC.yaml --beside {}' "
+                                    "makes the experiment and writes it, or give a length",
+                                    file.filename().string(), packing->text));
+    return;
+  }
+  try {
+    const MeasuredLength measured = read_measured_length(file);
+    const double diameter = 2.0 * definition.packing.mean_radius();
+    if (std::abs(measured.mean_diameter - diameter) > kSameGrains * diameter)
+      section.fault(
+          "lc",
+          fmt::format("lc: measured: {} is of grains of {:.4g} mm, those of the packing have {:.4g} mm; "
+                      "measure with these grains, or give a length",
+                      file.filename().string(), 1e3 * measured.mean_diameter, 1e3 * diameter));
+    if (!definition.script.empty() && measured.script != name_of_script(definition.script))
+      section.fault("lc",
+                    fmt::format("lc: measured: {} was measured under another contact law than that of {}; "
+                                "measure with this script, or give a length",
+                                file.filename().string(), definition.script_file));
+    choice.internal_length = measured.internal_length;
+    choice.plastic_length = measured.plastic_length;
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults())
+      section.fault(
+          "lc", fmt::format("lc: measured: {}:{}: {}", file.filename().string(), fault.line, fault.message));
+  }
+}
+
+CosseratChoice read_cosserat_choice(Section& section, const CellDefinition& definition,
+                                    const CaseFiles& files) {
   const auto value = [&section](const char* key, Dimension dimension) -> std::optional<double> {
     return section.quantity_or_word(key, dimension, Limit::positive, "from packing");
   };
@@ -68,7 +111,10 @@ CosseratChoice read_cosserat_choice(Section& section, const CaseFiles& files) {
   if (section.find("G") != nullptr) choice.shear_modulus = value("G", Dimension::pressure);
   if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = value("Gc", Dimension::pressure);
   // A classical continuum has no curvature: its length is of no effect.
-  if (files.cosserat || section.find("lc") != nullptr)
+  const Entry* const length = section.find("lc");
+  if (length != nullptr && length->text == "measured")
+    take_measured_length(section, definition, files, choice);
+  else if (files.cosserat || length != nullptr)
     choice.internal_length = value("lc", Dimension::length);
   if (section.find("lp") != nullptr)
     choice.plastic_length = section.quantity("lp", Dimension::length, Limit::positive);
@@ -121,7 +167,7 @@ bool read_controlled(Section& section, CellDefinition& definition) {
 
 std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition,
                                              const CaseFiles& files) {
-  if (!read_controlled(section, definition)) return read_cosserat_choice(section, files);
+  if (!read_controlled(section, definition)) return read_cosserat_choice(section, definition, files);
   refuse_cosserat_parameters(section);
   return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // model: informed - a Cosserat cone whose friction and dilatancy come from a box of grains
 // (docs/theory/plasticity.md, B.9)
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "coupler/case/material_model.hpp"
@@ -51,10 +53,15 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   InformedParameters parameters = read_informed_parameters(section);
-  if (cosserat && cosserat->plastic_length)
-    section.fault("lp",
-                  "lp: the law of 'model: informed' limits the couple stress itself, by the third of its "
-                  "'invariants'; leave lp out, or take 'model: cell'");
+  if (cosserat && cosserat->plastic_length) {
+    // Given, or what `lc: measured` comes with.
+    const bool given = section.find("lp") != nullptr;
+    section.fault(
+        given ? "lp" : "lc",
+        fmt::format("{}: the law of 'model: informed' limits the couple stress itself, by the third "
+                    "of its 'invariants'; {}, or take 'model: cell'",
+                    given ? "lp" : "lc: measured", given ? "leave lp out" : "give a length"));
+  }
   read_adaptivity_options(section);  // checked, and no more: see there
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();

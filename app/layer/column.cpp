@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/layer/column.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/run/run.hpp"
+#include "common/csv_table.hpp"
+#include "common/error.hpp"
+#include "common/write_file.hpp"
+
+namespace polargrain::app {
+namespace {
+
+/// Shear up to which the plate is driven; then the way between two rows of nodes on either side of the middle is, because
+/// behind its peak a column snaps back.
+constexpr double kDriven = 0.02;
+constexpr double kBelow = 0.3;
+constexpr int kStepsOfDiameter = 12;
+/// Before the peak, of displacement between those rows, in diameters.
+constexpr double kBeforePeak = 1.0;
+
+/// Rows of nodes: those between two elements, and those in the middle of elements.
+int rows_of(const ColumnSpecification& column) {
+  return 2 * column.elements + 1;
+}
+
+double width_of(const ColumnSpecification& column) {
+  return column.height / column.elements;
+}
+
+}  // namespace
+
+std::string column_case(const ColumnSpecification& column) {
+  const int last = rows_of(column) - 1;
+  std::string levels;
+  std::string monitors;
+  for (int row = 0; row <= last; ++row) {
+    levels += fmt::format("{}y{}: {:.17g}", row == 0 ? "" : ", ", row, column.height * row / last);
+    monitors +=
+        fmt::format("  u{0}: {{on: y{0}, displacement: u1}}\n  w{0}: {{on: y{0}, displacement: w}}\n", row);
+  }
+  const int below = 2 * static_cast<int>(std::lround(kBelow * column.elements));
+  const double grow = (column.way + kBeforePeak) * column.diameter;
+  std::string text =
+      "title: A layer of cells with given lengths, made by polargrain layer\ndeformation: large\nmesh:\n";
+  text +=
+      fmt::format("  rectangle:\n    size: [{:.17g}, {:.17g}]\n    elements: [1, {}]\n    levels: {{{}}}\n",
+                  width_of(column), column.height, column.elements, levels);
+  text += fmt::format("materials:\n  sand: {{model: cell, script: {}, packing: {}, lc: {:.17g}",
+                      column.script.string(), column.packing.string(), column.internal_length);
+  if (column.plastic_length) text += fmt::format(", lp: {:.17g}", *column.plastic_length);
+  text +=
+      "}\nregions: {all: sand}\nboundary:\n  - {on: left, tie: right}\n  - {on: bottom, fix: [u1, u2, w]}\n";
+  text += fmt::format("  - {{on: top, fix: [w], move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",
+                      column.height, column.pressure);
+  text += fmt::format("steps:\n  stages:\n    - {{until: {:.17g}, count: 8}}\n", 10.0 * kDriven);
+  text += fmt::format(
+      "    - {{measure: {{on: y{}, from: y{}, displacement: u1}}, grow: {:.17g}, count: {}}}\n", last - below,
+      below, grow, static_cast<int>(std::ceil(kStepsOfDiameter * (column.way + kBeforePeak))));
+  text += "  cut: 12\n  tolerance: 1e-2\n  noise: 2\n  acceleration: 5\n  jumps: 20\nmonitors:\n";
+  text += "  shear_force: {on: top, reaction: u1}\n  displacement: {on: top, displacement: u1}\n" + monitors;
+  text += "output: {every: 1000, points: no, table: [displacement, shear_force]}\n";
+  return text;
+}
+
+void run_column(const ColumnSpecification& column, const std::filesystem::path& folder, int workers,
+                const ScriptRules& scripts) {
+  if (std::filesystem::exists(folder / "ended")) return;
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path case_file = folder.parent_path() / (folder.filename().string() + ".yaml");
+  write_file(case_file, column_case(column));
+  RunOptions options;
+  options.case_file = case_file;
+  options.directory = folder;
+  options.workers = workers;
+  options.quiet = true;
+  options.scripts = scripts;
+  options.resume = std::filesystem::exists(folder / "checkpoint.h5");
+  const int status = run(options);
+  write_file(folder / "ended", status == 0 ? "complete\n" : "could not go on\n");
+}
+
+Shearing read_column(const ColumnSpecification& column, const std::filesystem::path& folder) {
+  const CsvTable history(folder / "history.csv");
+  Shearing shearing;
+  shearing.displacements = history.numbers("displacement");
+  for (const double force : history.numbers("shear_force"))
+    shearing.ratios.push_back(force / (width_of(column) * column.pressure));
+  const int rows = rows_of(column);
+  shearing.frames.resize(history.rows());
+  for (std::size_t k = 0; k < shearing.frames.size(); ++k) {
+    Shearing::Frame& frame = shearing.frames[k];
+    frame.displacement = shearing.displacements[k];
+    frame.heights = Eigen::VectorXd::LinSpaced(rows, 0.0, column.height);
+    frame.along.resize(rows);
+    frame.rotations.resize(rows);
+    for (int row = 0; row < rows; ++row) {
+      frame.along[row] = history.number(k, history.column(fmt::format("u{}", row)));
+      frame.rotations[row] = history.number(k, history.column(fmt::format("w{}", row)));
+    }
+  }
+  return shearing;
+}
+
+}  // namespace polargrain::app

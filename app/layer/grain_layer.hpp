@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "app/commands/pack.hpp"
+#include "app/layer/shearing.hpp"
+#include "common/packing.hpp"
+
+namespace polargrain::app {
+
+/// The contact law of a cell's script, made a layer's: periodic sideways only, contacts damped where their law can be, and
+/// specimen/layer_shear.in behind it.
+struct LayerScript {
+  std::string text;
+  double modulus = 0.0;  ///< of the contacts, Pa: contactModulus or youngsModulus
+};
+
+/// @param script of a cell, with what it includes @param file its name, for messages
+/// @throws InputError where it has no modulus that can be read, or is of grains in space
+LayerScript layer_script(const std::string& script, const std::string& file);
+
+/// How a layer is sheared.
+struct LayerShear {
+  double pressure = 0.0;  ///< Pa
+  double density = 0.0;   ///< of the grains, kg/m^3
+  double inertial_number = 2e-4;
+  double shear = 0.16;  ///< displacement of the upper plate over the height
+};
+
+/// Opens a packing above and below, glues the outermost grains, three mean radii deep, to rough plates, and shears it
+/// between them: history.csv and grains/ in the folder, and a file `done` last. What is there already is not made again.
+/// @throws RunError in the engine's words
+void shear_layer(const Packing& packing, const LayerScript& script, const LayerShear& shear,
+                 const std::filesystem::path& folder, const PackingTools& tools, bool quiet);
+
+/// What shear_layer has left. @throws InputError naming file and line
+Shearing read_layer(const std::filesystem::path& folder, double pressure);
+
+}  // namespace polargrain::app

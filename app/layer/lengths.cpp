@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/layer/lengths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/element/element_table.hpp"
+
+namespace polargrain::app {
+namespace {
+
+/// What columns and layers are compared by.
+using Compared = std::array<double, 3>;
+
+Compared compared(const LayerFigures& figures) {
+  return {std::log(figures.thickness), figures.halfway, figures.end};
+}
+
+/// Layers that happen to be alike say no more than this.
+constexpr Compared kLeastDeviation{0.05, 0.01, 0.01};
+constexpr int kParts = 100;  // between two candidates
+
+/// Where a try lies between candidates.
+struct Place {
+  std::size_t lower = 0;
+  double share = 0.0;
+};
+
+std::vector<Place> places(std::size_t candidates) {
+  if (candidates < 2) return {Place{}};
+  std::vector<Place> all;
+  for (std::size_t lower = 0; lower + 1 < candidates; ++lower)
+    for (int part = 0; part < kParts; ++part) all.push_back({lower, static_cast<double>(part) / kParts});
+  all.push_back({candidates - 2, 1.0});
+  return all;
+}
+
+double length_at(const std::vector<double>& candidates, const Place& place) {
+  if (candidates.size() < 2) return candidates.front();
+  return candidates[place.lower] *
+         std::pow(candidates[place.lower + 1] / candidates[place.lower], place.share);
+}
+
+bool at_edge(std::size_t candidates, const Place& place) {
+  return candidates > 1 &&
+         ((place.lower == 0 && place.share == 0.0) || (place.lower + 2 == candidates && place.share == 1.0));
+}
+
+Compared interpolated(const Candidates& candidates, const Place& i, const Place& j) {
+  const auto at = [&](std::size_t row, std::size_t column) {
+    const auto& of_row = candidates.figures[std::min(row, candidates.figures.size() - 1)];
+    return compared(of_row[std::min(column, of_row.size() - 1)]);
+  };
+  const Compared a = at(i.lower, j.lower);
+  const Compared b = at(i.lower + 1, j.lower);
+  const Compared c = at(i.lower, j.lower + 1);
+  const Compared d = at(i.lower + 1, j.lower + 1);
+  Compared value{};
+  for (std::size_t k = 0; k < value.size(); ++k)
+    value[k] = (1.0 - j.share) * ((1.0 - i.share) * a[k] + i.share * b[k]) +
+               j.share * ((1.0 - i.share) * c[k] + i.share * d[k]);
+  return value;
+}
+
+}  // namespace
+
+std::pair<double, double> mean_and_interval(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  double mean = 0.0;
+  for (const double value : values) mean += value / count;
+  if (values.size() < 2) return {mean, std::numeric_limits<double>::quiet_NaN()};
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, student_95(static_cast<int>(values.size())) * std::sqrt(squares / (count - 1.0) / count)};
+}
+
+FoundLengths lengths_like(const std::vector<LayerFigures>& layers, const Candidates& candidates) {
+  Compared mean{};
+  Compared deviation{};
+  const auto count = static_cast<double>(layers.size());
+  for (const LayerFigures& layer : layers)
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += compared(layer)[k] / count;
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    double squares = 0.0;
+    for (const LayerFigures& layer : layers) squares += std::pow(compared(layer)[k] - mean[k], 2);
+    deviation[k] = std::max(kLeastDeviation[k], std::sqrt(squares / std::max(1.0, count - 1.0)));
+  }
+  FoundLengths found;
+  found.misfit = std::numeric_limits<double>::infinity();
+  for (const Place& i : places(candidates.internal.size())) {
+    for (const Place& j : places(candidates.plastic.size())) {
+      const Compared value = interpolated(candidates, i, j);
+      double squares = 0.0;
+      for (std::size_t k = 0; k < mean.size(); ++k)
+        squares += std::pow((value[k] - mean[k]) / deviation[k], 2) / static_cast<double>(mean.size());
+      const double misfit = std::sqrt(squares);
+      if (!(misfit < found.misfit)) continue;
+      found.misfit = misfit;
+      found.internal = length_at(candidates.internal, i);
+      if (!candidates.plastic.empty()) found.plastic = length_at(candidates.plastic, j);
+      found.at_edge = at_edge(candidates.internal.size(), i) || at_edge(candidates.plastic.size(), j);
+      found.figures.thickness = std::exp(value[0]);
+      found.figures.halfway = value[1];
+      found.figures.end = value[2];
+    }
+  }
+  return found;
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// polargrain layer with the engine, in a size that says nothing of sand, and what a case makes of its result.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "common/csv_table.hpp"
+#include "coupler/case/measured_length.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kProgram = POLARGRAIN;
+
+constexpr const char* kGrains =
+    "grains: 100\nsizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\nthickness: 100 mm\n"
+    "script: cells/hooke_li_chu.in\npressure: 100 kPa\nfriction: 0\nseed: 1\n";
+const std::string kSmall =
+    " layer grains.yaml -o out --grains 144 --seeds 1,3 --cell-grains 16 --cell-seeds 1,2 --lc 0.3 --lp 0.25,0.5 --way 1 "
+    "--shear 0.3 --inertial-number 4e-3 --column 8 --elements 4 -w 1";
+
+/// A case of one element with a cell of the packing and that key.
+std::string case_with(const std::string& material) {
+  return "title: one\nmesh:\n  rectangle: {size: [1, 1], elements: [1, 1]}\nmaterials:\n  sand: {model: cell, "
+         "script: cells/hooke_li_chu.in, packing: " +
+         material +
+         "}\nregions: {all: sand}\nboundary:\n  - {on: bottom, fix: [u1, u2]}\nsteps: {count: 1}\n";
+}
+
+TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
+  const Scratch scratch("layer");
+  write(scratch.path() / "grains.yaml", kGrains);
+  const std::string packing = "out/grains16-seed1.h5";
+  const Outcome made = run_in(scratch.path(), kProgram + kSmall);
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const CsvTable columns(scratch.path() / "out/columns.csv");
+  ASSERT_EQ(columns.rows(), 4u);
+  ASSERT_EQ(CsvTable(scratch.path() / "out/layers.csv").rows(), 2u);
+  for (std::size_t row = 0; row < columns.rows(); ++row) {
+    // Friction of half a radian with rolling resistance: between 0.4 and 1.2 in so few grains.
+    EXPECT_GT(columns.number(row, columns.column("peak")), 0.4);
+    EXPECT_LT(columns.number(row, columns.column("peak")), 1.2);
+    EXPECT_GT(columns.number(row, columns.column("thickness")), 0.1);
+  }
+  const auto measured = coupler::read_measured_length(scratch.path() / "out/grains16-seed1.length.yaml");
+  std::cout << "[figure] lc " << measured.internal_length << " m, lp " << measured.plastic_length.value()
+            << " m\n";
+  // One candidate of lc; of lp two, and no length is taken beyond them.
+  EXPECT_NEAR(measured.internal_length, 0.3 * measured.mean_diameter, 1e-6);
+  EXPECT_GE(*measured.plastic_length, 0.25 * measured.mean_diameter * (1 - 1e-5));
+  EXPECT_LE(*measured.plastic_length, 0.5 * measured.mean_diameter * (1 + 1e-5));
+
+  // All is there: nothing is made again, and the same is found.
+  const std::string lengths = content(scratch.path() / "out/lengths.csv");
+  const auto layer = std::filesystem::last_write_time(scratch.path() / "out/layer144-seed1/history.csv");
+  const Outcome again = run_in(scratch.path(), kProgram + kSmall + " --beside other.h5");
+  EXPECT_EQ(again.status, 2);  // there is no such packing
+  std::filesystem::copy(scratch.path() / packing, scratch.path() / "other.h5");
+  const Outcome beside = run_in(scratch.path(), kProgram + kSmall + " --beside other.h5");
+  ASSERT_EQ(beside.status, 0) << beside.errors;
+  EXPECT_EQ(content(scratch.path() / "out/lengths.csv"), lengths);
+  EXPECT_EQ(std::filesystem::last_write_time(scratch.path() / "out/layer144-seed1/history.csv"), layer);
+
+  // Read by a case.
+  write(scratch.path() / "case.yaml", case_with("other.h5, lc: measured"));
+  const Outcome good = run_in(scratch.path(), kProgram + " check case.yaml");
+  EXPECT_EQ(good.status, 0) << good.errors;
+  std::filesystem::copy(scratch.path() / packing, scratch.path() / "bare.h5");
+  write(scratch.path() / "case.yaml", case_with("bare.h5, lc: measured"));
+  const Outcome none = run_in(scratch.path(), kProgram + " check case.yaml");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.errors.find(
+                "case.yaml:5: material 'sand': lc: measured: there is no bare.length.yaml; 'polargrain layer "
+                "SPEC.yaml --beside bare.h5' makes the experiment and writes it, or give a length"),
+            std::string::npos)
+      << none.errors;
+  std::string other_law = content(scratch.path() / "other.length.yaml");
+  other_law.replace(other_law.find("script: ") + 8, 4, "0000");
+  write(scratch.path() / "bare.length.yaml", other_law);
+  const Outcome wrong = run_in(scratch.path(), kProgram + " check case.yaml");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.errors.find("bare.length.yaml was measured under another contact law"), std::string::npos)
+      << wrong.errors;
+
+  // Another way of shearing is another experiment.
+  write(scratch.path() / "grains.yaml", std::string(kGrains) + "# 2\n");
+  const Outcome changed = run_in(scratch.path(), kProgram + kSmall);
+  EXPECT_EQ(changed.status, 2);
+  EXPECT_NE(changed.errors.find("holds layers of another specification"), std::string::npos)
+      << changed.errors;
+}
+
+TEST(LayerCommand, MistakesAreFoundBeforeAnythingIsMade) {
+  const Scratch scratch("layer_mistakes");
+  write(scratch.path() / "grains.yaml", kGrains);
+  const auto errors_of = [&](const std::string& options) {
+    const Outcome outcome = run_in(scratch.path(), kProgram + " layer grains.yaml " + options);
+    EXPECT_EQ(outcome.status, 2) << options;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / "layer-results")) << options;
+    return outcome.errors;
+  };
+  EXPECT_NE(errors_of("--seeds 1").find("one layer says nothing of the scatter"), std::string::npos);
+  EXPECT_NE(errors_of("--lc 0.4,0.2").find("candidates must grow"), std::string::npos);
+  EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
+  EXPECT_NE(errors_of("--set pressure=-1").find("pressure"), std::string::npos);
+  EXPECT_NE(errors_of("--way 0").find("--way"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace polargrain::testing
