@@ -2,21 +2,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Study 1 in one command: biaxial compression of specimens made of grains, and of the same sand at two scales.
 
-    python3 biaxial.py                               the reduced size: 800 grains, 4 x 8 elements, some minutes
-    python3 biaxial.py --size full                   all of it: finer meshes, three internal lengths, 5,000 grains
-    python3 biaxial.py --size full --list            what that is, and what it costs
-    python3 biaxial.py --only 'grains-800-*,informed-8x16-lc15'
+    python3 biaxial.py                               the reduced size: some seconds, of everything a little
+    python3 biaxial.py --size page                   what docs/studies/biaxial.md shows: some fifteen minutes of one core
+    python3 biaxial.py --size full                   30 specimens of 800 grains, 10 of 5,000, 3 of 20,000; finer meshes: a day
+    python3 biaxial.py --size full --list            what that is
+    python3 biaxial.py --only 'grains-800-*,informed-8x16-*'
     python3 biaxial.py --size full --jobs 4 -w 4     four runs at once, each two-scale run on four workers
     python3 biaxial.py --size full --report          only tables and figures, of what there is
 
 The same command goes on where it was broken off (Ctrl-C, a time limit, a crash): runs that are complete are not made again, others go on from their last
 checkpoint or frame, with the same bytes. A run that fails does not stop the others; it is named at the end with its log.
 
-Into RESULTS, for every run: NAME/ (history.csv, fields or grains, band.json), NAME.log, NAME.samples.csv (the increment
-that its band is looked for in). At the end: table.md, table.csv and, with matplotlib, curves-*.png and fields-*.png.
+Into RESULTS, for every run: NAME/ or NAME.csv, NAME.log, NAME.samples.csv (the increment that its band is looked for in). At the
+end: table.csv (a row a run), table.md (means with their 95 % intervals) and, with matplotlib, curves.png and fields.png.
 
-Names: grains-NUMBER-seedS, SCHEME-ELEMENTS-lcMILLIMETRES, law-ELEMENTS-... (the law in closed form, for objectivity);
--sliding: no rolling resistance; -wide: 0.5 m x 1 m instead of 0.2 m x 0.4 m; -cells100: cells of 100 grains, not 400.
+Names. grains-NUMBER-seedS: a specimen; element-NUMBER-seedS: a periodic cell under the same test, of the packing that the specimen
+of half the grains is cut from; SCHEME-ELEMENTS-pairK: two scales, cells of 400 grains from the packings of the seeds 2 K - 1 and 2 K, the
+weaker one in the corner; law-...: the law in closed form, for objectivity.
 """
 import argparse
 import concurrent.futures
@@ -24,111 +26,123 @@ import dataclasses
 import fnmatch
 import os
 import pathlib
+import shutil
 import signal
-import subprocess
 import sys
 import threading
 import time
 
+import numpy
+
 import biaxial_report
+from built_package import polargrain
+from runs import ROOT, Failed, Programs
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+SCRIPT = "cells/hooke_li_chu_force.in"
+RATE = 0.06  # 1/s, of the specimens: inertial number 1.0e-4
+QUICK = 0.24  # 3.9e-4
+SLOW = 1e-4  # inertial number of the cells in an element test
+LENGTH = 3.5  # mm; what a sheared layer asks for (docs/studies/internal_length.md)
 
 
 @dataclasses.dataclass(frozen=True)
 class Run:
     name: str
-    size: str           # the smallest size of the study that it belongs to
-    group: str          # runs of one group are compared with each other: same body, same contact law
-    what: str           # for --list
-    grains: int = 0     # a specimen made of grains
-    seed: int = 0
-    case: str = ""      # a run of polargrain
-    settings: tuple = ()
-    height: float = 0.4  # m
-
-    @property
-    def sliding(self):
-        return "sliding" in self.group
-
-
-def specimen(grains, seed, sliding, size):
-    wide = grains > 1000
-    return Run(f"grains-{grains}-seed{seed}" + ("-sliding" if sliding else ""), size,
-               ("wide" if wide else "") + ("sliding" if sliding else "") or "rolling",
-               f"specimen of {grains} grains", grains=grains, seed=seed)
+    kind: str            # grains, element, two_scale, law
+    group: str           # runs of one group are realisations of one thing
+    seed: int = 0        # of the packing; of two scales the number of the pair
+    grains: int = 0      # of the specimen, of the cell
+    rate: float = RATE   # 1/s, of a specimen
+    inertial: float = SLOW
+    leaning: bool = False
+    case: str = ""
+    scheme: str = ""
+    across: int = 0      # elements
+    lc: float = LENGTH   # mm
+    mirrored: bool = False
+    settings: tuple = ()  # of all its materials, or of a case in closed form
 
 
-def two_scale(scheme, across, lc, size="full", sliding=False, wide=False, small=False):
-    """Smooth platens. The weak corner is 50 mm wide where elements are as small, else one element; 83 mm when wide.
-
-    @param small  cells of 100 grains instead of 400: a quarter of the cost; their own peaks are 6.4 and 5.4
-    """
-    width = 0.5 if wide else 0.2
-    patch = width / 6 if wide else max(0.05, width / across)
-    materials = ("sand", "weak_sand")
-    settings = [f"mesh.rectangle.elements=[{across}, {2 * across}]",
-                f"mesh.rectangle.patch=[{patch:.6g} m, {patch:.6g} m]",
-                *(f"materials.{sand}.lc={lc} mm" for sand in materials)]
-    if sliding:
-        settings += [f"materials.{sand}.script=cells/hooke_radii.in" for sand in materials]
-    if small:
-        settings += [f"materials.{sand}.packing=dense100_seed{seed}.h5" for sand, seed in zip(materials, (2, 3))]
-    if wide:
-        settings += ["mesh.rectangle.size=[0.5 m, 1 m]", "monitors.axial_strain=-shortening / 1 m",
-                     "monitors.stress_ratio=-top_force / (0.5 m * 100 kPa)"]
-    group = "small" if small else ("wide" if wide else "") + ("sliding" if sliding else "") or "rolling"
-    name = (f"{scheme}-{across}x{2 * across}-lc{lc}" + ("-sliding" if sliding else "") + ("-wide" if wide else "") +
-            ("-cells100" if small else ""))
-    return Run(name, size, group, f"{8 * across * across} cells of {100 if small else 400} grains, each evaluated " +
-               ("once a step" if scheme == "informed" else "in every iteration"),
-               case=f"biaxial_{scheme}.yaml", settings=tuple(settings), height=2 * width)
+def specimens(grains, seeds, rate=RATE):
+    group = f"grains-{grains}" + (f"-rate{rate:g}" if rate != RATE else "")
+    return [Run(f"grains-{grains}-seed{seed}" + group[len(f"grains-{grains}"):], "grains", group, seed, grains, rate) for seed in seeds]
 
 
-def closed_form(across, words, settings):
-    return Run(f"law-{across}x{2 * across}-{words}", "full", "law", "no cells, seconds", height=0.08,
-               case="biaxial_elastoplastic.yaml",
-               settings=(f"mesh.rectangle.elements=[{across}, {2 * across}]", *settings))
+def elements(grains, seeds, inertial=SLOW, leaning=False):
+    """Sides stay upright, or lean as they like: no shear stress."""
+    ending = (f"-inertial{inertial:g}" if inertial != SLOW else "") + ("-leaning" if leaning else "")
+    return [Run(f"element-{grains}-seed{seed}{ending}", "element", f"element-{grains}{ending}", seed, grains, inertial=inertial,
+                leaning=leaning) for seed in seeds]
 
 
-RUNS = [  # the longest first, so that none is left alone at the end
-    *(two_scale("informed", 12, lc, wide=True) for lc in (10, 15)),
-    two_scale("cell", 4, 15),
-    *(specimen(5000, seed, sliding, "full") for sliding in (False, True) for seed in (1, 2, 3)),
-    *(two_scale("informed", across, lc) for across in (12, 8) for lc in (5, 10, 15, 30)),
-    *(two_scale("informed", 4, lc, "reduced" if lc == 15 else "full") for lc in (5, 10, 15, 30)),
-    two_scale("informed", 12, 10, small=True),
-    *(two_scale("informed", across, lc, small=True) for across in (8, 4) for lc in (5, 10, 15)),
-    two_scale("informed", 2, 15, small=True),
-    *(two_scale("cell", across, 15, small=True) for across in (4, 2)),
-    two_scale("informed", 8, 15, sliding=True),
-    two_scale("cell", 2, 15),
-    two_scale("informed", 2, 15),
-    two_scale("informed", 2, 15, "reduced", sliding=True),
-    *(specimen(800, seed, sliding, "reduced") for sliding in (False, True) for seed in (1, 2, 3)),
-    *(closed_form(across, words, settings) for across in (8, 12, 16) for words, settings in (
-        ("lc3", ("materials.sand.lc=3 mm", "materials.weak_sand.lc=3 mm")), ("lc1", ()),
-        ("cauchy", ("continuum=cauchy",)))),
-]
+def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, words="", settings=()):
+    """Smooth platens; the corner is 50 mm wide where elements are as small, else one element."""
+    group = (f"{scheme}-{across}x{2 * across}" + (f"-cells{grains}" if grains != 400 else "") + (f"-lc{lc:g}" if lc != LENGTH else "") +
+             ("-mirrored" if mirrored else "") + (f"-{words}" if words else ""))
+    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored,
+                case="biaxial_cell.yaml" if scheme in ("cell", "controlled") else "biaxial_informed.yaml", settings=tuple(settings))
+            for pair in pairs]
+
+
+def closed_form():
+    return [Run(f"law-{across}x{2 * across}-{words}", "law", f"law-{across}x{2 * across}-{words}", case="biaxial_elastoplastic.yaml",
+                settings=(f"mesh.rectangle.elements=[{across}, {2 * across}]", *settings))
+            for across in (8, 12, 16) for words, settings in (
+                ("lc3", ("materials.sand.lc=3 mm", "materials.weak_sand.lc=3 mm")), ("lc1", ()), ("cauchy", ("continuum=cauchy",)))]
+
+
+SWEEP = {"drift0": ("drift_shear: 0",), "drift0.003": ("drift_shear: 0.003",), "drift0.03": ("drift_shear: 0.03",),
+         "unbalanced1e-3": ("unbalanced_force_ratio: 1e-3", "unbalanced_moment_ratio: 1e-3"), "inertial1e-4": ("inertial_number: 1e-4",)}
+
+
+def sweep(pairs):
+    """On 2 x 4 elements, which have no band: what the settings of the scheme do to the softening branch."""
+    plain = two_scale("informed", 2, pairs) + two_scale("fixed_point", 2, pairs) + two_scale("cell", 2, pairs)
+    return plain + [run for words, settings in SWEEP.items() for run in two_scale("informed", 2, pairs, words=words, settings=settings)]
+
+
+def to(last):
+    return range(1, last + 1)
+
+
+RUNS = {  # by size; in one list the cheapest and most decisive first
+    "reduced": [*specimens(50, to(2)), *specimens(100, to(2)), *elements(100, to(2)), *elements(200, to(2)),
+                *two_scale("informed", 2, to(2), grains=100)],
+    "page": [*elements(100, to(10)), *elements(400, to(10)), *elements(1600, to(10)), *specimens(800, to(10), QUICK),
+             *specimens(200, to(10), QUICK), *specimens(800, to(4)), *two_scale("informed", 4, to(5))],
+    "full": [*elements(100, to(30)), *elements(400, to(30)), *elements(400, to(10), leaning=True), *elements(400, to(10), 6e-4),
+             *elements(400, to(10), 3e-5), *elements(1600, to(30)), *elements(6400, to(3)), *specimens(200, to(30)), *specimens(800, to(30)),
+             *specimens(800, to(3), 0.02), *specimens(1600, to(10)), *closed_form(),
+             *(run for scheme in ("informed", "fixed_point", "cell") for run in two_scale(scheme, 4, to(10))), *sweep(to(10)),
+             *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 8, to(10))),
+             *two_scale("informed", 8, to(10), mirrored=True),
+             *(run for lc in (5, 10) for run in two_scale("informed", 8, to(10), lc=lc)),
+             *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 16, to(10))),
+             *specimens(5000, to(10)), *elements(10000, to(3)), *specimens(20000, to(3))]}
+KNOWN = {run.name: run for runs in RUNS.values() for run in runs}
+
+
+def runs_of(size):
+    return list({run.name: run for run in (RUNS["page"] if size == "full" else []) + RUNS[size]}.values())
 
 
 def read_options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("results/biaxial_study"),
                         metavar="RESULTS", help="[results/biaxial_study]")
-    parser.add_argument("--size", choices=("reduced", "full"), default="reduced", help="[reduced]")
-    parser.add_argument("--only", metavar="NAME,...", help="these runs of any size; * stands for anything")
+    parser.add_argument("--size", choices=tuple(RUNS), default="reduced", help="[reduced]")
+    parser.add_argument("--only", metavar="NAME,...", help="these runs of any size, in this order; * stands for anything")
     parser.add_argument("--list", action="store_true", help="name the runs and end")
     parser.add_argument("--report", action="store_true", help="run nothing: tables and figures of what there is")
     parser.add_argument("-w", "--workers", type=int, default=2, help="of each two-scale run [2]")
     parser.add_argument("--jobs", type=int, help="runs at once [cores / workers]")
-    parser.add_argument("--strain", type=float, default=0.08, help="axial strain at the end, in steps of 0.1 %% [0.08]")
+    parser.add_argument("--strain", type=float, help="axial strain at the end, in steps of 0.1 %% [0.08; the reduced size 0.01]")
     parser.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER",
-                        default=[ROOT / "build/release/app", ROOT / "build/release/app/standalone"],
                         help="where polargrain and polargrain-liggghts are [build/release/app]")
     options = parser.parse_args()
     options.jobs = options.jobs or max(1, (os.cpu_count() or 1) // max(1, options.workers))
+    options.strain = options.strain or (0.01 if options.size == "reduced" and not options.only else 0.08)
     return options
 
 
@@ -138,16 +152,27 @@ def stop(message):
 
 def chosen(options):
     if not options.only:
-        return [run for run in RUNS if options.size == "full" or run.size == "reduced"]
-    patterns = options.only.split(",")
-    for pattern in patterns:
-        if not fnmatch.filter([run.name for run in RUNS], pattern):
-            stop(f"no run is called {pattern}; --size full --list names them all")
-    return [run for run in RUNS if any(fnmatch.fnmatchcase(run.name, pattern) for pattern in patterns)]
+        return runs_of(options.size)
+    names = []
+    for pattern in options.only.split(","):
+        found = fnmatch.filter(KNOWN, pattern)
+        if not found:
+            stop(f"no run is called {pattern}; --size full --list names them")
+        names += found
+    return [KNOWN[name] for name in dict.fromkeys(names)]
 
 
-class Failed(Exception):
-    pass
+def mirror(packing, file):
+    """Writes the mirror image of a packing that was made without friction, x1 to -x1."""
+    whole = polargrain.read_packing(packing)
+    box = whole.box * [[1.0, -1.0], [1.0, 1.0]]  # the second base vector leans the other way
+    share = numpy.linalg.solve(box, (whole.positions * [-1.0, 1.0]).T)
+    positions = (box @ (share - numpy.floor(share))).T
+    lines = [f"# cell xx={box[0, 0]!r} xy={box[0, 1]!r} yx={box[1, 0]!r} yy={box[1, 1]!r} z={whole.thickness!r} p={whole.pressure!r}",
+             "id,x,y,r,mass,Izz"]
+    lines += [f"{number},{float(x)!r},{float(y)!r},{float(radius)!r},{float(mass)!r},{float(0.5 * mass * radius ** 2)!r}"
+              for number, ((x, y), radius, mass) in enumerate(zip(positions, whole.radii, whole.masses))]
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 class Study:
@@ -156,71 +181,89 @@ class Study:
     def __init__(self, options):
         self.options = options
         self.output = options.output
-        self.processes = set()
-        self.stopped = False
-        self.packing_locks = {run.grains * 10 + run.seed: threading.Lock() for run in RUNS if run.grains}
-        self.polargrain = self.program("polargrain")
+        self.programs = Programs(options.programs)
+        self.polargrain = self.programs.find("polargrain")
+        os.environ["POLARGRAIN_PROGRAM"] = str(self.polargrain)  # of the Python package
+        self.locks = {}
+        self.new_lock = threading.Lock()
 
-    def program(self, name):
-        for place in self.options.programs:
-            if (place / name).is_file():
-                return str((place / name).resolve())
-        stop(f"there is no {name} in {', '.join(map(str, self.options.programs))}: build the project, or name its "
-             "folder with --programs")
+    def lock(self, name):
+        """What two runs need is made by the first that comes."""
+        with self.new_lock:
+            return self.locks.setdefault(name, threading.Lock())
 
     def call(self, run, *command):
-        """A program, its output appended to the log of the run. @raises Failed with the end of the log"""
-        log = self.output / f"{run.name}.log"
-        with open(log, "a") as out:
-            print("$", *command, file=out, flush=True)
-            begin = out.tell()
-            process = subprocess.Popen([str(word) for word in command], cwd=self.output, stdin=subprocess.DEVNULL,
-                                       stdout=out, stderr=subprocess.STDOUT, start_new_session=True)
-            self.processes.add(process)
-            if self.stopped:  # a signal may have come before the process was known
-                os.killpg(process.pid, signal.SIGTERM)
-            status = process.wait()
-            self.processes.discard(process)
-        if status != 0:
-            lines = log.read_text(errors="replace")[begin:].splitlines()[-8:]
-            name = pathlib.Path(command[command[0] == sys.executable]).name
-            raise Failed(f"{name} ended with status {status}; the end of {log}:\n    " +
-                         "\n    ".join(lines))
+        self.programs.call(self.output / f"{run.name}.log", *command, folder=self.output)
 
-    def packing(self, run):
-        """Twice the grains, frictionless, so that specimens with and without rolling resistance share it. Large ones
-        count as at rest sooner: what is left of their motion goes in the seating."""
-        unbalanced = 1e-2 if run.grains > 1000 else 1e-3
-        file = f"packings/{2 * run.grains}-seed{run.seed}.h5"
-        part = f"packings/part-{2 * run.grains}-seed{run.seed}.h5"
-        with self.packing_locks[run.grains * 10 + run.seed]:
-            if not (self.output / file).exists() and not self.stopped:
-                self.call(run, self.polargrain, "pack", ROOT / "cases/packings/dense400.yaml", "-o", part,
-                          "--quiet", "--set", f"grains={2 * run.grains}", "--set", f"seed={run.seed}",
-                          "--set", f"unbalanced_force_ratio={unbalanced:g}")
+    def packing(self, run, grains, seed, mirrored=False):
+        """Made without friction. Large ones count as at rest sooner: what is left of their motion goes in the seating."""
+        unbalanced = 1e-2 if grains > 5000 else 1e-3
+        file = f"packings/{grains}-seed{seed}.h5"
+        image = f"packings/{grains}-seed{seed}-mirrored.csv"
+        with self.lock(file):
+            if not (self.output / file).exists():
+                part = f"packings/part-{grains}-seed{seed}.h5"
+                self.call(run, self.polargrain, "pack", ROOT / "cases/packings/dense400.yaml", "-o", part, "--quiet", "--set", f"grains={grains}",
+                          "--set", f"seed={seed}", "--set", f"unbalanced_force_ratio={unbalanced:g}")
                 (self.output / part).replace(self.output / file)
-        return file
+            if mirrored and not (self.output / image).exists():
+                mirror(self.output / file, self.output / image)
+        return image if mirrored else file
 
     def compute(self, run):
+        getattr(self, run.kind)(run)
+
+    def grains(self, run):
+        self.call(run, sys.executable, ROOT / "liggghts_inputs/specimen/specimen.py", "-o", run.name, "--grains", run.grains, "--seed",
+                  run.seed, "--packing", self.packing(run, 2 * run.grains, run.seed), "--strain", self.options.strain, "--rate", run.rate,
+                  "--programs", *self.programs.folders)
+
+    def element(self, run):
         strain = self.options.strain
-        if run.grains:
-            self.call(run, sys.executable, ROOT / "liggghts_inputs/specimen/specimen.py", "-o", run.name, "--grains",
-                      run.grains, "--seed", run.seed, "--packing", self.packing(run), "--strain", strain,
-                      "--rolling", 0 if run.sliding else 0.4, "--programs", *map(pathlib.Path.resolve,
-                                                                              self.options.programs))
-            return
-        settings = list(run.settings)
-        if run.group != "law":
-            settings += [f"boundary.2.move.u2={-1000 * strain * run.height:.10g} mm",
-                         f"steps.count={max(1, round(1000 * strain))}"]
-        words = [word for setting in settings for word in ("--set", setting)]
+        with self.lock(run.name):
+            if not (self.output / f"{run.name}.csv").exists():
+                shear = "s12: 0 kPa" if run.leaning else "e12: hold"
+                self.call(run, self.polargrain, "element", "--pressure", "100kPa", self.packing(run, run.grains, run.seed),
+                          ROOT / "liggghts_inputs" / SCRIPT, "-o", run.name, "-w", 1, "--quiet", "--set", f"inertial_number={run.inertial:g}",
+                          "--set", f"stages=[{{e22: {-100 * strain:g} %, s11: hold, {shear}, rows: {max(1, round(2000 * strain))}}}]")
+
+    def weaker_last(self, run):
+        """The seeds of a pair, that of the lower peak last."""
+        peaks = {}
+        for seed in (2 * run.seed - 1, 2 * run.seed):
+            of_seed = elements(run.grains, [seed])[0]
+            self.element(of_seed)
+            peaks[seed] = biaxial_report.curve(self.output, of_seed)["stress_ratio"].max()
+        return sorted(peaks, key=peaks.get, reverse=True)
+
+    def two_scale(self, run):
+        settings = [f"mesh.rectangle.elements=[{run.across}, {2 * run.across}]",
+                    f"mesh.rectangle.patch=[{max(0.05, 0.2 / run.across):.6g} m, {max(0.05, 0.2 / run.across):.6g} m]"]
+        words = {"controlled": ["model: cell", "rotations: controlled"], "fixed_point": ["model: informed", "update: fixed_point"]}.get(
+            run.scheme, [f"model: {run.scheme}"])
+        if run.scheme != "controlled":
+            words.append(f"lc: {run.lc:g} mm")
+        for sand, seed in zip(("sand", "weak_sand"), self.weaker_last(run)):
+            keys = [*words, f"script: {SCRIPT}", f"packing: {self.packing(run, run.grains, seed, run.mirrored)}",
+                    "most_relaxation_steps: 100000", *run.settings]
+            settings.append(f"materials.{sand}={{{', '.join(keys)}}}")
+        self.finite_elements(run, settings + self.steps(0.4))
+
+    def law(self, run):
+        self.finite_elements(run, run.settings)
+
+    def steps(self, height):
+        return [f"boundary.2.move.u2={-1000 * self.options.strain * height:.10g} mm", f"steps.count={max(1, round(1000 * self.options.strain))}"]
+
+    def finite_elements(self, run, settings):
         go_on = ["--resume"] if (self.output / run.name / "checkpoint.h5").exists() else []
-        self.call(run, self.polargrain, "run", HERE / run.case, "-o", run.name, "-w", self.options.workers,
-                  "--checkpoint-minutes", 2, *go_on, *words)
+        shutil.copy(HERE / run.case, self.output)  # packings are looked for beside the case
+        self.call(run, self.polargrain, "run", run.case, "-o", run.name, "-w", self.options.workers, "--checkpoint-minutes", 2,
+                  *go_on, *(word for setting in settings for word in ("--set", setting)))
 
     def carry_out(self, run):
         """@returns what went wrong, or nothing"""
-        if self.stopped:
+        if self.programs.stopped:
             return None
         begin = time.monotonic()
         print(f"{run.name} ...", flush=True)
@@ -229,46 +272,44 @@ class Study:
             self.compute(run)
         except Failed as failure:
             trouble = str(failure)
-        if not self.stopped:
-            print(f"{run.name}: {'FAILED' if trouble else 'done'} after {time.monotonic() - begin:.0f} s", flush=True)
-        return None if self.stopped else trouble
+        if self.programs.stopped:
+            return None
+        print(f"{run.name}: {'FAILED' if trouble else 'done'} after {time.monotonic() - begin:.0f} s", flush=True)
+        return trouble
 
     def look_for_band(self, run):
         """In the second half of the run: 4 to 8 %."""
-        last = biaxial_report.history(self.output / run.name)["axial_strain"][-1]
+        if run.kind == "element":
+            return None
+        found, history = (self.output / run.name / name for name in ("band.json", "history.csv"))
+        if found.exists() and found.stat().st_mtime >= history.stat().st_mtime:
+            return None
+        last = biaxial_report.curve(self.output, run)["axial_strain"][-1]
         try:
-            self.call(run, self.polargrain, "band", run.name, "--from", last / 2, "--to", last, "--fields",
-                      f"{run.name}.samples.csv")
+            self.call(run, self.polargrain, "band", run.name, "--from", last / 2, "--to", last, "--fields", f"{run.name}.samples.csv")
         except Failed as failure:
             return str(failure)
         return None
-
-    def stop(self, *_):
-        """One signal to each program and its children, whoever else sends some: at a second one they end at once."""
-        if not self.stopped:
-            self.stopped = True
-            for process in list(self.processes):
-                os.killpg(process.pid, signal.SIGTERM)
 
 
 def main():
     options = read_options()
     runs = chosen(options)
     if options.list:
-        print("\n".join(f"{run.name:30} {run.size:8} {run.what}" for run in runs))
+        print("\n".join(run.name for run in runs))
         return
     (options.output / "packings").mkdir(parents=True, exist_ok=True)
     study = Study(options)
     failures = {}
     if not options.report:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, study.stop)
+            signal.signal(number, study.programs.stop)
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             failures = {run.name: trouble for run, trouble in zip(runs, pool.map(study.carry_out, runs)) if trouble}
-        if study.stopped:
+        if study.programs.stopped:
             print("biaxial.py: stopped; the same command goes on", file=sys.stderr)
             sys.exit(3)
-    there = [run for run in runs if biaxial_report.history(options.output / run.name)]
+    there = [run for run in runs if biaxial_report.curve(options.output, run) is not None]
     for run in there:
         trouble = study.look_for_band(run)
         if trouble:

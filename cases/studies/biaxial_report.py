@@ -1,149 +1,200 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tables and figures of biaxial.py, from the folders of its runs. The tables need no packages, the figures matplotlib."""
+"""Tables and figures of biaxial.py, from the folders of its runs. The figures need matplotlib."""
 import csv
 import json
-import re
+import math
 
-STRAINS = (0.005, 0.01, 0.02, 0.03, 0.05)  # where stress ratios are tabled
-GROUPS = {"rolling": "With rolling resistance", "small": "With rolling resistance, cells of 100 grains",
-          "sliding": "Without rolling resistance",
-          "wide": "0.5 m x 1 m, with rolling resistance", "widesliding": "0.5 m x 1 m, without rolling resistance",
-          "law": "The law in closed form: friction 40 to 32 degrees over a plastic shear of 0.1"}
+import numpy
+
+from built_package import polargrain
+from intervals import interval, line, markdown, mean_and_half
+from polargrain.table import read_table
+
+DIAMETER = 0.01     # m, mean
+WIDTH_OF_800 = 0.2  # m, of a specimen of 800 grains
+BEHIND = 0.02       # axial strain behind the peak over which the slope is taken
 COLOURS = ("#b5651d", "#2e7d32", "#8e24aa", "#c62828", "#00838f", "#f9a825", "#5d4037", "#3949ab", "#7cb342", "#d81b60")
+STRENGTHS = ("ratio at 1 %", "peak", "residual")
 
 
-def columns(file):
-    """Columns of a CSV file by name."""
-    with open(file, newline="") as text:
-        rows = list(csv.reader(text))
-    return {name: [float(row[i]) for row in rows[1:] if len(row) == len(rows[0])] for i, name in enumerate(rows[0])}
-
-
-def history(folder):
-    """Columns of history.csv; nothing when the run has not come to its first step."""
-    file = folder / "history.csv"
-    found = columns(file) if file.exists() else {}
-    return found if len(found.get("axial_strain", [])) > 1 else None
+def curve(output, run):
+    """The history of a run or the rows of its element test; None when it has not come to its first step."""
+    file = output / f"{run.name}.csv" if run.kind == "element" else output / run.name / "history.csv"
+    rows = read_table(file) if file.exists() else {}
+    return rows if len(rows.get("axial_strain", ())) > 1 else None
 
 
 def read_json(file):
-    return json.loads(file.read_text()) if file.exists() else {}
-
-
-def at(strains, values, strain):
-    """Straight between the rows; nothing beyond the last."""
-    for k in range(1, len(strains)):
-        if strains[k] >= strain * (1 - 1e-6):
-            share = (strain - strains[k - 1]) / (strains[k] - strains[k - 1])
-            return values[k - 1] + share * (values[k] - values[k - 1])
-    return None
-
-
-def mean(values):
-    known = [value for value in values if value is not None]
-    return sum(known) / len(known) if known else None
+    return json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
 
 
 def figures(run, output):
-    """What a run has to show, by the names of the columns of table.csv."""
-    curve = history(output / run.name)
-    strains, ratios, volumes = (curve[name] for name in ("axial_strain", "stress_ratio", "volume_strain"))
-    peak = max(range(len(ratios)), key=ratios.__getitem__)
-    row = {"run": run.name, "group": run.group, "last_strain": strains[-1]}
-    row.update({f"ratio_{100 * strain:g}%": at(strains, ratios, strain) for strain in STRAINS})
-    row.update(peak=ratios[peak], peak_strain=strains[peak],
-               residual=mean(ratio for strain, ratio in zip(strains, ratios) if strain >= 0.875 * strains[-1]),
-               largest_contraction=-min(volumes), last_volume_strain=volumes[-1])
-    band = read_json(output / run.name / "band.json")
-    row.update({name: band.get(name) for name in ("inclination_degrees", "thickness", "resolution", "onset_strain",
-                                                  "rotation_inside", "rotation_outside", "reason")})
+    """What a run has to show: the columns of table.csv; nan where there is nothing."""
+    rows = curve(output, run)
+    strain, ratio, volume = (rows[name] for name in ("axial_strain", "stress_ratio", "volume_strain"))
+    peak = ratio.argmax()
+    behind = strain[peak] + BEHIND
+
+    def at(place):
+        return float(numpy.interp(place, strain, ratio)) if place <= 1.02 * strain[-1] else math.nan
+
+    row = {"run": run.name, "group": run.group, "last strain": strain[-1]}
+    row.update({f"ratio at {100 * place:g} %": at(place) for place in (0.005, 0.01, 0.02)})
+    row.update(peak=ratio[peak], **{"at, %": 100 * strain[peak]})
+    late = ratio[strain >= 0.06]
+    row["residual"] = late.mean() if strain[-1] > 0.079 else math.nan
+    row["fall behind the peak, per %"] = (ratio[peak] - at(behind)) / (100 * BEHIND)
+    row["contraction, %"] = -100 * volume.min()
+    row["volume strain, %"] = 100 * volume[-1]
+    band = {key: value for key, value in read_json(output / run.name / "band.json").items() if value is not None}
+    row["inclination, deg"] = abs(band.get("inclination_degrees", math.nan))
+    row["thickness, d"] = band.get("thickness", math.nan) / DIAMETER
+    row["onset, %"] = 100 * band.get("onset_strain", math.nan)
+    row["rotation in the band"] = abs(band.get("rotation_inside", math.nan))
+    row["rotation outside"] = abs(band.get("rotation_outside", math.nan))
+    row["grains against the continuum"] = lag_of_grains(run, output, band)
     summary = read_json(output / run.name / "summary.json")
-    rest = summary.get("materials", {}).get("rest", {})
-    row.update(mismatch=rest.get("stress_mismatch_mean"), largest_mismatch=rest.get("stress_mismatch_largest"),
-               evaluations=summary.get("cells", {}).get("evaluations"), status=summary.get("status", ""))
+    cells = summary.get("cells", {})
+    row["mismatch"] = summary.get("materials", {}).get("rest", {}).get("stress_mismatch_mean", math.nan)
+    row["evaluations"] = cells.get("evaluations", rows["evaluations"].sum() if run.kind == "element" else math.nan)
+    row["DEM steps"] = cells.get("dem_steps", rows["step"][-1] if run.kind == "grains" else math.nan)
+    row["iterations a step"] = rows["iterations"].sum() / max(1, len(strain) - 1) if "iterations" in rows else math.nan
+    row["cuts"] = rows["cuts"].sum() if "cuts" in rows else math.nan
     return row
 
 
-def text(value, form, factor=1.0, unit=""):
-    return "-" if value is None else format(factor * value, form) + unit
+def lag_of_grains(run, output, band):
+    """Mean rotation of the grains of the cells less that of the continuum, over the points in the band; against the sense of the band.
+
+    Cells of `informed` follow the strain alone, their grains' rotations count from the continuum's.
+    """
+    if run.scheme not in ("informed", "fixed_point") or not band.get("found"):
+        return math.nan
+    result = polargrain.Result(output / run.name)
+    first = next(k for k, time in enumerate(result.times) if time >= 0.5 - 1e-9)
+    before, after = (result.integration_points(k).point_data for k in (first, -1))
+    shear = after["deviatoric_strain"] - before["deviatoric_strain"]
+    inside = shear > 0.5 * shear.max()
+    lag = (after["mean_rotation"] - before["mean_rotation"])[inside].mean()
+    return lag * math.copysign(1.0, band["rotation_inside"])
 
 
-def markdown(head, rows):
-    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows]) + "\n"
+def groups_of(rows):
+    return {group: [row for row in rows if row["group"] == group] for group in dict.fromkeys(row["group"] for row in rows)}
 
 
-def group_tables(rows):
-    """A row a run, and what the two scales differ from the mean of the specimens of grains."""
-    ratios = [f"ratio_{100 * strain:g}%" for strain in STRAINS]
-    head = ["run", *(name[6:-1] + " %" for name in ratios), "peak (at)", "last eighth (to)", "contraction",
-            "volume strain", "band", "thickness", "onset", "rotation in, out", "mismatch, largest"]
-    table = [[row["run"], *(text(row[name], ".2f") for name in ratios),
-              f"**{row['peak']:.2f}** ({100 * row['peak_strain']:.1f} %)",
-              f"{row['residual']:.2f} ({100 * row['last_strain']:.1f} %)", f"{100 * row['largest_contraction']:.2f} %",
-              f"{100 * row['last_volume_strain']:.1f} %",
-              text(row["inclination_degrees"], ".1f", 1, " deg"),
-              text(row["thickness"], ".0f", 1000, " mm"), text(row["onset_strain"], ".1f", 100, " %"),
-              text(row["rotation_inside"], ".2f") + ", " + text(row["rotation_outside"], ".2f"),
-              text(row["mismatch"], ".2f") + ", " + text(row["largest_mismatch"], ".2f")] for row in rows]
-    written = markdown(head, table)
-    reasons = [f"- {row['run']}: no band: {row['reason']}" for row in rows if row["reason"]]
-    written += "\n" + "\n".join(reasons) + "\n" if reasons else ""
-    specimens = [row for row in rows if row["run"].startswith("grains")]
-    others = [row for row in rows if row not in specimens]
-    if not specimens or not others:
-        return written
-    compared = [*ratios, "peak", "residual"]
-    means = {name: mean(row[name] for row in specimens) for name in compared}
-    inclination = mean(abs(row["inclination_degrees"]) for row in specimens if row["inclination_degrees"] is not None)
-    thickness = mean(row["thickness"] for row in specimens)
+def size_of(group):
+    """Grains, of groups of specimens and of cells."""
+    return int(group.split("-")[1])
 
-    def difference(row, name):
-        return "-" if None in (row[name], means[name]) else f"{100 * (row[name] / means[name] - 1):+.0f} %"
 
-    lines = [[f"mean of {len(specimens)} of grains", *(text(means[name], ".2f") for name in compared),
-              text(inclination, ".0f", 1, " deg"), text(thickness, ".0f", 1000, " mm")]]
-    lines += [[row["run"], *(difference(row, name) for name in compared),
-               "-" if None in (row["inclination_degrees"], inclination)
-               else f"{abs(row['inclination_degrees']) - inclination:+.0f} deg",
-               "-" if None in (row["thickness"], thickness) else f"{1000 * (row['thickness'] - thickness):+.0f} mm"]
-              for row in others]
-    return written + "\n" + markdown(["against grains", *(name[6:-1] + " %" for name in ratios), "peak",
-                                      "last eighth", "band", "thickness"], lines)
+def paired(ones, others, key):
+    """Relative differences of realisations of the same packing, in %."""
+    of_seed = {row["run"].split("-")[2]: row[key] for row in others}
+    return [100 * (row[key] / of_seed[row["run"].split("-")[2]] - 1) for row in ones if row["run"].split("-")[2] in of_seed]
+
+
+def specimens_text(groups):
+    of_kind = {group: rows for group, rows in groups.items() if group.startswith("grains")}
+    written = "## Specimens of grains\n\n" + markdown("group", of_kind, (
+        "ratio at 0.5 %", "ratio at 1 %", "ratio at 2 %", "peak", "at, %", "residual", "contraction, %", "volume strain, %")) + "\n"
+    written += markdown("group", of_kind, ("inclination, deg", "thickness, d", "onset, %", "rotation in the band", "rotation outside"))
+    written += "\nBands found: " + ", ".join(
+        f"{sum(math.isfinite(row['thickness, d']) for row in rows)} of {len(rows)} ({group})" for group, rows in of_kind.items()) + "\n"
+    for group, rows in of_kind.items():
+        plain = groups.get(f"grains-{size_of(group)}", [])
+        if "-rate" in group and plain:
+            written += f"\n{group} against the rate of the study, the same specimens, %: " + ", ".join(
+                f"{key} {interval(paired(rows, plain, key))}" for key in ("ratio at 0.5 %", "ratio at 1 %", "ratio at 2 %", "peak", "residual"))
+    return written + "\n"
+
+
+def elements_text(groups):
+    of_kind = {group: rows for group, rows in groups.items() if group.startswith("element")}
+    return "## Periodic cells\n\n" + markdown("group", of_kind, (
+        "ratio at 0.5 %", "ratio at 1 %", "ratio at 2 %", "peak", "at, %", "residual", "fall behind the peak, per %", "contraction, %",
+        "volume strain, %", "evaluations")) + "\n"
+
+
+def faces_text(groups):
+    """Specimens against the packings that they are cut from, and where that goes with their width; at one rate each."""
+    of_kind = [group for group in groups if group.startswith("grains")]
+    written = "## Specimens against the periodic packings that they are cut from\n\n"
+    written += "| group | n | " + " | ".join(f"{key}, %" for key in STRENGTHS) + " |\n|" + "---|" * (len(STRENGTHS) + 2) + "\n"
+    for group in of_kind:
+        cells = groups.get(f"element-{2 * size_of(group)}", [])
+        if cells:
+            written += f"| {group} | {len(paired(groups[group], cells, 'peak'))} | " + " | ".join(
+                interval(paired(groups[group], cells, key)) for key in STRENGTHS) + " |\n"
+    for rate in dict.fromkeys(group.partition("-rate")[2] for group in of_kind):
+        enough = [group for group in of_kind if group.partition("-rate")[2] == rate and len(groups[group]) > 1]
+        if len(enough) > 1:
+            written += f"\n{', '.join(enough)}: straight lines in 1 / width\n\n"
+            places = [1.0 / (WIDTH_OF_800 * math.sqrt(size_of(group) / 800)) for group in enough]
+            for key in STRENGTHS:
+                known = [[row[key] for row in groups[group] if math.isfinite(row[key])] for group in enough]
+                if all(len(values) > 1 for values in known):
+                    value, half, slope, of_slope = line(places, known)
+                    written += (f"- {key}: {value:.3g} +- {half:.2g} for an infinite width, and {slope / DIAMETER:.3g} +- {of_slope / DIAMETER:.2g} "
+                                "times diameter over width\n")
+    return written + "\n"
+
+
+def two_scale_text(groups):
+    of_kind = {group: rows for group, rows in groups.items() if group.split("-")[0] in ("informed", "fixed_point", "cell", "controlled")}
+    return "## Two scales\n\n" + markdown("group", of_kind, (
+        "ratio at 0.5 %", "ratio at 1 %", "ratio at 2 %", "peak", "at, %", "residual", "fall behind the peak, per %", "volume strain, %", "last strain")) + \
+        "\n" + markdown("group", of_kind, ("inclination, deg", "thickness, d", "onset, %", "rotation in the band", "rotation outside",
+                                           "grains against the continuum")) + \
+        "\n" + markdown("group", of_kind, ("mismatch", "evaluations", "DEM steps", "iterations a step", "cuts")) + "\n"
+
+
+def law_text(groups):
+    of_kind = {group: rows for group, rows in groups.items() if group.startswith("law")}
+    lines = [f"| {group} | {rows[0]['peak']:.4f} | {rows[0]['at, %']:.3g} |" for group, rows in of_kind.items()]
+    return "## The law in closed form\n\n| run | peak | at, % |\n|---|---|---|\n" + "\n".join(lines) + "\n"
 
 
 def write_tables(rows, output):
-    with open(output / "table.csv", "w", newline="") as file:
+    with open(output / "table.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-    parts = []
-    for group, title in GROUPS.items():
-        of_group = [row for row in rows if row["group"] == group]
-        if of_group:
-            parts.append(f"## {title}\n\n{group_tables(of_group)}")
-    (output / "table.md").write_text("# Biaxial compression: runs\n\n" + "\n".join(parts))
+    groups = groups_of(rows)
+    parts = {"grains": specimens_text, "element": elements_text, "law": law_text}
+    written = [text(groups) for kind, text in parts.items() if any(group.startswith(kind) for group in groups)]
+    if any(group.startswith("grains") for group in groups):
+        written.append(faces_text(groups))
+    if any(group.split("-")[0] in ("informed", "fixed_point", "cell", "controlled") for group in groups):
+        written.append(two_scale_text(groups))
+    (output / "table.md").write_text("# Biaxial compression\n\nMeans and 95 % intervals.\n\n" + "\n".join(written), encoding="utf-8")
+
+
+def mean_curve(output, runs, name):
+    """@returns strains, mean and half of its interval at them; as far as all runs come"""
+    curves = [curve(output, run) for run in runs]
+    strain = numpy.linspace(0.0, min(rows["axial_strain"][-1] for rows in curves), 161)
+    values = numpy.array([numpy.interp(strain, rows["axial_strain"], rows[name]) for rows in curves])
+    mean, half = numpy.array([mean_and_half(column) for column in values.T]).T
+    return strain, mean, numpy.nan_to_num(half)
 
 
 def draw_curves(plt, runs, output, picture):
-    """Stress ratio and volume strain over axial strain; specimens of grains share a colour."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-    colours = iter(COLOURS * len(runs))
-    grains_named = False
-    for run in runs:
-        curve = history(output / run.name)
-        style = {"color": "#9e9e9e", "linewidth": 0.7} if run.grains else {"color": next(colours), "linewidth": 1.1}
-        label = "grains" if run.grains and not grains_named else None if run.grains else run.name
-        grains_named = grains_named or bool(run.grains)
-        for axis, values, factor in ((axes[0], "stress_ratio", 1), (axes[1], "volume_strain", 100)):
-            axis.plot([100 * strain for strain in curve["axial_strain"]], [factor * value for value in curve[values]],
-                      label=label, **style)
+    """Means of groups over axial strain, with their 95 % intervals."""
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    for colour, group in zip(COLOURS, dict.fromkeys(run.group for run in runs)):
+        of_group = [run for run in runs if run.group == group]
+        for axis, name, factor in ((axes[0], "stress_ratio", 1), (axes[1], "volume_strain", 100)):
+            strain, mean, half = mean_curve(output, of_group, name)
+            axis.plot(100 * strain, factor * mean, color=colour, linewidth=1.2, label=f"{group}, n = {len(of_group)}")
+            axis.fill_between(100 * strain, factor * (mean - half), factor * (mean + half), color=colour, alpha=0.18, linewidth=0)
     axes[0].set_ylabel("stress ratio")
     axes[1].set_ylabel("volume strain, % (dilation positive)")
     for axis in axes:
         axis.set_xlabel("axial strain, %")
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize=7)
-    figure.savefig(picture, dpi=80)
+    axes[0].legend(fontsize=8, frameon=False)
+    figure.savefig(picture, dpi=90)
     plt.close(figure)
 
 
@@ -151,15 +202,14 @@ def draw_fields(plt, runs, output, picture):
     """Shear strain (above) and rotation (below) of the increment in which bands are looked for."""
     figure, axes = plt.subplots(2, len(runs), figsize=(2.1 * len(runs), 7.2), layout="constrained", squeeze=False)
     for column, run in enumerate(runs):
-        samples = columns(output / f"{run.name}.samples.csv")
+        samples = read_table(output / f"{run.name}.samples.csv")
         x, y = samples["x"], samples["y"]
-        height = max(y) - min(y)
         # Marks about as wide as what they stand for, in a picture 3 inches high, 72 points an inch.
-        sizes = [area * (72 * 3.0 / height) ** 2 for area in samples["area"]]
+        sizes = samples["area"] * (72 * 3.0 / (y.max() - y.min())) ** 2
         for axis, values, colour_map, sided in ((axes[0][column], samples["shear"], "viridis", False),
                                                 (axes[1][column], samples["rotation"], "RdBu", True)):
-            high = sorted(abs(value) for value in values)[int(0.97 * (len(values) - 1))] or 1.0
-            marks = axis.scatter(x, y, c=values, s=sizes, marker="o" if run.grains else "s", cmap=colour_map,
+            high = numpy.quantile(abs(values), 0.97) or 1.0
+            marks = axis.scatter(x, y, c=values, s=sizes, marker="o" if run.kind == "grains" else "s", cmap=colour_map,
                                  vmin=-high if sided else 0.0, vmax=high, linewidths=0)
             axis.set_aspect("equal")
             axis.set_axis_off()
@@ -177,13 +227,14 @@ def draw(runs, output):
         return
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    for group in GROUPS:
-        of_group = [run for run in runs if run.group == group]
-        if of_group:
-            draw_curves(plt, of_group, output, output / f"curves-{group}.png")
-        with_samples = [run for run in of_group if (output / f"{run.name}.samples.csv").exists()]
-        if with_samples:
-            draw_fields(plt, with_samples, output, output / f"fields-{group}.png")
+    of_group = {group: [run for run in runs if run.group == group] for group in dict.fromkeys(run.group for run in runs)}
+    # No means of single runs, no bodies without a band, no closed form.
+    shown = [run for group, members in of_group.items() if len(members) > 1 and "-2x4" not in group for run in members if run.kind != "law"]
+    if shown:
+        draw_curves(plt, shown, output, output / "curves.png")
+    firsts = {run.group: run for run in reversed([run for run in runs if "-2x4" not in run.group and run.kind != "law"]) if (output / f"{run.name}.samples.csv").exists()}
+    if firsts:
+        draw_fields(plt, list(firsts.values())[::-1], output, output / "fields.png")
 
 
 def write(runs, output):
@@ -191,8 +242,6 @@ def write(runs, output):
     if not runs:
         print("no run has come to its first step: no tables")
         return
-    runs = sorted(runs, key=lambda run: (not run.grains, [int(part) if part.isdigit() else part
-                                                          for part in re.split(r"(\d+)", run.name)]))
     write_tables([figures(run, output) for run in runs], output)
     draw(runs, output)
     print(f"{output / 'table.md'}: {len(runs)} runs")

@@ -3,7 +3,9 @@
 import math
 import statistics
 
-STUDENT = [math.inf, math.inf, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262]  # 97.5 %, by the number of values
+# Student's t, 97.5 %, by the number of values; beyond 30 that of 30.
+STUDENT = [math.inf, math.inf, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145,
+           2.131, 2.120, 2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045]
 
 
 def mean_and_half(values):
@@ -23,10 +25,31 @@ def interval(values):
     return "-" if math.isnan(half) else f"{mean:.3g} +- {half:.2g}"
 
 
+def markdown(title, groups, keys):
+    """A Markdown table: a row a group, of a list of figures (dictionaries), one a packing; a column a key."""
+    lines = [f"| {title} | n | " + " | ".join(keys) + " |", "|" + "---|" * (len(keys) + 2)]
+    lines += [f"| {name} | {len(figures)} | " + " | ".join(interval([one[key] for one in figures]) for key in keys) + " |"
+              for name, figures in groups.items()]
+    return "\n".join(lines) + "\n"
+
+
 def table(title, groups, keys):
-    """Prints a Markdown table: a row a group, of a list of figures (dictionaries), one a packing; a column a key."""
-    print(f"| {title} | n | " + " | ".join(keys) + " |")
-    print("|" + "---|" * (len(keys) + 2))
-    for name, figures in groups.items():
-        print(f"| {name} | {len(figures)} | " + " | ".join(interval([one[key] for one in figures]) for key in keys) + " |")
-    print()
+    """Prints it."""
+    print(markdown(title, groups, keys))
+
+
+def line(places, groups):
+    """The straight line through the means of groups of values, weighted by how well each is known.
+
+    places -- of the groups
+    groups -- lists of values, two and more each
+    @returns its value at place 0, half of the 95 % interval of that (the scatter of each group counts as known), its slope, and
+             half of the interval of the slope
+    """
+    weights = [len(values) / statistics.variance(values) for values in groups]
+    means = [statistics.mean(values) for values in groups]
+    w, wx, wxx = (sum(weight * place ** power for weight, place in zip(weights, places)) for power in (0, 1, 2))
+    wy, wxy = (sum(weight * place ** power * mean for weight, place, mean in zip(weights, places, means)) for power in (0, 1))
+    determinant = w * wxx - wx * wx
+    return ((wxx * wy - wx * wxy) / determinant, 1.96 * math.sqrt(wxx / determinant),
+            (w * wxy - wx * wy) / determinant, 1.96 * math.sqrt(w / determinant))

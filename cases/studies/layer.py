@@ -12,22 +12,20 @@ import argparse
 import math
 import pathlib
 import re
-import subprocess
 import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+from runs import ROOT, Failed, Programs
+
 PLATE = 0.015  # m; three mean radii
 SPECIFICATION = ("title: {grains} dense discs\ngrains: {grains}\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\n"
                  "thickness: 100 mm\nscript: cells/hooke_radii.in\npressure: 100 kPa\nfriction: 0\nseed: {seed}\n")
 
 
 def run(command, log, folder=None):
-    with open(log, "w", encoding="utf-8") as out:
-        status = subprocess.run([str(word) for word in command], stdout=out, stderr=subprocess.STDOUT, cwd=folder, check=False)
-    if status.returncode != 0:
-        sys.exit(f"{command[0]} ended with status {status.returncode}; the end of {log}:\n" +
-                 "\n".join(pathlib.Path(log).read_text(encoding="utf-8", errors="replace").splitlines()[-8:]))
+    try:
+        Programs().call(log, *command, folder=folder)
+    except Failed as failure:
+        sys.exit(str(failure))
 
 
 def make_packing(polargrain, grains, seed, packing):
@@ -78,10 +76,11 @@ def main():
     arguments.add_argument("--rolling", type=float, default=0.2)
     arguments.add_argument("--shear", type=float, default=0.15)
     arguments.add_argument("--rate", type=float, default=0.12, help="1/s [0.12: inertial number 2e-4]")
-    arguments.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/release/app")
+    arguments.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER")
     options = arguments.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    polargrain, liggghts = options.programs / "polargrain", options.programs / "standalone/polargrain-liggghts"
+    programs = Programs(options.programs)
+    polargrain, liggghts = programs.find("polargrain"), programs.find("polargrain-liggghts")
     packing = options.packing or options.output / "packing.h5"
     if not options.packing:
         make_packing(polargrain, options.grains, options.seed, packing)

@@ -34,7 +34,8 @@ def read_options():
                         "own grains and seed count")
     parser.add_argument("--specification", type=pathlib.Path, default=HERE / "../../cases/packings/dense400.yaml",
                         help="what to pack: sizes, pressure [cases/packings/dense400.yaml]")
-    parser.add_argument("--rolling", type=float, default=0.4, help="coefficient of rolling friction; 0: none [0.4]")
+    parser.add_argument("--rolling", type=float, default=0.2,
+                        help="coefficient of rolling friction; 0: nothing resists rolling [0.2]")
     parser.add_argument("--friction", type=float, default=math.tan(0.5), help="coefficient of friction [tan 0.5]")
     parser.add_argument("--strain", type=float, default=0.10, help="axial strain at the end [0.1]")
     parser.add_argument("--rate", type=float, default=0.24, help="axial strain rate, 1/s [0.24: inertial number 3.9e-4]")
@@ -128,7 +129,8 @@ def cut(options, packing):
 
 
 def variables(options):
-    return ["-var", "folder", options.output.resolve(), "-var", "damping", options.damping]
+    words = ["-var", "folder", options.output.resolve(), "-var", "damping", options.damping]
+    return words if options.rolling else [*words, "-var", "rolling_model", "off", "-var", "rolling_force", "off"]
 
 
 def time_step(options):

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-if(TARGET polargrain)
+if(TARGET polargrain AND TARGET polargrain_python)
   foreach(size test long)
     add_executable(study_${size} integration/study_${size}.cpp)
     target_link_libraries(study_${size} PRIVATE polargrain_common polargrain_options fmt::fmt GTest::gtest GTest::gtest_main)
     target_compile_definitions(study_${size} PRIVATE
       POLARGRAIN="$<TARGET_FILE:polargrain>" POLARGRAIN_LIGGGHTS="$<TARGET_FILE:polargrain-liggghts>"
-      STUDY="${PROJECT_SOURCE_DIR}/cases/studies/biaxial.py")
-    add_dependencies(study_${size} polargrain polargrain-liggghts)
+      STUDY="${PROJECT_SOURCE_DIR}/cases/studies/biaxial.py" PYTHON="${Python_EXECUTABLE}"
+      PYTHON_PACKAGE="${PROJECT_BINARY_DIR}/python")
+    add_dependencies(study_${size} polargrain polargrain-liggghts polargrain_python)
   endforeach()
   gtest_discover_tests(study_test PROPERTIES LABELS integration TIMEOUT 600 DISCOVERY_TIMEOUT 60)
   # Ten minutes on two cores: on request.

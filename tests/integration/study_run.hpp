@@ -14,8 +14,8 @@ inline std::string study(const std::string& options) {
   const auto folder = [](const char* program) {
     return std::filesystem::path(program).parent_path().string();
   };
-  return fmt::format("python3 {} -o out {} --programs {} {}", STUDY, options, folder(POLARGRAIN),
-                     folder(POLARGRAIN_LIGGGHTS));
+  return fmt::format("PYTHONPATH={} {} {} -o out {} --programs {} {}", PYTHON_PACKAGE, PYTHON, STUDY, options,
+                     folder(POLARGRAIN), folder(POLARGRAIN_LIGGGHTS));
 }
 
 }  // namespace polargrain::testing
