@@ -327,7 +327,10 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   auto [iterate, right_side] = predict(goal);
   Correction change;
   best_.reset();
-  StagnationWatch watch(options.stagnation_window);
+  // Where a jump may be passed, further iterations from the same state find another sample of the jumps and nothing better.
+  const int window =
+      report.jumps < options.most_jumps ? (options.stagnation_window + 1) / 2 : options.stagnation_window;
+  StagnationWatch watch(window);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
     const std::vector<Response>& known = predictor ? state.responses : trial_;
@@ -369,7 +372,7 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
           return {false, "a material failed: " + again.message, again.step_factor};
         right_side = iterate.unbalanced;
         anderson_.clear();
-        watch = StagnationWatch(options.stagnation_window);
+        watch = StagnationWatch(window);
         continue;
       }
       commit(iterate, balance, report);

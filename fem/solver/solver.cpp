@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
@@ -13,6 +13,7 @@
 #include "fem/solver/left_out.hpp"
 #include "fem/solver/newton.hpp"
 #include "fem/solver/state_archive.hpp"
+#include "fem/solver/substeps.hpp"
 
 namespace polargrain::fem {
 
@@ -27,6 +28,9 @@ struct Solver::Implementation : Newton {
   template <class GoalAt>
   StepReport march(StepReport report, GoalAt goal_at);
 
+  /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
+  void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
+
   /// What became of a jump.
   struct Passing {
     bool passed = false;  ///< else nothing was committed
@@ -39,9 +43,16 @@ struct Solver::Implementation : Newton {
   Passing pass(StepGoal goal, double largest, StepReport& report);
 };
 
+void Solver::Implementation::tell_cut(double tried, const std::string& reason, double next,
+                                      StepReport& report) {
+  ++report.cuts;
+  if (!observer) return;
+  observer->cut(tried, reason, next);
+  if (report.cuts == 2) observer->struggles(last_trouble);
+}
+
 Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, double largest,
                                                              StepReport& report) {
-  constexpr double kGrowth = 2.0;
   const auto may_pass = [&](double most) {
     return report.jumps < options.most_jumps && best_residual() <= most;
   };
@@ -52,26 +63,22 @@ Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, doub
   Eigen::VectorXd moved = state.last_increment;
   if (goal.controls_time()) goal.time = state.time;
   goal.amount = 0.0;
-  double let_go = 0.0;
-  double step = 1.0;
-  int cuts = 0;
+  Substeps letting_go(2.0);
   Passing result{true, false, ""};
-  while (let_go < 1.0) {
-    goal.jump_let_go = std::min(let_go + step, 1.0);
-    const Attempt attempted = attempt(goal, cuts, report);
+  while (!letting_go.arrived()) {
+    goal.jump_let_go = letting_go.end();
+    const Attempt attempted = attempt(goal, letting_go.cuts_in_a_row(), report);
     if (attempted.converged) {
       moved += state.last_increment;
-      let_go = goal.jump_let_go;
-      step *= kGrowth;
-      cuts = 0;
+      letting_go.went();
       continue;
     }
     last_trouble = trouble(attempted.reason, report);
     revert();
-    const bool last = cuts == options.most_cuts;
+    const bool last = letting_go.cuts_in_a_row() == options.most_cuts;
     if (may_pass(last ? HUGE_VAL : largest) && pass_jump(report).converged) {
       moved += state.last_increment;
-      let_go = 0.0;
+      letting_go.begin_again();
       continue;
     }
     revert();
@@ -80,9 +87,8 @@ Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, doub
       result.reason = attempted.reason;
       break;
     }
-    ++cuts;
-    ++report.cuts;
-    step = 0.5 * (goal.jump_let_go - let_go);
+    letting_go.failed(attempted.step_factor);
+    tell_cut(state.time, attempted.reason, state.time, report);
   }
   state.last_increment = moved;
   return result;
@@ -91,56 +97,43 @@ Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, doub
 template <class GoalAt>
 StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
-  constexpr double kGrowth = 1.5;
-  constexpr double kNearlyAll = 1.0 - 1e-6;
-  double done = 0.0;
-  int cuts_in_a_row = 0;
+  Substeps way(1.5, state.next_step);
   JumpWatch jumps;
-  while (done < 1.0) {
-    const bool cut = state.next_step > 0.0 && state.next_step < kNearlyAll * (1.0 - done);
-    const double step = cut ? state.next_step : 1.0 - done;
-    const double end = cut ? done + step : 1.0;
-    const StepGoal goal = goal_at(end, step);
-    const Attempt result = attempt(goal, cuts_in_a_row, report);
+  const auto given_up = [&](std::string why) {
+    report.message = std::move(why);
+    report.time = state.time;
+    return report;
+  };
+  while (!way.arrived()) {
+    const StepGoal goal = goal_at(way.end(), way.share());
+    const Attempt result = attempt(goal, way.cuts_in_a_row(), report);
     bool committed = result.converged;
     if (!committed) {
       last_trouble = trouble(result.reason, report);
       if (!report.force_residuals.empty()) {
         const Residual first{report.force_residuals.front(), report.moment_residuals.front()};
-        jumps.failed(step, first.force, excess(first));
+        jumps.failed(way.share(), first.force, excess(first));
       }
       last_trouble.jumps = jumps.seen();
       const Passing passing = pass(goal, jumps.seen() ? HUGE_VAL : options.jump_residual, report);
       committed = passing.passed;
-      if (passing.stuck) {
-        report.message =
-            fmt::format("a jump of the stresses was passed and cannot be balanced: {}", passing.reason);
-        report.time = state.time;
-        return report;
-      }
+      if (passing.stuck)
+        return given_up("a jump of the stresses was passed and cannot be balanced: " + passing.reason);
     }
     if (committed) {
       ++report.substeps;
-      cuts_in_a_row = 0;
       jumps.clear();
-      done = end;
-      if (state.next_step > 0.0) state.next_step = std::max(state.next_step, kGrowth * step);
+      way.went();
+      state.next_step = way.next();
       continue;
     }
-    if (cuts_in_a_row == options.most_cuts) {
-      report.message = fmt::format("the step was cut {} times in a row and still fails: {}{}", cuts_in_a_row,
-                                   result.reason, jumps.statement());
-      report.time = state.time;
-      return report;
-    }
-    ++cuts_in_a_row;
-    ++report.cuts;
-    state.next_step = step * std::clamp(result.step_factor, 0.1, 0.5);
-    if (observer) {
-      const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
-      observer->cut(time_of(goal), result.reason, time_of(goal_at(done + state.next_step, state.next_step)));
-      if (report.cuts == 2) observer->struggles(last_trouble);
-    }
+    if (way.cuts_in_a_row() == options.most_cuts)
+      return given_up(fmt::format("the step was cut {} times in a row and still fails: {}{}",
+                                  way.cuts_in_a_row(), result.reason, jumps.statement()));
+    way.failed(result.step_factor);
+    state.next_step = way.next();
+    const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
+    tell_cut(time_of(goal), result.reason, time_of(goal_at(way.end(), way.share())), report);
   }
   report.converged = true;
   report.time = state.time;

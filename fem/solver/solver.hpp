@@ -25,7 +25,8 @@ struct SolverOptions {
   /// m; 0: square root of the mean area of the elements.
   double reference_length = 0.0;
   int most_iterations = 30;
-  /// The iteration is given up when its residual has not fallen by a tenth over this many iterations.
+  /// The iteration is given up when its residual has not fallen by a tenth over this many iterations; half as many while
+  /// jumps may be passed.
   int stagnation_window = 6;
   /// A step may be halved this often in a row before the run is given up.
   int most_cuts = 6;
@@ -107,7 +108,7 @@ class Observer {
   virtual ~Observer() = default;
   virtual void iterated(const IterationReport& report) { (void)report; }
   /// A step to `time` was given up for `reason`; `next_time` will be tried. Where a measure is controlled in
-  /// place of the time, both are the time of the last committed state.
+  /// place of the time, and where a jump is let go, both are the time of the last committed state.
   virtual void cut(double time, const std::string& reason, double next_time) {
     (void)time, (void)reason, (void)next_time;
   }

@@ -11,6 +11,7 @@
 #include "fem/material/local_material.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/solver.hpp"
+#include "fem/solver/substeps.hpp"
 
 using namespace polargrain;
 using namespace polargrain::fem;
@@ -495,6 +496,35 @@ TEST(solver, goes_on_from_a_saved_state_with_the_same_bits) {
   other.advance(1.0);
   EXPECT_EQ(whole.state().displacement, other.state().displacement);
   EXPECT_EQ(whole.state().external_work, other.state().external_work);
+}
+
+TEST(substeps, go_the_whole_way_and_grow_behind_cuts) {
+  Substeps whole(1.5);
+  EXPECT_EQ(whole.end(), 1.0);
+  whole.went();
+  EXPECT_TRUE(whole.arrived());
+  EXPECT_EQ(whole.next(), 0.0);  // nothing was cut
+
+  Substeps way(1.5);
+  way.failed(0.5);
+  way.failed(0.01);  // no cut is by more than ten
+  EXPECT_EQ(way.cuts_in_a_row(), 2);
+  EXPECT_DOUBLE_EQ(way.share(), 0.05);
+  double reached = 0.0;
+  int parts = 0;
+  for (double share = 0.05; !way.arrived(); share *= 1.5, ++parts) {
+    if (way.end() < 1.0) {
+      EXPECT_NEAR(way.share(), share, 1e-15);
+    }
+    reached = way.end();
+    way.went();
+    EXPECT_EQ(way.cuts_in_a_row(), 0);
+  }
+  EXPECT_EQ(reached, 1.0);  // exactly
+  EXPECT_EQ(parts, 6);      // 0.05, 0.075, 0.1125, 0.16875, 0.253125 and the rest
+  way.begin_again();
+  EXPECT_EQ(way.done(), 0.0);
+  EXPECT_FALSE(way.arrived());
 }
 
 }  // namespace
