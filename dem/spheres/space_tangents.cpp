@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "dem/cell/averages.hpp"
 #include "dem/spheres/space_contact.hpp"
@@ -25,19 +26,38 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& n) {
   return made;
 }
 
-/// What is left of a spring across `n` that is at its limit along `value`, and how the limit falls with the normal
-/// force: `value` is mu f_n in size.
-struct Limited {
-  Eigen::Matrix3d spring;      // share of the stiffness
-  Eigen::Matrix3d of_opening;  // over the normal stiffness: - value / f_n n^T
+/// A spring in some directions that may have given way.
+struct SlippedSpring {
+  double stiffness = 0.0;
+  Eigen::Vector3d value;  // what it carries
+  double limit = 0.0;     // of |value|; 0 when there is none
+  double slip = 0.0;
+  bool at_limit = false;
 };
-Limited limited(const Eigen::Matrix3d& spring, const Eigen::Vector3d& value, double normal_force,
-                const Eigen::Vector3d& n) {
-  const double size = value.norm();
-  if (!(size > 0.0) || !(normal_force > 0.0)) return {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
-  const Eigen::Vector3d along = value / size;
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along * along.transpose();
-  return {across * spring * across, -value / normal_force * n.transpose()};
+
+/// To first order: what it answers to a motion in its directions, and over the normal stiffness to an opening along n.
+struct LinearSpring {
+  Eigen::Matrix3d of_motion;
+  Eigen::Matrix3d of_opening;
+};
+/// @param directions projects on those of the spring
+LinearSpring linear(const SlippedSpring& spring, const Eigen::Matrix3d& directions, double normal_force,
+                    const Eigen::Vector3d& n) {
+  LinearSpring made{spring.stiffness * directions, Eigen::Matrix3d::Zero()};
+  const double size = spring.value.norm();
+  if (!(size > 0.0) || !(normal_force > 0.0) || !(spring.limit > 0.0)) {
+    if (spring.at_limit) made.of_motion.setZero();
+    return made;
+  }
+  const double unloaded = std::max(0.0, spring.limit - size) / spring.stiffness;
+  const double along = spring.at_limit ? 0.0 : spring_left_along(spring.slip, unloaded);
+  if (along == 1.0) return made;
+  // Unloading leaves its direction alone: across, no less is left than along.
+  const double across = std::max(along, spring_left_across(spring.slip, size / spring.stiffness));
+  const Eigen::Vector3d way = spring.value / size;
+  made.of_motion = spring.stiffness * (across * directions + (along - across) * way * way.transpose());
+  made.of_opening = -(1.0 - along) / normal_force * spring.value * n.transpose();
+  return made;
 }
 
 using ClassicalStrains = Eigen::Matrix<double, 18, 6>;
@@ -108,36 +128,41 @@ Eigen::Matrix<double, kAxes, Strains> hold_mean_rotation(SpaceNetworkSolver& sol
 
 }  // namespace
 
-LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame) {
+LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame,
+                                       const SpaceSlip& slip) {
   const Eigen::Vector3d branch = frame * branch_of(contact);
   const Eigen::Vector3d n = branch.normalized();
   const Eigen::Matrix3d along = n * n.transpose();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
   const double normal_force = space_normal_force(contact);
+  const Eigen::Vector3d moment = frame * moment_of(contact);
+
+  SlippedSpring sliding;
+  sliding.stiffness = contact.tangential_stiffness;
+  sliding.value = across * (frame * force_of(contact));
+  sliding.limit = contact.friction * std::max(0.0, normal_force);
+  sliding.slip = slip.sliding;
+  sliding.at_limit = slides_in_space(contact);
+  SlippedSpring bending;
+  bending.stiffness = contact.rolling_stiffness;
+  bending.value = across * moment;
+  bending.limit = contact.rolling_at_limit ? bending.value.norm() : contact.rolling_limit;
+  bending.slip = slip.bending;
+  bending.at_limit = contact.rolling_at_limit;
+  SlippedSpring torsion;
+  torsion.stiffness = contact.torsion_stiffness;
+  torsion.value = along * moment;
+  torsion.limit = contact.torsion_at_limit ? torsion.value.norm() : contact.rolling_limit;
+  torsion.slip = slip.torsion;
+  torsion.at_limit = contact.torsion_at_limit;
 
   stiffness.setZero();
-  stiffness.topLeftCorner<3, 3>() = contact.normal_stiffness * along;
-  const Eigen::Matrix3d sliding_spring = contact.tangential_stiffness * across;
-  if (slides_in_space(contact)) {
-    const Eigen::Vector3d tangential = across * (frame * force_of(contact));
-    const Limited rest = limited(sliding_spring, tangential, normal_force, n);
-    stiffness.topLeftCorner<3, 3>() += rest.spring + contact.normal_stiffness * rest.of_opening;
-  } else {
-    stiffness.topLeftCorner<3, 3>() += sliding_spring;
-  }
-  const double torsion_stiffness = contact.torsion_at_limit ? 0.0 : contact.torsion_stiffness;
-  const Eigen::Matrix3d rolling_spring = contact.rolling_stiffness * across + torsion_stiffness * along;
-  if (contact.rolling_at_limit) {
-    const Eigen::Vector3d bending = across * (frame * moment_of(contact));
-    const Limited rest = limited(rolling_spring, bending, normal_force, n);
-    stiffness.bottomRightCorner<3, 3>() = rest.spring;
-    stiffness.bottomLeftCorner<3, 3>() = contact.normal_stiffness * rest.of_opening;
-  } else {
-    stiffness.bottomRightCorner<3, 3>() = rolling_spring;
-  }
-  if (contact.torsion_at_limit && normal_force > 0.0)
-    stiffness.bottomLeftCorner<3, 3>() -=
-        contact.normal_stiffness / normal_force * (along * (frame * moment_of(contact))) * n.transpose();
+  const LinearSpring slides = linear(sliding, across, normal_force, n);
+  stiffness.topLeftCorner<3, 3>() = contact.normal_stiffness * (along + slides.of_opening) + slides.of_motion;
+  const LinearSpring bends = linear(bending, across, normal_force, n);
+  const LinearSpring twists = linear(torsion, along, normal_force, n);
+  stiffness.bottomRightCorner<3, 3>() = bends.of_motion + twists.of_motion;
+  stiffness.bottomLeftCorner<3, 3>() = contact.normal_stiffness * (bends.of_opening + twists.of_opening);
 
   // A rotation w moves the surface of the first by r_A w x n, that of the second by -r_B w x n.
   const Eigen::Matrix3d lever = cross_matrix(n);
@@ -194,8 +219,9 @@ std::optional<CondensedSpaceTangent::Columns<Strains>> CondensedSpaceTangent::re
   // pivots can be compared.
   const double arm = contacts.front().arm_first;
   laws_.clear();
-  for (const Contact& contact : contacts) {
-    LinearSpaceContact& law = laws_.emplace_back(contact, network.frame);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    LinearSpaceContact& law = laws_.emplace_back(contacts[c], network.frame,
+                                                 network.slips.empty() ? SpaceSlip{} : network.slips[c]);
     law.motions.middleCols<3>(3) /= arm;
     law.motions.middleCols<3>(9) /= arm;
   }

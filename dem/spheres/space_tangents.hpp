@@ -8,6 +8,7 @@
 #include "common/cell_response.hpp"
 #include "dem/cell/network_solver.hpp"
 #include "dem/contact/contact_recorder.hpp"
+#include "dem/spheres/increment_slip.hpp"
 
 namespace polargrain::dem {
 
@@ -15,9 +16,11 @@ namespace polargrain::dem {
 /// components of the displacement of the second surface against the first, and the rotation vector of the second grain
 /// against the first) to the change of force and moment on the first grain.
 ///
-/// A sliding contact keeps |f_t| = mu f_n along the direction in which it slides, a contact at its rolling limit |M| =
-/// (limit / f_n) f_n; across that direction the springs act. The torsion spring acts where the law has one (li_chu), and
-/// the rolling stiffness of models that do not tell it counts as zero.
+/// Of a spring that has given way over the increment what is left along and across its way acts
+/// (spring_left_along, spring_left_across), and it changes with the normal force by the rest of its share in it: a contact
+/// that slides to the end of the increment keeps |f_t| = mu f_n, one at its rolling limit |M| = (limit / f_n) f_n. The
+/// torsion spring acts where the law has one (li_chu), and the rolling stiffness of models that do not tell it counts as
+/// zero.
 struct LinearSpaceContact {
   Eigen::Matrix<double, 6, 6> stiffness;  ///< N/m, N; N, N m/rad
   Eigen::Matrix<double, 6, 12> motions;   ///< opening from (u, rotation) of the first, then the second grain
@@ -25,7 +28,7 @@ struct LinearSpaceContact {
       affine;  ///< opening from a Cosserat strain; transposed: V stress from the force
 
   /// @param frame turns vectors of the contact into the frame of the strain
-  LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame);
+  LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame, const SpaceSlip& slip = {});
 };
 
 /// A cell of spheres as its tangents see it; see ContactNetwork.
@@ -35,6 +38,8 @@ struct SpaceNetwork {
   Eigen::Matrix3d frame;  ///< turns vectors of the contacts into the frame of the tangent
   double volume = 0.0;    ///< m^3
   double hold = 0.0;      ///< spring on each grain, over the mean normal stiffness
+  /// Of the contacts over the increment that the tangent is the derivative by; none: by a further one, infinitely small.
+  std::span<const SpaceSlip> slips = {};
 };
 
 // Tangents d stress / d strain of a cell of spheres; rows and columns as in CellResponse::tangent. The classical ones are

@@ -17,6 +17,7 @@
 #include "dem/cell/quasi_static.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/spheres/fix_space_strain.hpp"
+#include "dem/spheres/increment_slip.hpp"
 #include "dem/spheres/space_contact.hpp"
 #include "dem/spheres/space_tangents.hpp"
 #include "grains_io/packing_data.hpp"
@@ -93,8 +94,10 @@ class SphereCell final : public CellOfGrains {
   [[nodiscard]] CellDiagnostics measure() const;
   /// Stress and, with controlled rotations, couple stress of the recorded contacts, in the laboratory.
   [[nodiscard]] CellResponse respond(const Matrix18& tangent) const;
-  /// Tangent of the recorded contacts, in the laboratory.
-  [[nodiscard]] Matrix18 tangent();
+  /// Of the recorded contacts since the set-up of the increment; none where no tangent asks for them.
+  [[nodiscard]] std::vector<SpaceSlip> slips(const CellIncrement& increment) const;
+  /// Tangent of the recorded contacts, in the laboratory. @param slips over the increment it is the derivative by
+  [[nodiscard]] Matrix18 tangent(std::span<const SpaceSlip> slips = {});
 
   CellControl control_;
   QuasiStatic protocol_;
@@ -103,6 +106,7 @@ class SphereCell final : public CellOfGrains {
   Inertia inertia_;
   double time_step_ = 0.0;        // s, for the packing at rest
   double frequency_bound_ = 0.0;  // rad/s, of the packing at rest
+  IncrementSlip increment_slip_;
   CondensedSpaceTangent condensed_tangent_;
   CellReply initial_;
 };
@@ -173,12 +177,14 @@ std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const Ce
   engine_.restore(start ? *start : *initial_.state);
   engine_.strain().lead(protocol_, increment);
   set_up();
+  increment_slip_.start(engine_.contacts(), engine_.lammps().atom->x[0], engine_.strain().rotations(), box(),
+                        engine_.grains());
   const bool stiffer = frequency_bound(engine_.contacts(), inertia_) > kStiffer * frequency_bound_;
   if (stiffer && engine_.shorten_time_step(inertia_, protocol_.damping_rate())) return {};
 
   while (!protocol_.loaded()) run();
   // Taken while the box still moves: see the cell of discs.
-  const Matrix18 loading_tangent = tangent();
+  const Matrix18 loading_tangent = tangent(slips(increment));
   Equilibrium rest = equilibrium();
   while (!protocol_.ended(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
     run();
@@ -264,9 +270,16 @@ CellResponse SphereCell::respond(const Matrix18& tangent) const {
   return response;
 }
 
-Matrix18 SphereCell::tangent() {
+std::vector<SpaceSlip> SphereCell::slips(const CellIncrement& increment) const {
+  if (control_.tangent != CellTangent::condensed) return {};
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  if (controlled()) curvature = increment.curvature;
+  return increment_slip_.until(engine_.contacts(), engine_.strain().rotations(), box(), curvature);
+}
+
+Matrix18 SphereCell::tangent(std::span<const SpaceSlip> slips) {
   if (control_.tangent == CellTangent::none) return Matrix18::Zero();
-  const SpaceNetwork network{engine_.contacts(), engine_.grains(), box().frame, box().volume(), kHold};
+  const SpaceNetwork network{engine_.contacts(), engine_.grains(), box().frame, box().volume(), kHold, slips};
   if (control_.tangent == CellTangent::voigt)
     return controlled() ? voigt_cosserat_space_tangent(network) : voigt_space_tangent(network);
   if (control_.tangent == CellTangent::condensed && !controlled())
