@@ -109,10 +109,10 @@ def to(last):
 RUNS = {  # by size; in one list the cheapest and most decisive first
     "reduced": [*specimens(50, to(2)), *specimens(100, to(2)), *elements(100, to(2)), *elements(200, to(2)),
                 *two_scale("informed", 2, to(2), grains=100)],
-    "page": [*elements(100, to(10)), *elements(400, to(10)), *elements(1600, to(10)), *specimens(800, to(10), QUICK),
-             *specimens(200, to(10), QUICK), *specimens(800, to(4)), *two_scale("informed", 4, to(5))],
-    "full": [*elements(100, to(30)), *elements(400, to(30)), *elements(400, to(10), leaning=True), *elements(400, to(10), 6e-4),
-             *elements(400, to(10), 3e-5), *elements(1600, to(30)), *elements(6400, to(3)), *specimens(200, to(30)), *specimens(800, to(30)),
+    "page": [*elements(100, to(10)), *elements(400, to(10)), *elements(400, to(10), leaning=True), *elements(1600, to(10)),
+             *specimens(800, to(10), QUICK), *specimens(200, to(10), QUICK), *specimens(800, to(4)), *two_scale("informed", 4, to(5))],
+    "full": [*elements(100, to(30)), *elements(400, to(30)), *elements(400, to(10), 6e-4), *elements(400, to(10), 3e-5),
+             *elements(1600, to(30)), *elements(6400, to(3)), *specimens(200, to(30)), *specimens(800, to(30)),
              *specimens(800, to(3), 0.02), *specimens(1600, to(10)), *closed_form(),
              *(run for scheme in ("informed", "fixed_point", "cell") for run in two_scale(scheme, 4, to(10))), *sweep(to(10)),
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 8, to(10))),
@@ -168,7 +168,8 @@ def mirror(packing, file):
     box = whole.box * [[1.0, -1.0], [1.0, 1.0]]  # the second base vector leans the other way
     share = numpy.linalg.solve(box, (whole.positions * [-1.0, 1.0]).T)
     positions = (box @ (share - numpy.floor(share))).T
-    lines = [f"# cell xx={box[0, 0]!r} xy={box[0, 1]!r} yx={box[1, 0]!r} yy={box[1, 1]!r} z={whole.thickness!r} p={whole.pressure!r}",
+    (xx, xy), (yx, yy) = box.tolist()
+    lines = [f"# cell xx={xx!r} xy={xy!r} yx={yx!r} yy={yy!r} z={whole.thickness!r} p={whole.pressure!r}",
              "id,x,y,r,mass,Izz"]
     lines += [f"{number},{float(x)!r},{float(y)!r},{float(radius)!r},{float(mass)!r},{float(0.5 * mass * radius ** 2)!r}"
               for number, ((x, y), radius, mass) in enumerate(zip(positions, whole.radii, whole.masses))]

@@ -6,6 +6,7 @@ import math
 
 import numpy
 
+from biaxial_faces import faces
 from built_package import polargrain
 from intervals import interval, line, markdown, mean_and_half
 from polargrain.table import read_table
@@ -14,6 +15,8 @@ DIAMETER = 0.01     # m, mean
 WIDTH_OF_800 = 0.2  # m, of a specimen of 800 grains
 BEHIND = 0.02       # axial strain behind the peak over which the slope is taken
 COLOURS = ("#b5651d", "#2e7d32", "#8e24aa", "#c62828", "#00838f", "#f9a825", "#5d4037", "#3949ab", "#7cb342", "#d81b60")
+AT_FACES = ("shear at platens, 0 to 1 %", "at membranes, 0 to 1 %", "shear at platens, 1 to 2 %", "at membranes, 1 to 2 %",
+            "strain of the middle at 1 %", "density by the seating, %")
 STRENGTHS = ("ratio at 1 %", "peak", "residual")
 
 
@@ -53,6 +56,8 @@ def figures(run, output):
     row["rotation in the band"] = abs(band.get("rotation_inside", math.nan))
     row["rotation outside"] = abs(band.get("rotation_outside", math.nan))
     row["grains against the continuum"] = lag_of_grains(run, output, band)
+    of_faces = faces(output / run.name) if run.kind == "grains" else {}
+    row.update({key: of_faces.get(key, math.nan) for key in AT_FACES})
     summary = read_json(output / run.name / "summary.json")
     cells = summary.get("cells", {})
     row["mismatch"] = summary.get("materials", {}).get("rest", {}).get("stress_mismatch_mean", math.nan)
@@ -113,7 +118,10 @@ def elements_text(groups):
     of_kind = {group: rows for group, rows in groups.items() if group.startswith("element")}
     return "## Periodic cells\n\n" + markdown("group", of_kind, (
         "ratio at 0.5 %", "ratio at 1 %", "ratio at 2 %", "peak", "at, %", "residual", "fall behind the peak, per %", "contraction, %",
-        "volume strain, %", "evaluations")) + "\n"
+        "volume strain, %", "evaluations")) + "".join(
+            f"\n{group} against upright sides, %: " + ", ".join(
+                f"{key} {interval(paired(rows, groups[group.removesuffix('-leaning')], key))}" for key in STRENGTHS) + "\n"
+            for group, rows in of_kind.items() if group.endswith("-leaning") and group.removesuffix("-leaning") in groups) + "\n"
 
 
 def faces_text(groups):
@@ -126,6 +134,7 @@ def faces_text(groups):
         if cells:
             written += f"| {group} | {len(paired(groups[group], cells, 'peak'))} | " + " | ".join(
                 interval(paired(groups[group], cells, key)) for key in STRENGTHS) + " |\n"
+    written += "\n" + markdown("group", {group: groups[group] for group in of_kind}, AT_FACES)
     for rate in dict.fromkeys(group.partition("-rate")[2] for group in of_kind):
         enough = [group for group in of_kind if group.partition("-rate")[2] == rate and len(groups[group]) > 1]
         if len(enough) > 1:
@@ -228,11 +237,13 @@ def draw(runs, output):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     of_group = {group: [run for run in runs if run.group == group] for group in dict.fromkeys(run.group for run in runs)}
-    # No means of single runs, no bodies without a band, no closed form.
-    shown = [run for group, members in of_group.items() if len(members) > 1 and "-2x4" not in group for run in members if run.kind != "law"]
+    # No means of single runs, no bodies without a band, no closed form; leaning cells cover the upright ones.
+    shown = [run for group, members in of_group.items() if len(members) > 1 and "-2x4" not in group and "leaning" not in group
+             for run in members if run.kind != "law"]
     if shown:
         draw_curves(plt, shown, output, output / "curves.png")
-    firsts = {run.group: run for run in reversed([run for run in runs if "-2x4" not in run.group and run.kind != "law"]) if (output / f"{run.name}.samples.csv").exists()}
+    with_fields = [run for run in runs if "-2x4" not in run.group and run.kind != "law" and (output / f"{run.name}.samples.csv").exists()]
+    firsts = {run.group: run for run in reversed(with_fields)}
     if firsts:
         draw_fields(plt, list(firsts.values())[::-1], output, output / "fields.png")
 

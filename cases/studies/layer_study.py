@@ -22,6 +22,7 @@ import scipy.optimize
 
 import layer
 from built_package import polargrain
+from dumps import read_grains
 from gmsh_mesh import Grid
 from internal_length import DIAMETER
 from intervals import table
@@ -60,13 +61,6 @@ def band(height, displacement):
 
 
 # --- layers of grains
-
-def read_grains(dump):
-    lines = dump.read_text(encoding="utf-8").splitlines()
-    first = next(k for k, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
-    rows = numpy.array([[float(word) for word in line.split()] for line in lines[first + 1:]])
-    return rows[rows[:, 0].argsort()]  # id, x, y, radius, rotation
-
 
 def layer_figures(place):
     rows = read_table(place / "history.csv").rows

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the studies share: lines through means, mirror images of packings, the density of discs."""
+import math
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+SOURCE = pathlib.Path(os.environ["POLARGRAIN_SOURCE"])
+sys.path.insert(0, str(SOURCE / "cases/studies"))
+sys.dont_write_bytecode = True
+
+import polargrain  # noqa: E402
+from biaxial import mirror  # noqa: E402
+from biaxial_faces import GRID, solid_share  # noqa: E402
+from intervals import line  # noqa: E402
+
+
+class Studies(unittest.TestCase):
+    def test_a_line_through_two_means_hits_both(self):
+        value, half, slope, _ = line([10.0, 5.0], [[1.0, 3.0], [2.0, 4.0]])
+        self.assertAlmostEqual(slope, (2.0 - 3.0) / 5.0, 12)
+        self.assertAlmostEqual(value, 4.0, 12)
+        # 2 b - a, each mean with a variance of 2 / 2.
+        self.assertAlmostEqual(half, 1.96 * math.sqrt(4.0 + 1.0), 12)
+
+    def test_discs_of_a_square_lattice_cover_a_quarter_of_pi(self):
+        x, y = (places.ravel() for places in np.meshgrid(np.arange(20) * 0.01, np.arange(20) * 0.01))
+        # The margin leaves whole cells of the lattice; the grid misses a rim of half a step a disc.
+        self.assertAlmostEqual(solid_share(x, y, np.full(400, 0.005)), math.pi / 4.0, delta=GRID / 0.01)
+
+    def test_the_mirror_image_of_a_mirror_image_is_the_packing(self):
+        whole = polargrain.read_packing(SOURCE / "cases/studies/dense100_seed2.h5")
+        with tempfile.TemporaryDirectory() as folder:
+            once, twice = (pathlib.Path(folder) / name for name in ("once.csv", "twice.csv"))
+            mirror(SOURCE / "cases/studies/dense100_seed2.h5", once)
+            mirror(once, twice)
+            image, back = (polargrain.read_packing(file) for file in (once, twice))
+        self.assertTrue(np.allclose(image.box, whole.box * [[1.0, -1.0], [1.0, 1.0]], rtol=0, atol=1e-15))
+        for other, turned in ((image, -1.0), (back, 1.0)):
+            apart = np.linalg.solve(other.box, (other.positions - whole.positions * [turned, 1.0]).T)
+            self.assertLess(abs(apart - np.round(apart)).max(), 1e-12)
+            self.assertTrue(np.array_equal(other.radii, whole.radii))
+
+
+if __name__ == "__main__":
+    unittest.main()
