@@ -16,6 +16,11 @@ if(TARGET polargrain AND TARGET polargrain_python)
   add_test(NAME LayerStudy.BandsAreAsThePageSays COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/layer_study.py --check
            -o ${CMAKE_CURRENT_BINARY_DIR}/layer_study --programs ${PROJECT_BINARY_DIR}/app)
   set_tests_properties(LayerStudy.BandsAreAsThePageSays PROPERTIES LABELS long TIMEOUT 3600)
+  # A control of it, on two of its three meshes (ten seconds).
+  add_test(NAME LayerStudy.WithoutRotationsTheElementIsTheBand
+           COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/layer_controls.py cauchy --check --elements 5 10
+           -o ${CMAKE_CURRENT_BINARY_DIR}/layer_controls --programs ${PROJECT_BINARY_DIR}/app)
+  set_tests_properties(LayerStudy.WithoutRotationsTheElementIsTheBand PROPERTIES LABELS long TIMEOUT 600)
   # Two of the ten packings of docs/studies/far_biaxial.md (five minutes).
   add_test(NAME FarBiaxial.BandsAreFollowedToFifteenPercent
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/far_biaxial.py --check --packings 2 --schemes cell,informed
