@@ -261,8 +261,8 @@ def draw(given, file):
                 found = [(subset, band["thickness"] / DIAMETER) for subset, band in found if band["found"]]
                 if found:
                     axes[-1].plot(*zip(*found), style, color=colour, ms=5, lw=0.8, label=f"{kind}, {label}" if which == 0 else None)
-    axes[-1].set(xlabel="side of the subset, d50", ylabel="thickness, d50", ylim=(0, 13), xlim=(0, None))
-    axes[-1].legend(fontsize=8, loc="upper left", ncol=2)
+    axes[-1].set(xlabel="side of the subset, d50", ylabel="thickness, d50", ylim=(0, 15), xlim=(0, None))
+    axes[-1].legend(fontsize=8, loc="upper left")
     figure.savefig(file, dpi=60)
 
 
