@@ -47,8 +47,9 @@ std::vector<Row> read_history(const std::filesystem::path& file) {
 std::vector<Row> compress(const Scratch& scratch, double friction) {
   for (const char* folder : {"restart", "grains"}) std::filesystem::create_directory(scratch.path() / folder);
   write_lattice(scratch.path() / "lattice.data");
-  const std::string common =
-      "-var folder " + scratch.path().string() + " -var pressure " + std::to_string(kPressure);
+  const std::string common = "-var folder " + scratch.path().string() +
+                             " -var rolling_model off -var rolling_force off -var pressure " +
+                             std::to_string(kPressure);
   const std::string mu = std::to_string(friction);
   run_script("seating.in", common + " -var data " + (scratch.path() / "lattice.data").string() +
                                " -var final_friction " + mu + " -var final_rolling 0 -var steps 400");

@@ -56,6 +56,7 @@ class Seated {
   void file(const char* name, const std::string& text) { std::ofstream(scratch_.path() / name) << text; }
   static std::string head(const std::string& reading, const std::string& damping) {
     return "variable pressure index 1e4\nvariable friction index 0.5\nvariable rolling index 0\n"
+           "variable rolling_model index off\nvariable rolling_force index off\n"
            "variable damping index " +
            damping +
            "\nunits si\ndimension 2\natom_style granular\natom_modify map array sort 0 0\n"
