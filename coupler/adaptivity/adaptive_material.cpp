@@ -10,7 +10,6 @@
 #include "common/seconds.hpp"
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
-#include "coupler/adaptivity/strain_path.hpp"
 #include "coupler/cells/cell_increment.hpp"
 
 namespace polargrain::coupler {
@@ -22,9 +21,11 @@ void keep_symmetric(Response& response) {
   response.tangent = symmetric_tangent(response.tangent);
 }
 
-/// Until a step is balanced, its answers are held to this many times the tolerance: what cells are run to meanwhile is not
-/// where the points will be.
-constexpr double kUnderWay = 1.0;
+/// At the start the estimate of a point may exceed the tolerance by this: points are estimated by what is the worst of them,
+/// and the tolerance is one of their mean error, which audits watch from the first step on.
+constexpr double kLooseAtFirst = 1.4142135623730951;
+/// By what the working tolerance is divided where the bound of a step exceeds the tolerance.
+constexpr double kTighter = 1.4142135623730951;
 /// Of the points, that have cells of their own when sharing is given up.
 constexpr double kNothingToShare = 0.9;
 /// A smaller tolerance helps when the bound falls below this share of what it was.
@@ -54,10 +55,12 @@ void AdaptiveMaterial::allocate(std::size_t points) {
   }
   const Matrix7& elastic = packing.answer.response.tangent;
   // Strain whose elastic stress is the tolerance.
-  turn_tolerance_ = options_.tolerance * reference_ / elastic.topLeftCorner<2, 2>().norm();
-  estimate_ = ErrorEstimate(measure_, elastic, turn_tolerance_);
+  noise_strain_ = options_.tolerance * reference_ / elastic.topLeftCorner<2, 2>().norm();
+  estimate_ = ErrorEstimate(measure_, elastic, noise_strain_);
   cells_.assign(1, packing);
   points_.assign(points, Point{});
+  // With nothing to measure it by, an estimate is held to what was asked for.
+  tightening_ = audits() ? 1.0 / kLooseAtFirst : 1.0;
   choose_followed();
 }
 
@@ -81,7 +84,7 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
   for (std::size_t point = 0; point < points_.size(); ++point) {
     target_[point] = followed_by(points_[point].offset, increment_of_step(point));
   }
-  settle(kUnderWay * tolerance());
+  settle(tolerance());
   for (std::size_t point = 0; point < points_.size(); ++point) {
     CosseratPart part = points_[point].cosserat;
     responses[point] = answer_to(point, part);
@@ -143,7 +146,7 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
     // Nothing can be said before runs have shown how the response departs from its tangent, in the directions that
     // occur.
     return span_directions(
-        points, [&](std::size_t point) { return measure_.strain(target_[point]); }, turn_tolerance_);
+        points, [&](std::size_t point) { return measure_.strain(target_[point]); }, noise_strain_);
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
     Departure expected = unmoved.departure;
@@ -155,21 +158,15 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
 }
 
 bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
-  std::vector<Branch> starts;
-  for (const std::size_t leader : leaders) {
-    starts.push_back(branches_[points_[leader].cell]);
-    starts.back().leader = leader;
-  }
-  if (!replay_paths(starts)) return false;
   std::vector<PlaneRequest> requests;
-  for (const Branch& start : starts) {
-    requests.push_back({start.answer.state, offset_between(start.place, target_[start.leader])});
+  for (const std::size_t leader : leaders) {
+    requests.push_back({branches_[points_[leader].cell].answer.state, target_[leader]});
   }
   std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
   costs_.runs += static_cast<std::int64_t>(requests.size());
   bool all_good = true;
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    const std::size_t leader = starts[k].leader;
+  for (std::size_t k = 0; k < leaders.size(); ++k) {
+    const std::size_t leader = leaders[k];
     Branch moved{points_[leader].cell};
     moved.place = target_[leader];
     moved.leader = leader;
@@ -178,10 +175,9 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
     if (moved.answer.response.quality == Quality::failed) {
       all_good = false;
     } else {
-      Departure replayed = starts[k].departure;
-      Departure& at_start = is_zero(starts[k].place) ? branches_[moved.cell].departure : replayed;
-      moved.departure =
-          estimate_.learn(starts[k].answer.response, moved.answer.response, requests[k].increment, at_start);
+      Branch& start = branches_[moved.cell];
+      moved.departure = estimate_.learn(start.answer.response, moved.answer.response, requests[k].increment,
+                                        start.departure);
       branches_of_cell_[moved.cell].push_back(branches_.size());
     }
     branches_.push_back(std::move(moved));
@@ -192,40 +188,6 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
     branch_of_point_[point] = best_branch(point);
   }
   return all_good;
-}
-
-bool AdaptiveMaterial::replay_paths(std::vector<Branch>& starts) {
-  std::vector<std::vector<Increment>> turns;
-  std::size_t longest = 0;
-  for (const Branch& start : starts) {
-    std::vector<Increment> path = points_[start.leader].path;
-    path.push_back(target_[start.leader]);
-    turns.push_back(turning_points(path, measure_, turn_tolerance_));
-    turns.back().pop_back();  // the target itself
-    longest = std::max(longest, turns.back().size());
-  }
-  for (std::size_t turn = 0; turn < longest; ++turn) {
-    std::vector<PlaneRequest> requests;
-    std::vector<Branch*> moving;
-    std::vector<std::size_t> leaders;
-    for (std::size_t k = 0; k < starts.size(); ++k) {
-      if (turn >= turns[k].size()) continue;
-      requests.push_back({starts[k].answer.state, offset_between(starts[k].place, turns[k][turn])});
-      starts[k].place = turns[k][turn];
-      moving.push_back(&starts[k]);
-      leaders.push_back(starts[k].leader);
-    }
-    std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
-    costs_.runs += static_cast<std::int64_t>(requests.size());
-    for (std::size_t k = 0; k < replies.size(); ++k) {
-      moving[k]->answer = std::move(replies[k]);
-      if (moving[k]->answer.response.quality != Quality::failed) continue;
-      branch_of_point_[moving[k]->leader] = branches_.size();
-      branches_.push_back(*moving[k]);
-      return false;
-    }
-  }
-  return true;
 }
 
 std::vector<PlaneReply> AdaptiveMaterial::run(std::span<const PlaneRequest> requests,
@@ -260,14 +222,14 @@ bool AdaptiveMaterial::confirm() {
     run_followed();
     for (double bound = bound_of(measured_errors()); bound > options_.tolerance && tightening_helps_;) {
       const double bound_before = bound;
-      tightening_ *= 2.0;
+      tightening_ *= kTighter;
       if (!settle(tolerance())) return false;
       bound = bound_of(measured_errors());
       note_tightening(bound_before, bound);
       tightening_helps_ = bound < kHelps * bound_before;
       // What is left has entered the histories and no answer of this step mends it. Where it does not grow, a smaller
       // tolerance would be paid for nothing.
-      if (!tightening_helps_ && bound < kGrows * bounds_.last) tightening_ *= 0.5;
+      if (!tightening_helps_ && bound < kGrows * bounds_.last) tightening_ /= kTighter;
     }
   }
   const bool stands = branch_of_point_ == before;
@@ -296,8 +258,6 @@ void AdaptiveMaterial::commit() {
     const bool was_run = b >= cells_.size();
     point.estimate = estimate(p, branch);
     point.offset = offset_between(branch.place, target_[p]);
-    if (was_run) point.path.clear();
-    if (!is_zero(point.offset)) point.path.push_back(point.offset);
     point.source = !was_run ? Source::tangent : branch.leader == p ? Source::own : Source::neighbour;
     ++sources_[static_cast<std::size_t>(point.source)];
     answer_to(p, point.cosserat);

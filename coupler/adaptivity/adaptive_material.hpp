@@ -102,8 +102,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   };
   struct Point {
     std::uint32_t cell = 0;
-    Increment offset;             ///< from the cell to the point
-    std::vector<Increment> path;  ///< its committed offsets since the cell was last run
+    Increment offset;  ///< from the cell to the point
     CosseratPart cosserat;
     double estimate = 0.0;  ///< of its error, Pa
     Source source = Source::tangent;
@@ -112,7 +111,6 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
     friend void describe(Record& point, Visit&& visit) {
       visit(FieldNotes{"cell", "", "its number"}, point.cell);
       visit(FieldNotes{"offset", "", "from the cell to the point"}, point.offset);
-      visit(FieldNotes{"path", "", "offsets since the cell was last run"}, point.path);
       visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
       visit(FieldNotes{"estimate", "Pa", "of its error"}, point.estimate);
       visit(FieldNotes{"source", "", "where the stress came from"}, point.source);
@@ -143,9 +141,6 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] std::vector<std::size_t> leaders_for(std::size_t cell,
                                                      const std::vector<std::size_t>& points) const;
   bool run_branches(const std::vector<std::size_t>& leaders);
-  /// The answer that a leader's branch starts from, and its place: that of its cell, taken along the turns of
-  /// the path that the point has gone without it. @returns false when a cell has failed
-  bool replay_paths(std::vector<Branch>& starts);
   [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
                                             std::span<const std::size_t> points, std::int64_t& steps);
   /// What takes the cell of a point through the step.
@@ -184,8 +179,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   GrainMeasure measure_;
   double reference_ = 0.0;  ///< the pressure that errors are shares of, Pa
   ErrorEstimate estimate_;
-  double turn_tolerance_ =
-      0.0;  ///< strain by which a path must leave a straight one to be replayed in pieces
+  double noise_strain_ = 0.0;  ///< whose elastic stress is the tolerance
 
   std::vector<Cell> cells_;
   std::vector<Point> points_;

@@ -2,7 +2,6 @@
 #include "coupler/adaptivity/grain_measure.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "coupler/cells/cosserat_part.hpp"
 
@@ -43,14 +42,6 @@ double GrainMeasure::stress(const Vector7& stress) const {
     squared += 2.0 * skew * skew + stress.tail<2>().squaredNorm() / (diameter_ * diameter_);
   }
   return std::sqrt(squared);
-}
-
-Vector7 GrainMeasure::place(const Increment& increment) const {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  Vector7 place;
-  place << h(0, 0), h(1, 0), h(0, 1), h(1, 1), std::numbers::sqrt2 * increment.micro_rotation,
-      diameter_ * increment.curvature;
-  return place;
 }
 
 }  // namespace polargrain::coupler

@@ -25,9 +25,6 @@ class GrainMeasure {
   /// Norm of a stress, Pa: sqrt(s11^2 + s22^2 + s12^2 + s21^2 + (m1^2 + m2^2) / d^2); free rotations: of its
   /// symmetric part in the plane.
   [[nodiscard]] double stress(const Vector7& stress) const;
-  /// Where an increment leads: displacement gradient, micro-rotation and curvatures as one vector whose norm is that
-  /// of the gradient where the others are zero. Turns of a path are found in these.
-  [[nodiscard]] Vector7 place(const Increment& increment) const;
 
  private:
   double diameter_ = 0.0;

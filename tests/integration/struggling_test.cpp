@@ -17,7 +17,7 @@ const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
 const std::string kCase = R"(title: A wall pushed 2 mm into ground of grains
 mesh: {file: wall.msh, element: Q8R}
 materials:
-  sand: {model: adaptive, script: cell.in, packing: grains.h5, lc: 1.4 mm, tolerance: 3 %}
+  sand: {model: adaptive, script: cell.in, packing: grains.h5, lc: 1.4 mm, tolerance: 1 %}
 regions: {ground: sand}
 boundary:
   - {on: base, fix: [u1, u2]}
@@ -44,10 +44,10 @@ TEST(Struggling, AWallIsToldWhatItNeedsAndGetsThroughWithIt) {
 
   const Outcome first = run_in(at, kProgram + " run case.yaml -o first -w 2");
   EXPECT_EQ(first.status, 1);
-  const std::string said = first.errors.substr(first.errors.find("this step has been cut twice"));
-  EXPECT_NE(said.find("of the unbalanced force is at the nodes (0, 0.03063) on 'below_wall', of element 28"),
-            std::string::npos)
-      << said;
+  EXPECT_NE(first.errors.find("this step has been cut twice"), std::string::npos) << first.errors;
+  const std::string said = first.errors.substr(first.errors.find("did not converge"));
+  EXPECT_NE(said.find("of the unbalanced force is at the nodes ("), std::string::npos) << said;
+  EXPECT_NE(said.find("element 26, point 104: p "), std::string::npos) << said;
   const std::string key = "worth trying below 'steps': tolerance: ";
   const std::size_t place = said.find(key);
   ASSERT_NE(place, std::string::npos) << said;
@@ -64,8 +64,8 @@ TEST(Struggling, AWallIsToldWhatItNeedsAndGetsThroughWithIt) {
             << "; with tolerance " << tolerance << " " << sum(after.numbers("iterations")) << " and "
             << sum(after.numbers("cuts")) << " cuts to the end\n";
   EXPECT_EQ(after.numbers("step").back(), 8.0);
-  EXPECT_LE(sum(after.numbers("cuts")), 3.0);
-  EXPECT_LT(sum(after.numbers("iterations")), 0.4 * sum(before.numbers("iterations")));
+  EXPECT_LE(sum(after.numbers("cuts")), 5.0);
+  EXPECT_LT(sum(after.numbers("iterations")), 0.6 * sum(before.numbers("iterations")));
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ TEST_F(AdaptiveMaterialTest, NothingDriftsOverManySmallSteps) {
   EXPECT_LT(cells_.runs, 60);
 }
 
-TEST_F(AdaptiveMaterialTest, AnExcursionIsReplayedWithItsTurns) {
+TEST_F(AdaptiveMaterialTest, AnExcursionIsPaidInOneRun) {
   AdaptiveMaterial sand = material(1, 0.05);
   step(sand, {compression(2e-3)});  // so that the packing's curvature is known
   cells_.runs = 0;
@@ -169,7 +169,7 @@ TEST_F(AdaptiveMaterialTest, AnExcursionIsReplayedWithItsTurns) {
   ASSERT_GE(quiet, 2) << "the excursion was not carried, the test shows nothing";
   const int before = cells_.runs;
   const std::vector<Response> responses = step(sand, {compression(-3e-3)});
-  EXPECT_GE(cells_.runs - before, 1);
+  EXPECT_EQ(cells_.runs - before, 1);
   EXPECT_LE(error(responses), 0.05);
 }
 
@@ -248,7 +248,7 @@ TEST_F(AdaptiveMaterialTest, AStepBeyondTheToleranceIsAnsweredAnewAndWhatCannotB
   AdaptiveMaterial sand = material(40, 0.02, 0.1);
   for (int k = 0; k < 12; ++k) {
     std::vector<Eigen::Matrix2d> gradients;
-    for (int p = 0; p < 40; ++p) gradients.push_back(compression(4e-5 * (1.0 + 0.05 * (p % 11) / 11.0)));
+    for (int p = 0; p < 40; ++p) gradients.push_back(compression(1.2e-4 * (1.0 + 0.05 * (p % 11) / 11.0)));
     step(sand, gradients);
   }
   // Without audits the cell is run once or twice in twelve steps; the creep of ten runs is 0.08.
@@ -276,7 +276,8 @@ TEST_F(AdaptiveMaterialTest, AuditsAreDenseAtFirstAndThinWithEvidence) {
   EXPECT_EQ(figure(sand, "points_followed"), 6.0);
   EXPECT_GT(figure(sand, "history_error_largest"), 0.0);
   EXPECT_LE(figure(sand, "history_error_95_percent"), 0.02);
-  EXPECT_EQ(figure(sand, "tolerance_worked_with"), 0.02);
+  // Never tightened: what it began with.
+  EXPECT_DOUBLE_EQ(figure(sand, "tolerance_worked_with"), 0.02 * std::sqrt(2.0));
   EXPECT_EQ(figure(sand, "vouched_for"), 1.0);
   EXPECT_TRUE(sand.take_notes().empty());
   AdaptiveMaterial none = material(90, 0.02, 0.0);

@@ -12,7 +12,6 @@
 #include "coupler/adaptivity/grain_measure.hpp"
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
-#include "coupler/adaptivity/strain_path.hpp"
 #include "coupler/cells/cell_increment.hpp"
 #include "fem/material/rotation.hpp"
 
@@ -150,31 +149,6 @@ TEST(GrainMeasure, ControlledGrainsCountRelativeRotationAndCurvatureInDiameters)
   Vector7 measured = stress;
   measured.tail<2>() /= kDiameter;
   EXPECT_DOUBLE_EQ(measured.dot(measure.strain(bent)), stress.dot(bent.strain()));
-}
-
-TEST(StrainPath, TurnsAreFoundAndStraightPiecesAreOne) {
-  const GrainMeasure free;
-  std::vector<Increment> path;
-  const auto compressed = [](int k) { return increment_of(gradient(0.0, 0.0, 0.0, -1e-3 * k)); };
-  for (int k = 1; k <= 5; ++k) path.push_back(compressed(k));
-  EXPECT_EQ(turning_points(path, free, 1e-5).size(), 1u);
-  for (int k = 4; k >= -3; --k) path.push_back(compressed(k));
-  const auto turns = turning_points(path, free, 1e-5);
-  ASSERT_EQ(turns.size(), 2u);
-  EXPECT_EQ(turns[0].displacement_gradient, compressed(5).displacement_gradient);
-  EXPECT_EQ(turns[1].displacement_gradient, compressed(-3).displacement_gradient);
-  EXPECT_EQ(turning_points(path, free, 1.0).size(), 1u);
-  EXPECT_TRUE(turning_points({}, free, 1e-5).empty());
-}
-
-TEST(StrainPath, ABendThereAndBackIsATurn) {
-  std::vector<Increment> path(3, increment_of(gradient(0.0, 0.0, 0.0, -1e-3)));
-  for (int k = 0; k < 3; ++k) {
-    path[static_cast<std::size_t>(k)].displacement_gradient *= k + 1;
-    path[static_cast<std::size_t>(k)].curvature << (k == 1 ? 0.2 : 0.0), 0.0;
-  }
-  EXPECT_EQ(turning_points(path, GrainMeasure(0.01), 1e-3).size(), 2u);  // 0.2 rad/m are 2e-3 a diameter
-  EXPECT_EQ(turning_points(path, GrainMeasure(0.01), 3e-3).size(), 1u);
 }
 
 TEST(Leaders, EveryPointIsCoveredAndFewLead) {
