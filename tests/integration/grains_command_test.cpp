@@ -193,7 +193,7 @@ TEST_F(GrainsCommand, WithControlledRotationsTheSkewStressIsOfTheGrains) {
 }
 
 TEST_F(GrainsCommand, PointsThatShareACellShowTheGrainsThatTheyGoBy) {
-  run_case(case_text("model: adaptive, tolerance: 2 %, lc: 8 mm" + kDiscs));
+  run_case(case_text("model: adaptive, tolerance: 0.2 %, lc: 8 mm" + kDiscs));
   show("--point 0 --point 6");
   for (const std::size_t point : {0u, 6u})
     for (const int step : {2, 4}) {
