@@ -327,10 +327,9 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   auto [iterate, right_side] = predict(goal);
   Correction change;
   best_.reset();
-  // Where a jump may be passed, further iterations from the same state find another sample of the jumps and nothing better.
-  const int window =
-      report.jumps < options.most_jumps ? (options.stagnation_window + 1) / 2 : options.stagnation_window;
-  StagnationWatch watch(window);
+  StagnationWatch watch(options.stagnation_window);
+  // Where a jump may be passed at once, further iterations from the same state find other samples of the jumps, and nothing better.
+  StagnationWatch jump_watch((options.stagnation_window + 1) / 2);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
     const std::vector<Response>& known = predictor ? state.responses : trial_;
@@ -359,7 +358,10 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
     remember(iterate);
     if (worst.quality == Quality::good && residual.force < best_residual()) best_ = iterate;
     const bool finite = std::isfinite(residual.force + residual.moment);
-    const bool stagnates = watch.stagnates(excess(residual));
+    const bool passable = report.jumps < options.most_jumps && best_residual() <= options.jump_residual;
+    const bool stands_still = watch.stagnates(excess(residual));
+    const bool samples_jumps = jump_watch.stagnates(excess(residual));
+    const bool stagnates = stands_still || (samples_jumps && passable);
     const bool last_chance = !finite || stagnates || iteration == options.most_iterations;
     if (const Balance balance = balance_of(iterate, last_chance); balance != Balance::none) {
       if (worst.quality != Quality::good) {
@@ -372,7 +374,8 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
           return {false, "a material failed: " + again.message, again.step_factor};
         right_side = iterate.unbalanced;
         anderson_.clear();
-        watch = StagnationWatch(window);
+        watch = StagnationWatch(options.stagnation_window);
+        jump_watch = StagnationWatch((options.stagnation_window + 1) / 2);
         continue;
       }
       commit(iterate, balance, report);

@@ -25,8 +25,8 @@ struct SolverOptions {
   /// m; 0: square root of the mean area of the elements.
   double reference_length = 0.0;
   int most_iterations = 30;
-  /// The iteration is given up when its residual has not fallen by a tenth over this many iterations; half as many while
-  /// jumps may be passed.
+  /// The iteration is given up when its residual has not fallen by a tenth over this many iterations; half as many where a
+  /// jump may be passed at once.
   int stagnation_window = 6;
   /// A step may be halved this often in a row before the run is given up.
   int most_cuts = 6;
