@@ -8,41 +8,20 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 #include "band/local_strain.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
 #include "common/plain_text.hpp"
+#include "common/words.hpp"
 
 namespace polargrain::band {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& message) {
   throw InputError({file.string(), line, message});
-}
-
-/// step -> file, of the files step-NUMBER with an extension.
-std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& folder,
-                                                  const std::string& extension) {
-  std::map<long, std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() != extension || stem.rfind("step-", 0) != 0) continue;
-    long step = 0;
-    const char* const end = stem.data() + stem.size();
-    if (std::from_chars(stem.data() + 5, end, step).ptr == end) files[step] = entry.path();
-  }
-  return files;
-}
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream in(line);
-  return {std::istream_iterator<std::string>(in), {}};
 }
 
 double number(const std::string& word, const std::filesystem::path& file, int line) {
@@ -65,6 +44,20 @@ std::map<long, double> read_strains(const std::filesystem::path& file, const std
 }
 
 }  // namespace
+
+std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& folder,
+                                                  const std::string& extension) {
+  std::map<long, std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() != extension || stem.rfind("step-", 0) != 0) continue;
+    long step = 0;
+    const char* const end = stem.data() + stem.size();
+    if (std::from_chars(stem.data() + 5, end, step).ptr == end) files[step] = entry.path();
+  }
+  return files;
+}
 
 Frame read_grain_dump(const std::filesystem::path& file) {
   std::ifstream in(file);

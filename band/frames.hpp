@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct Frame {
   std::vector<double> areas;             ///< of elements, m^2; of grains empty
   std::vector<double> rotations;         ///< since the start, rad
 };
+
+/// step -> file, of the files step-NUMBER with an extension; none where there is no such folder.
+std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& folder,
+                                                  const std::string& extension);
 
 /// A LIGGGHTS dump with the columns id, x or xu, y and f_turned (others are skipped), grains in the order of their
 /// ids.

@@ -10,7 +10,7 @@
 #include <limits>
 #include <nlopt.hpp>
 
-#include "app/element/element_table.hpp"
+#include "common/mean_and_interval.hpp"
 
 namespace polargrain::app {
 namespace {

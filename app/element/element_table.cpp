@@ -2,10 +2,11 @@
 #include "app/element/element_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
+#include "common/mean_and_interval.hpp"
 #include "element/measures.hpp"
 
 namespace polargrain::app {
@@ -57,17 +58,6 @@ std::vector<double> element_values(const element::Row& row, element::Room room,
   return values;
 }
 
-double student_95(int count) {
-  // 97.5 % quantiles of Student's t for 1 to 30 degrees of freedom (Fisher and Yates, table III).
-  constexpr std::array<double, 30> kTable{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
-                                          2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
-                                          2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
-                                          2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
-  const int freedom = count - 1;
-  // Beyond the table: Cornish and Fisher's first term, right to 1e-3.
-  return freedom <= 30 ? kTable[static_cast<std::size_t>(freedom - 1)] : 1.960 + 2.372 / freedom;
-}
-
 ElementMean mean_of(const std::vector<ElementCurve>& curves) {
   ElementMean result;
   for (std::size_t k = 0;; ++k) {
@@ -75,14 +65,12 @@ ElementMean mean_of(const std::vector<ElementCurve>& curves) {
     for (const ElementCurve& curve : curves)
       if (k < curve.rows.size()) rows.push_back(&curve.rows[k]);
     if (rows.size() < 2) return result;
-    const auto count = static_cast<double>(rows.size());
     std::vector<double> mean(rows.front()->size(), 0.0);
     std::vector<double> half(mean.size(), 0.0);
     for (std::size_t c = 0; c < mean.size(); ++c) {
-      for (const auto* const row : rows) mean[c] += (*row)[c] / count;
-      double squares = 0.0;
-      for (const auto* const row : rows) squares += std::pow((*row)[c] - mean[c], 2);
-      half[c] = student_95(static_cast<int>(rows.size())) * std::sqrt(squares / (count - 1.0) / count);
+      std::vector<double> values;
+      for (const auto* const row : rows) values.push_back((*row)[c]);
+      std::tie(mean[c], half[c]) = mean_and_interval(values);
     }
     result.count.push_back(static_cast<int>(rows.size()));
     result.mean.push_back(std::move(mean));

@@ -32,8 +32,4 @@ struct ElementMean {
 
 ElementMean mean_of(const std::vector<ElementCurve>& curves);
 
-/// Half the width of the interval of the mean of normally distributed values with 95 %, in standard deviations of it.
-/// @param count of values, at least 2
-double student_95(int count);
-
 }  // namespace polargrain::app

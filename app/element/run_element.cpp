@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/mean_and_interval.hpp"
 #include "common/record_table.hpp"
 #include "coupler/points/cell_point.hpp"
 #include "coupler/points/law_point.hpp"
@@ -162,12 +163,7 @@ std::string summary_of(const ElementResult& result) {
   if (count < 2) return text;
   text += fmt::format("{:<24}", fmt::format("mean of {}, 95 %", count));
   for (const std::vector<double>& of : values) {
-    double mean = 0.0;
-    for (const double value : of) mean += value / static_cast<double>(count);
-    double squares = 0.0;
-    for (const double value : of) squares += std::pow(value - mean, 2);
-    const double half = student_95(static_cast<int>(count)) *
-                        std::sqrt(squares / static_cast<double>(count - 1) / static_cast<double>(count));
+    const auto [mean, half] = mean_and_interval(of);
     text += fmt::format(" {:>16}", fmt::format("{:.2f} +- {:.2f}", mean, half));
   }
   return text + '\n';

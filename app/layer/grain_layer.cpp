@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -12,6 +11,7 @@
 #include "band/frames.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
+#include "common/words.hpp"
 #include "common/write_file.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/pool/log_excerpt.hpp"
@@ -25,13 +25,6 @@ constexpr double kRoom = 0.3;     ///< above and below, heights
 constexpr double kFrame = 0.005;  ///< shear between two frames
 /// Drag while what the cut surfaces have lost comes to rest, of the critical one of a grain on a contact.
 constexpr double kDrag = 0.06;
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
-}
 
 bool has(const std::vector<std::string>& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
@@ -149,13 +142,7 @@ Shearing read_layer(const std::filesystem::path& folder, double pressure) {
   shearing.displacements = history.numbers("displacement");
   for (const double stress : history.numbers("shear_stress")) shearing.ratios.push_back(stress / pressure);
   const std::vector<double> steps = history.numbers("step");
-  std::vector<std::pair<long, std::filesystem::path>> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "grains")) {
-    const std::string stem = entry.path().stem().string();
-    if (stem.starts_with("step-")) files.emplace_back(std::stol(stem.substr(5)), entry.path());
-  }
-  std::ranges::sort(files);
-  for (const auto& [step, file] : files) {
+  for (const auto& [step, file] : band::frame_files(folder / "grains", ".dump")) {
     const auto row = std::ranges::find(steps, static_cast<double>(step));
     if (row == steps.end() && step != 0) continue;  // no row was written yet
     const band::Frame dump = band::read_grain_dump(file);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "app/element/element_table.hpp"
-
 namespace polargrain::app {
 namespace {
 
@@ -65,16 +63,6 @@ Compared interpolated(const Candidates& candidates, const Place& i, const Place&
 }
 
 }  // namespace
-
-std::pair<double, double> mean_and_interval(const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  double mean = 0.0;
-  for (const double value : values) mean += value / count;
-  if (values.size() < 2) return {mean, std::numeric_limits<double>::quiet_NaN()};
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, student_95(static_cast<int>(values.size())) * std::sqrt(squares / (count - 1.0) / count)};
-}
 
 FoundLengths lengths_like(const std::vector<LayerFigures>& layers, const Candidates& candidates) {
   Compared mean{};

@@ -29,7 +29,4 @@ struct FoundLengths {
 /// @param layers at least two
 FoundLengths lengths_like(const std::vector<LayerFigures>& layers, const Candidates& candidates);
 
-/// Mean and half the 95 % interval (Student) of values; the interval is not-a-number for one value.
-std::pair<double, double> mean_and_interval(const std::vector<double>& values);
-
 }  // namespace polargrain::app

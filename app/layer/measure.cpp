@@ -15,6 +15,7 @@
 #include "app/pack/read_specification.hpp"
 #include "app/run/interrupt.hpp"
 #include "common/error.hpp"
+#include "common/mean_and_interval.hpp"
 #include "common/packing_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"

@@ -9,14 +9,13 @@
 #include <cerrno>
 #include <charconv>
 #include <fstream>
-#include <iterator>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/error.hpp"
+#include "common/words.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -29,11 +28,6 @@ std::optional<CsvTable> table_of(const fs::path& file) {
   std::vector<Fault> of_rows;  // the last row of a run at work may be half written
   CsvTable table(file, &of_rows);
   return table;
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 /// The number that all of a word is; a comma or colon behind it does not count.

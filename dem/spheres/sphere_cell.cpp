@@ -94,6 +94,7 @@ class SphereCell final : public CellOfGrains {
   [[nodiscard]] CellDiagnostics measure() const;
   /// Stress and, with controlled rotations, couple stress of the recorded contacts, in the laboratory.
   [[nodiscard]] CellResponse respond(const Matrix18& tangent) const;
+  [[nodiscard]] bool wants_slips() const { return control_.tangent == CellTangent::condensed; }
   /// Of the recorded contacts since the set-up of the increment; none where no tangent asks for them.
   [[nodiscard]] std::vector<SpaceSlip> slips(const CellIncrement& increment) const;
   /// Tangent of the recorded contacts, in the laboratory. @param slips over the increment it is the derivative by
@@ -177,8 +178,9 @@ std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const Ce
   engine_.restore(start ? *start : *initial_.state);
   engine_.strain().lead(protocol_, increment);
   set_up();
-  increment_slip_.start(engine_.contacts(), engine_.lammps().atom->x[0], engine_.strain().rotations(), box(),
-                        engine_.grains());
+  if (wants_slips())
+    increment_slip_.start(engine_.contacts(), engine_.lammps().atom->x[0], engine_.strain().rotations(),
+                          box(), engine_.grains());
   const bool stiffer = frequency_bound(engine_.contacts(), inertia_) > kStiffer * frequency_bound_;
   if (stiffer && engine_.shorten_time_step(inertia_, protocol_.damping_rate())) return {};
 
@@ -271,7 +273,7 @@ CellResponse SphereCell::respond(const Matrix18& tangent) const {
 }
 
 std::vector<SpaceSlip> SphereCell::slips(const CellIncrement& increment) const {
-  if (control_.tangent != CellTangent::condensed) return {};
+  if (!wants_slips()) return {};
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
   if (controlled()) curvature = increment.curvature;
   return increment_slip_.until(engine_.contacts(), engine_.strain().rotations(), box(), curvature);

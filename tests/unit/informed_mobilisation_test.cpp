@@ -6,20 +6,12 @@
 
 #include "fem/material/cone_matching.hpp"
 #include "fem/material/mobilisation.hpp"
+#include "tests/support/subspace_moduli.hpp"
 
 namespace polargrain::fem::test {
 namespace {
 
 constexpr double kMean = -100e3;  // Pa
-
-SubspaceModuli moduli() {
-  ElasticParameters elastic;
-  elastic.young_modulus = 50e6;
-  elastic.poisson_ratio = 0.2;
-  elastic.cosserat_shear_modulus = 10e6;
-  elastic.internal_length = 1e-3;
-  return {elastic, {}};
-}
 
 /// Pure shear of the plane under kMean: q = sqrt(3) tau.
 ScaledVector<double> stress(double mu) {

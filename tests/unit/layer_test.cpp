@@ -12,6 +12,7 @@
 #include "app/layer/ruler.hpp"
 #include "app/layer/shearing.hpp"
 #include "common/error.hpp"
+#include "common/mean_and_interval.hpp"
 
 namespace polargrain::app {
 namespace {

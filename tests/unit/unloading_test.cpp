@@ -6,18 +6,10 @@
 
 #include "fem/material/elastic.hpp"
 #include "fem/material/mobilisation.hpp"
+#include "tests/support/subspace_moduli.hpp"
 
 namespace polargrain::fem::test {
 namespace {
-
-SubspaceModuli moduli() {
-  ElasticParameters elastic;
-  elastic.young_modulus = 50e6;
-  elastic.poisson_ratio = 0.2;
-  elastic.cosserat_shear_modulus = 10e6;
-  elastic.internal_length = 1e-3;
-  return {elastic, {}};
-}
 
 ScaledVector<double> strain() {
   ScaledVector<double> strain;

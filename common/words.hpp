@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace polargrain {
+
+/// What blanks part in a line.
+inline std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+}  // namespace polargrain
