@@ -2,10 +2,40 @@
 #include "fem/solver/linear_solver.hpp"
 
 #include <malloc.h>
+#include <signal.h>
 
 #include <Eigen/UmfPackSupport>
+#include <array>
 
 namespace polargrain::fem {
+namespace {
+
+/// Holds SIGTERM and SIGABRT back from this thread. METIS takes them over while it orders: it would swallow the wish to
+/// stop, jump out of its own middle, and leave the ordering to another method, with other last bits of every result.
+class SignalsHeldBack {
+ public:
+  SignalsHeldBack() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : kSignals) sigaddset(&held, signal);
+    pthread_sigmask(SIG_BLOCK, &held, &mask_);
+    for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], nullptr, &actions_[k]);
+  }
+  /// What came meanwhile goes to the handlers of before, with their flags, which METIS forgets.
+  ~SignalsHeldBack() {
+    for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &actions_[k], nullptr);
+    pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+  }
+  SignalsHeldBack(const SignalsHeldBack&) = delete;
+  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
+
+ private:
+  static constexpr std::array kSignals{SIGTERM, SIGABRT};
+  sigset_t mask_{};
+  std::array<struct sigaction, kSignals.size()> actions_{};
+};
+
+}  // namespace
 
 struct LinearSolver::Implementation {
   Eigen::UmfPackLU<Eigen::SparseMatrix<double>> lu;
@@ -34,6 +64,7 @@ bool LinearSolver::factorise(const Eigen::SparseMatrix<double>& matrix) {
   if (!values.allFinite()) return false;
   auto& [lu, analysed] = *implementation_;
   if (!analysed) {
+    const SignalsHeldBack held;
     lu.analyzePattern(matrix);
     if (lu.info() != Eigen::Success) return false;
     analysed = true;

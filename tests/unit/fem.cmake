@@ -2,6 +2,7 @@
 polargrain_test(fem_mesh_test unit unit/fem_mesh_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_element_test unit unit/fem_element_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_supports_test unit unit/fem_supports_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_linear_solver_test unit unit/fem_linear_solver_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_solver_test unit unit/fem_solver_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_noise_test unit unit/fem_noise_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fem)
