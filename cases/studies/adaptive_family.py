@@ -6,8 +6,8 @@
     python3 adaptive_family.py RESULTS --program ... --half even --tolerances 1,3          while something is changed
     python3 adaptive_family.py RESULTS --report                                            the table of what there is
 
-24 scenes of six kinds (a block in shear, a punch, a wall, a slope, a notched plate, cycles), meshes, packings and loads drawn
-with fixed seeds. Each is run with a cell at every point (`cell`), again with cells that are read a little nearer to rest (what
+30 scenes of six kinds (a block in shear, a punch, a wall, a slope, a notched plate, cycles), meshes, packings and loads drawn
+with fixed seeds: 20 to 23 have 500 points and more, 24 to 29 spheres for discs. Each is run with a cell at every point (`cell`), again with cells that are read a little nearer to rest (what
 two full runs differ by is no error of adaptivity: the scatter), and with `adaptive` at each tolerance. Scenes of even number may be looked at while the
 adaptivity is worked on; those of odd number are for the table at the end. Runs that are done are not made again, unless
 their case or the program has changed.
@@ -20,6 +20,7 @@ their case or the program has changed.
 """
 import argparse
 import hashlib
+import itertools
 import json
 import math
 import os
@@ -33,7 +34,10 @@ from built_package import polargrain
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KINDS = ["shear", "punch", "wall", "slope", "notched", "cyclic"]
-COUNT = 24
+COUNT = 30
+LARGE = range(20, 24)    # scenes of 500 points and more
+SPHERES = range(24, 30)  # scenes whose packings are of 200 spheres, in few elements
+GROUPS = {"discs": range(20), "500 points and more": LARGE, "spheres": SPHERES}
 DIAMETER = 0.01       # m, mean diameter of the grains of all packings
 CONFINING = 100e3     # Pa
 
@@ -44,19 +48,23 @@ class Scene:
         self.draw = random.Random(1000 + number)
         self.kind = KINDS[number // 2 % len(KINDS)]
         self.name = f"{number:02d}-{self.kind}"
-        large = number >= 20
+        large = number in LARGE
+        self.spheres = number in SPHERES
+        most = 5 if self.spheres else 7
         self.controlled = self.draw.random() < 0.25
         self.rolling = not self.controlled and self.draw.random() < 0.5
         self.packing_seed = self.draw.randrange(1, 7)
         self.loose = self.draw.random() < 0.3
         self.triangles = self.draw.random() < 0.25
-        self.columns = 12 if large else self.draw.randrange(3, 7)
-        self.rows = 11 if large else self.draw.randrange(3, 7)
+        self.columns = 12 if large else self.draw.randrange(3, most)
+        self.rows = 11 if large else self.draw.randrange(3, most)
         self.steps = 5 if large else self.draw.randrange(6, 11)
         self.size = self.draw.choice([0.3, 0.5, 1.0])  # m, of an element
 
     @property
     def script(self):
+        if self.spheres:
+            return "spheres_li_chu.in" if self.controlled or self.rolling else "spheres_hooke_radii.in"
         return "hooke_li_chu.in" if self.controlled else "hooke_rolling.in" if self.rolling else "hooke_radii.in"
 
     @property
@@ -198,8 +206,9 @@ def packing_of(scene, results, program):
     if file.exists():
         return
     spec = file.with_suffix(".yaml")
-    spec.write_text(f"title: {scene.packing}\ngrains: 100\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\n"
-                    f"thickness: 100 mm\nscript: {ROOT}/liggghts_inputs/cells/{scene.script}\npressure: 100 kPa\n"
+    kind = "grains: 200\ndimension: 3" if scene.spheres else "grains: 100\nthickness: 100 mm"
+    spec.write_text(f"title: {scene.packing}\n{kind}\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\n"
+                    f"script: {ROOT}/liggghts_inputs/cells/{scene.script}\npressure: 100 kPa\n"
                     f"friction: {0.3 if scene.loose else 0}\nseed: {scene.packing_seed}\n")
     log = file.with_suffix(".log")
     need(run([program, "pack", spec, "-o", file], log), f"packing {scene.packing}", log)
@@ -297,7 +306,7 @@ def rows_of(scene, results, tolerances):
             continue
         said = summary(directory)
         error, curve, steps = compare(scene, full, directory)
-        yield {"scene": scene.name, "tolerance": t / 100, "points": int(said.get("points", 0)),
+        yield {"scene": scene.name, "number": scene.number, "tolerance": t / 100, "points": int(said.get("points", 0)),
                "controlled": scene.controlled, "scatter": scatter[0], "scatter_curve": scatter[1],
                "error": error, "curve": curve, "bound": said.get("error_bound", math.nan),
                "measured": said.get("history_error_mean", math.nan),
@@ -325,18 +334,18 @@ def report(scenes, results, tolerances):
     print()
     print("| scenes | tolerance | runs | within | within twice | curve within | bound covers | said beyond | saved, median | least |")
     print("|---|---|---|---|---|---|---|---|---|---|")
-    for half, odd in (("even", (0,)), ("odd", (1,)), ("all", (0, 1))):
-        for t in tolerances:
-            some = [r for r in rows if r["tolerance"] == t / 100 and int(r["scene"][:2]) % 2 in odd]
-            if not some:
-                continue
-            n = len(some)
-            count = lambda test: sum(1 for r in some if test(r))
-            saved = [r["saved"] for r in some if r["saved"] > 0.0] or [math.nan]
-            print(f"| {half} | {t} % | {n} | {count(lambda r: r['error'] <= r['tolerance'])} | "
-                  f"{count(lambda r: r['error'] <= 2 * r['tolerance'])} | {count(lambda r: r['curve'] <= r['tolerance'])} | "
-                  f"{count(lambda r: r['error'] <= r['bound'])} | {count(lambda r: r['vouched'] == 0)} | "
-                  f"{statistics.median(saved):.1f} | {min(saved):.1f} |")
+    for group, half, t in itertools.product(GROUPS, ("even", "odd", "all"), tolerances):
+        odd = {"even": (0,), "odd": (1,), "all": (0, 1)}[half]
+        some = [r for r in rows if r["tolerance"] == t / 100 and r["number"] in GROUPS[group] and r["number"] % 2 in odd]
+        if not some:
+            continue
+        n = len(some)
+        count = lambda test: sum(1 for r in some if test(r))
+        saved = [r["saved"] for r in some if r["saved"] > 0.0] or [math.nan]
+        print(f"| {group}, {half} | {t} % | {n} | {count(lambda r: r['error'] <= r['tolerance'])} | "
+              f"{count(lambda r: r['error'] <= 2 * r['tolerance'])} | {count(lambda r: r['curve'] <= r['tolerance'])} | "
+              f"{count(lambda r: r['error'] <= r['bound'])} | {count(lambda r: r['vouched'] == 0)} | "
+              f"{statistics.median(saved):.1f} | {min(saved):.1f} |")
 
 
 def main():

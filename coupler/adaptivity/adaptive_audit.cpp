@@ -41,7 +41,9 @@ void AdaptiveMaterial::choose_followed() {
   std::iota(drawn.begin(), drawn.end(), std::size_t{0});
   std::ranges::sort(drawn, {},
                     [&](std::size_t point) { return hashed_share(options_.seed, point, kEveryStep); });
-  drawn.resize(std::min(drawn.size(), std::max(kFollowedFirst, fewest_followed())));
+  // More of them make the bound smaller, and with it what is paid for; their root of many points still costs little.
+  const auto root = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(points_.size()))));
+  drawn.resize(std::min(drawn.size(), std::max({kFollowedFirst, root, fewest_followed()})));
   for (const std::size_t point : drawn) followed_.push_back({point, cells_.front().answer.state});
 }
 

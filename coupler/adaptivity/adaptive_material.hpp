@@ -19,7 +19,7 @@ struct AdaptivityOptions {
   /// has a cell of its own.
   double tolerance = 0.02;
   /// Share of the points that are followed by a cell of their own through all steps, which measures the error; at
-  /// least six, twelve at the start. 0: none, and nothing is known of the error.
+  /// least six, at the start twelve and the root of their number. 0: none, and nothing is known of the error.
   double audit = 0.01;
   std::uint64_t seed = 1;
   /// Of grains whose rotations are controlled, m: what makes curvatures and couple stresses comparable with strains and

@@ -280,6 +280,11 @@ TEST_F(AdaptiveMaterialTest, AuditsAreDenseAtFirstAndThinWithEvidence) {
   EXPECT_DOUBLE_EQ(figure(sand, "tolerance_worked_with"), 0.02 * std::sqrt(2.0));
   EXPECT_EQ(figure(sand, "vouched_for"), 1.0);
   EXPECT_TRUE(sand.take_notes().empty());
+  // Of many points more are followed, their root: 20 of 400, one less behind a calm step.
+  AdaptiveMaterial many = material(400, 0.02, 0.01);
+  step(many, three_bands(400));
+  EXPECT_GE(figure(many, "points_followed"), 19.0);
+  EXPECT_LE(figure(many, "points_followed"), 20.0);
   AdaptiveMaterial none = material(90, 0.02, 0.0);
   step(none, three_bands(90));
   EXPECT_NE(none.doubt().find("nothing is known"), std::string::npos);
