@@ -6,6 +6,8 @@
 //
 //   build/release/bench/carry_bench > carry.log      from the root of the project; the table goes to standard
 //   error
+//   build/release/bench/carry_bench SCRIPT PACKING.h5 ... > carry.log     of these packings, discs or spheres, how much
+//                                                                         less a volume change is missed than shear
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -14,8 +16,11 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "bench/driven_cell.hpp"
+#include "common/packing_file.hpp"
+#include "coupler/adaptivity/error_estimate.hpp"
 #include "coupler/adaptivity/grain_measure.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "tests/support/cell_fixture.hpp"
@@ -72,6 +77,49 @@ std::string volume() {
   return fmt::format("at rest, strains of norm 1e-3: compression {:.4f}, deviatoric {:.4f}, shear {:.4f}\n",
                      missed(cell, 1e-3 * kCompression), missed(cell, 1e-3 * kDeviatoric),
                      missed(cell, 1e-3 * kShear));
+}
+
+/// The same of packings given, at rest and behind increments of axial strain, offsets of the size of an increment: what is
+/// missed, what the estimate's second term says of it, and the weight of a volume change that follows where errors grow with the square of an offset
+/// (GrainMeasure::size). An increment is the shear strain whose elastic stress is a fifth of the pressure.
+std::string volume_of(const std::string& script, const std::vector<std::string>& packings) {
+  constexpr double kElasticStress = 0.2;
+  std::string text = fmt::format("{:>20} {:>9} {:>10} {:>15} {:>15} {:>15} {:>7}\n", "packing", "increment",
+                                 "increments", "compression", "deviatoric", "shear", "weight");
+  for (const std::string& file : packings) {
+    CellDefinition definition;
+    definition.name = "sand";
+    definition.script_file = script;
+    definition.script = test::file_text(script);
+    definition.packing = read_packing_file(file).packing;
+    DrivenCell cell(definition);
+    const Matrix7 elastic = cell.at().response.tangent;
+    const double size =
+        kElasticStress * kPressure / (DrivenCell::tangent(cell.at().response) * kShear).norm();
+    const coupler::ErrorEstimate estimate(coupler::GrainMeasure(), elastic, 0.0);
+    coupler::Departure turned;
+    turned.length = 1.0;
+    const auto both = [&](const DrivenCell::Vector& direction) {
+      const Increment offset = coupler::increment_of(DrivenCell::gradient(size * direction));
+      return fmt::format("{:.4f} ({:.4f})", missed(cell, size * direction),
+                         estimate.of(cell.at().response, turned, offset) / kPressure);
+    };
+    for (int done = 0; done <= 8; ++done) {
+      if (done == 0 || done == 2 || done == 8) {
+        const double sheared = missed(cell, size * kDeviatoric) + missed(cell, size * kShear);
+        text += fmt::format("{:>20} {:>9.2g} {:>10} {:>15} {:>15} {:>15} {:>7.2f}\n", file, size, done,
+                            both(kCompression), both(kDeviatoric), both(kShear),
+                            std::sqrt(2.0 * missed(cell, size * kCompression) / sheared));
+      }
+      const DrivenCell::Vector on = onward(cell);
+      if (!cell.go({-kPressure, -size, 0.0}, {true, false, true}, {5e-3 * kPressure})) {
+        text += fmt::format("{:>20} no balance behind increment {}\n", file, done);
+        break;
+      }
+      turned.direction = coupler::GrainMeasure().strain(coupler::increment_of(DrivenCell::gradient(on)));
+    }
+  }
+  return text;
 }
 
 /// How the settings of a cell change what its tangent knows: the share of sliding contacts that it takes into
@@ -142,8 +190,12 @@ std::string scatter(double spread) {
 }  // namespace
 }  // namespace polargrain
 
-int main() {
+int main(int count, char** arguments) {
   polargrain::dem::start_engine_process();
+  if (count > 1) {
+    std::fputs(polargrain::volume_of(arguments[1], {arguments + 2, arguments + count}).c_str(), stderr);
+    return 0;
+  }
   const std::string text = polargrain::table() + polargrain::volume() + "\n" + polargrain::settings() + "\n" +
                            polargrain::scatter(0.05) + polargrain::scatter(0.5);
   std::fputs(text.c_str(), stderr);  // the engine talks on standard output

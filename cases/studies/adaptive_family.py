@@ -138,7 +138,8 @@ class Scene:
         width, height = self.columns * self.size, self.rows * self.size
         pressed = "{{on: {}, pressure: 100 kPa}}".format
         w = ", w" if self.controlled else ""
-        strain = draw.uniform(0.004, 0.02)
+        # Spheres are several times as stiff against the pressure: they are where discs are at a quarter of the strain.
+        strain = draw.uniform(0.004, 0.02) * (0.25 if self.spheres else 1.0)
         sign = draw.choice([-1, 1])
         stages, body = None, ""
         if self.kind in ("shear", "cyclic"):
