@@ -30,8 +30,8 @@ def read_options():
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="RESULTS")
     parser.add_argument("--grains", type=int, default=800, help="discs of the specimen, about [800]")
     parser.add_argument("--seed", type=int, default=1, help="of the packing [1]")
-    parser.add_argument("--packing", type=pathlib.Path, help="a square packing made before, of twice the grains; its "
-                        "own grains and seed count")
+    parser.add_argument("--packing", type=pathlib.Path, help="a square packing made before, of --aspect times the "
+                        "grains; its own grains and seed count")
     parser.add_argument("--specification", type=pathlib.Path, default=HERE / "../../cases/packings/dense400.yaml",
                         help="what to pack: sizes, pressure [cases/packings/dense400.yaml]")
     parser.add_argument("--rolling", type=float, default=0.2,
@@ -41,6 +41,8 @@ def read_options():
     parser.add_argument("--rate", type=float, default=0.24, help="axial strain rate, 1/s [0.24: inertial number 3.9e-4]")
     parser.add_argument("--frame", type=float, default=0.001, help="axial strain between two frames [0.001]")
     parser.add_argument("--damping", type=float, default=0.2, help="damping ratio of the contacts [0.2]")
+    parser.add_argument("--aspect", type=int, default=2, help="height over width, a whole number [2]")
+    parser.add_argument("--platens", type=pathlib.Path, help="commands that make the platens other than smooth, included in compression.in")
     parser.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER",
                         help="where polargrain and polargrain-liggghts are [build/release/app, else the path]")
     return parser.parse_args()
@@ -82,7 +84,7 @@ def remember(options):
         return hashlib.sha256(value.read_bytes()).hexdigest()
 
     text = "".join(f"{name} {written(value)}\n" for name, value in sorted(vars(options).items())
-                   if name not in ("output", "programs", "strain"))
+                   if name not in ("output", "programs", "strain") and (name, value) not in (("aspect", 2), ("platens", None)))
     file = options.output / "options.txt"
     if file.exists() and file.read_text() != text:
         stop(f"{options.output} holds a run with other options:\n{file.read_text()}"
@@ -102,14 +104,14 @@ def make_packing(options):
     if options.packing:
         return options.packing
     if not packing.exists():
-        print(f"packing {2 * options.grains} grains, seed {options.seed} ...", flush=True)
+        print(f"packing {options.aspect * options.grains} grains, seed {options.seed} ...", flush=True)
         run([program(options, "polargrain"), "pack", options.specification, "-o", packing, "--quiet",
-             "--set", f"grains={2 * options.grains}", "--set", f"seed={options.seed}"], options.output / "pack.log")
+             "--set", f"grains={options.aspect * options.grains}", "--set", f"seed={options.seed}"], options.output / "pack.log")
     return packing
 
 
 def cut(options, packing):
-    """The left half of a square periodic packing: twice as high as wide, in a box with room around it."""
+    """A slice of a square periodic packing, --aspect times as high as wide, in a box with room around it."""
     data = options.output / "specimen.data"
     if data.exists():
         return data
@@ -117,7 +119,7 @@ def cut(options, packing):
     run([program(options, "polargrain"), "pack", packing, "--export", export], options.output / "export.log")
     head, atoms = export.read_text().split("Atoms", 1)
     width, height, depth = (float(re.search(rf"\S+ (\S+) {axis}lo {axis}hi", head).group(1)) for axis in "xyz")
-    width *= 0.5
+    width /= options.aspect
     grains = [words for words in (line.split() for line in atoms.splitlines()) if words and float(words[4]) < width]
     text = (f"specimen cut from {packing.name}\n\n{len(grains)} atoms\n1 atom types\n\n"
             f"{-width:.17g} {2 * width:.17g} xlo xhi\n{-0.2 * height:.17g} {1.2 * height:.17g} ylo yhi\n"
@@ -179,6 +181,7 @@ def main():
          "-var", "start", (options.output / f"restart/step-{start}.restart").resolve(),
          "-var", "frames", (last - start) // steps, "-var", "steps", steps, "-var", "row_steps", row_steps,
          "-var", "rate", options.rate, "-var", "friction", options.friction, "-var", "rolling", options.rolling,
+         *(["-var", "platens", options.platens.resolve()] if options.platens else []),
          *variables(options)], options.output / "compression.log", HERE)
     for step in done + frames_done(options):  # the last two are enough to go on
         if step not in frames_done(options)[-2:]:

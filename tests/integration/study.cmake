@@ -21,6 +21,12 @@ if(TARGET polargrain AND TARGET polargrain_python)
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/layer_controls.py cauchy --check --elements 5 10
            -o ${CMAKE_CURRENT_BINARY_DIR}/layer_controls --programs ${PROJECT_BINARY_DIR}/app)
   set_tests_properties(LayerStudy.WithoutRotationsTheElementIsTheBand PROPERTIES LABELS long TIMEOUT 600)
+  # Specimens between smooth and rough platens, two of 100 grains (five seconds).
+  add_test(NAME BiaxialPlatens.RoughOnesMakeSpecimensStronger
+           COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_BINARY_DIR}/python /usr/bin/python3
+           ${PROJECT_SOURCE_DIR}/cases/studies/biaxial_platens.py --check --seeds 2 --grains 100 --strain 0.02
+           -o ${CMAKE_CURRENT_BINARY_DIR}/biaxial_platens --programs ${PROJECT_BINARY_DIR}/app ${PROJECT_BINARY_DIR}/app/standalone)
+  set_tests_properties(BiaxialPlatens.RoughOnesMakeSpecimensStronger PROPERTIES LABELS long TIMEOUT 600)
   # Two of the ten packings of docs/studies/far_biaxial.md (five minutes).
   add_test(NAME FarBiaxial.BandsAreFollowedToFifteenPercent
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/far_biaxial.py --check --packings 2 --schemes cell,informed
