@@ -27,6 +27,12 @@ if(TARGET polargrain AND TARGET polargrain_python)
            ${PROJECT_SOURCE_DIR}/cases/studies/biaxial_platens.py --check --seeds 2 --grains 100 --strain 0.02
            -o ${CMAKE_CURRENT_BINARY_DIR}/biaxial_platens --programs ${PROJECT_BINARY_DIR}/app ${PROJECT_BINARY_DIR}/app/standalone)
   set_tests_properties(BiaxialPlatens.RoughOnesMakeSpecimensStronger PROPERTIES LABELS long TIMEOUT 600)
+  # Columns of cells with controlled rotations on two meshes, before their peak (ten seconds).
+  add_test(NAME LayerStudy.MeshesAgreeBeforeThePeak
+           COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_BINARY_DIR}/python /usr/bin/python3
+           ${PROJECT_SOURCE_DIR}/cases/studies/layer_meshes.py --check --packings 1 --meshes 10 20 --softening
+           -o ${CMAKE_CURRENT_BINARY_DIR}/layer_meshes --program ${PROJECT_BINARY_DIR}/app/polargrain)
+  set_tests_properties(LayerStudy.MeshesAgreeBeforeThePeak PROPERTIES LABELS long TIMEOUT 600)
   # Two of the ten packings of docs/studies/far_biaxial.md (five minutes).
   add_test(NAME FarBiaxial.BandsAreFollowedToFifteenPercent
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/far_biaxial.py --check --packings 2 --schemes cell,informed
