@@ -33,6 +33,12 @@ if(TARGET polargrain AND TARGET polargrain_python)
            ${PROJECT_SOURCE_DIR}/cases/studies/layer_meshes.py --check --packings 1 --meshes 10 20 --softening
            -o ${CMAKE_CURRENT_BINARY_DIR}/layer_meshes --program ${PROJECT_BINARY_DIR}/app/polargrain)
   set_tests_properties(LayerStudy.MeshesAgreeBeforeThePeak PROPERTIES LABELS long TIMEOUT 600)
+  # A column whose slips drag their neighbours along, and one whose slips do not, on a coarse mesh (half a minute).
+  add_test(NAME LayerStudy.ASpreadOfSlipsSlowsSoftening
+           COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_BINARY_DIR}/python /usr/bin/python3
+           ${PROJECT_SOURCE_DIR}/cases/studies/layer_spread.py --check --columns 1 --places 10 --lengths 0 6 --way 1.5
+           -o ${CMAKE_CURRENT_BINARY_DIR}/layer_spread)
+  set_tests_properties(LayerStudy.ASpreadOfSlipsSlowsSoftening PROPERTIES LABELS long TIMEOUT 600)
   # Two of the ten packings of docs/studies/far_biaxial.md (five minutes).
   add_test(NAME FarBiaxial.BandsAreFollowedToFifteenPercent
            COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/cases/studies/far_biaxial.py --check --packings 2 --schemes cell,informed
