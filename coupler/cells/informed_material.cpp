@@ -143,7 +143,7 @@ void InformedMaterial::allocate(std::size_t points) {
   start.cell = packing;
   Vector7 stress = packing.response.stress;
   if (!packing.knows_s33) stress(k33) = 0.5 * (stress(k11) + stress(k22));
-  start.law.scaled_stress = complete_cell_stress(stress, true, stress);
+  start.law.scaled_stress = complete_cell_stress(stress, stress);
   start.mobilisation = fem::initial_mobilisation(parameters_.mobilisation);
   start.held_friction = start.mobilisation.cone.friction;
   committed_.assign(points, start);
@@ -384,11 +384,11 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
 void InformedMaterial::take(const PlaneReply& reply, const Increment& increment, std::size_t point) {
   PointState& trial = trial_[point];
   const fem::ScaledVector<double>& law = trial.law.scaled_stress;
-  const fem::MicroStep step{scaled_strain(increment),
-                            complete_cell_stress(cell_start(point, increment), reply.knows_s33,
-                                                 law_start(point, increment).scaled_stress),
-                            complete_cell_stress(reply.response.stress, reply.knows_s33, law),
-                            law.head<3>().sum() / 3.0, trial.law.regime == fem::Regime::smooth};
+  const fem::MicroStep step{
+      scaled_strain(increment),
+      complete_cell_stress(cell_start(point, increment), law_start(point, increment).scaled_stress),
+      complete_cell_stress(reply.response.stress, law), law.head<3>().sum() / 3.0,
+      trial.law.regime == fem::Regime::smooth};
   trial.mobilisation =
       fem::advance(committed_[point].mobilisation, step, frame_.moduli, parameters_.mobilisation);
   const bool frozen = parameters_.update == InformedUpdate::frozen;
@@ -404,15 +404,14 @@ fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& incre
   return strain;
 }
 
-/// Discs have no out-of-plane stress: they are lent that of the law, in proportion to the pressures in the plane.
-fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& cell, bool knows_s33,
+/// Cells are lent the out-of-plane stress of the law, in proportion to the pressures in the plane: discs have none, and
+/// that of spheres would be matched at another angle in the plane, as the cone is a circle (B.9).
+fem::ScaledVector<double> InformedMaterial::complete_cell_stress(const Vector7& cell,
                                                                  const fem::ScaledVector<double>& law) const {
   fem::ScaledVector<double> scaled = controlled() ? cell : symmetric_part(cell);
   if (controlled()) scaled.tail<2>() /= frame_.length;
   const double law_in_plane = law(k11) + law(k22);
-  if (!knows_s33 && law_in_plane < 0.0) {
-    scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));
-  }
+  if (law_in_plane < 0.0) scaled(k33) = law(k33) / law_in_plane * (cell(k11) + cell(k22));
   return scaled;
 }
 
@@ -429,9 +428,8 @@ double InformedMaterial::mismatch(const PointState& point) const {
     return std::sqrt(s(k11) * s(k11) + s(k22) * s(k22) + shear + (controlled() ? skew : 0.0));
   };
   const double size = in_plane(point.law.scaled_stress);
-  const double difference =
-      in_plane(point.law.scaled_stress - complete_cell_stress(point.cell.response.stress,
-                                                              point.cell.knows_s33, point.law.scaled_stress));
+  const double difference = in_plane(
+      point.law.scaled_stress - complete_cell_stress(point.cell.response.stress, point.law.scaled_stress));
   return size > 0.0 ? difference / size : difference;
 }
 

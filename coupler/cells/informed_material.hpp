@@ -133,7 +133,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
   [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& increment) const;
-  [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell, bool knows_s33,
+  [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
                                                                const fem::ScaledVector<double>& law) const;
 
   CellCalls calls_;

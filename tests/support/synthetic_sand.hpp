@@ -4,6 +4,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -84,7 +85,7 @@ inline double error_of(const Curve& curve, const Curve& fine) {
 /// @param fine the true law in very small steps
 /// @param frozen, fixed_point curves of the two updates for a number of steps
 inline void expect_accuracy_table(const Curve& fine, const std::function<Curve(int)>& frozen,
-                                  const std::function<Curve(int)>& fixed_point) {
+                                  const std::function<Curve(int)>& fixed_point, double floor = 0.0) {
   EXPECT_NEAR(fine.peak, 5.649, 0.05);  // the synthetic law is made to peak where the one of the table does
   EXPECT_NEAR(fine.peak_strain, 0.0304, 0.001);
   double previous = 0.0;
@@ -100,7 +101,7 @@ inline void expect_accuracy_table(const Curve& fine, const std::function<Curve(i
     if (previous > 0.0) {
       EXPECT_NEAR(previous / late_error, 2.0, 0.4);
     }
-    EXPECT_GE(late_error / fixed_error, 10.0);
+    EXPECT_LE(fixed_error, std::max(late_error / 10.0, floor));
     EXPECT_EQ(late.calls, 1.0);
     EXPECT_LE(fixed.calls, 6.0);
     previous = late_error;

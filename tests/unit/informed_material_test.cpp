@@ -32,8 +32,9 @@ using testing::micro_strength;
 class KnownCells {
  public:
   /// @param softness of the grains against the elasticity that the law is told
-  explicit KnownCells(bool discs, double softness = 1.0)
-      : discs_(discs), law_({softer(softness), {}, micro_strength()}) {}
+  /// @param share of its out-of-plane stress that the cell shows: spheres of another intermediate stress than the law's
+  explicit KnownCells(bool discs, double softness = 1.0, double share = 1.0)
+      : discs_(discs), share_(share), law_({softer(softness), {}, micro_strength()}) {}
 
   int calls = 0;
   PlaneRequest last_request;
@@ -60,6 +61,7 @@ class KnownCells {
       response = law_.integrate(before, part, state);
       if (response.quality != Quality::good) return failed;
     }
+    response.stress(k33) *= share_;
     return reply(state, response.stress);
   }
 
@@ -92,6 +94,7 @@ class KnownCells {
   }
 
   bool discs_;
+  double share_;
   fem::ElastoplasticLaw law_;
 };
 
@@ -153,7 +156,9 @@ Curve informed(InformedUpdate update, int steps, bool discs = false, double drif
 TEST(InformedMaterial, FrozenIsFirstOrderAndTheFixedPointTenTimesBetter) {
   testing::expect_accuracy_table(
       reference(), [](int steps) { return informed(InformedUpdate::frozen, steps); },
-      [](int steps) { return informed(InformedUpdate::fixed_point, steps); });
+      [](int steps) { return informed(InformedUpdate::fixed_point, steps); },
+      // The s33 that is lent to the cell is not quite its own: 0.19 to 0.21 % with any number of steps.
+      0.0025);
 }
 
 TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
@@ -306,11 +311,27 @@ TEST(InformedMaterial, UnloadsAsSoftlyAsItsCell) {
       if (late) {
         EXPECT_NEAR((now - before).norm() / of_cell.norm(), 2.0, 1e-9);
       } else {
-        EXPECT_LT((now - before - of_cell).norm(), 1e-9 * of_cell.norm()) << number;
+        // As the law turns around, its s33 does by another Poisson's ratio than in flow, and what is lent with it.
+        const bool turns = number == (update == InformedUpdate::frozen ? 2 : 1);
+        EXPECT_LT((now - before - of_cell).norm(), (turns ? 0.1 : 0.01) * of_cell.norm()) << number;
       }
       before = now;
     }
   }
+}
+
+TEST(InformedMaterial, TheOutOfPlaneStressOfACellHasNoPartInItsFrictionInThePlane) {
+  // Spheres have an intermediate stress nearer to the minor one than a circular cone: matched with it, a law of
+  // the same friction would be far too strong in the plane.
+  const auto compressed = [](double share) {
+    KnownCells cells(false, 1.0, share);
+    InformedMaterial material(cells.calls_to_it(), parameters(InformedUpdate::frozen));
+    return compress(material, 60, 1e-10);
+  };
+  const Curve whole = compressed(1.0);
+  const Curve half = compressed(0.5);
+  EXPECT_GT(whole.peak, 5.0);
+  EXPECT_NEAR(half.peak, whole.peak, 1e-9 * whole.peak);
 }
 
 TEST(InformedMaterial, DiscsAreLentTheOutOfPlaneStressOfTheLaw) {
