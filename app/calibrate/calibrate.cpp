@@ -20,13 +20,14 @@ constexpr double kFirstStep = 0.15;
 /// How far a profile goes, in half intervals, and the first way of its searches.
 constexpr double kProfileReach = 2.0;
 constexpr double kProfileStep = 0.05;
+/// So often derivatives are taken where they, too, find better places; the search is content before the last digits are told.
+constexpr int kRounds = 3;
 /// Steepness below this share of the largest tells nothing.
 constexpr double kFlat = 1e-10;
 
 class Search {
  public:
-  Search(const Calibration& calibration,
-         const std::function<std::vector<double>(const std::vector<double>&)>& evaluate,
+  Search(const Calibration& calibration, const std::function<Answer(const std::vector<double>&)>& evaluate,
          const std::vector<Evaluation>& known, const std::function<void(const Evaluation&)>& on_new)
       : calibration_(calibration), evaluate_(evaluate), known_(known), on_new_(on_new) {}
 
@@ -40,7 +41,9 @@ class Search {
       record_.push_back(*before);
       return record_.back();
     }
-    made.differences = evaluate_(made.values);
+    Answer answer = evaluate_(made.values);
+    made.differences = std::move(answer.differences);
+    made.left_out = std::move(answer.left_out);
     for (const double difference : made.differences)
       made.misfit += difference * difference / static_cast<double>(made.differences.size());
     on_new_(made);
@@ -52,7 +55,7 @@ class Search {
 
  private:
   const Calibration& calibration_;
-  const std::function<std::vector<double>(const std::vector<double>&)>& evaluate_;
+  const std::function<Answer(const std::vector<double>&)>& evaluate_;
   const std::vector<Evaluation>& known_;
   const std::function<void(const Evaluation&)>& on_new_;
   std::vector<Evaluation> record_;
@@ -103,7 +106,7 @@ nlopt::result seek(Objective& objective, double first_step, double tolerance, in
   }
 }
 
-/// d differences / d places by central differences, one-sided at a bound.
+/// d differences / d places by central differences, one-sided at a bound or beside an evaluation that was left out.
 Eigen::MatrixXd slopes(Search& search, const std::vector<double>& places, double difference) {
   Eigen::MatrixXd result;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -111,13 +114,15 @@ Eigen::MatrixXd slopes(Search& search, const std::vector<double>& places, double
     std::vector<double> above = places;
     below[k] = std::max(0.0, below[k] - difference);
     above[k] = std::min(1.0, above[k] + difference);
+    if (!search.at(below).left_out.empty()) below = places;
+    if (!search.at(above).left_out.empty()) above = places;
     const std::vector<double> low = search.at(below).differences;
     const std::vector<double> high = search.at(above).differences;
     if (k == 0)
       result.resize(static_cast<Eigen::Index>(low.size()), static_cast<Eigen::Index>(places.size()));
     for (std::size_t p = 0; p < low.size(); ++p)
       result(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(k)) =
-          (high[p] - low[p]) / (above[k] - below[k]);
+          above[k] > below[k] ? (high[p] - low[p]) / (above[k] - below[k]) : 0.0;
   }
   return result;
 }
@@ -192,7 +197,7 @@ void add_profile(CalibrationResult& result, Search& search, const Calibration& c
 }  // namespace
 
 CalibrationResult calibrate(const Calibration& calibration,
-                            const std::function<std::vector<double>(const std::vector<double>&)>& evaluate,
+                            const std::function<Answer(const std::vector<double>&)>& evaluate,
                             const std::vector<Evaluation>& known,
                             const std::function<void(const Evaluation&)>& on_new) {
   Search search(calibration, evaluate, known, on_new);
@@ -213,10 +218,22 @@ CalibrationResult calibrate(const Calibration& calibration,
   } catch (const nlopt::roundoff_limited&) {
     result.end = "not converged: the misfit is too rough for the search to go on";
   }
-  result.best = *std::ranges::min_element(search.record(), {}, &Evaluation::misfit);
+  const auto best_so_far = [&] {
+    return *std::ranges::min_element(search.record(), {}, &Evaluation::misfit);
+  };
+  Eigen::MatrixXd around_best;
+  for (int round = 0; round < kRounds; ++round) {
+    const Evaluation best = best_so_far();
+    if (round > 0 && best.values == result.best.values) break;
+    result.best = best;
+    for (std::size_t k = 0; k < count; ++k)
+      places[k] = calibration.parameters[k].place_of(result.best.values[k]);
+    around_best = slopes(search, places, calibration.difference);
+  }
+  result.best = best_so_far();
   for (std::size_t k = 0; k < count; ++k)
     places[k] = calibration.parameters[k].place_of(result.best.values[k]);
-  judge(result, slopes(search, places, calibration.difference));
+  judge(result, around_best);
   if (calibration.profile > 0)
     for (std::size_t k = 0; k < count; ++k) add_profile(result, search, calibration, places, k);
   result.record = search.record();

@@ -16,6 +16,13 @@ struct Evaluation {
   std::vector<double> values;       ///< of the parameters
   double misfit = 0.0;              ///< mean square of the differences
   std::vector<double> differences;  ///< one a point, in errors
+  std::string left_out;  ///< why the tests could not be run: all points count as missed; mostly empty
+};
+
+/// What the tests give for values of the parameters.
+struct Answer {
+  std::vector<double> differences;
+  std::string left_out = {};
 };
 
 /// The least misfit with one parameter held.
@@ -44,13 +51,14 @@ struct CalibrationResult {
 };
 
 /// Finds the parameters by BOBYQA (Powell 2009, of NLopt: no derivatives, bounds, content with some noise), then
-/// linearises around them. Where a profile is asked for, each parameter is then held at places around its best one, as far
+/// linearises around them; where an evaluation for that is better than the best so far, around that one anew, twice at most.
+/// The best is that of all evaluations but those of a profile. Where a profile is asked for, each parameter is then held at places around its best one, as far
 /// as twice its interval, and the others are sought anew.
 /// @param evaluate what the tests give for values of the parameters: their differences
 /// @param known evaluations made before: taken instead of being made again
 /// @param on_new called with each one that was made
 CalibrationResult calibrate(const Calibration& calibration,
-                            const std::function<std::vector<double>(const std::vector<double>&)>& evaluate,
+                            const std::function<Answer(const std::vector<double>&)>& evaluate,
                             const std::vector<Evaluation>& known,
                             const std::function<void(const Evaluation&)>& on_new);
 

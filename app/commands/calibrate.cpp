@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -8,7 +9,9 @@
 #include "app/calibrate/script_parameters.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
+#include "app/commands/pack.hpp"
 #include "common/csv_table.hpp"
+#include "common/packing_file.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
 #include "coupler/pool/private_directory.hpp"
@@ -57,19 +60,68 @@ void tell_missed(const Calibration& calibration, const std::vector<std::size_t>&
       name_of_point(calibration, calibration.points[missed.front()]), kMissed);
 }
 
+/// Contacts of another stiffness leave grains out of rest, where a test would not begin: brought to rest under the script
+/// and the pressure of the test, from the packing as it was made.
+void settle(std::vector<ElementSpecification>& tests, const PackingTools& tools) {
+  const coupler::PrivateDirectory scratch;
+  const std::filesystem::path file = scratch.path() / "settled.h5";
+  for (ElementSpecification& test : tests)
+    for (CellDefinition& cell : test.cells) {
+      PackingSpecification specification;
+      specification.dimension = cell.packing.dimension;
+      specification.pressure = test.pressure;
+      specification.script = cell.script;
+      specification.script_file = cell.script_file;
+      specification.contact_library = cell.contact_library;
+      PreparedPacking as_made;
+      as_made.packing = cell.packing;
+      as_made.reached.pressure = test.pressure;
+      make_packing_file([&](const auto& progress) { return tools.settle(specification, as_made, progress); },
+                        file, tools, true);
+      cell.packing = read_packing_file(file).packing;
+      cell.packing.pressure = 0.0;
+    }
+}
+
+/// The tests; with packings that are settled where those as they are do not begin.
+std::vector<ElementResult> run_tests(std::vector<ElementSpecification> tests, const CalibrateOptions& options,
+                                     const PackingTools& tools) {
+  try {
+    return run_elements(tests, options.workers, options.scripts.trusted);
+  } catch (const NotAtRest&) {
+    settle(tests, tools);
+    return run_elements(tests, options.workers, options.scripts.trusted);
+  }
+}
+
+/// In one line, for a cell of a table.
+std::string in_one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  std::ranges::replace(text, '"', '\'');
+  return text;
+}
+
 /// @param first tell of points that the tests did not reach
-std::vector<double> evaluate(const Calibration& calibration, const std::vector<double>& values,
-                             const CalibrateOptions& options, bool first) {
+Answer evaluate(const Calibration& calibration, const std::vector<double>& values,
+                const CalibrateOptions& options, const PackingTools& tools, bool first) {
   const std::vector<ElementSpecification> tests = tests_with(calibration, values);
   std::vector<std::vector<std::string>> columns;
   std::vector<std::vector<std::vector<std::vector<double>>>> curves;
-  for (const ElementResult& result : run_elements(tests, options.workers, options.scripts.trusted)) {
+  std::vector<ElementResult> results;
+  try {
+    results = run_tests(tests, options, tools);
+  } catch (const RunError& error) {
+    // What the user began with must run; a search may go astray.
+    if (first) throw;
+    return {std::vector<double>(calibration.points.size(), kMissed), in_one_line(error.what())};
+  }
+  for (const ElementResult& result : results) {
     columns.push_back(result.columns);
     curves.emplace_back();
     for (const ElementCurve& curve : result.curves) curves.back().push_back(curve.rows);
   }
   if (first) tell_missed(calibration, missed_points(calibration.points, columns, curves));
-  return differences(calibration.points, columns, curves);
+  return {differences(calibration.points, columns, curves)};
 }
 
 std::vector<std::string> columns_of_record(const Calibration& calibration) {
@@ -78,6 +130,7 @@ std::vector<std::string> columns_of_record(const Calibration& calibration) {
   columns.emplace_back("misfit");
   for (std::size_t k = 0; k < calibration.points.size(); ++k)
     columns.push_back(fmt::format("difference_{}", k + 1));
+  columns.emplace_back("left_out");
   return columns;
 }
 
@@ -86,6 +139,7 @@ std::string row_of(const Evaluation& evaluation) {
   for (const double value : evaluation.values) cells.push_back(exact(value));
   cells.push_back(exact(evaluation.misfit));
   for (const double difference : evaluation.differences) cells.push_back(exact(difference));
+  cells.push_back(evaluation.left_out.empty() ? "" : fmt::format("\"{}\"", evaluation.left_out));
   return fmt::format("{}\n", fmt::join(cells, ","));
 }
 
@@ -112,6 +166,7 @@ std::vector<Evaluation> known_evaluations(const std::filesystem::path& record,
     one.misfit = table.number(row, count);
     for (std::size_t k = 0; k < calibration.points.size(); ++k)
       one.differences.push_back(table.number(row, count + 1 + k));
+    if (table.names().back() == "left_out") one.left_out = table.cell(row, "left_out");
     known.push_back(std::move(one));
   }
   return known;
@@ -165,23 +220,26 @@ int run_calibration(const CalibrateOptions& options, const PackingTools& tools) 
   for (const Evaluation& one : known) text += row_of(one);
   CsvFile record(file, text);
   std::size_t count = known.size();
-  bool first = true;
+  bool first = known.empty();
   const CalibrationResult result = calibrate(
       calibration,
       [&](const std::vector<double>& values) {
-        return evaluate(calibration, values, options, std::exchange(first, false));
+        return evaluate(calibration, values, options, tools, std::exchange(first, false));
       },
       known,
       [&](const Evaluation& one) {
         std::string row = row_of(one);
         row.pop_back();
         record.row({row});
-        if (!options.quiet)
+        if (!one.left_out.empty())
+          tell(stderr, "warning: evaluation {}: {:.4g}: left out, the tests could not be run: {}\n", ++count,
+               fmt::join(one.values, ", "), one.left_out);
+        else if (!options.quiet)
           tell(stderr, "evaluation {}: {:.4g}, difference {:.4g} errors\n", ++count,
                fmt::join(one.values, ", "), std::sqrt(one.misfit));
       });
   const std::vector<ElementSpecification> tests = tests_with(calibration, result.best.values);
-  const std::vector<ElementResult> best = run_elements(tests, options.workers, options.scripts.trusted);
+  const std::vector<ElementResult> best = run_tests(tests, options, tools);
   write_file(options.directory / "parameters.csv", table_of(calibration, result));
   if (!result.profile.empty()) write_file(options.directory / "profile.csv", profile_of(calibration, result));
   write_file(options.directory / "best.in", tests.front().cells.front().script);

@@ -65,11 +65,15 @@ void run_cells(const std::vector<CellTest>& tests, int workers, bool trust_scrip
   std::vector<CellReply> at_rest;
   for (const CellTest& test : tests) {
     const CellDefinition& cell = test.specification->cells[test.packing];
-    definitions.push_back(working.pool().define(cell));
-    at_rest.push_back(working.pool().initial(definitions.back()));
+    try {
+      definitions.push_back(working.pool().define(cell));
+      at_rest.push_back(working.pool().initial(definitions.back()));
+    } catch (const RunError& error) {
+      throw NotAtRest(error.what());
+    }
     if (at_rest.back().response.quality == Quality::failed)
-      throw RunError(fmt::format("the packing {} cannot be brought to rest: {}", cell.name,
-                                 at_rest.back().response.message));
+      throw NotAtRest(fmt::format("the packing {} cannot be brought to rest: {}", cell.name,
+                                  at_rest.back().response.message));
   }
   coupler::ask_together(working.pool(), definitions, [&](std::size_t k, const coupler::AskCell& ask) {
     const CellTest& test = tests[k];

@@ -6,6 +6,7 @@
 
 #include "app/element/element_table.hpp"
 #include "app/element/read_specification.hpp"
+#include "common/error.hpp"
 
 namespace polargrain::app {
 
@@ -15,8 +16,14 @@ struct ElementResult {
   std::vector<ElementCurve> curves;
 };
 
+/// A packing that is not at rest under its script, or cells that cannot be set up with it, in the engine's words.
+class NotAtRest : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 /// Several tests; all that ask cells share the workers.
-/// @param trust_scripts of cells @throws RunError when no worker can be started, or a packing cannot be brought to rest
+/// @param trust_scripts of cells @throws NotAtRest @throws RunError when no worker can be started
 std::vector<ElementResult> run_elements(std::span<const ElementSpecification> specifications, int workers,
                                         bool trust_scripts);
 

@@ -177,6 +177,59 @@ TEST_F(Calibrate, PointsOutsideOfThePartThatCountsAreLeftOut) {
             std::string::npos);
 }
 
+TEST_F(Calibrate, PackingsOutOfRestAreSettledAndWhatCannotBeRunIsLeftOut) {
+  make_laboratory();
+  const std::string cell = content(scratch.path() / "cell.in");
+  const auto calibrated = [&](const std::string& words, const std::string& folder) {
+    write(scratch.path() / "cell.in", cell + words);
+    write(scratch.path() / "spec.yaml", specification(kBoth, kStress) + "search_tolerance: 5e-4\n");
+    return run("calibrate lab.csv spec.yaml -w 1 -o " + folder);
+  };
+  const Outcome settled = calibrated("settle_beyond 1e8\n", "settled");
+  ASSERT_EQ(settled.status, 0) << settled.errors;
+  const CsvTable found(scratch.path() / "settled/parameters.csv");
+  EXPECT_NEAR(found.numbers("best")[0] / kYoung, 1.0, 0.01);
+  EXPECT_EQ(settled.errors.find("left out"), std::string::npos) << settled.errors;
+
+  // The first way of the search goes from 90 to 127 MPa, the best is at 150; 160 and above cannot be run.
+  const Outcome out = calibrated("settle_beyond 1e8 restless_beyond 1.6e8\n", "left_out");
+  EXPECT_NE(out.errors.find("left out, the tests could not be run: "), std::string::npos) << out.errors;
+  const CsvTable record(scratch.path() / "left_out/record.csv");
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < record.rows(); ++row) {
+    const bool is_out = !record.cell(row, "left_out").empty();
+    EXPECT_EQ(is_out, record.number(row, 0) > 1.6e8) << row;
+    if (!is_out) continue;
+    EXPECT_NE(record.cell(row, "left_out").find("the packing is not at rest"), std::string::npos);
+    EXPECT_EQ(record.number(row, record.column("misfit")), 100.0);
+    ++count;
+  }
+  EXPECT_GT(count, 0u);
+  // The record is taken as it is: nothing is run again.
+  const std::string whole = content(scratch.path() / "left_out/record.csv");
+  EXPECT_EQ(calibrated("settle_beyond 1e8 restless_beyond 1.6e8\n", "left_out").errors, "");
+  EXPECT_EQ(content(scratch.path() / "left_out/record.csv"), whole);
+
+  // Where not even the start can be run, nothing is sought.
+  const Outcome none = calibrated("restless_beyond 8e7\n", "none");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.errors.find("the packing is not at rest"), std::string::npos) << none.errors;
+}
+
+TEST_F(Calibrate, TheBestMayBeOneOfTheDerivatives) {
+  make_laboratory();
+  // A search that ends where it begins, far from the best: its derivatives lead on, and so do those beside them.
+  write(scratch.path() / "spec.yaml",
+        specification("  stiffness: {bounds: [5e7, 5e8], start: 9e7}\n", kStress) + "evaluations: 1\n");
+  const Outcome outcome = run("calibrate lab.csv spec.yaml -o out -w 1");
+  EXPECT_EQ(outcome.status, 1) << outcome.errors;
+  const CsvTable record(scratch.path() / "out/record.csv");
+  const std::vector<double> misfits = record.numbers("misfit");
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(misfits) - misfits.begin());
+  EXPECT_GT(least, 2u);
+  EXPECT_EQ(CsvTable(scratch.path() / "out/parameters.csv").numbers("best")[0], record.number(least, 0));
+}
+
 TEST_F(Calibrate, PackingsAreBroughtToTheirVoidRatio) {
   make_laboratory();
   write(scratch.path() / "loose.yaml",

@@ -21,6 +21,7 @@
 namespace polargrain::testing {
 namespace {
 
+constexpr double kRadiusOfSettled = 0.41;  // m, of the first grain of a packing that was settled
 constexpr double kConfining = -100e3;
 constexpr double kYoung = 100e6;
 constexpr double kPoisson = 0.25;
@@ -80,6 +81,9 @@ class FakeEngine : public CellService {
     if (settings_.count("young_of_mass") != 0)
       young = settings_["young_of_mass"] * definition.packing.grains.front().mass;
     stiffness_ = stiffness(young);
+    const bool is_settled = definition.packing.grains.front().radius == kRadiusOfSettled;
+    if ((beyond("settle_beyond", young) && !is_settled) || beyond("restless_beyond", young))
+      die_like_the_engine("the packing is not at rest");
     if (definition.control.tangent == CellTangent::cosserat) {
       for (int i : {k12, k21}) stiffness_(i, i) += kCosseratShear;
       stiffness_(k12, k21) = stiffness_(k21, k12) -= kCosseratShear;
@@ -183,8 +187,8 @@ class FakeEngine : public CellService {
 
 const std::set<std::string>& fake_commands() {
   static const std::set<std::string> commands{
-      "young",       "softening",     "fail_beyond", "die_beyond",         "refuse_beyond",
-      "hang_beyond", "young_of_mass", "state_bytes", "sleep_milliseconds", "tries"};
+      "young",         "softening",   "fail_beyond",        "die_beyond",    "refuse_beyond",   "hang_beyond",
+      "young_of_mass", "state_bytes", "sleep_milliseconds", "settle_beyond", "restless_beyond", "tries"};
   return commands;
 }
 
@@ -250,6 +254,7 @@ PreparedPacking make_fake_packing(const PackingSpecification& specification) {
 PreparedPacking settle_fake_packing(const PackingSpecification& specification,
                                     const PreparedPacking& packing) {
   PreparedPacking settled = packing;
+  settled.packing.grains.front().radius = kRadiusOfSettled;
   const std::string line = "variable friction index ";
   if (const std::size_t place = specification.script.find(line); place != std::string::npos)
     settled.reached.void_ratio = fake_void_ratio(std::stod(specification.script.substr(place + line.size())));
