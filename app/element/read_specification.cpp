@@ -85,8 +85,10 @@ void read_material(const Entry& entry, ElementSpecification& specification, Faul
   section.finish();
   specification.names = {name};
   specification.room = element::Room::plane_strain;
-  if (specification.material != nullptr && !specification.material->needs_workers())
+  if (specification.material == nullptr) return;
+  if (!specification.material->needs_workers())
     specification.room = coupler::room_of(*specification.material->make(nullptr));
+  if (!specification.material->knows_s33()) specification.room = element::Room::discs;
 }
 
 void read_accuracy(Section& top, element::Accuracy& accuracy) {

@@ -23,6 +23,10 @@ class MaterialRecipe {
   [[nodiscard]] bool needs_workers() const { return grains() != nullptr; }
   /// The cell whose answer is the material's stress, when there is one that a path can be replayed in.
   [[nodiscard]] virtual const CellDefinition* cell() const { return nullptr; }
+  /// Whether its stress has a part normal to the plane; that of discs has none.
+  [[nodiscard]] virtual bool knows_s33() const {
+    return grains() == nullptr || grains()->packing.dimension == 3;
+  }
   /// Whether the material resists a micro-rotation relative to the continuum (Gc > 0).
   [[nodiscard]] virtual bool holds_micro_rotations() const { return true; }
 };

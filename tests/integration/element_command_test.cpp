@@ -2,6 +2,7 @@
 // The command `element` with cells that are linear (fake_engine.hpp), and what it says of bad input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/csv_table.hpp"
@@ -111,6 +112,24 @@ stages:
   EXPECT_NEAR(table.numbers("void_ratio")[7], 1.7 * (1.0 - 100e3 / bulk) - 1.0, 1e-12);
   // After the cycles at constant volume the elastic law has no pore pressure left.
   EXPECT_NEAR(last("pore_pressure_Pa"), 0.0, 1e-2);
+}
+
+TEST_F(ElementCommand, AMaterialOfDiscsIsMeasuredInItsPlane) {
+  const std::string test = "test: biaxial\npressure: 100 kPa\naxial_strain: 1 %\nrows: 5\n";
+  const Outcome of_cell = run_text("packing: " + kPacking + "\nscript: cell.in\n" + test, "-o packing");
+  ASSERT_EQ(of_cell.status, 0) << of_cell.errors;
+  const double angle = CsvTable(scratch.path() / "packing.csv").numbers("friction_angle_deg").back();
+  EXPECT_GT(angle, 10.0);
+  for (const char* model : {"cell", "adaptive"}) {
+    const Outcome outcome = run_text(std::string("material: {model: ") + model +
+                                         ", script: cell.in, lc: 20 mm, packing: " + kPacking + "}\n" + test,
+                                     "-o material");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    const CsvTable table(scratch.path() / "material.csv");
+    EXPECT_EQ(std::ranges::count(table.names(), "s33_Pa"), 0) << model;
+    // Both end within the tolerance of 1e-3 of the pressure.
+    EXPECT_NEAR(table.numbers("friction_angle_deg").back(), angle, 0.1) << model;
+  }
 }
 
 TEST_F(ElementCommand, SaysWhatIsWrongBeforeAnythingMoves) {

@@ -38,6 +38,7 @@ class InformedRecipe : public MaterialRecipe {
     return std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters, note,
                                               std::move(with_tangent));
   }
+  [[nodiscard]] bool knows_s33() const override { return true; }  // the law's
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
