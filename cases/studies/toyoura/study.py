@@ -70,10 +70,11 @@ class Study:
         self.tests = self.folder / "tests"
         self.specification = self.output / "specification"
 
+    def command(self, *arguments):
+        return subprocess.run([self.given.program, *map(str, arguments)]).returncode
+
     def call(self, *arguments):
-        command = [self.given.program, *map(str, arguments), "-w", str(self.given.workers),
-                   "--packings", str(self.output / "packings")]
-        return subprocess.run(command).returncode
+        return self.command(*arguments, "-w", self.given.workers, "--packings", self.output / "packings")
 
     def prepare(self):
         """The files beside this one, with other numbers where they are asked for."""
