@@ -30,6 +30,9 @@ namespace {
 constexpr int kPlane = 1;  // versions
 constexpr int kSpace = 2;  // with the heights of the grains
 
+/// Values of PackingReached in files of before stress and fabric were among them.
+constexpr std::size_t kReachedBefore = 10;
+
 /// What a file consists of: named arrays of bytes or doubles, and their hash.
 struct Content {
   std::string specification;
@@ -99,7 +102,10 @@ PreparedPacking packing_of(const Content& content) {
   require(content.box.size() == kValues || leans, "the box is no box");
   require(!content.id.empty() && content.grains.size() == kValues * content.id.size(),
           "the grains are incomplete");
-  require(content.reached.size() == names_of_columns<PackingReached>().size(),
+  std::vector<double> values_reached = content.reached;
+  if (values_reached.size() == kReachedBefore)
+    values_reached.resize(names_of_columns<PackingReached>().size());
+  require(values_reached.size() == names_of_columns<PackingReached>().size(),
           "what was reached is incomplete");
   require(content.heights.size() == (content.version == kSpace ? content.id.size() : 0),
           "the heights of the grains are incomplete");
@@ -123,7 +129,7 @@ PreparedPacking packing_of(const Content& content) {
             "the ids of grains are wrong");
     packing.grains.push_back(grain);
   }
-  const RecordValues reached{content.reached, {}, {}, {}};
+  const RecordValues reached{values_reached, {}, {}, {}};
   prepared.reached = RecordReader(reached, "what was reached", true).read<PackingReached>();
   packing.pressure = std::max(0.0, prepared.reached.pressure);
   if (!content.state.empty()) {

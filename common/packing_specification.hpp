@@ -32,6 +32,15 @@ struct SizeLaw {
   bool spheres = false;        ///< sieve: masses go with the cube of the radius, not with the square
 };
 
+/// Grains that fall under gravity, along -x2, instead of being compressed from all sides.
+struct Deposition {
+  /// By which the packing is turned about x3 in the end, rad, counter-clockwise: that of the bedding planes against x1.
+  double bedding_angle = 0.0;
+  /// The box keeps its width and is compressed along the direction of the fall alone until that carries its stress, so that
+  /// the lateral stresses are those at rest (K0). Else all stresses are brought about afterwards.
+  bool keeps_width = false;
+};
+
 /// What `polargrain pack` is asked for: grains in a periodic box, compressed under given normal stresses.
 struct PackingSpecification {
   std::string text;         ///< the user's file, kept with the packing
@@ -51,6 +60,9 @@ struct PackingSpecification {
   /// When given, the packing comes to rest under this isotropic pressure first, Pa; then the box keeps its width and is
   /// compressed along its last axis alone until that carries `pressure`: lateral stresses are those at rest (K0).
   std::optional<double> one_dimensional_from;
+  std::optional<Deposition> deposition;
+  /// Of a packing that is settled: under the stresses that it records, and not under `pressure`, where it records any.
+  bool keeps_stresses = false;
   /// Sliding friction while the packing is made: 0 gives the densest one.
   double friction = 0.0;
   /// Rolling friction while the packing is made, in place of the script's. Where the friction is looked for, it goes
@@ -80,7 +92,23 @@ struct PackingReached {
   double unbalanced_moment_ratio = 0.0;
   double friction = 0.0;   ///< while it was made
   double dem_steps = 0.0;  ///< of the last compression
+  /// Symmetric parts of tensors in the laboratory, 11 22 33 12 13 23: stress, Pa, tension positive, and the mean of n_i n_j
+  /// over the contacts. All zero: not recorded.
+  std::array<double, 6> stress{};
+  std::array<double, 6> fabric{};
 };
+
+/// A symmetric tensor as it is kept in PackingReached, and back.
+inline std::array<double, 6> components(const Eigen::Matrix3d& symmetric) {
+  return {symmetric(0, 0), symmetric(1, 1), symmetric(2, 2),
+          symmetric(0, 1), symmetric(0, 2), symmetric(1, 2)};
+}
+inline Eigen::Matrix3d tensor(const std::array<double, 6>& components) {
+  const auto [s11, s22, s33, s12, s13, s23] = components;
+  Eigen::Matrix3d symmetric;
+  symmetric << s11, s12, s13, s12, s22, s23, s13, s23, s33;
+  return symmetric;
+}
 
 template <RecordOf<PackingReached> Record, class Visit>
 void describe(Record& reached, Visit&& visit) {
@@ -98,6 +126,11 @@ void describe(Record& reached, Visit&& visit) {
         reached.unbalanced_moment_ratio);
   visit(FieldNotes{"friction", "1", "sliding friction while it was made"}, reached.friction);
   visit(FieldNotes{"dem_steps", "1", "of the last compression"}, reached.dem_steps);
+  constexpr const char* kComponents = "_11 _22 _33 _12 _13 _23";
+  visit(FieldNotes{"stress", "Pa", "in the laboratory, tension positive", kComponents}, reached.stress);
+  visit(
+      FieldNotes{"fabric", "1", "mean of n_i n_j over the contacts in the laboratory, trace 1", kComponents},
+      reached.fabric);
 }
 
 struct PreparedPacking {

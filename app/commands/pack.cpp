@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -47,23 +48,41 @@ bool make_in_child(const PackingWork& make, const std::filesystem::path& output,
   return run_in_child(log, work, !quiet);
 }
 
+/// The largest and the smallest eigenvalue of the fabric, each with its direction.
+std::string fabric_text(const PackingReached& reached, int dimension) {
+  const Eigen::MatrixXd fabric = tensor(reached.fabric).topLeftCorner(dimension, dimension);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(fabric);
+  const auto one = [&](int k) {
+    Eigen::VectorXd direction = solver.eigenvectors().col(k);
+    Eigen::Index largest = 0;
+    direction.cwiseAbs().maxCoeff(&largest);
+    if (direction(largest) < 0.0) direction = -direction;
+    std::string text =
+        fmt::format("{:.4f} along ({:.2f}, {:.2f}", solver.eigenvalues()(k), direction(0), direction(1));
+    return text + (dimension == 3 ? fmt::format(", {:.2f})", direction(2)) : ")");
+  };
+  return fmt::format("{}, {}", one(dimension - 1), one(0));
+}
+
 void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
   const PackingReached& reached = packing.reached;
+  const double width = packing.packing.box.col(0).norm();  // the bedding may be turned
   tell(stdout,
        "{}: {} grains in {:.6g} m x {:.6g} m{}\n"
        "  void ratio             {:.4f}\n"
        "  coordination number    {:.3f}   (without a contact: {:.1f} % of the grains)\n"
        "  pressure               {:.6g} kPa, anisotropy {:.1e}, shear {:.1e} of it\n"
        "  unbalanced ratio       {:.1e} (forces), {:.1e} (moments)\n"
+       "  fabric                 {}\n"
        "  friction while made    {:.4g}{}\n"
        "  DEM steps              {:.0f}\n"
        "  seconds                {:.2f}\n",
-       file.string(), packing.packing.grains.size(), packing.packing.box(0, 0), packing.packing.box(1, 1),
+       file.string(), packing.packing.grains.size(), width, packing.packing.box.determinant() / width,
        packing.packing.dimension == 3 ? fmt::format(" x {:.6g} m", packing.packing.thickness) : "",
        reached.void_ratio, reached.coordination_number, 100.0 * reached.rattlers, 1e-3 * reached.pressure,
        reached.anisotropy, reached.shear, reached.unbalanced_force_ratio, reached.unbalanced_moment_ratio,
-       reached.friction, packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps,
-       seconds);
+       fabric_text(reached, packing.packing.dimension), reached.friction,
+       packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps, seconds);
 }
 
 /// A packing with what its file records; of a CSV file that is the pressure at most.

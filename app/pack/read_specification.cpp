@@ -112,6 +112,29 @@ void read_one_dimensional(coupler::Section& top, PackingSpecification& specifica
         "one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the last axis");
 }
 
+/// Grains that fall, where asked.
+void read_deposition(coupler::Section& top, PackingSpecification& specification, coupler::Faults& faults) {
+  const coupler::Entry* const entry = top.find("deposition");
+  if (entry == nullptr) return;
+  coupler::Section section(*entry, "deposition", faults);
+  Deposition deposition;
+  deposition.bedding_angle =
+      section.quantity_or("bedding_angle", coupler::Dimension::angle, coupler::Limit::any, 0.0);
+  deposition.keeps_width = section.choice_or("sides", {"pressed", "kept"}, "pressed") == "kept";
+  section.finish();
+  specification.deposition = deposition;
+  if (specification.one_dimensional_from)
+    top.fault(
+        "one_dimensional_from",
+        "one_dimensional_from: grains that fall are compressed along their fall first of all; for the stresses at "
+        "rest (K0) give 'sides: kept' below deposition in its place");
+  if (deposition.keeps_width && specification.share_of_axis != std::array{1.0, 1.0, 1.0})
+    top.fault(
+        "pressure",
+        "pressure: with 'sides: kept' the lateral stresses follow from the compression along the fall; give one "
+        "pressure, that of the fall");
+}
+
 /// How it is compressed and when it counts as at rest.
 void read_control(coupler::Section& top, PackingSpecification& specification) {
   const auto positive = [&top](const char* key, double& value) {
@@ -147,6 +170,7 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   read_shape(top, specification);
   read_pressure(top, specification);
   read_one_dimensional(top, specification);
+  read_deposition(top, specification, faults);
   specification.friction = top.quantity("friction", coupler::Dimension::number, coupler::Limit::not_negative);
   if (top.find("rolling_friction") != nullptr)
     specification.rolling_friction =
@@ -180,10 +204,12 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   PackingSpecification specification;
   coupler::Section top(document, "settling", faults);
   specification.dimension = dimension;
-  if (pressure > 0.0 && top.find("pressure") == nullptr)
+  if (pressure > 0.0 && top.find("pressure") == nullptr) {
     specification.pressure = pressure;
-  else
+    specification.keeps_stresses = true;
+  } else {
     read_pressure(top, specification);
+  }
   read_control(top, specification);
   specification.contact_library =
       coupler::read_contact_library(top, {std::filesystem::current_path(), scripts});

@@ -17,6 +17,12 @@ namespace {
 /// and 0.38 of space with equal spheres; well below it a place is found in a few trials.
 constexpr double kSolidFraction = 0.4;
 constexpr double kSolidFractionInSpace = 0.25;
+/// Of beds, about: it says how wide the box of a cube of grains is.
+constexpr double kSolidOfBed = 0.8;
+constexpr double kSolidOfBedInSpace = 0.6;
+/// Layers of a mean diameter that fall besides what is kept, and those of them that lie below.
+constexpr int kLayersAside = 5;
+constexpr int kLayersBelow = 3;
 constexpr int kMostTrials = 100'000;
 
 double area_of_disc(double radius) {
@@ -27,31 +33,44 @@ double volume_of_sphere(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
-bool is_free(const Grain& grain, const std::vector<Grain>& placed, double side) {
+/// A box to be filled: its sides, m, and whether it has a floor and a top across x2.
+struct Room {
+  Eigen::Vector3d sides;
+  bool floor = false;
+};
+
+bool is_free(const Grain& grain, const std::vector<Grain>& placed, const Eigen::Vector3d& sides) {
   return std::none_of(placed.begin(), placed.end(), [&](const Grain& other) {
     Eigen::Vector3d apart;
     apart << grain.position - other.position, grain.height - other.height;
-    for (double& component : apart) component -= side * std::round(component / side);
+    for (int axis = 0; axis < 3; ++axis) apart(axis) -= sides(axis) * std::round(apart(axis) / sides(axis));
     const double reach = grain.radius + other.radius;
     return apart.squaredNorm() < reach * reach;
   });
 }
 
-}  // namespace
+/// Area or volume of all.
+double filled_by(const std::vector<double>& radii, bool space) {
+  double filled = 0.0;
+  for (const double radius : radii) filled += space ? volume_of_sphere(radius) : area_of_disc(radius);
+  return filled;
+}
 
-Packing place_grains(const PackingSpecification& specification) {
-  RandomNumbers random(specification.seed);
-  const bool space = specification.dimension == 3;
+std::vector<double> radii_of(const PackingSpecification& specification, int grains, RandomNumbers& random) {
   SizeLaw law = specification.sizes;
   law.spheres = specification.spheres;
-  std::vector<double> radii = draw_radii(law, specification.grains, random);
-  double filled = 0.0;  // area or volume
-  for (const double radius : radii) filled += space ? volume_of_sphere(radius) : area_of_disc(radius);
-  const double side = space ? std::cbrt(filled / kSolidFractionInSpace) : std::sqrt(filled / kSolidFraction);
+  return draw_radii(law, grains, random);
+}
+
+/// Fills the room with grains of these radii, at random.
+Packing placed(const PackingSpecification& specification, const std::vector<double>& radii, const Room& room,
+               RandomNumbers& random) {
+  const bool space = specification.dimension == 3;
+  const Eigen::Vector3d& sides = room.sides;
   Packing packing;
   packing.dimension = specification.dimension;
-  packing.box = side * Eigen::Matrix2d::Identity();
-  packing.thickness = space ? side : specification.thickness;
+  packing.box << sides.x(), 0.0, 0.0, sides.y();
+  packing.thickness = space ? sides.z() : specification.thickness;
 
   // The large ones first: they would find no room later. Names stay in the order of the draw.
   std::vector<std::size_t> order(radii.size());
@@ -71,15 +90,53 @@ Packing place_grains(const PackingSpecification& specification) {
       if (++trials > kMostTrials)
         throw RunError(
             "no room was found for a grain: the largest are too large for the box; take more grains");
-      grain.position.x() = side * random.uniform();
-      grain.position.y() = side * random.uniform();
-      if (space) grain.height = side * random.uniform();
-    } while (!is_free(grain, packing.grains, side));
+      grain.position.x() = sides.x() * random.uniform();
+      grain.position.y() = random.uniform();
+      if (room.floor)
+        grain.position.y() = grain.radius + (sides.y() - 2.0 * grain.radius) * grain.position.y();
+      else
+        grain.position.y() *= sides.y();
+      if (space) grain.height = sides.z() * random.uniform();
+    } while (!is_free(grain, packing.grains, sides));
     packing.grains.push_back(grain);
   }
   std::sort(packing.grains.begin(), packing.grains.end(),
             [](const Grain& a, const Grain& b) { return a.id < b.id; });
   return packing;
+}
+
+}  // namespace
+
+Packing place_grains(const PackingSpecification& specification) {
+  RandomNumbers random(specification.seed);
+  const bool space = specification.dimension == 3;
+  const std::vector<double> radii = radii_of(specification, specification.grains, random);
+  const double filled = filled_by(radii, space);
+  const double side = space ? std::cbrt(filled / kSolidFractionInSpace) : std::sqrt(filled / kSolidFraction);
+  return placed(specification, radii, {Eigen::Vector3d::Constant(side)}, random);
+}
+
+Packing place_rain(const PackingSpecification& specification) {
+  RandomNumbers random(specification.seed);
+  const bool space = specification.dimension == 3;
+  const double solid = space ? kSolidOfBedInSpace : kSolidOfBed;
+  // The width is that of a first draw of the packing's own grains; all are drawn again together with the others.
+  const std::vector<double> own = radii_of(specification, specification.grains, random);
+  const double filled = filled_by(own, space);
+  const double width = space ? std::cbrt(filled / solid) : std::sqrt(filled / solid);
+  const double floor_area = space ? width * width : width;
+  const double mean_diameter =
+      2.0 * std::accumulate(own.begin(), own.end(), 0.0) / static_cast<double>(own.size());
+  const double others = kLayersAside * mean_diameter * floor_area * solid / filled;
+  const int grains = specification.grains + static_cast<int>(std::ceil(others * specification.grains));
+  const std::vector<double> radii = radii_of(specification, grains, random);
+  const double height =
+      filled_by(radii, space) / (space ? kSolidFractionInSpace : kSolidFraction) / floor_area;
+  return placed(specification, radii, {{width, height, width}, true}, random);
+}
+
+std::size_t grains_below(std::size_t fallen, std::size_t kept) {
+  return (fallen - kept) * kLayersBelow / kLayersAside;
 }
 
 }  // namespace polargrain::dem

@@ -12,4 +12,11 @@ namespace polargrain::dem {
 /// @throws RunError when there is no room for a grain (sizes too different).
 Packing place_grains(const PackingSpecification& specification);
 
+/// The same for grains that are to fall (deposit()): in a box as wide as a cube of the packing's own grains will be about, high
+/// enough for some layers more, which stay on the floor and on top. None reaches through floor or top.
+Packing place_rain(const PackingSpecification& specification);
+
+/// How many of the grains that have fallen lie below those that are kept.
+std::size_t grains_below(std::size_t fallen, std::size_t kept);
+
 }  // namespace polargrain::dem

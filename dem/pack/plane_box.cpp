@@ -7,7 +7,9 @@
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/driver.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/pressed_box.hpp"
+#include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 
@@ -16,11 +18,13 @@ namespace {
 class PlaneBox final : public PressedBox {
  public:
   PlaneBox(const PackingSpecification& specification, const Packing& packing,
-           const std::optional<MakingFriction>& friction)
+           const std::optional<MakingFriction>& friction, Fall fall)
       : packing_(packing),
+        turn_(frame_of_packing_data(packing).topLeftCorner<2, 2>()),
         driver_(packing, specification.script, specification.script_file, specification.contact_library,
-                [friction](Engine& engine) {
+                [friction, fall](Engine& engine) {
                   if (friction) set_friction(engine, *friction);
+                  if (fall == Fall::yes) engine.command("fix polargrain_gravity all pack/gravity");
                 }) {
     if (packing.state && state_fits(driver_.lammps(), *packing.state))
       restore_state(driver_.lammps(), *packing.state);
@@ -41,6 +45,7 @@ class PlaneBox final : public PressedBox {
             double damping_rate) override {
     Eigen::Matrix2d h;
     h << strain(0), shear(0), 0.0, strain(1);
+    h = turn_ * h * turn_.transpose();
     // The last step stands still, so that the grains keep nothing of the affine velocity.
     driver_.strain().begin(BoxPath(driver_.strain().box().reduced(), h, steps - 1), damping_rate);
     driver_.run(steps);
@@ -62,6 +67,7 @@ class PlaneBox final : public PressedBox {
     const Eigen::Matrix2d stress = average_stress(contacts, volume);
     seen.stress << stress(0, 0), stress(1, 1), 0.0;
     seen.shear(0) = 0.5 * (stress(0, 1) + stress(1, 0));
+    seen.fabric.topLeftCorner<2, 2>() = fabric_tensor(contacts);
     for (const Contact& contact : contacts) {
       const double length = contact.branch.norm();
       const Eigen::Array2d part = (contact.branch / length).array().square();
@@ -77,7 +83,7 @@ class PlaneBox final : public PressedBox {
     LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
     const Box box = driver_.strain().box().reduced();
     Packing packing = packing_;
-    packing.box = box.base_vectors();
+    packing.box = turn_ * box.base_vectors();
     for (int k = 0; k < lammps.atom->nlocal; ++k) {
       // Grains leave the box between two neighbour lists: fold them back.
       Eigen::Vector2d position(lammps.atom->x[k][0], lammps.atom->x[k][1]);
@@ -87,7 +93,7 @@ class PlaneBox final : public PressedBox {
       position.x() -=
           box.length_x * std::floor((position.x() - position.y() * box.tilt / box.length_y) / box.length_x);
       // The data file counts the grains, which stand in the order of their ids, from 1.
-      packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)].position = position;
+      packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)].position = turn_ * position;
     }
     packing.state = keep_contacts ? save_state(lammps, box) : nullptr;
     return packing;
@@ -100,9 +106,15 @@ class PlaneBox final : public PressedBox {
     stiffest_.see(driver_.contacts());
     driver_.renew_time_step(stiffest_, damping_rate);
   }
+  [[nodiscard]] FixGravity* gravity() override {
+    LAMMPS_NS::Modify& modify = *driver_.lammps().modify;
+    const int place = modify.find_fix("polargrain_gravity");
+    return place < 0 ? nullptr : dynamic_cast<FixGravity*>(modify.fix[place]);
+  }
 
  private:
   Packing packing_;
+  Eigen::Matrix2d turn_;  // of the box, to the laboratory
   Driver driver_;
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
@@ -111,8 +123,8 @@ class PlaneBox final : public PressedBox {
 }  // namespace
 
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
-                                           const std::optional<MakingFriction>& friction) {
-  return std::make_unique<PlaneBox>(specification, packing, friction);
+                                           const std::optional<MakingFriction>& friction, Fall fall) {
+  return std::make_unique<PlaneBox>(specification, packing, friction, fall);
 }
 
 }  // namespace polargrain::dem

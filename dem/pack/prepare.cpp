@@ -4,14 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/error.hpp"
 #include "dem/cell/packing_check.hpp"
+#include "dem/pack/deposit.hpp"
 #include "dem/pack/placement.hpp"
 #include "dem/pack/pressed_box.hpp"
+#include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 
@@ -20,8 +24,46 @@ namespace {
 /// DEM steps between two looks at the stress; the box makes one smooth move in between.
 constexpr int kChunk = 20;
 constexpr int kChunksOfProgress = 100;
+/// Grains fall along -x2.
+constexpr int kFallAxis = 1;
 
 using Progress = std::function<void(const PackingReached&)>;
+
+/// What a box is brought to: the stress of those axes that are strained, in its frame, compression positive, Pa.
+struct Aim {
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+  double pressure = 0.0;  // that tolerance and rate refer to, Pa
+  std::array<bool, 3> strained{true, true, true};
+};
+
+Aim aim_at(const PackingSpecification& specification, double pressure) {
+  Aim aim;
+  aim.pressure = pressure;
+  for (int axis = 0; axis < 3; ++axis)
+    aim.stress(axis, axis) = pressure * specification.share_of_axis[static_cast<std::size_t>(axis)];
+  return aim;
+}
+
+/// Along one axis only, the last one unless grains fall.
+Aim one_dimensional(Aim aim, int axis) {
+  aim.strained = {};
+  aim.strained[static_cast<std::size_t>(axis)] = true;
+  aim.pressure = aim.stress(axis, axis);
+  return aim;
+}
+
+/// One after the other.
+std::vector<Aim> aims_of(const PackingSpecification& specification) {
+  const Aim end = aim_at(specification, specification.pressure);
+  if (specification.deposition) {
+    const Aim closing = one_dimensional(end, kFallAxis);
+    if (specification.deposition->keeps_width) return {closing};
+    return {closing, end};
+  }
+  if (!specification.one_dimensional_from) return {end};
+  return {aim_at(specification, *specification.one_dimensional_from),
+          one_dimensional(end, specification.dimension - 1)};
+}
 
 /// One packing brought to rest under its pressure with one friction, or with the script's own.
 class Compression {
@@ -32,19 +74,17 @@ class Compression {
         axes_(specification.dimension),
         planes_(axes_ == 3 ? 3 : 1),
         keep_contacts_(!friction || friction->sliding > 0.0),
-        pressure_(specification.one_dimensional_from.value_or(specification.pressure)),
-        box_(specification.dimension == 3 ? make_space_box(specification, start, friction)
-                                          : make_plane_box(specification, start, friction)) {
+        frame_(frame_of_packing_data(start)),
+        box_(make_pressed_box(specification, start, friction)) {
     reached_.friction = friction ? friction->sliding : 0.0;
     box_->renew_time_step(0.0);
   }
 
-  /// @throws RunError after too many steps
-  PreparedPacking compress(const Progress& progress) {
-    come_to_rest(progress);
-    if (specification_.one_dimensional_from) {
-      width_kept_ = true;
-      pressure_ = specification_.pressure;
+  /// @param aims in the laboratory @throws RunError after too many steps
+  PreparedPacking compress(const std::vector<Aim>& aims, const Progress& progress) {
+    for (const Aim& aim : aims) {
+      aim_ = aim;
+      aim_.stress = frame_.transpose() * aim.stress * frame_;
       come_to_rest(progress);
     }
     if (too_large(now_.overlaps))
@@ -66,26 +106,31 @@ class Compression {
       box_->move(strain, shear, kChunk, damping_rate_);
       reached_.dem_steps += kChunk;
       measure();
-      for (int axis = first_axis(); axis < axes_; ++axis)
-        strain(axis) = step_towards(-wanted(axis) - now_.stress(axis), now_.stiffness(axis), -1.0);
+      strain.setZero();
+      for (int axis = 0; axis < axes_; ++axis)
+        if (strained(axis))
+          strain(axis) =
+              step_towards(-aim_.stress(axis, axis) - now_.stress(axis), now_.stiffness(axis), -1.0);
       // A right box would keep whatever shear stress its grains jam with.
       for (int plane = 0; plane < planes_; ++plane)
-        shear(plane) = step_towards(-now_.shear(plane), now_.shear_stiffness(plane), 0.0);
+        shear(plane) =
+            step_towards(-aim_of_shear(plane) - now_.shear(plane), now_.shear_stiffness(plane), 0.0);
       if (progress && ++chunk_ % kChunksOfProgress == 0) progress(reached_);
     } while (!done());
   }
 
-  /// Of those that are strained.
-  [[nodiscard]] int first_axis() const { return width_kept_ ? axes_ - 1 : 0; }
-  /// Pressure asked of an axis, Pa.
-  [[nodiscard]] double wanted(int axis) const {
-    return pressure_ * specification_.share_of_axis[static_cast<std::size_t>(axis)];
+  [[nodiscard]] bool strained(int axis) const { return aim_.strained[static_cast<std::size_t>(axis)]; }
+  [[nodiscard]] double aim_of_shear(int plane) const {
+    constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
+    const auto [i, j] = kPlanes[static_cast<std::size_t>(plane)];
+    return aim_.stress(i, j);
   }
 
   /// The strain that adds the missing stress if the grains moved affinely, no faster than allowed.
   /// @param otherwise the direction to go in while nothing resists
   [[nodiscard]] double step_towards(double missing, double stiffness, double otherwise) const {
-    const double time_of_grain = 2.0 * box_->mean_radius() * std::sqrt(specification_.density / pressure_);
+    const double time_of_grain =
+        2.0 * box_->mean_radius() * std::sqrt(specification_.density / aim_.pressure);
     const double most = specification_.inertial_number / time_of_grain * kChunk * box_->time_step();
     return std::clamp(stiffness > 0.0 ? missing / stiffness : otherwise * most, -most, most);
   }
@@ -108,13 +153,24 @@ class Compression {
     reached_.shear = now_.shear(plane) / mean;
     reached_.unbalanced_force_ratio = now_.unbalanced_force_ratio;
     reached_.unbalanced_moment_ratio = now_.unbalanced_moment_ratio;
+    Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
+    whole.diagonal().head(axes_) = stress;
+    whole(0, 1) = whole(1, 0) = now_.shear(0);
+    if (planes_ == 3) {
+      whole(0, 2) = whole(2, 0) = now_.shear(1);
+      whole(1, 2) = whole(2, 1) = now_.shear(2);
+    }
+    reached_.stress = components(frame_ * whole * frame_.transpose());
+    reached_.fabric = components(frame_ * now_.fabric * frame_.transpose());
   }
 
   [[nodiscard]] bool done() const {
-    const double allowed = specification_.pressure_tolerance * pressure_;
-    bool fits = now_.shear.cwiseAbs().maxCoeff() <= allowed;
-    for (int axis = first_axis(); axis < axes_; ++axis)
-      fits = fits && std::abs(now_.stress(axis) + wanted(axis)) <= allowed;
+    const double allowed = specification_.pressure_tolerance * aim_.pressure;
+    bool fits = true;
+    for (int plane = 0; plane < planes_; ++plane)
+      fits = fits && std::abs(now_.shear(plane) + aim_of_shear(plane)) <= allowed;
+    for (int axis = 0; axis < axes_; ++axis)
+      fits = fits && (!strained(axis) || std::abs(now_.stress(axis) + aim_.stress(axis, axis)) <= allowed);
     return fits && now_.contacts > 0 &&
            reached_.unbalanced_force_ratio <= specification_.unbalanced_force_ratio &&
            reached_.unbalanced_moment_ratio <= specification_.unbalanced_force_ratio;
@@ -129,7 +185,7 @@ class Compression {
         "(at most {:.1e}), coordination number {:.2f}; raise pressure_tolerance, "
         "unbalanced_force_ratio, damping or "
         "most_steps",
-        specification_.most_steps, 1e-3 * reached_.pressure, 1e-3 * pressure_, reached_.anisotropy,
+        specification_.most_steps, 1e-3 * reached_.pressure, 1e-3 * aim_.pressure, reached_.anisotropy,
         reached_.shear, specification_.pressure_tolerance, reached_.unbalanced_force_ratio,
         reached_.unbalanced_moment_ratio, specification_.unbalanced_force_ratio,
         reached_.coordination_number));
@@ -137,10 +193,10 @@ class Compression {
 
   const PackingSpecification& specification_;
   int axes_;
-  int planes_;               // that can be sheared
-  bool keep_contacts_;       // with friction, what lies ready in tangential springs belongs to the packing
-  double pressure_;          // that is aimed at, Pa
-  bool width_kept_ = false;  // the last axis alone is strained, and `pressure_` is its own
+  int planes_;             // that can be sheared
+  bool keep_contacts_;     // with friction, what lies ready in tangential springs belongs to the packing
+  Eigen::Matrix3d frame_;  // of the box, to the laboratory
+  Aim aim_;                // in the frame of the box
   std::int64_t chunk_ = 0;
   std::unique_ptr<PressedBox> box_;
   double damping_rate_ = 0.0;
@@ -153,6 +209,21 @@ MakingFriction friction_of(const PackingSpecification& specification, double sli
   MakingFriction friction{sliding, specification.rolling_friction};
   if (friction.rolling) *friction.rolling *= sliding > 0.0 ? sliding / specification.friction : 0.0;
   return friction;
+}
+
+/// The loose start of a packing, and what is made of it.
+Packing loose_start(const PackingSpecification& specification) {
+  return specification.deposition ? place_rain(specification) : place_grains(specification);
+}
+
+PreparedPacking made_of(const PackingSpecification& specification, const Packing& loose, double sliding,
+                        const Progress& progress) {
+  const MakingFriction friction = friction_of(specification, sliding);
+  const std::optional<Deposition>& deposition = specification.deposition;
+  const Packing start = deposition ? deposit(specification, loose, friction, progress) : loose;
+  PreparedPacking made =
+      Compression(specification, start, friction).compress(aims_of(specification), progress);
+  return deposition ? turned(std::move(made), deposition->bedding_angle) : made;
 }
 
 /// Looks for a void ratio.
@@ -194,8 +265,7 @@ class Search {
   static constexpr double kCautious = 0.3;  // part of a correction: most of the difference is scatter
 
   PreparedPacking made(const Packing& start, double friction) {
-    Compression compression(specification_, start, friction_of(specification_, friction));
-    PreparedPacking packing = compression.compress(progress_);
+    PreparedPacking packing = made_of(specification_, start, friction, progress_);
     closest_ = std::min(closest_, std::abs(packing.reached.void_ratio - wanted_));
     return packing;
   }
@@ -211,7 +281,7 @@ class Search {
     PackingSpecification other = specification_;
     for (int draw = 1; draw <= kRedraws; ++draw) {
       other.seed = specification_.seed + 1'000'003ULL * static_cast<std::uint64_t>(draw);
-      PreparedPacking packing = made(place_grains(other), friction);
+      PreparedPacking packing = made(loose_start(other), friction);
       if (fits(packing)) return packing;
       friction = std::clamp(friction + kCautious * slope * (wanted_ - packing.reached.void_ratio), 0.0,
                             specification_.friction);
@@ -234,10 +304,9 @@ class Search {
 
 PreparedPacking prepare_packing(const PackingSpecification& specification,
                                 const std::function<void(const PackingReached&)>& progress) {
-  const Packing loose = place_grains(specification);
+  const Packing loose = loose_start(specification);
   if (specification.void_ratio) return Search(specification, loose, progress).find();
-  return Compression(specification, loose, friction_of(specification, specification.friction))
-      .compress(progress);
+  return made_of(specification, loose, specification.friction, progress);
 }
 
 PreparedPacking settle_packing(const PackingSpecification& specification, const PreparedPacking& packing,
@@ -246,14 +315,16 @@ PreparedPacking settle_packing(const PackingSpecification& specification, const 
   PackingSpecification asked = specification;
   asked.dimension = start.dimension;
   double mass = 0.0;
-  double volume = 0.0;
-  for (const Grain& grain : start.grains) {
-    mass += grain.mass;
-    const double area = std::numbers::pi * grain.radius * grain.radius;
-    volume += area * (start.dimension == 3 ? 4.0 / 3.0 * grain.radius : start.thickness);
+  for (const Grain& grain : start.grains) mass += grain.mass;
+  asked.density = mass / start.grain_volume();
+  asked.deposition = {};
+  std::vector<Aim> aims = aims_of(asked);
+  const Eigen::Matrix3d recorded = tensor(packing.reached.stress);
+  if (asked.keeps_stresses && recorded.trace() < 0.0) {
+    aims.back().stress = -recorded;
+    aims.back().pressure = -recorded.trace() / start.dimension;
   }
-  asked.density = mass / volume;
-  PreparedPacking settled = Compression(asked, start, std::nullopt).compress(progress);
+  PreparedPacking settled = Compression(asked, start, std::nullopt).compress(aims, progress);
   settled.reached.friction = packing.reached.friction;
   return settled;
 }

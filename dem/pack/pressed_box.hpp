@@ -16,8 +16,11 @@ struct MakingFriction {
   std::optional<double> rolling;  ///< none: the script's, or none at all without sliding friction
 };
 
+class FixGravity;
+
 /// Grains in a periodic box of an engine of their own, that is strained to and fro until the stress is the
-/// one asked for. Of a plane packing the third axis counts for nothing.
+/// one asked for. Of a plane packing the third axis counts for nothing. All but `packing` is in the frame of the box, whose
+/// first base vector lies along x1 (frame_of_packing_data).
 class PressedBox {
  public:
   /// What the contacts say at the end of a move. Stresses in Pa, tension positive.
@@ -36,6 +39,8 @@ class PressedBox {
     double rattlers = 0.0;
     double void_ratio = 0.0;
     Overlaps overlaps;
+    /// Mean of n_i n_j over the contacts.
+    Eigen::Matrix3d fabric = Eigen::Matrix3d::Zero();
   };
 
   virtual ~PressedBox() = default;
@@ -44,7 +49,7 @@ class PressedBox {
   virtual void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
                     double damping_rate) = 0;
   [[nodiscard]] virtual Look look() const = 0;
-  /// Grains and box as they are; with `keep_contacts` the state of the contacts as well.
+  /// Grains and box as they are, in the laboratory; with `keep_contacts` the state of the contacts as well.
   virtual Packing packing(bool keep_contacts) = 0;
 
   [[nodiscard]] virtual double mean_mass() const = 0;    ///< kg
@@ -53,15 +58,27 @@ class PressedBox {
   /// Where the script leaves the time step to this program: takes the one that suits the contacts as they are
   /// and those that may come (StiffestContact). Else checks the script's. @param damping_rate viscous, 1/s
   virtual void renew_time_step(double damping_rate) = 0;
+  /// What the grains fall under; nothing unless the box was made `falling`.
+  [[nodiscard]] virtual FixGravity* gravity() = 0;
 };
+
+/// Whether the grains of a box fall under gravity.
+enum class Fall { no, yes };
 
 /// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's; none: the
 /// script's own
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
-                                           const std::optional<MakingFriction>& friction);
+                                           const std::optional<MakingFriction>& friction,
+                                           Fall fall = Fall::no);
 /// Spheres in space.
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
-                                           const std::optional<MakingFriction>& friction);
+                                           const std::optional<MakingFriction>& friction,
+                                           Fall fall = Fall::no);
+/// The one that the dimension asks for.
+std::unique_ptr<PressedBox> make_pressed_box(const PackingSpecification& specification,
+                                             const Packing& packing,
+                                             const std::optional<MakingFriction>& friction,
+                                             Fall fall = Fall::no);
 
 /// The same grains in a box so much smaller that those of a loose packing overlap: the contacts that the
 /// first forces find there tell how stiff contacts are before there are any. Not for steps.

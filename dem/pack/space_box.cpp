@@ -18,8 +18,10 @@
 #include "dem/contact/contact_library.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/engine/engine.hpp"
+#include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/fix_space_box.hpp"
 #include "dem/pack/pressed_box.hpp"
+#include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 
@@ -39,8 +41,9 @@ Eigen::Vector3d force_of(const Contact& contact) {
 class PressedSpheres final : public PressedBox {
  public:
   PressedSpheres(const PackingSpecification& specification, const Packing& packing,
-                 const std::optional<MakingFriction>& friction, bool probe = false)
+                 const std::optional<MakingFriction>& friction, Fall fall, bool probe = false)
       : packing_(packing),
+        frame_(frame_of_packing_data(packing)),
         script_file_(specification.script_file),
         recorder_(contact_recorder(engine_.lammps())) {
     add_contact_library(specification.contact_library);
@@ -58,6 +61,10 @@ class PressedSpheres final : public PressedBox {
     script_time_step_.emplace(lammps);
     engine_.command("fix polargrain_box all pack/space_box");
     strain_ = dynamic_cast<FixSpaceBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
+    if (fall == Fall::yes) {
+      engine_.command("fix polargrain_gravity all pack/gravity");
+      gravity_ = dynamic_cast<FixGravity*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_gravity")]);
+    }
     lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
     lammps.update->nsteps = 0;
     lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
@@ -68,7 +75,7 @@ class PressedSpheres final : public PressedBox {
     radii_ = inertia_of(lammps).radii;
     stiffest_.see(recorder_.contacts);
     if (!recorder_.contacts.empty() || script_time_step_->given() || probe) return;
-    const PressedSpheres pressed(specification, pressed_together(packing), friction, true);
+    const PressedSpheres pressed(specification, pressed_together(packing), friction, Fall::no, true);
     stiffest_ = pressed.stiffest_;
     // Grains are folded back into the box once more: packings have the last bits that they always had.
     set_up();
@@ -110,6 +117,7 @@ class PressedSpheres final : public PressedBox {
       seen.normal_stiffness += contact.normal_stiffness / seen.contacts;
       seen.stress += branch.cwiseProduct(on_first) / volume;
       seen.stiffness += contact.normal_stiffness / volume * branch.cwiseAbs2();
+      seen.fabric += branch * branch.transpose() / (branch.squaredNorm() * seen.contacts);
       const Eigen::Vector3d part = branch.cwiseAbs2() / branch.squaredNorm();
       for (int plane = 0; plane < 3; ++plane) {
         const auto [i, j] = kPlanes[plane];
@@ -134,9 +142,10 @@ class PressedSpheres final : public PressedBox {
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
     const Eigen::Matrix3d box = strain_->base_vectors();
     Packing packing = packing_;
-    packing.box = box.topLeftCorner<2, 2>();
+    const Eigen::Matrix2d turn = frame_.topLeftCorner<2, 2>();
+    packing.box = turn * box.topLeftCorner<2, 2>();
     packing.thickness = box(2, 2);
-    packing.lean = box.topRightCorner<2, 1>();
+    packing.lean = turn * box.topRightCorner<2, 1>();
     for (int k = 0; k < lammps.atom->nlocal; ++k) {
       Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(lammps.atom->x[k]);
       // Along the third base vector first: the others have nothing of what it folds.
@@ -145,16 +154,17 @@ class PressedSpheres final : public PressedBox {
         position -= std::floor(inner(axis)) * box.col(axis);
       }
       Grain& grain = packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)];
-      grain.position = position.head<2>();
+      grain.position = turn * position.head<2>();
       grain.height = position.z();
     }
-    packing.state = keep_contacts ? save_state(lammps, SpaceBox{box}) : nullptr;
+    packing.state = keep_contacts ? save_state(lammps, SpaceBox{box, frame_}) : nullptr;
     return packing;
   }
 
   [[nodiscard]] double mean_mass() const override { return mean_mass_; }
   [[nodiscard]] double mean_radius() const override { return mean_radius_; }
   [[nodiscard]] double time_step() const override { return lammps_->update->dt; }
+  [[nodiscard]] FixGravity* gravity() override { return gravity_; }
 
  private:
   void set_up() {
@@ -181,6 +191,7 @@ class PressedSpheres final : public PressedBox {
   }
 
   Packing packing_;
+  Eigen::Matrix3d frame_;  // of the box, to the laboratory
   std::string script_file_;
   Engine engine_;
   ContactRecorder& recorder_;
@@ -189,6 +200,7 @@ class PressedSpheres final : public PressedBox {
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
   FixSpaceBox* strain_ = nullptr;
+  FixGravity* gravity_ = nullptr;
   double mean_mass_ = 0.0;
   double mean_radius_ = 0.0;
   double solid_ = 0.0;  // volume of the grains, m^3
@@ -197,8 +209,15 @@ class PressedSpheres final : public PressedBox {
 }  // namespace
 
 std::unique_ptr<PressedBox> make_space_box(const PackingSpecification& specification, const Packing& packing,
-                                           const std::optional<MakingFriction>& friction) {
-  return std::make_unique<PressedSpheres>(specification, packing, friction);
+                                           const std::optional<MakingFriction>& friction, Fall fall) {
+  return std::make_unique<PressedSpheres>(specification, packing, friction, fall);
+}
+
+std::unique_ptr<PressedBox> make_pressed_box(const PackingSpecification& specification,
+                                             const Packing& packing,
+                                             const std::optional<MakingFriction>& friction, Fall fall) {
+  return packing.dimension == 3 ? make_space_box(specification, packing, friction, fall)
+                                : make_plane_box(specification, packing, friction, fall);
 }
 
 }  // namespace polargrain::dem

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -85,6 +86,24 @@ TEST_F(Specification, TellsWhatEachAxisCarries) {
       fault("pressure: 100 kPa", "pressure: [1 kPa, 2 kPa]\none_dimensional_from: 1 kPa"),
       ":7: packing: one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the "
       "last axis");
+}
+
+TEST_F(Specification, GrainsFallWhereAsked) {
+  std::ofstream(file_) << kGood;
+  const PackingSpecification read =
+      read_packing_specification(file_, {"deposition={bedding_angle: 90 deg, sides: kept}"});
+  ASSERT_TRUE(read.deposition);
+  EXPECT_DOUBLE_EQ(read.deposition->bedding_angle, 0.5 * M_PI);
+  EXPECT_TRUE(read.deposition->keeps_width);
+  EXPECT_FALSE(read_packing_specification(file_, {"deposition={}"}).deposition->keeps_width);
+  EXPECT_EQ(fault("seed: 1", "seed: 1\ndeposition: {side: kept}").substr(0, 26),
+            ":9: deposition: unknown ke");
+  EXPECT_EQ(fault("seed: 1", "seed: 1\ndeposition: {sides: free}").substr(0, 33),
+            ":9: deposition: sides: expected o");
+  EXPECT_EQ(fault("seed: 1", "seed: 1\ndeposition: {}\none_dimensional_from: 10 kPa").substr(0, 60),
+            ":10: packing: one_dimensional_from: grains that fall are com");
+  EXPECT_EQ(fault("pressure: 100 kPa", "pressure: [1 kPa, 2 kPa]\ndeposition: {sides: kept}").substr(0, 54),
+            ":6: packing: pressure: with 'sides: kept' the lateral ");
 }
 
 TEST_F(Specification, FaultsNameTheLine) {
