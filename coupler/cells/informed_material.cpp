@@ -273,6 +273,9 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
         add_hardening(frame_, committed_[point].mobilisation.cone, cone, start, increments[point], end,
                       response);
       }
+      // Where the point yields its stress goes with the friction read from the cell, and scatters with it.
+      if (end.regime != fem::Regime::elastic)
+        response.noise = noise_of(trial_[point].cell, 0.5 * parameters_.mean_diameter);
     }
     if (cell.quality < responses[point].quality) {
       responses[point].quality = cell.quality;

@@ -38,8 +38,10 @@ class KnownCells {
 
   int calls = 0;
   PlaneRequest last_request;
+  PlaneReply answer;           ///< the last one
   std::size_t last_point = 0;  ///< that it was said to stand for
   double fails_beyond = 1e9;   ///< of a strain increment
+  double unrest = 0.0;         ///< unbalanced force ratio of its hundred grains
 
   PlaneReply initial() { return reply(law_.initial_state(), elasticity().initial_stress); }
 
@@ -62,7 +64,8 @@ class KnownCells {
       if (response.quality != Quality::good) return failed;
     }
     response.stress(k33) *= share_;
-    return reply(state, response.stress);
+    answer = reply(state, response.stress);
+    return answer;
   }
 
   CellCalls calls_to_it() {
@@ -87,6 +90,9 @@ class KnownCells {
     PlaneReply reply;
     reply.response.stress = stress;
     reply.knows_s33 = !discs_;
+    reply.diagnostics.contacts = 200;
+    reply.diagnostics.coordination_number = 4.0;
+    reply.diagnostics.unbalanced_force_ratio = unrest;
     if (discs_) reply.response.stress(k33) = 0.0;
     const auto bytes = std::as_bytes(std::span(&state, 1));
     reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
@@ -443,6 +449,26 @@ TEST_F(InformedPointTest, ACellThatCannotFollowAStepTakesItInParts) {
         "the cell of point 0 cannot follow a step of its material, even in 16 parts: the box collapsed; "
         "take smaller steps, or update: fixed_point, which cuts steps for its cells");
   }
+}
+
+// The friction of a step is read from a cell that is not quite at rest; where nothing has moved, and where cells are asked
+// afterwards, nothing is read from it.
+TEST_F(InformedPointTest, WhereItYieldsTheFixedPointScattersAsItsCell) {
+  cells_.unrest = 5e-3;
+  InformedMaterial fixed = make(InformedUpdate::fixed_point);
+  EXPECT_TRUE(evaluate(fixed, Increment{}).noise.is_zero());
+  for (int step = 0; step < 3; ++step) {
+    evaluate(fixed, compression(1e-3));
+    fixed.commit();
+  }
+  const Response yielding = evaluate(fixed, compression(1e-3));
+  ASSERT_EQ(fields(fixed)[4], static_cast<double>(fem::Regime::smooth));
+  const Vector7& cell = cells_.answer.response.stress;
+  EXPECT_NEAR(yielding.noise.symmetric, 0.5 * std::abs(cell(k11) + cell(k22)) * 5e-3 / std::sqrt(100.0),
+              1e-9);
+  EXPECT_EQ(yielding.noise.couple, 0.0);
+  InformedMaterial frozen = make(InformedUpdate::frozen);
+  EXPECT_TRUE(evaluate(frozen, compression(1e-3)).noise.is_zero());
 }
 
 TEST_F(InformedPointTest, WithTheFixedPointACellThatFailsCutsTheStep) {
