@@ -139,6 +139,12 @@ double Packing::grain_volume() const {
   return sum;
 }
 
+double Packing::grain_mass() const {
+  double sum = 0.0;
+  for (const Grain& grain : grains) sum += grain.mass;
+  return sum;
+}
+
 double Packing::mean_radius() const {
   double sum = 0.0;
   for (const Grain& grain : grains) sum += grain.radius;

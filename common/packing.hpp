@@ -54,6 +54,8 @@ struct Packing {
   [[nodiscard]] Eigen::Matrix3d base_vectors() const;
   /// Sum of the volumes of the grains, m^3: of spheres in space, of discs as high as the box in a plane packing.
   [[nodiscard]] double grain_volume() const;
+  /// Sum of the masses of the grains, kg.
+  [[nodiscard]] double grain_mass() const;
   /// Mean radius of the grains, m.
   [[nodiscard]] double mean_radius() const;
 };

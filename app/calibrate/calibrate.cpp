@@ -218,21 +218,18 @@ CalibrationResult calibrate(const Calibration& calibration,
   } catch (const nlopt::roundoff_limited&) {
     result.end = "not converged: the misfit is too rough for the search to go on";
   }
-  const auto best_so_far = [&] {
-    return *std::ranges::min_element(search.record(), {}, &Evaluation::misfit);
-  };
-  Eigen::MatrixXd around_best;
-  for (int round = 0; round < kRounds; ++round) {
-    const Evaluation best = best_so_far();
-    if (round > 0 && best.values == result.best.values) break;
+  // Takes over the best so far. @returns whether it is another one
+  const auto take_best = [&] {
+    const Evaluation& best = *std::ranges::min_element(search.record(), {}, &Evaluation::misfit);
+    if (best.values == result.best.values) return false;
     result.best = best;
     for (std::size_t k = 0; k < count; ++k)
       places[k] = calibration.parameters[k].place_of(result.best.values[k]);
+    return true;
+  };
+  Eigen::MatrixXd around_best;
+  for (int round = 0; take_best() && round < kRounds; ++round)
     around_best = slopes(search, places, calibration.difference);
-  }
-  result.best = best_so_far();
-  for (std::size_t k = 0; k < count; ++k)
-    places[k] = calibration.parameters[k].place_of(result.best.values[k]);
   judge(result, around_best);
   if (calibration.profile > 0)
     for (std::size_t k = 0; k < count; ++k) add_profile(result, search, calibration, places, k);

@@ -45,6 +45,15 @@ Box Box::reduced() const {
   return box;
 }
 
+Eigen::Vector2d Box::folded(Eigen::Vector2d place) const {
+  // Along the second base vector first: the other has nothing of what it folds.
+  const double layer = std::floor(place.y() / length_y);
+  place.y() -= layer * length_y;
+  place.x() -= layer * tilt;
+  place.x() -= length_x * std::floor((place.x() - place.y() * tilt / length_y) / length_x);
+  return place;
+}
+
 BoxPath::BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps)
     : start_(start), steps_(steps) {
   const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() + displacement_gradient;

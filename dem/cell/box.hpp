@@ -20,6 +20,8 @@ struct Box {
   [[nodiscard]] double area() const { return length_x * length_y; }
   /// The same lattice with |tilt| <= length_x / 2, which the engine needs. Grains need only be wrapped again.
   [[nodiscard]] Box reduced() const;
+  /// The image of a place that lies in the box, in the box frame.
+  [[nodiscard]] Eigen::Vector2d folded(Eigen::Vector2d place) const;
 };
 
 /// A box carried along by a displacement gradient h of the laboratory. With the polar decomposition I + h = R

@@ -9,10 +9,10 @@
 
 #include "common/elementary_functions.hpp"
 #include "common/error.hpp"
+#include "dem/cell/box.hpp"
 #include "dem/cell/packed_grains.hpp"
 #include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/placement.hpp"
-#include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 
@@ -39,10 +39,6 @@ struct Seam {
   double shift = 0.0;   // of the second base vector along x1, m
   double height = 0.0;  // of the box, m
 };
-
-double solid_of(const Packing& packing) {
-  return packing.dimension == 3 ? packing.grain_volume() : packing.grain_volume() / packing.thickness;
-}
 
 /// The height at which nothing overlaps when the lower grains lie on the upper ones, shifted along x1.
 double closed_height(const Packing& bed, std::span<const std::size_t> upper,
@@ -96,12 +92,6 @@ Seam seam_at(const Packing& bed, std::span<const std::size_t> kept, std::size_t 
   return best;
 }
 
-double mass_of(const Packing& packing) {
-  double sum = 0.0;
-  for (const Grain& grain : packing.grains) sum += grain.mass;
-  return sum;
-}
-
 }  // namespace
 
 Packing cut_from_bed(const Packing& bed, std::size_t first, std::size_t count) {
@@ -111,31 +101,28 @@ Packing cut_from_bed(const Packing& bed, std::size_t first, std::size_t count) {
   const std::size_t lowest = first > range ? first - range : 0;
   const std::size_t highest = std::min(first + range, order.size() - count);
   Seam best{first, 0.0, 1e300};
-  double loosest = 1e300;
+  double least = 1e300;
   for (int cut = 0; cut < kCuts; ++cut) {
     const std::size_t from = lowest + (highest - lowest) * static_cast<std::size_t>(cut) / (kCuts - 1);
     const std::span<const std::size_t> kept = grains.subspan(from, count);
-    Packing part = bed;
-    part.grains.clear();
-    for (const std::size_t k : kept) part.grains.push_back(bed.grains[k]);
     const Seam seam = seam_at(bed, kept, from);
-    if (!(seam.height / solid_of(part) < loosest)) continue;
-    loosest = seam.height / solid_of(part);
+    double solid = 0.0;  // up to a factor
+    for (const std::size_t k : kept) solid += std::pow(bed.grains[k].radius, bed.dimension);
+    if (!(seam.height / solid < least)) continue;
+    least = seam.height / solid;
     best = seam;
   }
   Packing closed = bed;
   closed.state = nullptr;
   closed.grains.clear();
-  closed.box << bed.box(0, 0), best.shift, 0.0, best.height;
+  const Box box{bed.box(0, 0), best.height, best.shift};
+  closed.box = box.base_vectors();
   const double floor = bed.grains[order[best.first]].position.y();
   for (const std::size_t k : grains.subspan(best.first, count)) {
     Grain grain = bed.grains[k];
     grain.id = static_cast<std::int64_t>(closed.grains.size());
     grain.position.y() -= floor;
-    const double layer = std::floor(grain.position.y() / best.height);
-    grain.position -= layer * closed.box.col(1);
-    const double inner = grain.position.x() - best.shift * grain.position.y() / best.height;
-    grain.position.x() -= bed.box(0, 0) * std::floor(inner / bed.box(0, 0));
+    grain.position = box.folded(grain.position);
     closed.grains.push_back(grain);
   }
   return closed;
@@ -149,8 +136,8 @@ Packing deposit(const PackingSpecification& specification, const Packing& rain,
   const double weight = specification.pressure * specification.share_of_axis[1] * floor_area;
   const double diameter = 2.0 * box->mean_radius();
   const double on_the_floor = floor_area / (diameter * (rain.dimension == 3 ? diameter : rain.thickness));
-  box->gravity()->begin(weight / mass_of(rain), weight / on_the_floor / (kFloorOverlap * box->mean_radius()),
-                        kLocalDamping);
+  box->gravity()->begin(weight / rain.grain_mass(),
+                        weight / on_the_floor / (kFloorOverlap * box->mean_radius()), kLocalDamping);
   PackingReached reached;
   for (std::int64_t chunk = 1; chunk == 1 || box->gravity()->unrest() > kRest; ++chunk) {
     if (reached.dem_steps > static_cast<double>(specification.most_steps))

@@ -12,7 +12,7 @@ namespace polargrain::dem {
 /// its surface, becomes a packing that is periodic in x2 too: cut along two planes, the upper one laid under the lower one, shifted
 /// along x1, with cut and shift where the seam is closest. Its box is not narrower than the bed was; nothing overlaps at the seam.
 /// @param rain what falls (place_rain)
-/// @throws RunError when the grains are not at rest within the steps allowed, or the bed is too low to be cut
+/// @throws RunError when the grains are not at rest within the steps allowed
 Packing deposit(const PackingSpecification& specification, const Packing& rain,
                 const MakingFriction& friction, const std::function<void(const PackingReached&)>& progress);
 

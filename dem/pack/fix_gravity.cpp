@@ -39,6 +39,12 @@ void FixGravity::post_force(int) {
   unrest_ = weight > 0.0 ? unbalanced / weight : 1.0;
 }
 
+FixGravity& add_gravity(Engine& engine) {
+  engine.command("fix polargrain_gravity all pack/gravity");
+  LAMMPS_NS::Modify& modify = *engine.lammps().modify;
+  return dynamic_cast<FixGravity&>(*modify.fix[modify.find_fix("polargrain_gravity")]);
+}
+
 namespace {
 const Extension kGravity = fix_extension<FixGravity>("pack/gravity");
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
 
 namespace polargrain::dem {
@@ -31,5 +32,8 @@ class FixGravity : public LAMMPS_NS::Fix {
   double damping_ = 0.0;
   double unrest_ = 1.0;
 };
+
+/// Adds one to an engine whose grains have been read. It lives as long as the engine.
+FixGravity& add_gravity(Engine& engine);
 
 }  // namespace polargrain::dem

@@ -22,9 +22,9 @@ class PlaneBox final : public PressedBox {
       : packing_(packing),
         turn_(frame_of_packing_data(packing).topLeftCorner<2, 2>()),
         driver_(packing, specification.script, specification.script_file, specification.contact_library,
-                [friction, fall](Engine& engine) {
+                [this, friction, fall](Engine& engine) {
                   if (friction) set_friction(engine, *friction);
-                  if (fall == Fall::yes) engine.command("fix polargrain_gravity all pack/gravity");
+                  if (fall == Fall::yes) gravity_ = &add_gravity(engine);
                 }) {
     if (packing.state && state_fits(driver_.lammps(), *packing.state))
       restore_state(driver_.lammps(), *packing.state);
@@ -86,12 +86,7 @@ class PlaneBox final : public PressedBox {
     packing.box = turn_ * box.base_vectors();
     for (int k = 0; k < lammps.atom->nlocal; ++k) {
       // Grains leave the box between two neighbour lists: fold them back.
-      Eigen::Vector2d position(lammps.atom->x[k][0], lammps.atom->x[k][1]);
-      const double layer = std::floor(position.y() / box.length_y);
-      position.y() -= layer * box.length_y;
-      position.x() -= layer * box.tilt;
-      position.x() -=
-          box.length_x * std::floor((position.x() - position.y() * box.tilt / box.length_y) / box.length_x);
+      const Eigen::Vector2d position = box.folded({lammps.atom->x[k][0], lammps.atom->x[k][1]});
       // The data file counts the grains, which stand in the order of their ids, from 1.
       packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)].position = turn_ * position;
     }
@@ -105,11 +100,6 @@ class PlaneBox final : public PressedBox {
   void renew_time_step(double damping_rate) override {
     stiffest_.see(driver_.contacts());
     driver_.renew_time_step(stiffest_, damping_rate);
-  }
-  [[nodiscard]] FixGravity* gravity() override {
-    LAMMPS_NS::Modify& modify = *driver_.lammps().modify;
-    const int place = modify.find_fix("polargrain_gravity");
-    return place < 0 ? nullptr : dynamic_cast<FixGravity*>(modify.fix[place]);
   }
 
  private:

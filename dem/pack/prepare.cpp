@@ -121,7 +121,6 @@ class Compression {
 
   [[nodiscard]] bool strained(int axis) const { return aim_.strained[static_cast<std::size_t>(axis)]; }
   [[nodiscard]] double aim_of_shear(int plane) const {
-    constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
     const auto [i, j] = kPlanes[static_cast<std::size_t>(plane)];
     return aim_.stress(i, j);
   }
@@ -155,10 +154,9 @@ class Compression {
     reached_.unbalanced_moment_ratio = now_.unbalanced_moment_ratio;
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
     whole.diagonal().head(axes_) = stress;
-    whole(0, 1) = whole(1, 0) = now_.shear(0);
-    if (planes_ == 3) {
-      whole(0, 2) = whole(2, 0) = now_.shear(1);
-      whole(1, 2) = whole(2, 1) = now_.shear(2);
+    for (int of = 0; of < planes_; ++of) {
+      const auto [i, j] = kPlanes[static_cast<std::size_t>(of)];
+      whole(i, j) = whole(j, i) = now_.shear(of);
     }
     reached_.stress = components(frame_ * whole * frame_.transpose());
     reached_.fabric = components(frame_ * now_.fabric * frame_.transpose());
@@ -314,9 +312,7 @@ PreparedPacking settle_packing(const PackingSpecification& specification, const 
   const Packing& start = packing.packing;
   PackingSpecification asked = specification;
   asked.dimension = start.dimension;
-  double mass = 0.0;
-  for (const Grain& grain : start.grains) mass += grain.mass;
-  asked.density = mass / start.grain_volume();
+  asked.density = start.grain_mass() / start.grain_volume();
   asked.deposition = {};
   std::vector<Aim> aims = aims_of(asked);
   const Eigen::Matrix3d recorded = tensor(packing.reached.stress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -17,6 +18,9 @@ struct MakingFriction {
 };
 
 class FixGravity;
+
+/// Directions i, j of the shears s_ij and h_ij of a box: 12, 13, 23.
+constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
 
 /// Grains in a periodic box of an engine of their own, that is strained to and fro until the stress is the
 /// one asked for. Of a plane packing the third axis counts for nothing. All but `packing` is in the frame of the box, whose
@@ -58,8 +62,11 @@ class PressedBox {
   /// Where the script leaves the time step to this program: takes the one that suits the contacts as they are
   /// and those that may come (StiffestContact). Else checks the script's. @param damping_rate viscous, 1/s
   virtual void renew_time_step(double damping_rate) = 0;
-  /// What the grains fall under; nothing unless the box was made `falling`.
-  [[nodiscard]] virtual FixGravity* gravity() = 0;
+  /// What the grains fall under; nothing unless the box was made with Fall::yes.
+  [[nodiscard]] FixGravity* gravity() { return gravity_; }
+
+ protected:
+  FixGravity* gravity_ = nullptr;
 };
 
 /// Whether the grains of a box fall under gravity.

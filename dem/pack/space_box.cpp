@@ -21,22 +21,12 @@
 #include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/fix_space_box.hpp"
 #include "dem/pack/pressed_box.hpp"
+#include "dem/spheres/space_contact.hpp"
 #include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 
 namespace {
-
-/// Directions i, j of the shears h_ij: 12, 13, 23.
-constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
-
-Eigen::Vector3d branch_of(const Contact& contact) {
-  return {contact.branch.x(), contact.branch.y(), contact.branch_3};
-}
-
-Eigen::Vector3d force_of(const Contact& contact) {
-  return {contact.force.x(), contact.force.y(), contact.force_3};
-}
 
 class PressedSpheres final : public PressedBox {
  public:
@@ -62,8 +52,7 @@ class PressedSpheres final : public PressedBox {
     engine_.command("fix polargrain_box all pack/space_box");
     strain_ = dynamic_cast<FixSpaceBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
     if (fall == Fall::yes) {
-      engine_.command("fix polargrain_gravity all pack/gravity");
-      gravity_ = dynamic_cast<FixGravity*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_gravity")]);
+      gravity_ = &add_gravity(engine_);
     }
     lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
     lammps.update->nsteps = 0;
@@ -117,7 +106,6 @@ class PressedSpheres final : public PressedBox {
       seen.normal_stiffness += contact.normal_stiffness / seen.contacts;
       seen.stress += branch.cwiseProduct(on_first) / volume;
       seen.stiffness += contact.normal_stiffness / volume * branch.cwiseAbs2();
-      seen.fabric += branch * branch.transpose() / (branch.squaredNorm() * seen.contacts);
       const Eigen::Vector3d part = branch.cwiseAbs2() / branch.squaredNorm();
       for (int plane = 0; plane < 3; ++plane) {
         const auto [i, j] = kPlanes[plane];
@@ -132,6 +120,7 @@ class PressedSpheres final : public PressedBox {
     seen.coordination_number = 2.0 * seen.contacts / grains;
     seen.void_ratio = volume / solid_ - 1.0;
     seen.overlaps = overlaps_of(contacts, radii_);
+    seen.fabric = space_fabric(contacts);
     if (!(force > 0.0)) return seen;
     seen.unbalanced_force_ratio = strain_->sum_of_unbalanced_force() / carrying / force;
     seen.unbalanced_moment_ratio = strain_->sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
@@ -164,7 +153,6 @@ class PressedSpheres final : public PressedBox {
   [[nodiscard]] double mean_mass() const override { return mean_mass_; }
   [[nodiscard]] double mean_radius() const override { return mean_radius_; }
   [[nodiscard]] double time_step() const override { return lammps_->update->dt; }
-  [[nodiscard]] FixGravity* gravity() override { return gravity_; }
 
  private:
   void set_up() {
@@ -200,7 +188,6 @@ class PressedSpheres final : public PressedBox {
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
   FixSpaceBox* strain_ = nullptr;
-  FixGravity* gravity_ = nullptr;
   double mean_mass_ = 0.0;
   double mean_radius_ = 0.0;
   double solid_ = 0.0;  // volume of the grains, m^3

@@ -8,26 +8,13 @@
 
 #include "dem/pack/deposit.hpp"
 #include "dem/pack/prepare.hpp"
-#include "tests/support/cell_fixture.hpp"
-#include "tests/support/plane_cells.hpp"
+#include "tests/support/packings_to_make.hpp"
 
 namespace polargrain::dem {
 namespace {
 
 PackingSpecification fallen(int dimension, int grains) {
-  PackingSpecification made;
-  made.script_file =
-      std::string("liggghts_inputs/cells/") + (dimension == 3 ? "spheres_li_chu.in" : "hooke_radii.in");
-  made.script = test::file_text(made.script_file);
-  made.dimension = dimension;
-  made.spheres = dimension == 3;
-  made.grains = grains;
-  made.sizes.radii = {3e-3, 7e-3};
-  made.density = 2650.0;
-  made.thickness = dimension == 3 ? 0.0 : 0.1;
-  made.pressure = 1e5;
-  made.friction = 0.5;
-  made.damping = dimension == 3 ? kDampingInSpace : kDampingInPlane;
+  PackingSpecification made = dimension == 3 ? rolling_spheres(grains, 0.5) : specification(grains, 0.5);
   made.deposition = Deposition{};
   made.seed = 1;
   return made;
@@ -114,17 +101,9 @@ TEST(PackDeposit, TheBeddingAngleTurnsAll) {
     const Eigen::Matrix3d fabric = turn * tensor(level.reached.fabric) * turn.transpose();
     EXPECT_LE((tensor(turned.reached.fabric) - fabric).norm(), 1e-12);
     // What cells find in them, tangential forces included: a right box against a leaning one.
-    const auto stress = [&](const PreparedPacking& made) {
-      CellDefinition cell;
-      cell.name = "fallen";
-      cell.script_file = asked.script_file;
-      cell.script = asked.script;
-      cell.packing = made.packing;
-      cell.control.tangent = CellTangent::none;
-      return Eigen::Matrix3d(make_cell_service(cell)->initial().response.stress);
-    };
-    const Eigen::Matrix3d expected = turn * stress(level) * turn.transpose();
-    EXPECT_LE((stress(turned) - expected).cwiseAbs().maxCoeff(), 1e-6 * asked.pressure) << dimension;
+    const Eigen::Matrix3d expected = turn * stress_in_a_cell(asked, level) * turn.transpose();
+    EXPECT_LE((stress_in_a_cell(asked, turned) - expected).cwiseAbs().maxCoeff(), 1e-6 * asked.pressure)
+        << dimension;
   }
 }
 

@@ -11,35 +11,10 @@
 
 #include "common/error.hpp"
 #include "dem/pack/prepare.hpp"
-#include "tests/support/cell_fixture.hpp"
-#include "tests/support/plane_cells.hpp"
+#include "tests/support/packings_to_make.hpp"
 
 namespace polargrain::dem {
 namespace {
-
-PackingSpecification specification(int grains, double friction) {
-  PackingSpecification made;
-  made.script_file = "liggghts_inputs/cells/hooke_radii.in";
-  made.script = test::file_text(made.script_file);
-  made.grains = grains;
-  made.sizes.radii = {3e-3, 7e-3};
-  made.density = 2650.0;
-  made.thickness = 0.1;
-  made.pressure = 1e5;
-  made.friction = friction;
-  made.seed = 3;
-  return made;
-}
-
-PackingSpecification in_space(int grains, double friction) {
-  PackingSpecification made = specification(grains, friction);
-  made.script_file = "liggghts_inputs/cells/spheres_hooke_radii.in";
-  made.script = test::file_text(made.script_file);
-  made.dimension = 3;
-  made.spheres = true;
-  made.thickness = 0.0;
-  return made;
-}
 
 void expect_at_rest(const PackingSpecification& asked, const PackingReached& reached) {
   EXPECT_NEAR(reached.pressure / asked.pressure, 1.0, asked.pressure_tolerance);
@@ -138,23 +113,7 @@ TEST(PackPrepare, SpheresEndWithoutShear) {
 
 /// What a cell finds when it starts from a packing: compressive stresses of the axes, Pa.
 Eigen::Vector3d pressures(const PackingSpecification& asked, const PreparedPacking& made) {
-  CellDefinition definition;
-  definition.name = "made";
-  definition.script_file = asked.script_file;
-  definition.script = asked.script;
-  definition.packing = made.packing;
-  definition.control.tangent = CellTangent::none;
-  return -make_cell_service(definition)->initial().response.stress.diagonal();
-}
-
-/// Spheres with rolling resistance, whose script can be made with any friction up to its own.
-PackingSpecification rolling_spheres(int grains, double friction, std::optional<double> rolling) {
-  PackingSpecification made = in_space(grains, friction);
-  made.script_file = "liggghts_inputs/cells/spheres_li_chu.in";
-  made.script = test::file_text(made.script_file);
-  made.rolling_friction = rolling;
-  made.damping = kDampingInSpace;
-  return made;
+  return -stress_in_a_cell(asked, made).diagonal();
 }
 
 TEST(PackPrepare, EachAxisCarriesTheStressAskedOfIt) {
