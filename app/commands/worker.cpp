@@ -2,10 +2,8 @@
 #include "app/commands/worker.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,26 +15,6 @@
 #include "coupler/pool/keys.hpp"
 
 namespace polargrain::app {
-namespace {
-
-/// Makes a worker that srun or mpirun has started forget it: every worker is an MPI world of its own, or its
-/// engine would try to share its grains with the other workers. Open MPI would start a daemon beside each
-/// such world (0.15 s, 20 MB, and no start at all where there is no ssh); a world that never spawns others
-/// needs none.
-void forget_launcher() {
-  std::vector<std::string> names;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string text = *variable;
-    for (const char* prefix : {"SLURM_", "PMI_", "PMIX_", "PMI2_", "OMPI_", "ORTE_", "HYDRA_"}) {
-      if (text.rfind(prefix, 0) == 0) names.push_back(text.substr(0, text.find('=')));
-    }
-  }
-  for (const std::string& name : names) unsetenv(name.c_str());
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
-  setenv("OMPI_MCA_btl", "self", 1);  // it speaks to nobody: no sockets, no shared memory
-}
-
-}  // namespace
 
 std::unique_ptr<CellService> make_checked_service(const CellDefinition& definition, const ScriptRules& rules,
                                                   const WorkerEngine& engine) {
@@ -65,7 +43,6 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     coupler::ServeOptions serve_options;
     serve_options.patience_seconds = options.patience_seconds;
     if (!options.key.empty()) serve_options.key = coupler::read_worker_key(options.key);
-    forget_launcher();
     // Trusted scripts may do what the user may.
     std::optional<coupler::Confinement> confinement;
     if (!options.scripts.trusted) confinement.emplace(options.url);

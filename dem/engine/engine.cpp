@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/engine/engine.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,12 +17,35 @@
 #include "grains_io/script.hpp"
 
 namespace polargrain::dem {
+namespace {
+
+/// Makes a process that srun or mpirun has started forget it: every process of ours that runs engines is an MPI world
+/// of its own, or its engine would try to share its grains with the others. Open MPI would start a daemon beside each
+/// such world (0.15 s, 20 MB, no start at all where there is no ssh, and an engine that ends in a forked child would
+/// wait for ever for the daemon's word); a world that never spawns others needs none. Nor does it need the folder that
+/// Open MPI makes below /tmp: such worlds share its name, and one that starts while another removes it fails.
+void forget_launcher() {
+  std::vector<std::string> names;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    for (const char* prefix : {"SLURM_", "PMI_", "PMIX_", "PMI2_", "OMPI_", "ORTE_", "HYDRA_"}) {
+      if (text.rfind(prefix, 0) == 0) names.push_back(text.substr(0, text.find('=')));
+    }
+  }
+  for (const std::string& name : names) unsetenv(name.c_str());
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 1);
+  setenv("OMPI_MCA_btl", "self", 1);  // it speaks to nobody: no sockets, no shared memory
+}
+
+}  // namespace
 
 void start_engine_process() {
   std::setvbuf(stdout, nullptr, _IONBF, 0);
   int running = 0;
   MPI_Initialized(&running);
   if (!running) {
+    forget_launcher();
     MPI_Init(nullptr, nullptr);
     std::atexit([] {
       int finalized = 0;

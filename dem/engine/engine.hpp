@@ -11,7 +11,7 @@ class LAMMPS;
 
 namespace polargrain::dem {
 
-/// Prepares this process for engines: MPI for one process, and standard output unbuffered, because an engine
+/// Prepares this process for engines: MPI for this process alone, whoever started it (srun, mpirun), and standard output unbuffered, because an engine
 /// error ends the process at once and its words would be lost in the buffer. Call once, first.
 void start_engine_process();
 

@@ -50,6 +50,20 @@ TEST(PackCommand, ExportsSpheresThatTheEngineFindsUnderTheirPressure) {
   EXPECT_TRUE(found) << looked.out;
 }
 
+TEST(PackCommand, ItsEngineNeedsNoFolderOfMpi) {
+  // Open MPI's worlds of one process share the name of a folder below TMPDIR: one that started while another removed it
+  // failed, once in some hundred runs. In /proc nobody can make one at all.
+  const Scratch scratch("pack_no_mpi_folder");
+  write(scratch.path() / "discs.yaml",
+        "grains: 20\nsizes: {law: uniform, radius: [3 mm, 5 mm]}\ndensity: 2650\nthickness: 1 cm\n"
+        "script: cells/hooke_radii.in\npressure: 100 kPa\nfriction: 0\nseed: 5\n");
+  const Outcome made = run_in(scratch.path(), "TMPDIR=/proc " + kProgram + " pack discs.yaml -o discs.h5");
+  EXPECT_NE(made.out.find("20 grains in "), std::string::npos) << made.out;
+  EXPECT_EQ(made.errors.find("ORTE"), std::string::npos) << made.errors;
+  // What does need one says so: the moduli are asked of a worker.
+  EXPECT_NE(made.errors.find("set TMPDIR to a directory you may write to"), std::string::npos) << made.errors;
+}
+
 /// A case of one material with that script and packing, for `polargrain point`.
 void write_material(const Scratch& scratch, const std::string& script, const std::string& packing) {
   write(scratch.path() / "case.yaml",
