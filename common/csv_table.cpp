@@ -41,9 +41,13 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults
       if (cells.size() == names_.size()) {
         rows_.push_back({number, std::move(cells)});
       } else {
-        ragged.push_back({file_.string(), number,
-                          plain_text(fmt::format("there are {} columns ('{}') and {} values here",
-                                                 names_.size(), fmt::join(names_, ","), cells.size()))});
+        ragged.push_back(
+            {file_.string(), number,
+             plain_text(fmt::format(
+                 "a value for each of {} ('{}', line {}) was expected, and {} here",
+                 names_.size() == 1 ? std::string("one column") : fmt::format("{} columns", names_.size()),
+                 fmt::join(names_, ","), line_of_names_,
+                 cells.size() == 1 ? std::string("one is") : fmt::format("{} are", cells.size())))});
       }
     }
   }

@@ -83,7 +83,8 @@ struct Kills {
 
 /// Kills runs of `arguments` (without directory and workers) at moments drawn from `seed`, `kills` times, in
 /// as many results as it takes, and ends with a run that is left alone.
-/// @param most_seconds the latest moment of a kill
+/// @param most_seconds the latest moment of a kill, at first: later where other programs delay the first checkpoint, sooner
+/// where runs come to their end
 /// @param check is called with each result that has come to its end
 template <class Check>
 Kills kill_again_and_again(const std::filesystem::path& scratch, const std::string& arguments, int kills,
@@ -107,7 +108,10 @@ Kills kill_again_and_again(const std::filesystem::path& scratch, const std::stri
       const int status = program.end(SIGKILL);
       if (status == -1) {
         ++done.kills;
-        if (!std::filesystem::exists(scratch / name / "checkpoint.h5")) ++done.before_the_first;
+        if (!std::filesystem::exists(scratch / name / "checkpoint.h5")) {
+          ++done.before_the_first;
+          most_seconds *= 1.25;
+        }
         continue;
       }
     }
@@ -115,6 +119,7 @@ Kills kill_again_and_again(const std::filesystem::path& scratch, const std::stri
     if (done.kills >= kills) return done;
     ++done.runs_finished;
     ++result;
+    most_seconds /= 1.25;
   }
 }
 

@@ -211,7 +211,7 @@ TEST(BandCommand, NamesWhatIsWrongWithFieldsOfImages) {
   refused("x,y,u,v\n0,0,1,1\n1,0,ja,1\n", "f.csv:3: 'ja' in column 'u' is not a number");
   refused("x,y,u,v\n0,,1,1\n", "f.csv:2: '' in column 'y' is not a number");
   refused("x,y,u,v\n0,0,1,1\n1,0,inf,1\n", "f.csv:3: 'inf' in column 'u' is not a number");
-  refused("x,y,u,v\n0,0,1,1\n1,0,1\n", "f.csv:3: there are 4 columns");
+  refused("x,y,u,v\n0,0,1,1\n1,0,1\n", "f.csv:3: a value for each of 4 columns");
   refused("x,y,u,v\n0,0,1,1\n\n0.0,0,1,2\n", "f.csv:4: the place x = 0, y = 0 stands already in line 2");
   refused("x,y,u,v\n0,0,nan,1\n", "no place has a displacement");
   refused("x,y,u,v\n0,0,0,1\n1,0,0,1\n", "the places fill no area");

@@ -342,7 +342,7 @@ TEST_F(RunTest, PointReportsABadPath) {
   EXPECT_EQ(rows.status, 2);
   EXPECT_EQ(rows.errors,
             "path.csv:2: expected a number, found 'x'\n"
-            "path.csv:3: there are 2 columns ('h11,h22') and 1 values here\n");
+            "path.csv:3: a value for each of 2 columns ('h11,h22', line 1) was expected, and one is here\n");
   write(directory() / "path.csv", "h11\n1e-3\n");
   EXPECT_EQ(polargrain("point case.yaml gravel path.csv").errors,
             "case.yaml: has no material 'gravel'; it has sand\n");

@@ -57,8 +57,10 @@ TEST_F(CsvTableTest, CanLeaveRowsOutThatHaveNotACellForEachColumn) {
 
 TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(fault("a,b\n1,2\n"), "none");
-  EXPECT_EQ(fault("a,b\n1,2\n3\n"), "3: there are 2 columns ('a,b') and 1 values here");
-  EXPECT_EQ(fault("a,b\n1,2,3\n"), "2: there are 2 columns ('a,b') and 3 values here");
+  EXPECT_EQ(fault("a,b\n1,2\n3\n"),
+            "3: a value for each of 2 columns ('a,b', line 1) was expected, and one is here");
+  EXPECT_EQ(fault("a,b\n1,2,3\n"),
+            "2: a value for each of 2 columns ('a,b', line 1) was expected, and 3 are here");
   EXPECT_EQ(fault("a,b\n1,two\n"), "2: 'two' in column 'b' is not a number");
   EXPECT_EQ(fault("a,b\n1,\n"), "2: '' in column 'b' is not a number");
   EXPECT_EQ(fault("a,b\n1,nan\n"), "2: 'nan' in column 'b' is not a number");

@@ -53,7 +53,7 @@ TEST_F(PackingFile, FaultsNameTheLineAndWhatIsExpected) {
             ":2: expected the column names 'id,x,y,r,mass,Izz', of spheres in space 'id,x,y,z,r,mass,Izz'");
   EXPECT_EQ(fault(kHeader), ":2: the packing has no grains");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,0.005,0.02\n"),
-            ":3: there are 6 columns ('id,x,y,r,mass,Izz') and 5 values here");
+            ":3: a value for each of 6 columns ('id,x,y,r,mass,Izz', line 2) was expected, and 5 are here");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,five,0.02,1e-7\n"), ":3: 'five' in column 'r' is not a number");
   EXPECT_EQ(fault(kHeader + "0,0.01,nan,0.005,0.02,1e-7\n"), ":3: 'nan' in column 'y' is not a number");
   EXPECT_EQ(fault(kHeader + "0,0.01,0.02,-0.005,0.02,1e-7\n"), ":3: the radius must be positive");
