@@ -18,7 +18,8 @@ end: table.csv (a row a run), table.md (means with their 95 % intervals) and, wi
 
 Names. grains-NUMBER-seedS: a specimen; element-NUMBER-seedS: a periodic cell under the same test, of the packing that the specimen
 of half the grains is cut from; SCHEME-ELEMENTS-pairK: two scales, cells of 400 grains from the packings of the seeds 2 K - 1 and 2 K, the
-weaker one in the corner; law-...: the law in closed form, for objectivity.
+weaker one in the corner; rough-ELEMENTS-cellsNUMBER-seedS: between rough plates, rotations controlled, a cell a point (rough_plates.yaml), also with
+grains twice as large or mirrored ones; law-...: the law in closed form, for objectivity.
 """
 import argparse
 import concurrent.futures
@@ -49,7 +50,7 @@ LENGTH = 3.5  # mm; what a sheared layer asks for (docs/studies/internal_length.
 @dataclasses.dataclass(frozen=True)
 class Run:
     name: str
-    kind: str            # grains, element, two_scale, law
+    kind: str            # grains, element, two_scale, rough, law
     group: str           # runs of one group are realisations of one thing
     seed: int = 0        # of the packing; of two scales the number of the pair
     grains: int = 0      # of the specimen, of the cell
@@ -61,6 +62,7 @@ class Run:
     across: int = 0      # elements
     lc: float = LENGTH   # mm
     mirrored: bool = False
+    doubled: bool = False  # packings, their grains with them, twice as large
     settings: tuple = ()  # of all its materials, or of a case in closed form
 
 
@@ -83,6 +85,13 @@ def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, word
     return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored,
                 case="biaxial_cell.yaml" if scheme in ("cell", "controlled") else "biaxial_informed.yaml", settings=tuple(settings))
             for pair in pairs]
+
+
+def rough(across, seeds, grains=100, mirrored=False, doubled=False):
+    """Between rough plates, one packing of hooke_li_chu.in, its grains' own couple stress."""
+    group = f"rough-{across}x{2 * across}-cells{grains}" + ("-mirrored" if mirrored else "") + ("-doubled" if doubled else "")
+    return [Run(f"{group}-seed{seed}", "rough", group, seed, grains, across=across, mirrored=mirrored, doubled=doubled, case="rough_plates.yaml")
+            for seed in seeds]
 
 
 def closed_form():
@@ -118,6 +127,8 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 8, to(10))),
              *two_scale("informed", 8, to(10), mirrored=True),
              *(run for lc in (5, 10) for run in two_scale("informed", 8, to(10), lc=lc)),
+             *(run for across in (2, 4, 8) for run in rough(across, to(10))), *rough(4, to(10), mirrored=True), *rough(4, to(10), doubled=True),
+             *rough(4, to(5), grains=400),
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 16, to(10))),
              *specimens(5000, to(10)), *elements(10000, to(3)), *specimens(20000, to(3))]}
 KNOWN = {run.name: run for runs in RUNS.values() for run in runs}
@@ -162,17 +173,19 @@ def chosen(options):
     return [KNOWN[name] for name in dict.fromkeys(names)]
 
 
-def mirror(packing, file):
-    """Writes the mirror image of a packing that was made without friction, x1 to -x1."""
+def change(packing, file, mirrored, doubled):
+    """Writes the mirror image (x1 to -x1) of a packing that was made without friction, or the same twice as large, thickness too, or both."""
     whole = polargrain.read_packing(packing)
-    box = whole.box * [[1.0, -1.0], [1.0, 1.0]]  # the second base vector leans the other way
-    share = numpy.linalg.solve(box, (whole.positions * [-1.0, 1.0]).T)
+    scale = 2.0 if doubled else 1.0
+    side = -1.0 if mirrored else 1.0
+    box = scale * whole.box * [[1.0, side], [side, 1.0]]  # of a mirror image the second base vector leans the other way
+    share = numpy.linalg.solve(box, (scale * whole.positions * [side, 1.0]).T)
     positions = (box @ (share - numpy.floor(share))).T
     (xx, xy), (yx, yy) = box.tolist()
-    lines = [f"# cell xx={xx!r} xy={xy!r} yx={yx!r} yy={yy!r} z={whole.thickness!r} p={whole.pressure!r}",
+    lines = [f"# cell xx={xx!r} xy={xy!r} yx={yx!r} yy={yy!r} z={scale * whole.thickness!r} p={whole.pressure!r}",
              "id,x,y,r,mass,Izz"]
     lines += [f"{number},{float(x)!r},{float(y)!r},{float(radius)!r},{float(mass)!r},{float(0.5 * mass * radius ** 2)!r}"
-              for number, ((x, y), radius, mass) in enumerate(zip(positions, whole.radii, whole.masses))]
+              for number, ((x, y), radius, mass) in enumerate(zip(positions, scale * whole.radii, scale ** 3 * whole.masses))]
     file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -196,20 +209,22 @@ class Study:
     def call(self, run, *command):
         self.programs.call(self.output / f"{run.name}.log", *command, folder=self.output)
 
-    def packing(self, run, grains, seed, mirrored=False):
+    def packing(self, run, grains, seed, mirrored=False, doubled=False):
         """Made without friction. Large ones count as at rest sooner: what is left of their motion goes in the seating."""
         unbalanced = 1e-2 if grains > 5000 else 1e-3
         file = f"packings/{grains}-seed{seed}.h5"
-        image = f"packings/{grains}-seed{seed}-mirrored.csv"
+        image = f"packings/{grains}-seed{seed}{'-mirrored' if mirrored else ''}{'-doubled' if doubled else ''}.csv"
         with self.lock(file):
             if not (self.output / file).exists():
                 part = f"packings/part-{grains}-seed{seed}.h5"
                 self.call(run, self.polargrain, "pack", ROOT / "cases/packings/dense400.yaml", "-o", part, "--quiet", "--set", f"grains={grains}",
                           "--set", f"seed={seed}", "--set", f"unbalanced_force_ratio={unbalanced:g}")
                 (self.output / part).replace(self.output / file)
-            if mirrored and not (self.output / image).exists():
-                mirror(self.output / file, self.output / image)
-        return image if mirrored else file
+            if not (mirrored or doubled):
+                return file
+            if not (self.output / image).exists():
+                change(self.output / file, self.output / image, mirrored, doubled)
+        return image
 
     def compute(self, run):
         getattr(self, run.kind)(run)
@@ -248,13 +263,20 @@ class Study:
             keys = [*words, f"script: {SCRIPT}", f"packing: {self.packing(run, run.grains, seed, run.mirrored)}",
                     "most_relaxation_steps: 100000", *run.settings]
             settings.append(f"materials.{sand}={{{', '.join(keys)}}}")
-        self.finite_elements(run, settings + self.steps(0.4))
+        self.finite_elements(run, settings + self.steps(2, 0.4, 1000))
+
+    def rough(self, run):
+        keys = "model: cell, rotations: controlled, script: cells/hooke_li_chu.in, most_relaxation_steps: 100000"
+        self.finite_elements(run, [f"mesh.rectangle.elements=[{run.across}, {2 * run.across}]",
+                                   f"materials.sand={{{keys}, packing: {self.packing(run, run.grains, run.seed, run.mirrored, run.doubled)}}}",
+                                   *self.steps(1, 0.8, 3000)])
 
     def law(self, run):
         self.finite_elements(run, run.settings)
 
-    def steps(self, height):
-        return [f"boundary.2.move.u2={-1000 * self.options.strain * height:.10g} mm", f"steps.count={max(1, round(1000 * self.options.strain))}"]
+    def steps(self, place, height, count):
+        """@param place of the moving platen among the boundaries @param count of steps for a strain of 1"""
+        return [f"boundary.{place}.move.u2={-1000 * self.options.strain * height:.10g} mm", f"steps.count={max(1, round(count * self.options.strain))}"]
 
     def finite_elements(self, run, settings):
         go_on = ["--resume"] if (self.output / run.name / "checkpoint.h5").exists() else []

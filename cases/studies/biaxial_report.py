@@ -17,6 +17,7 @@ BEHIND = 0.02       # axial strain behind the peak over which the slope is taken
 COLOURS = ("#b5651d", "#2e7d32", "#8e24aa", "#c62828", "#00838f", "#f9a825", "#5d4037", "#3949ab", "#7cb342", "#d81b60")
 AT_FACES = ("shear at platens, 0 to 1 %", "at membranes, 0 to 1 %", "shear at platens, 1 to 2 %", "at membranes, 1 to 2 %",
             "strain of the middle at 1 %", "density by the seating, %")
+TWO_SCALES = ("informed", "fixed_point", "cell", "controlled", "rough")
 STRENGTHS = ("ratio at 1 %", "peak", "residual")
 
 
@@ -150,7 +151,7 @@ def faces_text(groups):
 
 
 def two_scale_text(groups):
-    of_kind = {group: rows for group, rows in groups.items() if group.split("-")[0] in ("informed", "fixed_point", "cell", "controlled")}
+    of_kind = {group: rows for group, rows in groups.items() if group.split("-")[0] in TWO_SCALES}
     return "## Two scales\n\n" + markdown("group", of_kind, (
         "ratio at 0.5 %", "ratio at 1 %", "ratio at 2 %", "peak", "at, %", "residual", "fall behind the peak, per %", "volume strain, %", "last strain")) + \
         "\n" + markdown("group", of_kind, ("inclination, deg", "thickness, d", "onset, %", "rotation in the band", "rotation outside",
@@ -174,7 +175,7 @@ def write_tables(rows, output):
     written = [text(groups) for kind, text in parts.items() if any(group.startswith(kind) for group in groups)]
     if any(group.startswith("grains") for group in groups):
         written.append(faces_text(groups))
-    if any(group.split("-")[0] in ("informed", "fixed_point", "cell", "controlled") for group in groups):
+    if any(group.split("-")[0] in TWO_SCALES for group in groups):
         written.append(two_scale_text(groups))
     (output / "table.md").write_text("# Biaxial compression\n\nMeans and 95 % intervals.\n\n" + "\n".join(written), encoding="utf-8")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the studies share: lines through means, mirror images of packings, the density of discs."""
+"""What the studies share: lines through means, mirror images of packings, packings twice as large, the density of discs."""
 import math
 import os
 import pathlib
@@ -14,7 +14,7 @@ sys.path.insert(0, str(SOURCE / "cases/studies"))
 sys.dont_write_bytecode = True
 
 import polargrain  # noqa: E402
-from biaxial import mirror  # noqa: E402
+from biaxial import change  # noqa: E402
 from biaxial_faces import GRID, solid_share  # noqa: E402
 from intervals import line  # noqa: E402
 
@@ -36,14 +36,25 @@ class Studies(unittest.TestCase):
         whole = polargrain.read_packing(SOURCE / "cases/studies/dense100_seed2.h5")
         with tempfile.TemporaryDirectory() as folder:
             once, twice = (pathlib.Path(folder) / name for name in ("once.csv", "twice.csv"))
-            mirror(SOURCE / "cases/studies/dense100_seed2.h5", once)
-            mirror(once, twice)
+            change(SOURCE / "cases/studies/dense100_seed2.h5", once, mirrored=True, doubled=False)
+            change(once, twice, mirrored=True, doubled=False)
             image, back = (polargrain.read_packing(file) for file in (once, twice))
         self.assertTrue(np.allclose(image.box, whole.box * [[1.0, -1.0], [1.0, 1.0]], rtol=0, atol=1e-15))
         for other, turned in ((image, -1.0), (back, 1.0)):
             apart = np.linalg.solve(other.box, (other.positions - whole.positions * [turned, 1.0]).T)
             self.assertLess(abs(apart - np.round(apart)).max(), 1e-12)
             self.assertTrue(np.array_equal(other.radii, whole.radii))
+
+    def test_a_packing_twice_as_large_has_the_density_and_the_shares_of_the_packing(self):
+        whole = polargrain.read_packing(SOURCE / "cases/studies/dense100_seed2.h5")
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "doubled.csv"
+            change(SOURCE / "cases/studies/dense100_seed2.h5", file, mirrored=False, doubled=True)
+            large = polargrain.read_packing(file)
+        self.assertTrue(np.allclose(large.box, 2.0 * whole.box, rtol=1e-15, atol=0))
+        self.assertTrue(np.allclose(large.masses / large.radii ** 2 / large.thickness, whole.masses / whole.radii ** 2 / whole.thickness, rtol=1e-14))
+        apart = np.linalg.solve(large.box, large.positions.T) - np.linalg.solve(whole.box, whole.positions.T)
+        self.assertLess(abs(apart - np.round(apart)).max(), 1e-12)
 
 
 if __name__ == "__main__":
