@@ -15,6 +15,7 @@
 #include "common/record_table.hpp"
 #include "common/state.hpp"
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "coupler/case/section.hpp"
 
 namespace polargrain::app {
@@ -212,6 +213,7 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
                              const PackingsOf& packings_of) {
   Entry document = coupler::load_document(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
+  coupler::require_kind(document, coupler::DocumentKind::calibration);
   const CsvTable table(laboratory);
   Faults faults;
   Calibration calibration;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/element/read_stage.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/section.hpp"
 #include "coupler/points/law_point.hpp"
@@ -144,6 +145,7 @@ ElementSpecification read_element_specification(const Entry& document, const std
                                                 const ScriptRules& scripts) {
   Faults faults;
   ElementSpecification specification;
+  coupler::require_kind(document, coupler::DocumentKind::element_test);
   Section top(document, "element test", faults);
   specification.title = top.text_or("title", "");
   const coupler::CaseFiles files{directory, scripts};

@@ -12,6 +12,7 @@
 #include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/document.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "coupler/case/section.hpp"
 
 namespace polargrain::app {
@@ -156,6 +157,7 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
                                                 const ScriptRules& scripts) {
   coupler::Entry document = coupler::load_document(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
+  coupler::require_kind(document, coupler::DocumentKind::packing);
   coupler::Faults faults;
   PackingSpecification specification;
   specification.text = coupler::content_of(file);

@@ -7,6 +7,7 @@
 
 #include "coupler/case/case.hpp"
 #include "coupler/case/document.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "coupler/case/parts.hpp"
 
 namespace polargrain::coupler {
@@ -325,6 +326,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
                const ScriptRules& scripts) {
   Entry document = load_document(file);
   for (const std::string& setting : settings) apply_setting(document, setting);
+  require_kind(document, DocumentKind::problem);
   Faults faults;
   Case result = CaseReader(file, document, scripts, faults).read();
   result.identity = identity_of(document, file.parent_path());

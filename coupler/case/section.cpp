@@ -364,6 +364,7 @@ void Section::find_forgotten_units() {
 void Section::finish() {
   find_forgotten_units();
   std::map<std::string, int> lines;
+  bool listed_before = false;
   for (const Entry::Member& member : entry_.members) {
     const auto [first, is_new] = lines.emplace(member.key, member.line);
     const std::string& file = member.line > 0 ? entry_.file : member.value.file;
@@ -375,8 +376,10 @@ void Section::finish() {
       const std::string guess = nearest(member.key, asked_);
       faults_.push_back({file, member.line,
                          fmt::format("{}: unknown key '{}'; {}", name_, member.key,
-                                     guess.empty() ? "known keys are " + listed(asked_)
-                                                   : "did you mean '" + guess + "'?")});
+                                     !guess.empty()  ? "did you mean '" + guess + "'?"
+                                     : listed_before ? "the known keys stand above"
+                                                     : "known keys are " + listed(asked_))});
+      listed_before = listed_before || guess.empty();
     }
   }
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Files of another kind than the command reads are named as what they are; files of no known kind are let through.
+#include "coupler/case/document_kind.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace polargrain::coupler {
+namespace {
+
+/// What require_kind says of a file with those keys; empty: nothing.
+std::string said_of(const std::vector<std::string>& keys, DocumentKind expected) {
+  Entry document;
+  document.kind = Entry::Kind::map;
+  document.file = "FILE";
+  for (const std::string& key : keys) apply_setting(document, key + "={}");
+  try {
+    require_kind(document, expected);
+  } catch (const InputError& error) {
+    return error.faults().front().message;
+  }
+  return {};
+}
+
+TEST(DocumentKind, NamesWhatAFileIsAndWhoReadsIt) {
+  using enum DocumentKind;
+  const std::vector<std::pair<DocumentKind, std::vector<std::string>>> files{
+      {problem, {"mesh", "materials"}},
+      {packing, {"grains", "sizes"}},
+      {element_test, {"stages"}},
+      {calibration, {"parameters", "targets"}}};
+  for (const auto& [kind, keys] : files) {
+    for (const auto& [expected, other] : files)
+      EXPECT_EQ(said_of(keys, expected).empty(), kind == expected) << keys.front();
+  }
+  EXPECT_EQ(
+      said_of(files[1].second, problem),
+      "this is the specification of a packing, and a case was expected; it is for polargrain pack FILE -o PACKING.h5");
+}
+
+TEST(DocumentKind, LetsThroughWhatItDoesNotKnowAndWhatIsHalfOfTheKindItExpects) {
+  // Their keys are told one by one, as before.
+  EXPECT_EQ(said_of({"mesh"}, DocumentKind::packing), "");
+  EXPECT_EQ(said_of({}, DocumentKind::problem), "");
+  // A case with keys of a packing stays a case.
+  EXPECT_EQ(said_of({"mesh", "materials", "grains", "sizes"}, DocumentKind::problem), "");
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
