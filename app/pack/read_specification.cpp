@@ -19,7 +19,7 @@ namespace polargrain::app {
 namespace {
 
 /// Placing the grains takes the square of their number; the engine's share grows with the number alone.
-constexpr int kMostGrains = 20000;
+constexpr int kMostGrains = 50000;
 
 /// How many items the list of a key has; at least one, so that its length can be asked for.
 std::size_t length_of(coupler::Section& section, const std::string& key) {
