@@ -53,3 +53,26 @@ def line(places, groups):
     determinant = w * wxx - wx * wx
     return ((wxx * wy - wx * wxy) / determinant, 1.96 * math.sqrt(wxx / determinant),
             (w * wxy - wx * wy) / determinant, 1.96 * math.sqrt(w / determinant))
+
+
+class Line:
+    """The straight line of least squares through single values that scatter alike about it.
+
+    places, values -- three and more
+    slope, half_of_slope -- and half of its 95 % interval (Student's t with n - 2 degrees of freedom)
+    scatter -- standard deviation of a value from the line
+    """
+
+    def __init__(self, places, values):
+        self.n, self.middle, self.mean = len(places), statistics.mean(places), statistics.mean(values)
+        self.spread = sum((place - self.middle) ** 2 for place in places)
+        self.slope = sum((place - self.middle) * value for place, value in zip(places, values)) / self.spread
+        squares = sum((value - self.mean - self.slope * (place - self.middle)) ** 2 for place, value in zip(places, values))
+        self.scatter = math.sqrt(squares / (self.n - 2))
+        self.student = STUDENT[min(self.n - 1, len(STUDENT) - 1)]  # a mean has n - 1 degrees of freedom
+        self.half_of_slope = self.student * self.scatter / math.sqrt(self.spread)
+
+    def at(self, place):
+        """@returns value of the line, and half of its 95 % interval"""
+        half = self.student * self.scatter * math.sqrt(1 / self.n + (place - self.middle) ** 2 / self.spread)
+        return self.mean + self.slope * (place - self.middle), half

@@ -16,7 +16,7 @@ sys.dont_write_bytecode = True
 import polargrain  # noqa: E402
 from biaxial import change  # noqa: E402
 from biaxial_faces import GRID, solid_share  # noqa: E402
-from intervals import line  # noqa: E402
+from intervals import Line, line  # noqa: E402
 
 
 class Studies(unittest.TestCase):
@@ -26,6 +26,16 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(value, 4.0, 12)
         # 2 b - a, each mean with a variance of 2 / 2.
         self.assertAlmostEqual(half, 1.96 * math.sqrt(4.0 + 1.0), 12)
+
+    def test_a_line_through_single_values_has_the_scatter_that_they_have(self):
+        # 2 x + 1 and residuals 1, -1, -1, 1, which have neither mean nor slope; Student's t of two degrees of freedom is 4.303.
+        known = Line([0.0, 1.0, 2.0, 3.0], [2.0, 2.0, 4.0, 8.0])
+        self.assertAlmostEqual(known.slope, 2.0, 12)
+        self.assertAlmostEqual(known.scatter, math.sqrt(4.0 / 2.0), 12)
+        self.assertAlmostEqual(known.half_of_slope, 4.303 * math.sqrt(2.0 / 5.0), 12)
+        value, half = known.at(3.5)
+        self.assertAlmostEqual(value, 8.0, 12)
+        self.assertAlmostEqual(half, 4.303 * math.sqrt(2.0 * (1.0 / 4.0 + 4.0 / 5.0)), 12)
 
     def test_discs_of_a_square_lattice_cover_a_quarter_of_pi(self):
         x, y = (places.ravel() for places in np.meshgrid(np.arange(20) * 0.01, np.arange(20) * 0.01))
