@@ -68,7 +68,8 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
   int turned_count = 0;
   double first = 0.0;
   double one = 0.0;
-  for (double middle = halfway; middle <= end + 0.01 * diameter; middle += 0.5 * diameter) {
+  // One at least: what has its peak at its end is not complete, and no reason to end all others' figures.
+  for (double middle = std::min(halfway, end); middle <= end + 0.01 * diameter; middle += 0.5 * diameter) {
     const Shearing::Frame& from = shearing.frames[nearest(shearing, middle - 0.5 * diameter)];
     const Shearing::Frame& to = shearing.frames[nearest(shearing, middle + 0.5 * diameter)];
     if (!(to.displacement > from.displacement)) continue;
@@ -84,7 +85,7 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
     }
     ++count;
   }
-  if (count == 0) throw RunError("the layer has no frames behind its peak");
+  if (count == 0) throw RunError("the layer has no frames a diameter of displacement apart");
   figures.thickness = std::exp(sum / count);
   figures.growth = one / first;
   figures.turning = turning / turned_count;

@@ -13,7 +13,8 @@ void Anderson::clear() {
 
 void Anderson::remember(const Correction& position, const Eigen::VectorXd& unbalanced,
                         const Eigen::VectorXd& noise) {
-  places_.push_back({position, unbalanced, weighted(noise, 1.0 / length_).lpNorm<1>()});
+  places_.push_back({position, unbalanced, weighted(noise, 1.0 / length_).lpNorm<1>(),
+                     weighted(unbalanced, 1.0 / length_).lpNorm<1>()});
   if (places_.size() > static_cast<std::size_t>(depth_) + 1) places_.pop_front();
 }
 
@@ -22,8 +23,20 @@ Eigen::VectorXd Anderson::weighted(Eigen::VectorXd nodal, double weight_of_rotat
   return nodal;
 }
 
+bool Anderson::has_jumped(const Correction& correction) const {
+  const Place& from = places_[places_.size() - 2];
+  const Place& to = places_.back();
+  if (to.out_of_balance <= from.out_of_balance) return false;
+  // Behind a tangent that was too soft the way was too long and is gone back; a jump leads anywhere.
+  constexpr double kBack = -0.5;
+  const Eigen::VectorXd way = weighted(to.position.displacement - from.position.displacement, length_);
+  const Eigen::VectorXd next = weighted(correction.displacement, length_);
+  return next.dot(way) > kBack * next.norm() * way.norm();
+}
+
 void Anderson::accelerate(Correction& correction,
-                          const std::function<Correction(const Eigen::VectorXd&)>& solve) const {
+                          const std::function<Correction(const Eigen::VectorXd&)>& solve) {
+  if (places_.size() >= 2 && has_jumped(correction)) places_.erase(places_.begin(), places_.end() - 1);
   if (places_.size() < 2) return;
   const auto count = static_cast<Eigen::Index>(places_.size()) - 1;
   const Eigen::Index size = correction.displacement.size();

@@ -21,6 +21,9 @@ struct Correction {
 ///
 /// With a true tangent dX + C is zero and nothing changes. Differences that are mostly noise are damped: g_j
 /// costs (s_j |C_j|)^2, where s_j is the share of noise in the j-th difference.
+///
+/// A jump of the stresses is no stiffness. Where a correction has made the residual larger and the next one does not go
+/// back along its way, as it does behind a tangent that was too soft, all places before are forgotten.
 class Anderson {
  public:
   /// @param depth differences kept; 0 switches it off. @param reference_length m, weighs rotations.
@@ -33,16 +36,19 @@ class Anderson {
   /// @param unbalanced nodal forces, zero where displacements are given. @param noise absolute forces that
   /// noise alone leaves (residual_floor.hpp); empty without noise.
   void remember(const Correction& position, const Eigen::VectorXd& unbalanced, const Eigen::VectorXd& noise);
+  /// @param correction K^-1 of what is unbalanced at the place remembered last
   /// @param solve K^-1 of a nodal vector of forces, under the constraint of the step.
-  void accelerate(Correction& correction,
-                  const std::function<Correction(const Eigen::VectorXd&)>& solve) const;
+  void accelerate(Correction& correction, const std::function<Correction(const Eigen::VectorXd&)>& solve);
 
  private:
   struct Place {
     Correction position;
     Eigen::VectorXd unbalanced;
-    double noise;  ///< sum of absolute forces, and of moments over the reference length
+    double noise;           ///< sum of absolute forces, and of moments over the reference length
+    double out_of_balance;  ///< the same of `unbalanced`
   };
+  /// Whether the stresses have jumped between the last two places.
+  [[nodiscard]] bool has_jumped(const Correction& correction) const;
   [[nodiscard]] Eigen::VectorXd weighted(Eigen::VectorXd nodal, double weight_of_rotations) const;
 
   int depth_;

@@ -12,6 +12,7 @@
 #include "fem/material/elastic.hpp"
 #include "fem/material/local_material.hpp"
 #include "fem/mesh/rectangle.hpp"
+#include "fem/solver/anderson.hpp"
 #include "fem/solver/residual_floor.hpp"
 #include "fem/solver/solver.hpp"
 
@@ -228,6 +229,34 @@ TEST(acceleration, leaves_a_true_tangent_alone) {
   const StepReport accelerated = compress({.nonlinearity = 2000.0}, options);
   ASSERT_TRUE(plain.converged && accelerated.converged);
   EXPECT_EQ(accelerated.iterations, plain.iterations);
+}
+
+/// One node, a tangent of one, places on a line or off it.
+TEST(acceleration, takes_no_jump_for_stiffness) {
+  const auto at = [](double x, double y) { return Correction{Eigen::Vector3d(x, y, 0.0), 0.0}; };
+  const auto solve = [](const Eigen::VectorXd& forces) { return Correction{forces, 0.0}; };
+
+  Anderson overshot(5, 1.0);
+  overshot.remember(at(0.0, 0.0), Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d::Zero());
+  overshot.remember(at(1.0, 0.0), Eigen::Vector3d(-1.2, 0.0, 0.0), Eigen::Vector3d::Zero());
+  Correction back = at(-1.2, 0.0);
+  overshot.accelerate(back, solve);
+  // 2.2 of force went with a way of one.
+  EXPECT_NEAR(back.displacement(0), -1.2 / 2.2, 1e-14);
+
+  Anderson jumped(5, 1.0);
+  jumped.remember(at(0.0, 0.0), Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d::Zero());
+  jumped.remember(at(1.0, 0.0), Eigen::Vector3d(0.5, 2.0, 0.0), Eigen::Vector3d::Zero());
+  Correction on = at(0.5, 2.0);
+  jumped.accelerate(on, solve);
+  EXPECT_EQ(on.displacement(0), 0.5);
+  EXPECT_EQ(on.displacement(1), 2.0);
+  // What was before it stays forgotten: along (0.5, 2) half of the force was left, so as much again is to go.
+  jumped.remember(at(1.5, 2.0), Eigen::Vector3d(0.25, 1.0, 0.0), Eigen::Vector3d::Zero());
+  Correction next = at(0.25, 1.0);
+  jumped.accelerate(next, solve);
+  EXPECT_NEAR(next.displacement(0), 0.5, 1e-14);
+  EXPECT_NEAR(next.displacement(1), 2.0, 1e-14);
 }
 
 TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_at_once) {

@@ -96,6 +96,14 @@ TEST(LayerFiguresOf, AKnownLayer) {
   EXPECT_THROW(figures_of(Shearing{}, 0.01, 4.0), RunError);
 }
 
+TEST(LayerFiguresOf, ALayerThatHasItsPeakAtItsEndIsNotCompleteAndStillHasABand) {
+  Shearing rising = known_layer();
+  for (std::size_t k = 0; k < rising.ratios.size(); ++k) rising.ratios[k] = 1e-3 * static_cast<double>(k);
+  const LayerFigures figures = figures_of(rising, 0.01, 4.0);
+  EXPECT_FALSE(figures.complete);
+  EXPECT_NEAR(figures.thickness, 5.0, 0.05);  // its last width; half a per cent of it a fit may be off
+}
+
 LayerFigures like(double thickness, double halfway, double end) {
   LayerFigures figures;
   figures.peak = 0.7;
