@@ -211,9 +211,7 @@ double Parameter::value_at(double place) const {
 Calibration read_calibration(const std::filesystem::path& laboratory, const std::filesystem::path& file,
                              const std::vector<std::string>& settings, const ScriptRules& scripts,
                              const PackingsOf& packings_of) {
-  Entry document = coupler::load_document(file);
-  for (const std::string& setting : settings) apply_setting(document, setting);
-  coupler::require_kind(document, coupler::DocumentKind::calibration);
+  const Entry document = coupler::load_document_of(coupler::DocumentKind::calibration, file, settings);
   const CsvTable table(laboratory);
   Faults faults;
   Calibration calibration;

@@ -155,9 +155,7 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
 PackingSpecification read_packing_specification(const std::filesystem::path& file,
                                                 const std::vector<std::string>& settings,
                                                 const ScriptRules& scripts) {
-  coupler::Entry document = coupler::load_document(file);
-  for (const std::string& setting : settings) apply_setting(document, setting);
-  coupler::require_kind(document, coupler::DocumentKind::packing);
+  const coupler::Entry document = coupler::load_document_of(coupler::DocumentKind::packing, file, settings);
   coupler::Faults faults;
   PackingSpecification specification;
   specification.text = coupler::content_of(file);

@@ -11,7 +11,7 @@ from built_package import polargrain
 from intervals import interval, line, markdown, mean_and_half
 from polargrain.table import read_table
 
-DIAMETER = 0.01     # m, mean
+DIAMETER = 0.01     # m, mean; twice that in packings twice as large
 WIDTH_OF_800 = 0.2  # m, of a specimen of 800 grains
 BEHIND = 0.02       # axial strain behind the peak over which the slope is taken
 COLOURS = ("#b5651d", "#2e7d32", "#8e24aa", "#c62828", "#00838f", "#f9a825", "#5d4037", "#3949ab", "#7cb342", "#d81b60")
@@ -52,7 +52,7 @@ def figures(run, output):
     row["volume strain, %"] = 100 * volume[-1]
     band = {key: value for key, value in read_json(output / run.name / "band.json").items() if value is not None}
     row["inclination, deg"] = abs(band.get("inclination_degrees", math.nan))
-    row["thickness, d"] = band.get("thickness", math.nan) / DIAMETER
+    row["thickness, d"] = band.get("thickness", math.nan) / (2 * DIAMETER if run.doubled else DIAMETER)
     row["onset, %"] = 100 * band.get("onset_strain", math.nan)
     row["rotation in the band"] = abs(band.get("rotation_inside", math.nan))
     row["rotation outside"] = abs(band.get("rotation_outside", math.nan))

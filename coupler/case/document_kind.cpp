@@ -48,4 +48,12 @@ void require_kind(const Entry& document, DocumentKind expected) {
   }
 }
 
+Entry load_document_of(DocumentKind kind, const std::filesystem::path& file,
+                       const std::vector<std::string>& settings) {
+  Entry document = load_document(file);
+  for (const std::string& setting : settings) apply_setting(document, setting);
+  require_kind(document, kind);
+  return document;
+}
+
 }  // namespace polargrain::coupler

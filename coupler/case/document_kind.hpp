@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "coupler/case/document.hpp"
 
 namespace polargrain::coupler {
@@ -11,5 +15,10 @@ enum class DocumentKind { problem, packing, element_test, calibration };
 /// are known by keys that no other has; a file that is of no known kind is let through.
 /// @throws InputError when `document` is of another kind and not of `expected`
 void require_kind(const Entry& document, DocumentKind expected);
+
+/// Reads the file of a user with what its options set (apply_setting).
+/// @throws InputError as load_document, apply_setting and require_kind do
+Entry load_document_of(DocumentKind kind, const std::filesystem::path& file,
+                       const std::vector<std::string>& settings);
 
 }  // namespace polargrain::coupler

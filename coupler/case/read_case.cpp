@@ -324,9 +324,7 @@ bool Case::needs_workers() const {
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings,
                const ScriptRules& scripts) {
-  Entry document = load_document(file);
-  for (const std::string& setting : settings) apply_setting(document, setting);
-  require_kind(document, DocumentKind::problem);
+  const Entry document = load_document_of(DocumentKind::problem, file, settings);
   Faults faults;
   Case result = CaseReader(file, document, scripts, faults).read();
   result.identity = identity_of(document, file.parent_path());

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Peak angles of the spheres of study 2 against void ratio, by the way their packings are made and by their contacts.
+"""Peak angles of the spheres of study 2 against void ratio, by the way their packings are made.
 
     python3 preparation.py -o results                                  packings that fell, 49 kPa, calibrated contacts
     python3 preparation.py -o results --ways fell pressed --pressures 4.9 9.8 49 98 392
-    python3 preparation.py -o results --contacts calibrated rough smooth
 
 Packings that `fell` have their bedding across the major stress, as the laboratory's; `pressed` ones are isotropic. Each friction of the
 preparation leads to a void ratio of its own, measured at 4.9 kPa; each packing has a seed of its own. What is told is the straight line through
@@ -27,8 +26,7 @@ from study import laboratory  # noqa: E402
 
 # Friction while packings are made, which lead to void ratios from 0.65 to 0.86.
 FRICTIONS = {"fell": [0.1, 0.15, 0.22, 0.32, 0.5, 0.8], "pressed": [0.06, 0.09, 0.13, 0.19, 0.3]}
-# Modulus (Pa), sliding and rolling friction. The calibration leaves open which pair of the two it is.
-CONTACTS = {"calibrated": (4.03e9, 0.495, 0.438)}
+CONTACTS = {"modulus": 4.03e9, "friction": 0.495, "rolling": 0.438}  # calibrated; modulus in Pa
 REST = ["inertial_number=0.05", "pressure_tolerance=5e-3", "unbalanced_force_ratio=5e-3"]
 MIDDLE = 0.74  # void ratio, of the laboratory's rows
 
@@ -38,7 +36,6 @@ def options():
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     parser.add_argument("--ways", nargs="+", choices=tuple(FRICTIONS), default=["fell"])
     parser.add_argument("--frictions", type=float, nargs="+", help="while packings are made [0.1 to 0.8, or 0.06 to 0.3]")
-    parser.add_argument("--contacts", nargs="+", choices=tuple(CONTACTS), default=["calibrated"])
     parser.add_argument("--pressures", type=float, nargs="+", default=[49.0], help="kPa [49]")
     parser.add_argument("--packings", type=int, default=3, help="of each friction [3]")
     parser.add_argument("--grains", type=int, default=500)
@@ -70,11 +67,10 @@ class Study:
         script = re.sub(r"(?m)^(variable +friction +index) .*$", rf"\1 {max(friction for way in self.given.ways for friction in self.frictions(way)):g}",
                         (HERE / "spheres_preparation.in").read_text())
         (self.folder / "spheres_preparation.in").write_text(script)
-        for name in self.given.contacts:
-            script = (HERE / "spheres.in").read_text()
-            for variable, value in zip(("modulus", "friction", "rolling"), CONTACTS[name]):
-                script = re.sub(rf"(?m)^(variable +{variable} +index) .*$", rf"\1 {value:g}", script)
-            (self.folder / f"{name}.in").write_text(script)
+        script = (HERE / "spheres.in").read_text()
+        for variable, value in CONTACTS.items():
+            script = re.sub(rf"(?m)^(variable +{variable} +index) .*$", rf"\1 {value:g}", script)
+        (self.folder / "calibrated.in").write_text(script)
 
     def frictions(self, way):
         return self.given.frictions or FRICTIONS[way]
@@ -93,23 +89,23 @@ class Study:
                          "--set", f"seed={seed}")
         (self.folder / f"{name}.txt").write_text(told)
 
-    def test(self, way, friction, number, contacts, pressure):
+    def test(self, way, friction, number, pressure):
         name, _ = self.packing(way, friction, number)
-        output = self.folder / f"{name}-{contacts}-{pressure:g}kPa"
+        output = self.folder / f"{name}-{pressure:g}kPa"
         if pathlib.Path(f"{output}.csv").exists():
             return
         settings = [word for setting in [*REST, f"pressure={pressure:g} kPa"] for word in ("--set", setting)]
-        script = self.folder / f"{contacts}.in"
+        script = self.folder / "calibrated.in"
         self.call("pack", "--settle", self.folder / f"{name}.h5", script, "-o", f"{output}.h5", "--quiet", *settings)
         self.call("element", "--test", "biaxial", "--pressure", f"{pressure:g}kPa", f"{output}.h5", script, "-o", output, "--quiet",
                   "--set", f"axial_strain={self.given.strain:g} %", "--set", f"rows={round(10 * self.given.strain)}",
                   "--set", "inertial_number=2e-3", "--set", "tolerance=1e-2", most=1)
         pathlib.Path(f"{output}.h5").unlink()
 
-    def figures(self, way, friction, number, contacts, pressure):
+    def figures(self, way, friction, number, pressure):
         """What one packing shows; nothing while it has not been tested."""
         name, _ = self.packing(way, friction, number)
-        file = self.folder / f"{name}-{contacts}-{pressure:g}kPa.csv"
+        file = self.folder / f"{name}-{pressure:g}kPa.csv"
         if not file.exists():
             return None
         told = (self.folder / f"{name}.txt").read_text()
@@ -125,8 +121,8 @@ class Study:
                 "peak angle": angles[peak], "at strain": strains[peak], "end": strains[-1], "b": float(rows[peak]["b"]),
                 "volume at 2 %": next((v for s, v in zip(strains, volumes) if s > 1.99), math.nan)}
 
-    def all_figures(self, way, contacts, pressure):
-        found = [self.figures(way, friction, number, contacts, pressure) for number in range(1, self.given.packings + 1)
+    def all_figures(self, way, pressure):
+        found = [self.figures(way, friction, number, pressure) for number in range(1, self.given.packings + 1)
                  for friction in self.frictions(way)]
         return [one for one in found if one]
 
@@ -134,51 +130,52 @@ class Study:
 def tables(study):
     given = study.given
     peaks = laboratory()[1]
-    text = ("| packings | contacts | side pressure, kPa | n | void ratios | slope, degrees a unit | angle at 0.74 | scatter of a packing | "
-            "at strain, % | volume strain at 2 %, % | fabric: largest, its direction's part along x2 |\n" + "|---" * 11 + "|\n")
-    rows = ("\n| packings | contacts | side pressure, kPa | void ratio | n | angle, laboratory | predicted | difference |\n" + "|---" * 8 + "|\n")
+    text = ("| packings | side pressure, kPa | n | void ratios | slope, degrees a unit | angle at 0.74 | scatter of a packing | "
+            "at strain, % | volume strain at 2 %, % | fabric: largest, its direction's part along x2 |\n" + "|---" * 10 + "|\n")
+    rows = ("\n| packings | side pressure, kPa | void ratio | n | angle, laboratory | predicted | difference |\n" + "|---" * 7 + "|\n")
     sums = ""
     for pressure in given.pressures:
         of_laboratory = [(float(row["void_ratio"]), float(row["phi_peak_deg"])) for row in peaks if float(row["sigma3_kPa"]) == pressure]
         if len(of_laboratory) > 2:
             line = Line(*zip(*of_laboratory))
-            text += (f"| laboratory | | {pressure:g} | {len(of_laboratory)} | {of_laboratory[0][0]:.3f} to {of_laboratory[-1][0]:.3f} | "
+            text += (f"| laboratory | {pressure:g} | {len(of_laboratory)} | {of_laboratory[0][0]:.3f} to {of_laboratory[-1][0]:.3f} | "
                      f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {line.at(MIDDLE)[0]:.1f} +- {line.at(MIDDLE)[1]:.1f} | {line.scatter:.1f} | | | |\n")
     for way in given.ways:
-        for contacts in given.contacts:
-            differences = []
-            for pressure in given.pressures:
-                found = study.all_figures(way, contacts, pressure)
-                if len(found) < 3:
+        differences = []
+        for pressure in given.pressures:
+            found = study.all_figures(way, pressure)
+            if len(found) < 3:
+                continue
+            column = lambda key: [one[key] for one in found]
+            line = Line(column("void ratio"), column("peak angle"))
+            middle = line.at(MIDDLE)
+            text += (f"| {way} | {pressure:g} | {len(found)} | {min(column('void ratio')):.3f} to {max(column('void ratio')):.3f} | "
+                     f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {middle[0]:.1f} +- {middle[1]:.1f} | {line.scatter:.1f} | "
+                     f"{statistics.mean(column('at strain')):.1f} | {statistics.mean(column('volume at 2 %')):.2f} | {statistics.mean(column('fabric')):.3f}, {statistics.mean(column('upright')):.2f} |\n")
+            for row in peaks:
+                if float(row["sigma3_kPa"]) != pressure:
                     continue
-                column = lambda key: [one[key] for one in found]
-                line = Line(column("void ratio"), column("peak angle"))
-                middle = line.at(MIDDLE)
-                text += (f"| {way} | {contacts} | {pressure:g} | {len(found)} | {min(column('void ratio')):.3f} to {max(column('void ratio')):.3f} | "
-                         f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {middle[0]:.1f} +- {middle[1]:.1f} | {line.scatter:.1f} | "
-                         f"{statistics.mean(column('at strain')):.1f} | {statistics.mean(column('volume at 2 %')):.2f} | {statistics.mean(column('fabric')):.3f}, {statistics.mean(column('upright')):.2f} |\n")
-                for row in peaks:
-                    if float(row["sigma3_kPa"]) != pressure:
-                        continue
-                    angle, half = line.at(float(row["void_ratio"]))
-                    difference = angle - float(row["phi_peak_deg"])
-                    fitted = (row["sigma3_kPa"], row["void_ratio"]) == ("49", "0.717")
-                    if not fitted:
-                        differences.append(difference)
-                    rows += (f"| {way} | {contacts} | {row['sigma3_kPa']} | {row['void_ratio']} | {len(found)} | {float(row['phi_peak_deg']):.1f} | "
-                             f"{angle:.1f} +- {half:.1f} | {difference:+.1f}{' (fitted)' if fitted else ''} |\n")
-            if differences:
-                sums += (f"\n{way}, {contacts}: {sum(abs(d) <= 1.5 for d in differences)} of {len(differences)} within 1.5 degrees; mean difference "
-                         f"{statistics.mean(differences):+.2f}, root mean square {math.sqrt(statistics.mean(d * d for d in differences)):.2f} degrees\n")
+                angle, half = line.at(float(row["void_ratio"]))
+                difference = angle - float(row["phi_peak_deg"])
+                fitted = (row["sigma3_kPa"], row["void_ratio"]) == ("49", "0.717")
+                if not fitted:
+                    differences.append(difference)
+                rows += (f"| {way} | {row['sigma3_kPa']} | {row['void_ratio']} | {len(found)} | {float(row['phi_peak_deg']):.1f} | "
+                         f"{angle:.1f} +- {half:.1f} | {difference:+.1f}{' (fitted)' if fitted else ''} |\n")
+        if differences:
+            sums += (f"\n{way}: {sum(abs(d) <= 1.5 for d in differences)} of {len(differences)} within 1.5 degrees; mean difference "
+                     f"{statistics.mean(differences):+.2f}, root mean square {math.sqrt(statistics.mean(d * d for d in differences)):.2f} degrees\n")
     return text + rows + sums
 
 
 def check(study):
     given = study.given
-    found = {way: study.all_figures(way, given.contacts[0], given.pressures[0]) for way in given.ways}
+    found = {way: study.all_figures(way, given.pressures[0]) for way in given.ways}
     for way, figures in found.items():
         slope = Line([one["void ratio"] for one in figures], [one["peak angle"] for one in figures]).slope
         assert slope < -20, f"{way}: the peak angle changes by {slope:.0f} degrees a unit of void ratio"
+    if len(found) < len(FRICTIONS):
+        return
     fell, pressed = (statistics.mean(one["upright"] for one in found[way]) for way in ("fell", "pressed"))
     assert fell > 0.8 > pressed + 0.2, f"the direction of most contacts has {fell:.2f} along the fall, of pressed packings {pressed:.2f}"
 
@@ -190,12 +187,11 @@ def main():
         study.prepare()
         # One packing of each friction first, so that what is broken off has lines.
         for number in range(1, given.packings + 1):
-            for contacts in given.contacts:
-                for pressure in given.pressures:
-                    for way in given.ways:
-                        for friction in study.frictions(way):
-                            study.make(way, friction, number)
-                            study.test(way, friction, number, contacts, pressure)
+            for pressure in given.pressures:
+                for way in given.ways:
+                    for friction in study.frictions(way):
+                        study.make(way, friction, number)
+                        study.test(way, friction, number, pressure)
     if given.check:
         check(study)
     text = tables(study)
