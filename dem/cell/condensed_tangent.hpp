@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "common/increment.hpp"
 #include "dem/cell/linear_contact.hpp"
 #include "dem/cell/network_solver.hpp"
+#include "dem/cell/relaxed_network.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
 namespace polargrain::dem {
@@ -34,7 +34,7 @@ struct ContactNetwork {
 class CondensedTangent {
  public:
   /// @param set for tests; results do not depend on it
-  explicit CondensedTangent(InstructionSet set = best_instruction_set()) : solver_(set) {}
+  explicit CondensedTangent(InstructionSet set = best_instruction_set()) : network_(set) {}
 
   /// Rotations free.
   std::optional<Matrix7> classical(const ContactNetwork& network);
@@ -49,21 +49,11 @@ class CondensedTangent {
 
  private:
   template <int Strains>
-  using Columns = Eigen::Matrix<double, 7, Strains>;  // a strain, or a stress, a column
+  std::optional<Eigen::Matrix<double, 7, Strains>> stresses(const ContactNetwork& network,
+                                                            std::span<const double> weights,
+                                                            const Eigen::Matrix<double, 7, Strains>& strains);
 
-  template <int Strains>
-  std::optional<Columns<Strains>> relaxed_stresses(const ContactNetwork& network,
-                                                   std::span<const double> weights,
-                                                   const Columns<Strains>& strains);
-  template <int Strains>
-  bool find_fluctuations(const ContactNetwork& network, std::span<const double> weights,
-                         const Columns<Strains>& strains, double spring);
-  template <int Strains>
-  Eigen::RowVector<double, Strains> hold_mean_rotation(std::span<const double> weights);
-
-  PlaneNetworkSolver solver_;
-  std::vector<LinearContact> laws_;
-  std::vector<double> unbalanced_;  // N: forces that the fluctuations leave, by grain, component and strain
+  RelaxedNetwork<LinearContact, PlaneNetworkSolver, kPlaneMotions, 7> network_;
   int fallbacks_ = 0;
 };
 

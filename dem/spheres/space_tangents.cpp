@@ -2,22 +2,13 @@
 #include "dem/spheres/space_tangents.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 
-#include "dem/cell/averages.hpp"
 #include "dem/spheres/space_contact.hpp"
 
 namespace polargrain::dem {
 
 namespace {
-
-/// The largest force that may stay unbalanced on a grain, over the largest affine force of a contact.
-constexpr double kLargestUnbalance = 1e-9;
-
-constexpr int kStride = SpaceNetworkSolver::kStride;
-constexpr int kMotions = kSpaceMotions;
-constexpr int kAxes = 3;
 
 /// x -> n x x
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& n) {
@@ -93,39 +84,6 @@ Matrix18 classical_tangent(const ClassicalStrains& stresses) {
   return tangent;
 }
 
-template <int Strains>
-auto fluctuation(const SpaceNetworkSolver& solver, int grain) {
-  using Rows = Eigen::Matrix<double, kMotions, Strains, Eigen::RowMajor>;
-  return Eigen::Map<const Rows, 0, Eigen::OuterStride<kStride>>(solver.solution(grain));
-}
-
-/// One more unknown an axis, the multiplier, and one more equation, by bordering: from the fluctuations found without,
-/// so many of the motions made by the torques are taken off that no mean rotation is left. @returns the multipliers
-template <int Strains>
-Eigen::Matrix<double, kAxes, Strains> hold_mean_rotation(SpaceNetworkSolver& solver,
-                                                         std::span<const double> weights) {
-  using Corrections = Eigen::Matrix<double, kAxes, Strains>;
-  Corrections mean = Corrections::Zero();
-  Eigen::Matrix3d of_torques = Eigen::Matrix3d::Zero();
-  const int grains = static_cast<int>(weights.size());
-  using Rows = Eigen::Matrix<double, kMotions, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto rows = [&solver](int grain) {
-    return Eigen::Map<Rows, 0, Eigen::OuterStride<kStride>>(solver.solution(grain), kMotions,
-                                                            Strains + kAxes);
-  };
-  for (int grain = 0; grain < grains; ++grain) {
-    const auto motion = rows(grain);
-    mean += weights[grain] * motion.bottomLeftCorner(kAxes, Strains);
-    of_torques += weights[grain] * motion.bottomRightCorner(kAxes, kAxes);
-  }
-  const Corrections multipliers = of_torques.inverse() * mean;
-  for (int grain = 0; grain < grains; ++grain) {
-    auto motion = rows(grain);
-    motion.leftCols(Strains) -= motion.rightCols(kAxes).eval() * multipliers;
-  }
-  return multipliers;
-}
-
 }  // namespace
 
 LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame,
@@ -197,81 +155,27 @@ Matrix18 voigt_space_tangent(const SpaceNetwork& network) {
   return classical_tangent(voigt_cosserat_space_tangent(network) * classical_strains());
 }
 
+template <int Strains>
+std::optional<Eigen::Matrix<double, 18, Strains>> CondensedSpaceTangent::stresses(
+    const SpaceNetwork& network, std::span<const double> weights,
+    const Eigen::Matrix<double, 18, Strains>& strains) {
+  return network_.stresses<Strains>(network, weights, strains, [&network](std::size_t c) {
+    return LinearSpaceContact(network.contacts[c], network.frame,
+                              network.slips.empty() ? SpaceSlip{} : network.slips[c]);
+  });
+}
+
 std::optional<Matrix18> CondensedSpaceTangent::classical(const SpaceNetwork& network) {
   if (network.contacts.empty()) return Matrix18::Zero();
-  const auto stresses = relaxed_stresses<6>(network, {}, classical_strains());
-  if (!stresses) return std::nullopt;
-  return classical_tangent(*stresses);
+  const auto relaxed = stresses<6>(network, {}, classical_strains());
+  if (!relaxed) return std::nullopt;
+  return classical_tangent(*relaxed);
 }
 
 std::optional<Matrix18> CondensedSpaceTangent::cosserat(const SpaceNetwork& network,
                                                         std::span<const double> weights) {
   if (network.contacts.empty()) return Matrix18::Zero();
-  const Columns<18> strains = Columns<18>::Identity();
-  return relaxed_stresses<18>(network, weights, strains);
-}
-
-template <int Strains>
-std::optional<CondensedSpaceTangent::Columns<Strains>> CondensedSpaceTangent::relaxed_stresses(
-    const SpaceNetwork& network, std::span<const double> weights, const Columns<Strains>& strains) {
-  const std::span<const Contact> contacts = network.contacts;
-  // Rotations count as arc lengths of the first contact's arm, so that all entries are stiffnesses in N/m and
-  // pivots can be compared.
-  const double arm = contacts.front().arm_first;
-  laws_.clear();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    LinearSpaceContact& law = laws_.emplace_back(contacts[c], network.frame,
-                                                 network.slips.empty() ? SpaceSlip{} : network.slips[c]);
-    law.motions.middleCols<3>(3) /= arm;
-    law.motions.middleCols<3>(9) /= arm;
-  }
-  const double spring = network.hold * mean_normal_stiffness(contacts);
-  const auto equations = [this, &strains](int c) {
-    const LinearSpaceContact& law = laws_[static_cast<std::size_t>(c)];
-    const Eigen::Matrix<double, 12, 6> forces = law.motions.transpose() * law.stiffness;
-    SpaceNetworkSolver::Equations added;
-    added.stiffness.noalias() = forces * law.motions;
-    added.right_sides.template leftCols<Strains>().noalias() = -forces * (law.affine * strains);
-    added.right_sides.template middleCols<kAxes>(Strains).setZero();
-    return added;
-  };
-  const bool held = !weights.empty();
-  if (!solver_.solve(contacts, network.grains, Strains + (held ? kAxes : 0), spring, weights, equations))
-    return std::nullopt;
-  Eigen::Matrix<double, kAxes, Strains> multipliers = Eigen::Matrix<double, kAxes, Strains>::Zero();
-  if (held) multipliers = hold_mean_rotation<Strains>(solver_, weights);
-
-  using Rows = Eigen::Matrix<double, kMotions, Strains, Eigen::RowMajor>;
-  constexpr std::size_t kOfGrain = static_cast<std::size_t>(kMotions) * Strains;
-  unbalanced_.assign(kOfGrain * static_cast<std::size_t>(network.grains), 0.0);
-  const auto unbalanced = [this](int grain) {
-    return Eigen::Map<Rows>(unbalanced_.data() + kOfGrain * static_cast<std::size_t>(grain));
-  };
-  using Forces = Eigen::Matrix<double, 6, Strains>;
-  Columns<Strains> stresses = Columns<Strains>::Zero();
-  Forces largest = Forces::Zero();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const LinearSpaceContact& law = laws_[c];
-    Eigen::Matrix<double, 12, Strains> motion;
-    motion << fluctuation<Strains>(solver_, contacts[c].first),
-        fluctuation<Strains>(solver_, contacts[c].second);
-    const Forces affine = law.affine * strains;
-    const Forces forces = law.stiffness * (law.motions * motion + affine);
-    stresses.noalias() += law.affine.transpose() * forces;
-    const Eigen::Matrix<double, 12, Strains> on_grains = law.motions.transpose() * forces;
-    unbalanced(contacts[c].first) += on_grains.template topRows<6>();
-    unbalanced(contacts[c].second) += on_grains.template bottomRows<6>();
-    Forces affine_forces = law.stiffness * affine;
-    affine_forces.template bottomRows<3>() /= arm;
-    largest = largest.cwiseMax(affine_forces.cwiseAbs());
-  }
-  const Eigen::RowVector<double, Strains> allowed = kLargestUnbalance * largest.colwise().maxCoeff();
-  for (int grain = 0; grain < network.grains; ++grain) {
-    Rows left = unbalanced(grain) + spring * fluctuation<Strains>(solver_, grain);
-    if (held) left.template bottomRows<3>() += weights[static_cast<std::size_t>(grain)] * multipliers;
-    if (!(left.cwiseAbs().colwise().maxCoeff().array() <= allowed.array()).all()) return std::nullopt;
-  }
-  return Columns<Strains>(stresses / network.volume);
+  return stresses<18>(network, weights, Matrix18::Identity());
 }
 
 }  // namespace polargrain::dem

@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "common/cell_response.hpp"
 #include "dem/cell/network_solver.hpp"
+#include "dem/cell/relaxed_network.hpp"
 #include "dem/contact/contact_recorder.hpp"
 #include "dem/spheres/increment_slip.hpp"
 
@@ -54,7 +54,7 @@ Matrix18 voigt_cosserat_space_tangent(const SpaceNetwork& network);
 /// never a result.
 class CondensedSpaceTangent {
  public:
-  explicit CondensedSpaceTangent(InstructionSet set = best_instruction_set()) : solver_(set) {}
+  explicit CondensedSpaceTangent(InstructionSet set = best_instruction_set()) : network_(set) {}
 
   /// Rotations free. Empty when the network has no solution that balances its forces.
   std::optional<Matrix18> classical(const SpaceNetwork& network);
@@ -64,16 +64,11 @@ class CondensedSpaceTangent {
 
  private:
   template <int Strains>
-  using Columns = Eigen::Matrix<double, 18, Strains>;  // a strain, or a stress, a column
+  std::optional<Eigen::Matrix<double, 18, Strains>> stresses(
+      const SpaceNetwork& network, std::span<const double> weights,
+      const Eigen::Matrix<double, 18, Strains>& strains);
 
-  template <int Strains>
-  std::optional<Columns<Strains>> relaxed_stresses(const SpaceNetwork& network,
-                                                   std::span<const double> weights,
-                                                   const Columns<Strains>& strains);
-
-  SpaceNetworkSolver solver_;
-  std::vector<LinearSpaceContact> laws_;
-  std::vector<double> unbalanced_;
+  RelaxedNetwork<LinearSpaceContact, SpaceNetworkSolver, kSpaceMotions, 18> network_;
 };
 
 }  // namespace polargrain::dem

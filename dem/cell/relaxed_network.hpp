@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dem/cell/averages.hpp"
+#include "dem/cell/network_solver.hpp"
+#include "dem/contact/contact_recorder.hpp"
+
+namespace polargrain::dem {
+
+/// A network of contacts to first order whose grains find their own equilibrium under strains: what the condensed tangents
+/// of discs and of spheres have in common (docs/theory/grains.md, C.7 (ii)). An object keeps memory between calls, never a
+/// result.
+///
+/// @tparam Law of one contact: `stiffness`, `motions` and `affine` as in LinearContact, with as many openings as a grain has
+/// motions, rotations last
+/// @tparam Components of a strain, and of a stress
+template <class Law, class Solver, int Motions, int Components>
+class RelaxedNetwork {
+ public:
+  template <int Strains>
+  using Columns = Eigen::Matrix<double, Components, Strains>;  // a strain, or a stress, a column
+
+  /// @param set for tests; results do not depend on it
+  explicit RelaxedNetwork(InstructionSet set) : solver_(set) {}
+
+  /// Stresses once the grains have found their equilibrium under given strains, or nothing where the forces found do not
+  /// balance.
+  /// @param network contacts, grains, volume, hold as in ContactNetwork; there is a contact at least
+  /// @param weights one a grain: the weighted means of the rotations are held at zero; none: they are free
+  /// @param law_of law_of(c) returns the Law of contacts[c]
+  template <int Strains, class Network, class LawOf>
+  std::optional<Columns<Strains>> stresses(const Network& network, std::span<const double> weights,
+                                           const Columns<Strains>& strains, const LawOf& law_of);
+
+ private:
+  static constexpr int kStride = Solver::kStride;
+  static constexpr int kAxes = Solver::kRotations;
+  static constexpr int kFirstAxis = Solver::kFirstRotation;
+  /// The largest force that may stay unbalanced on a grain, over the largest affine force of a contact.
+  static constexpr double kLargestUnbalance = 1e-9;
+
+  /// Rows of a grain in memory: displacements, and rotations as arc lengths.
+  template <int Strains>
+  using GrainRows = Eigen::Matrix<double, Motions, Strains, Eigen::RowMajor>;
+  template <int Strains>
+  using Multipliers = Eigen::Matrix<double, kAxes, Strains>;
+
+  template <int Strains>
+  auto fluctuation(int grain) const {
+    return Eigen::Map<const GrainRows<Strains>, 0, Eigen::OuterStride<kStride>>(solver_.solution(grain));
+  }
+  template <int Strains>
+  bool find_fluctuations(std::span<const Contact> contacts, int grains, std::span<const double> weights,
+                         const Columns<Strains>& strains, double spring);
+  template <int Strains>
+  Multipliers<Strains> hold_mean_rotation(std::span<const double> weights);
+
+  Solver solver_;
+  std::vector<Law> laws_;
+  std::vector<double> unbalanced_;  // N: forces that the fluctuations leave, by grain, component and strain
+};
+
+template <class Law, class Solver, int Motions, int Components>
+template <int Strains, class Network, class LawOf>
+auto RelaxedNetwork<Law, Solver, Motions, Components>::stresses(const Network& network,
+                                                                std::span<const double> weights,
+                                                                const Columns<Strains>& strains,
+                                                                const LawOf& law_of)
+    -> std::optional<Columns<Strains>> {
+  const std::span<const Contact> contacts = network.contacts;
+  // Rotations count as arc lengths of the first contact's arm, so that all entries are stiffnesses in N/m and
+  // pivots can be compared.
+  const double arm = contacts.front().arm_first;
+  laws_.clear();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    Law& law = laws_.emplace_back(law_of(c));
+    law.motions.template middleCols<kAxes>(kFirstAxis) /= arm;
+    law.motions.template middleCols<kAxes>(Motions + kFirstAxis) /= arm;
+  }
+  const double spring = network.hold * mean_normal_stiffness(contacts);
+  if (!find_fluctuations<Strains>(contacts, network.grains, weights, strains, spring)) return std::nullopt;
+  const bool held = !weights.empty();
+  Multipliers<Strains> multipliers = Multipliers<Strains>::Zero();
+  if (held) multipliers = hold_mean_rotation<Strains>(weights);
+
+  constexpr std::size_t kOfGrain = static_cast<std::size_t>(Motions) * Strains;
+  unbalanced_.assign(kOfGrain * static_cast<std::size_t>(network.grains), 0.0);
+  const auto unbalanced = [this](int grain) {
+    return Eigen::Map<GrainRows<Strains>>(unbalanced_.data() + kOfGrain * static_cast<std::size_t>(grain));
+  };
+  using Forces = Eigen::Matrix<double, Motions, Strains>;
+  Columns<Strains> stresses = Columns<Strains>::Zero();
+  Forces largest = Forces::Zero();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Law& law = laws_[c];
+    Eigen::Matrix<double, 2 * Motions, Strains> motion;
+    motion << fluctuation<Strains>(contacts[c].first), fluctuation<Strains>(contacts[c].second);
+    const Forces affine = law.affine * strains;
+    const Forces forces = law.stiffness * (law.motions * motion + affine);
+    stresses.noalias() += law.affine.transpose() * forces;
+    const Eigen::Matrix<double, 2 * Motions, Strains> on_grains = law.motions.transpose() * forces;
+    unbalanced(contacts[c].first) += on_grains.template topRows<Motions>();
+    unbalanced(contacts[c].second) += on_grains.template bottomRows<Motions>();
+    Forces affine_forces = law.stiffness * affine;
+    affine_forces.template bottomRows<kAxes>() /= arm;
+    largest = largest.cwiseMax(affine_forces.cwiseAbs());
+  }
+  const Eigen::RowVector<double, Strains> allowed = kLargestUnbalance * largest.colwise().maxCoeff();
+  for (int grain = 0; grain < network.grains; ++grain) {
+    GrainRows<Strains> left = unbalanced(grain) + spring * fluctuation<Strains>(grain);
+    if (held) left.template bottomRows<kAxes>() += weights[static_cast<std::size_t>(grain)] * multipliers;
+    if (!(left.cwiseAbs().colwise().maxCoeff().array() <= allowed.array()).all()) return std::nullopt;
+  }
+  return Columns<Strains>(stresses / network.volume);
+}
+
+/// Motions of the grains on top of the affine field, for each strain; with weights, also those that a torque
+/// on each grain by its weight makes, about each axis.
+template <class Law, class Solver, int Motions, int Components>
+template <int Strains>
+bool RelaxedNetwork<Law, Solver, Motions, Components>::find_fluctuations(std::span<const Contact> contacts,
+                                                                         int grains,
+                                                                         std::span<const double> weights,
+                                                                         const Columns<Strains>& strains,
+                                                                         double spring) {
+  const auto equations = [this, &strains](int c) {
+    const Law& law = laws_[static_cast<std::size_t>(c)];
+    const Eigen::Matrix<double, 2 * Motions, Motions> forces = law.motions.transpose() * law.stiffness;
+    typename Solver::Equations added;
+    added.stiffness.noalias() = forces * law.motions;
+    added.right_sides.template leftCols<Strains>().noalias() = -forces * (law.affine * strains);
+    added.right_sides.template middleCols<kAxes>(Strains).setZero();
+    return added;
+  };
+  return solver_.solve(contacts, grains, Strains + (weights.empty() ? 0 : kAxes), spring, weights, equations);
+}
+
+/// One more unknown an axis, the multiplier, and one more equation, by bordering: from the fluctuations found without
+/// them, so many of the motions made by the torques are taken off that no mean rotation is left.
+/// @returns the multipliers
+template <class Law, class Solver, int Motions, int Components>
+template <int Strains>
+auto RelaxedNetwork<Law, Solver, Motions, Components>::hold_mean_rotation(std::span<const double> weights)
+    -> Multipliers<Strains> {
+  using Rows = Eigen::Matrix<double, Motions, Eigen::Dynamic, Eigen::RowMajor>;
+  Multipliers<Strains> mean = Multipliers<Strains>::Zero();
+  Eigen::Matrix<double, kAxes, kAxes> of_torques = Eigen::Matrix<double, kAxes, kAxes>::Zero();
+  const int grains = static_cast<int>(weights.size());
+  const auto rows = [this](int grain) {
+    return Eigen::Map<Rows, 0, Eigen::OuterStride<kStride>>(solver_.solution(grain), Motions,
+                                                            Strains + kAxes);
+  };
+  for (int grain = 0; grain < grains; ++grain) {
+    const auto motion = rows(grain);
+    const double weight = weights[static_cast<std::size_t>(grain)];
+    mean += weight * motion.bottomLeftCorner(kAxes, Strains);
+    of_torques += weight * motion.bottomRightCorner(kAxes, kAxes);
+  }
+  Multipliers<Strains> multipliers;
+  if constexpr (kAxes == 1)
+    multipliers = mean / of_torques(0, 0);
+  else
+    multipliers = of_torques.inverse() * mean;
+  for (int grain = 0; grain < grains; ++grain) {
+    auto motion = rows(grain);
+    motion.leftCols(Strains) -= motion.rightCols(kAxes).eval() * multipliers;
+  }
+  return multipliers;
+}
+
+}  // namespace polargrain::dem
