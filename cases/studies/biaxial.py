@@ -61,6 +61,7 @@ class Run:
     scheme: str = ""
     across: int = 0      # elements
     lc: float = LENGTH   # mm
+    large: bool = False  # deformation: equilibrium on the moved mesh
     mirrored: bool = False
     doubled: bool = False  # packings, their grains with them, twice as large
     settings: tuple = ()  # of all its materials, or of a case in closed form
@@ -78,11 +79,11 @@ def elements(grains, seeds, inertial=SLOW, leaning=False):
                 leaning=leaning) for seed in seeds]
 
 
-def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, words="", settings=()):
+def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, large=False, words="", settings=()):
     """Smooth platens; the corner is 50 mm wide where elements are as small, else one element."""
     group = (f"{scheme}-{across}x{2 * across}" + (f"-cells{grains}" if grains != 400 else "") + (f"-lc{lc:g}" if lc != LENGTH else "") +
-             ("-mirrored" if mirrored else "") + (f"-{words}" if words else ""))
-    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored,
+             ("-mirrored" if mirrored else "") + ("-large" if large else "") + (f"-{words}" if words else ""))
+    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored, large=large,
                 case="biaxial_cell.yaml" if scheme in ("cell", "controlled") else "biaxial_informed.yaml", settings=tuple(settings))
             for pair in pairs]
 
@@ -126,6 +127,7 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for scheme in ("informed", "fixed_point", "cell") for run in two_scale(scheme, 4, to(10))), *sweep(to(10)),
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 8, to(10))),
              *two_scale("informed", 8, to(10), mirrored=True),
+             *(run for across in (4, 8, 16) for run in two_scale("informed", across, to(10), large=True)), *two_scale("controlled", 8, to(10), large=True),
              *(run for lc in (5, 10) for run in two_scale("informed", 8, to(10), lc=lc)),
              *(run for across in (2, 4, 8) for run in rough(across, to(10))), *rough(4, to(10), mirrored=True), *rough(4, to(10), doubled=True),
              *rough(4, to(5), grains=400),
@@ -255,6 +257,8 @@ class Study:
     def two_scale(self, run):
         settings = [f"mesh.rectangle.elements=[{run.across}, {2 * run.across}]",
                     f"mesh.rectangle.patch=[{max(0.05, 0.2 / run.across):.6g} m, {max(0.05, 0.2 / run.across):.6g} m]"]
+        if run.large:
+            settings.append("deformation=large")
         words = {"controlled": ["model: cell", "rotations: controlled"], "fixed_point": ["model: informed", "update: fixed_point"]}.get(
             run.scheme, [f"model: {run.scheme}"])
         if run.scheme != "controlled":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the studies share: lines through means, mirror images of packings, packings twice as large, the density of discs."""
+"""What the studies share: lines through means, the dilatancy of bands, mirror images of packings, packings twice as large, the density of discs."""
 import math
 import os
 import pathlib
@@ -16,6 +16,7 @@ sys.dont_write_bytecode = True
 import polargrain  # noqa: E402
 from biaxial import change  # noqa: E402
 from biaxial_faces import GRID, solid_share  # noqa: E402
+from biaxial_inclination import dilatancy  # noqa: E402
 from intervals import Line, line  # noqa: E402
 
 
@@ -41,6 +42,23 @@ class Studies(unittest.TestCase):
         x, y = (places.ravel() for places in np.meshgrid(np.arange(20) * 0.01, np.arange(20) * 0.01))
         # The margin leaves whole cells of the lattice; the grid misses a rim of half a step a disc.
         self.assertAlmostEqual(solid_share(x, y, np.full(400, 0.005)), math.pi / 4.0, delta=GRID / 0.01)
+
+    def test_a_band_between_rigid_halves_dilates_by_the_angle_at_which_they_part(self):
+        # The upper half moves at 12 degrees from the band. u = w s / t with the unit vector w and the distance s from the lower edge: gradient w n / t,
+        # volume strain w n / t, shear strain 1 / t for any angle between w and the normal n.
+        angle, parting, thickness = math.radians(-55.0), math.radians(12.0), 0.02
+        normal = np.array([-math.sin(angle), math.cos(angle)])
+        moved = math.cos(parting) * np.array([math.cos(angle), math.sin(angle)]) + math.sin(parting) * normal
+        gradient = np.outer(moved, normal) / thickness
+        samples = []
+        for x, y in np.random.default_rng(1).uniform(-0.1, 0.1, (500, 2)):
+            inside = abs(normal @ [x, y]) < 0.5 * thickness
+            samples.append({"x": 0.1 + x, "y": 0.2 + y, "area": 1e-4 + x * x,
+                            "shear": math.hypot(gradient[0, 0] - gradient[1, 1], gradient[0, 1] + gradient[1, 0]) if inside else 0.0,
+                            "volume_strain": np.trace(gradient) if inside else 0.01})
+        band = {"inclination_degrees": -55.0, "centre": [0.1, 0.2], "thickness": thickness}
+        self.assertAlmostEqual(dilatancy(samples, band), 12.0, 9)
+        self.assertTrue(math.isnan(dilatancy(samples, {**band, "centre": [5.0, 5.0]})))
 
     def test_the_mirror_image_of_a_mirror_image_is_the_packing(self):
         whole = polargrain.read_packing(SOURCE / "cases/studies/dense100_seed2.h5")
