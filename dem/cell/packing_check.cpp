@@ -79,6 +79,15 @@ class Bins {
     }
   }
 
+  /// How many images of one grain touch another.
+  [[nodiscard]] int contacts_of(std::size_t i, std::size_t j, double reach) const {
+    Eigen::Vector3d part = places_[i] - places_[j];
+    for (int axis = 0; axis < axes_; ++axis) part(axis) -= std::round(part(axis));
+    int count = 0;
+    for_steps([&](const Steps& steps) { count += (base_ * (part + vector(steps))).norm() < reach ? 1 : 0; });
+    return count;
+  }
+
   /// The shortest way from a grain to its own image, m.
   [[nodiscard]] double period() const {
     double least = base_.norm();
@@ -152,6 +161,26 @@ std::string geometry_fault(const Packing& packing) {
   });
   if (fault.empty() && !some_touch)
     fault = "the packing carries no pressure at rest: its grains do not touch";
+  return fault;
+}
+
+std::string twofold_contact(const Packing& packing) {
+  const Bins bins(packing);
+  double largest = 0.0;
+  for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+  if (bins.period() >= 4.0 * largest) return {};  // two images of a grain are too far apart
+  std::string fault;
+  bins.for_near_pairs([&](std::size_t i, std::size_t j, double) {
+    const Grain& first = packing.grains[i];
+    const Grain& second = packing.grains[j];
+    if (bins.contacts_of(i, j, first.radius + second.radius) < 2) return true;
+    fault = fmt::format(
+        "the grains {} and {} touch on two sides of a box with a period of {:.3g} m: tangential springs are kept by "
+        "the names of two grains and would be mixed up; take more grains, the period must be 4 radii of the largest "
+        "({:.3g} m)",
+        first.id, second.id, bins.period(), 4.0 * largest);
+    return false;
+  });
   return fault;
 }
 

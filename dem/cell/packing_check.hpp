@@ -54,6 +54,10 @@ inline constexpr double kMostStiffnessLevel = 1e10;
 /// Nothing when they are one. For before the first force: the engine itself does not survive all of these.
 std::string geometry_fault(const Packing& packing);
 
+/// Two grains that touch on two sides of a narrow box, in words: the tangential springs of a contact are kept by the names of its grains, so
+/// that those of the two would be mixed up. Nothing when no grains do.
+std::string twofold_contact(const Packing& packing);
+
 /// What a packing is under a script before the first step.
 struct PackingAtRest {
   double pressure = 0.0;         ///< mean normal stress, compression positive, Pa

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -94,6 +95,8 @@ class Compression {
                       1e-3 * reached_.pressure, description(now_.overlaps)));
     PreparedPacking prepared{box_->packing(keep_contacts_), reached_, specification_.text};
     prepared.packing.pressure = reached_.pressure;
+    if (keep_contacts_)
+      if (const std::string fault = twofold_contact(prepared.packing); !fault.empty()) throw RunError(fault);
     return prepared;
   }
 

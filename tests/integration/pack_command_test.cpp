@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -229,6 +230,22 @@ TEST(PackCommand, ShakenGrainsAreRefused) {
                                  " pack --settle shaken.csv cells/hooke_radii.in -o settled.h5 "
                                  "--set pressure=100e3");
   ASSERT_EQ(settled.status, 0) << settled.errors;
+}
+
+TEST(PackCommand, GrainsThatTouchOnTwoSidesOfTheirBoxAreNoPackingWithFriction) {
+  const Scratch scratch("pack_twofold");
+  write(scratch.path() / "spheres.in", content("liggghts_inputs/cells/spheres_hooke_radii.in"));
+  const std::string specification =
+      "grains: 4\ndimension: 3\nsizes: {law: uniform, radius: [4 mm, 6 mm]}\ndensity: 2650\nscript: spheres.in\n"
+      "pressure: 100 kPa\nseed: 1\n";
+  write(scratch.path() / "few.yaml", specification + "friction: 0\n");
+  const Outcome made = run_in(scratch.path(), kProgram + " pack few.yaml -o few.h5 --quiet");
+  EXPECT_EQ(made.status, 0) << made.errors;
+  const Outcome refused =
+      run_in(scratch.path(), kProgram + " pack few.yaml -o rough.h5 --quiet --set friction=0.3");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("touch on two sides of a box"), std::string::npos) << refused.errors;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "rough.h5"));
 }
 
 }  // namespace
