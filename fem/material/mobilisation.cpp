@@ -8,6 +8,26 @@
 namespace polargrain::fem {
 namespace {
 
+/// Share of the law's pressure below which grains have come out of contact: what they still show is no strength under it.
+constexpr double kLostContact = 0.05;
+
+double mean_stress(const ScaledVector<double>& stress) {
+  return stress.head<3>().sum() / 3.0;
+}
+
+/// At one end of the step or both: the strain that closes a gap is no flow.
+bool has_lost_contact(const MicroStep& step) {
+  const double least = kLostContact * step.macro_mean;
+  return step.macro_mean < 0.0 &&
+         (mean_stress(step.stress_before) > least || mean_stress(step.stress_after) > least);
+}
+
+/// The dilatancy that works the difference of the mean stresses off.
+double drift(const MicroStep& step, const SubspaceModuli& moduli, const MobilisationOptions& options) {
+  if (!(options.drift_shear > 0.0)) return 0.0;
+  return (step.macro_mean - mean_stress(step.stress_after)) / (moduli.bulk * options.drift_shear);
+}
+
 bool is_loading(const MicroStep& step) {
   const Split<double> stress(0.5 * (step.stress_before + step.stress_after));
   const Split<double> strain(step.strain);
@@ -52,6 +72,15 @@ Mobilisation advance(const Mobilisation& start, const MicroStep& step, const Sub
                      const MobilisationOptions& options) {
   Mobilisation end = start;
   end.unloading.reset();
+  if (has_lost_contact(step)) {
+    // Nothing can be read, but the grains must be pressed together again: with the dilatancy as it is they would never come back.
+    end.limited = true;
+    end.samples.clear();
+    end.micro_friction = 0.0;  // it will be on its way up
+    if (step.macro_plastic)
+      end.cone.dilatancy = within(end.cone.friction, drift(step, moduli, options), options.limits).dilatancy;
+    return end;
+  }
   const bool loading = is_loading(step);
   if (loading) {
     add_to_window(step, moduli, options.window, end.samples);
@@ -71,11 +100,7 @@ Mobilisation advance(const Mobilisation& start, const MicroStep& step, const Sub
 
   std::optional<double> dilatancy = cone_dilatancy(moduli, plastic_slope(end.samples));
   if (!dilatancy) return end;
-  if (options.drift_shear > 0.0) {
-    const double micro_mean = step.stress_after.head<3>().sum() / 3.0;
-    *dilatancy += (step.macro_mean - micro_mean) / (moduli.bulk * options.drift_shear);
-  }
-  const Mobilised cone = within(end.cone.friction, *dilatancy, options.limits);
+  const Mobilised cone = within(end.cone.friction, *dilatancy + drift(step, moduli, options), options.limits);
   end.cone.dilatancy = cone.dilatancy;
   end.limited = cone.clipped;
   return end;

@@ -59,6 +59,8 @@ Mobilisation initial_mobilisation(const MobilisationOptions& options);
 /// unloading it is emptied and the cone stays. The cone also stays while the macro law is elastic, and
 /// friction does not fall when the micro scale, loaded again, is still on its way up to it: it falls only
 /// when the micro scale loses strength while it is being loaded (softening).
+/// Grains that have come out of contact (less than a twentieth of the law's pressure) show nothing: friction stays, and the law contracts by what drift_shear
+/// asks for until they carry again.
 Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,
                      const MobilisationOptions& options);
 

@@ -2,6 +2,7 @@
 // Following a micro scale through loading, unloading and softening (docs/theory/plasticity.md, B.9).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/material/cone_matching.hpp"
@@ -41,6 +42,38 @@ MobilisationOptions options(int window) {
   MobilisationOptions options;
   options.window = window;
   return options;
+}
+
+TEST(Mobilisation, GrainsOutOfContactArePressedTogetherAgain) {
+  MobilisationOptions with_drift = options(3);
+  with_drift.drift_shear = 0.01;
+  Mobilisation point = initial_mobilisation(with_drift);
+  point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), with_drift);
+  ASSERT_NEAR(point.cone.friction, 0.6, 1e-12);
+  ASSERT_NEAR(point.cone.dilatancy, 0.2, 1e-12);
+  // What is left of their stress, a hundredth, has a high friction, which is none.
+  MicroStep apart = step(0.6, 0.6, 1e-3, 0.2);
+  apart.stress_after = 0.01 * stress(3.0);
+  point = advance(point, apart, moduli(), with_drift);
+  EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
+  EXPECT_NEAR(point.cone.dilatancy, std::max(-0.5, 0.99 * kMean / (moduli().bulk * 0.01)), 1e-12);
+  EXPECT_LT(point.cone.dilatancy, 0.0);
+  EXPECT_TRUE(point.limited);
+  // In contact again, with less friction than before: it is on its way up, the law keeps its own.
+  MicroStep again = step(0.0, 0.4, 1e-3, 0.2);
+  again.stress_before = apart.stress_after;
+  point = advance(point, again, moduli(), with_drift);
+  EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
+  EXPECT_NEAR(point.cone.dilatancy, 0.0, 1e-12);
+  point = advance(point, step(0.4, 0.3, 1e-3, 0.2), moduli(), with_drift);
+  EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
+  EXPECT_NEAR(point.cone.dilatancy, 0.2, 1e-12);
+  EXPECT_FALSE(point.limited);
+  // Without a drift there is nothing to press with, and nothing that parts them further.
+  MobilisationOptions without = options(3);
+  without.drift_shear = 0.0;
+  point = advance(point, apart, moduli(), without);
+  EXPECT_EQ(point.cone.dilatancy, 0.0);
 }
 
 TEST(Mobilisation, ReadsFrictionAtTheEndAndDilatancyOverTheWindow) {
