@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/material/mobilisation.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "fem/material/cone_matching.hpp"
@@ -22,10 +23,12 @@ bool has_lost_contact(const MicroStep& step) {
          (mean_stress(step.stress_before) > least || mean_stress(step.stress_after) > least);
 }
 
-/// The dilatancy that works the difference of the mean stresses off.
+/// The dilatancy that works the difference of the mean stresses off. A step that shears by more than drift_shear would
+/// overshoot, the more the longer it is: the next is expected to be as long as this one.
 double drift(const MicroStep& step, const SubspaceModuli& moduli, const MobilisationOptions& options) {
   if (!(options.drift_shear > 0.0)) return 0.0;
-  return (step.macro_mean - mean_stress(step.stress_after)) / (moduli.bulk * options.drift_shear);
+  const double over = std::max(options.drift_shear, shear_strain(moduli, step.strain));
+  return (step.macro_mean - mean_stress(step.stress_after)) / (moduli.bulk * over);
 }
 
 bool is_loading(const MicroStep& step) {

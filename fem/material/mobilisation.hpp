@@ -17,7 +17,7 @@ struct MobilisationOptions {
   double cohesion = 0.0;          ///< of Mohr-Coulomb in plane strain, Pa; small and numerical
   double initial_friction = 0.0;  ///< angle in plane strain, rad: the cone before anything is read
   /// Plastic shear over which a difference of mean stress between micro scale and law is worked off by the
-  /// dilatancy; 0: never (the published scheme).
+  /// dilatancy, or the shear of a step where that is more; 0: never (the published scheme).
   double drift_shear = 0.01;
 };
 

@@ -44,15 +44,19 @@ std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVe
   return friction;
 }
 
-std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic) {
-  const Split<double> split(plastic);
+double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double>& strain) {
+  const Split<double> split(strain);
   double squared = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (moduli.weight[k] > 0.0) squared += split.part[k].squaredNorm() / moduli.weight[k];
   }
-  const double shear = std::sqrt(2.0 / 3.0 * squared);  // the increment of gamma_p, B.1
+  return std::sqrt(2.0 / 3.0 * squared);
+}
+
+std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic) {
+  const double shear = shear_strain(moduli, plastic);
   if (!(shear > 0.0)) return std::nullopt;
-  return 3.0 * split.mean / shear;
+  return 3.0 * Split<double>(plastic).mean / shear;
 }
 
 std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double>& stress,

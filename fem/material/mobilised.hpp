@@ -34,6 +34,9 @@ ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
 std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
                                     double cohesion);
 
+/// Shear of a scaled strain increment by the measure that gamma_p has of a plastic one (B.1).
+double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double>& strain);
+
 /// beta = d eps_v^p / d gamma_p of a scaled plastic strain, or of its rate; nothing without plastic shear.
 std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic);
 

@@ -146,6 +146,11 @@ TEST(Mobilisation, ADriftOfTheMeanStressIsWorkedOff) {
   const double expected = 0.1 + 20e3 / (moduli().bulk * 0.02);
   const Mobilisation point = advance(initial_mobilisation(given), compressed, moduli(), given);
   EXPECT_NEAR(point.cone.dilatancy, expected, 1e-12);
+  // The next step is expected to shear by 0.05, and must not overshoot.
+  MicroStep longer = step(0.6, 0.6, 0.05, 0.1);
+  longer.macro_mean = compressed.macro_mean;
+  EXPECT_NEAR(advance(initial_mobilisation(given), longer, moduli(), given).cone.dilatancy,
+              0.1 + 20e3 / (moduli().bulk * 0.05), 1e-12);
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ def options():
     parser.add_argument("--pressures", type=float, nargs="+", default=[49.0], help="kPa [49]")
     parser.add_argument("--packings", type=int, default=3, help="of each friction [3]")
     parser.add_argument("--grains", type=int, default=500)
-    parser.add_argument("--strain", type=float, default=6.0, help="end of the tests, %% [6]")
+    parser.add_argument("--strain", type=float, default=10.0, help="end of the tests, %% [10]")
+    parser.add_argument("--until", default="inf", help="look for peaks up to this strain, %%; `laboratory`: 1.3 times that of the laboratory's peak, 3 %% at least [the end]")
     parser.add_argument("--tables", action="store_true", help="run nothing")
     parser.add_argument("--check", action="store_true", help="fail unless looser packings are weaker, and (ways fell and pressed) most contacts lie along the fall")
     parser.add_argument("--program", default="polargrain")
@@ -102,8 +103,8 @@ class Study:
                   "--set", "inertial_number=2e-3", "--set", "tolerance=1e-2", most=1)
         pathlib.Path(f"{output}.h5").unlink()
 
-    def figures(self, way, friction, number, pressure):
-        """What one packing shows; nothing while it has not been tested."""
+    def figures(self, way, friction, number, pressure, until):
+        """What one packing shows up to a strain (%); nothing while it has not been tested."""
         name, _ = self.packing(way, friction, number)
         file = self.folder / f"{name}-{pressure:g}kPa.csv"
         if not file.exists():
@@ -111,27 +112,34 @@ class Study:
         told = (self.folder / f"{name}.txt").read_text()
         number_after = lambda words: float(re.search(rf"{words} +([-0-9.e]+)", told).group(1))
         with open(file, newline="") as table:
-            rows = [row for row in csv.DictReader(table) if float(row["stage"]) > 0]
+            rows = [row for row in csv.DictReader(table) if float(row["stage"]) > 0 and 100 * float(row["axial_strain"]) < until + 1e-6]
         angles = [float(row["friction_angle_deg"]) for row in rows]
         strains = [100 * float(row["axial_strain"]) for row in rows]
         volumes = [100 * float(row["volume_strain"]) for row in rows]
         peak = max(range(len(rows)), key=lambda k: angles[k])
         return {"void ratio": number_after("void ratio"), "contacts": number_after("coordination number"), "fabric": number_after("fabric"),
                 "upright": abs(float(re.search(r"fabric .*? along \([^,]*, ([^,]*),", told).group(1))),
-                "peak angle": angles[peak], "at strain": strains[peak], "end": strains[-1], "b": float(rows[peak]["b"]),
+                "peak angle": angles[peak], "at strain": strains[peak], "at end": strains[peak] > 0.95 * strains[-1], "b": float(rows[peak]["b"]),
                 "volume at 2 %": next((v for s, v in zip(strains, volumes) if s > 1.99), math.nan)}
 
-    def all_figures(self, way, pressure):
-        found = [self.figures(way, friction, number, pressure) for number in range(1, self.given.packings + 1)
+    def all_figures(self, way, pressure, until=math.inf):
+        found = [self.figures(way, friction, number, pressure, until) for number in range(1, self.given.packings + 1)
                  for friction in self.frictions(way)]
         return [one for one in found if one]
+
+
+def until(given, row=None):
+    """The strain (%) up to which a peak is looked for, of a row of the laboratory's."""
+    if given.until != "laboratory":
+        return float(given.until)
+    return max(3.0, 1.3 * float(row["eps_a_at_peak_pct"] or 1.5)) if row else math.inf
 
 
 def tables(study):
     given = study.given
     peaks = laboratory()[1]
     text = ("| packings | side pressure, kPa | n | void ratios | slope, degrees a unit | angle at 0.74 | scatter of a packing | "
-            "at strain, % | volume strain at 2 %, % | fabric: largest, its direction's part along x2 |\n" + "|---" * 10 + "|\n")
+            "at strain, % | at the end of the test | volume strain at 2 %, % | fabric: largest, its direction's part along x2 |\n" + "|---" * 11 + "|\n")
     rows = ("\n| packings | side pressure, kPa | void ratio | n | angle, laboratory | predicted | difference |\n" + "|---" * 7 + "|\n")
     sums = ""
     for pressure in given.pressures:
@@ -139,11 +147,11 @@ def tables(study):
         if len(of_laboratory) > 2:
             line = Line(*zip(*of_laboratory))
             text += (f"| laboratory | {pressure:g} | {len(of_laboratory)} | {of_laboratory[0][0]:.3f} to {of_laboratory[-1][0]:.3f} | "
-                     f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {line.at(MIDDLE)[0]:.1f} +- {line.at(MIDDLE)[1]:.1f} | {line.scatter:.1f} | | | |\n")
+                     f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {line.at(MIDDLE)[0]:.1f} +- {line.at(MIDDLE)[1]:.1f} | {line.scatter:.1f} | | | | |\n")
     for way in given.ways:
         differences = []
         for pressure in given.pressures:
-            found = study.all_figures(way, pressure)
+            found = study.all_figures(way, pressure, until(given))
             if len(found) < 3:
                 continue
             column = lambda key: [one[key] for one in found]
@@ -151,11 +159,12 @@ def tables(study):
             middle = line.at(MIDDLE)
             text += (f"| {way} | {pressure:g} | {len(found)} | {min(column('void ratio')):.3f} to {max(column('void ratio')):.3f} | "
                      f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {middle[0]:.1f} +- {middle[1]:.1f} | {line.scatter:.1f} | "
-                     f"{statistics.mean(column('at strain')):.1f} | {statistics.mean(column('volume at 2 %')):.2f} | {statistics.mean(column('fabric')):.3f}, {statistics.mean(column('upright')):.2f} |\n")
+                     f"{statistics.mean(column('at strain')):.1f} | {sum(column('at end'))} | {statistics.mean(column('volume at 2 %')):.2f} | {statistics.mean(column('fabric')):.3f}, {statistics.mean(column('upright')):.2f} |\n")
             for row in peaks:
                 if float(row["sigma3_kPa"]) != pressure:
                     continue
-                angle, half = line.at(float(row["void_ratio"]))
+                found = study.all_figures(way, pressure, until(given, row))
+                angle, half = Line([one["void ratio"] for one in found], [one["peak angle"] for one in found]).at(float(row["void_ratio"]))
                 difference = angle - float(row["phi_peak_deg"])
                 fitted = (row["sigma3_kPa"], row["void_ratio"]) == ("49", "0.717")
                 if not fitted:
