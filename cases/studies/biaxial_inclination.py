@@ -9,13 +9,14 @@ long as it is. Where its principal strains are those of the specimen, upright an
 the angle of dilatancy. A band that lies steeper has principal strains that lean.
 """
 import argparse
-import csv
 import json
 import math
 import pathlib
 import tempfile
 
-from intervals import mean_and_half
+from built_package import polargrain  # noqa: F401 (finds the package)
+from intervals import shown
+from polargrain.table import read_table
 from runs import Failed, Programs
 
 INCREMENTS = [(0.025, 0.03), (0.03, 0.035), (0.035, 0.04), (0.04, 0.05), (0.05, 0.06), (0.06, 0.08), (0.04, 0.08)]
@@ -24,15 +25,13 @@ INCREMENTS = [(0.025, 0.03), (0.03, 0.035), (0.035, 0.04), (0.04, 0.05), (0.05, 
 def dilatancy(samples, band):
     """Angle of dilatancy in a band, degrees: its sine is volume strain over shear strain, both summed over what lies within half of its thickness.
 
-    samples -- rows with x, y, area, shear, volume_strain; band -- what `polargrain band` found
+    samples -- columns x, y, area, shear, volume_strain; band -- what `polargrain band` found
     @returns nan where nothing lies in the band
     """
     angle = math.radians(band["inclination_degrees"])
     centre = band["centre"]
-    inside = [row for row in samples
-              if abs(math.cos(angle) * (row["y"] - centre[1]) - math.sin(angle) * (row["x"] - centre[0])) < 0.5 * band["thickness"]]
-    shear = sum(row["area"] * row["shear"] for row in inside)
-    volume = sum(row["area"] * row["volume_strain"] for row in inside)
+    inside = abs(math.cos(angle) * (samples["y"] - centre[1]) - math.sin(angle) * (samples["x"] - centre[0])) < 0.5 * band["thickness"]
+    shear, volume = ((samples["area"] * samples[key])[inside].sum() for key in ("shear", "volume_strain"))
     return math.degrees(math.asin(max(-1.0, min(1.0, volume / shear)))) if shear > 0.0 else math.nan
 
 
@@ -51,14 +50,7 @@ def measure(programs, folder, scratch, increment, words):
     band = json.loads((place / "band.json").read_text(encoding="utf-8"))
     if not band["found"]:
         return None
-    with open(place / "samples.csv", newline="", encoding="utf-8") as table:
-        samples = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(table)]
-    return abs(band["inclination_degrees"]), dilatancy(samples, band)
-
-
-def shown(values):
-    mean, half = mean_and_half(values)
-    return "-" if math.isnan(mean) else f"{mean:.1f}" + ("" if math.isnan(half) else f" +- {half:.1f}")
+    return abs(band["inclination_degrees"]), dilatancy(read_table(place / "samples.csv"), band)
 
 
 def main():
@@ -81,9 +73,9 @@ def main():
                 found = [measure(programs, folder, scratch, increment, ["--current"] * options.current) for folder in folders]
                 found = [one for one in found if one is not None]
                 inclinations, angles = ([one[key] for one in found] for key in (0, 1))
-                print(f"| {group} | {100 * increment[0]:g} to {100 * increment[1]:g} | {len(found)} of {len(folders)} | {shown(inclinations)} | "
-                      f"{shown(angles)} | {shown([45 + angle / 2 for angle in angles])} | "
-                      f"{shown([one - 45 - angle / 2 for one, angle in found])} |", flush=True)
+                print(f"| {group} | {100 * increment[0]:g} to {100 * increment[1]:g} | {len(found)} of {len(folders)} | {shown(inclinations, 1)} | "
+                      f"{shown(angles, 1)} | {shown([45 + angle / 2 for angle in angles], 1)} | "
+                      f"{shown([one - 45 - angle / 2 for one, angle in found], 1)} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,14 @@ def mean_and_half(values):
     return statistics.mean(values), half
 
 
+def shown(values, digits):
+    """Mean and half of its interval with so many digits behind the point, or the value of one alone; a dash where none is known."""
+    mean, half = mean_and_half(values)
+    if math.isnan(mean):
+        return "-"
+    return f"{mean:.{digits}f}" + ("" if math.isnan(half) else f" +- {half:.{digits}f}")
+
+
 def interval(values):
     """Mean and half of its interval as text; a dash where fewer than two values are known."""
     mean, half = mean_and_half(values)

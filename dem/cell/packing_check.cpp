@@ -41,13 +41,18 @@ Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> 
 
 namespace {
 
+double largest_radius(const Packing& packing) {
+  double largest = 0.0;
+  for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+  return largest;
+}
+
 /// Grains by the bins they lie in; bins divide the box evenly and are wider than any two grains that touch. A plane
 /// packing has one layer of them.
 class Bins {
  public:
   explicit Bins(const Packing& packing) : base_(packing.base_vectors()), axes_(packing.dimension) {
-    double largest = 0.0;
-    for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+    const double largest = largest_radius(packing);
     const Eigen::Matrix3d inverse = base_.inverse();
     for (int axis = 0; axis < axes_; ++axis) {
       const double width = 1.0 / inverse.row(axis).norm();  // between two faces
@@ -81,10 +86,8 @@ class Bins {
 
   /// How many images of one grain touch another.
   [[nodiscard]] int contacts_of(std::size_t i, std::size_t j, double reach) const {
-    Eigen::Vector3d part = places_[i] - places_[j];
-    for (int axis = 0; axis < axes_; ++axis) part(axis) -= std::round(part(axis));
     int count = 0;
-    for_steps([&](const Steps& steps) { count += (base_ * (part + vector(steps))).norm() < reach ? 1 : 0; });
+    for_images(i, j, [&](double distance) { count += distance < reach ? 1 : 0; });
     return count;
   }
 
@@ -120,12 +123,17 @@ class Bins {
     }
     return bin;
   }
-  /// Of the nearest images.
-  [[nodiscard]] double distance(std::size_t i, std::size_t j) const {
+  /// Calls `visit(distance)` for the images of two grains, the nearest among them.
+  template <class Visit>
+  void for_images(std::size_t i, std::size_t j, Visit visit) const {
     Eigen::Vector3d part = places_[i] - places_[j];
     for (int axis = 0; axis < axes_; ++axis) part(axis) -= std::round(part(axis));
+    for_steps([&](const Steps& steps) { visit((base_ * (part + vector(steps))).norm()); });
+  }
+  /// Of the nearest images.
+  [[nodiscard]] double distance(std::size_t i, std::size_t j) const {
     double least = base_.norm();
-    for_steps([&](const Steps& steps) { least = std::min(least, (base_ * (part + vector(steps))).norm()); });
+    for_images(i, j, [&](double distance) { least = std::min(least, distance); });
     return least;
   }
 
@@ -142,8 +150,7 @@ std::string geometry_fault(const Packing& packing) {
   std::string fault;
   const Bins bins(packing);
   const double period = bins.period();
-  double largest = 0.0;
-  for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+  const double largest = largest_radius(packing);
   if (2.0 * largest - period > kMostOverlapToStart * largest)
     return fmt::format("a grain of radius {:.3g} m has no room in a box of period {:.3g} m", largest, period);
   bool some_touch = 2.0 * largest > period;  // its own image
@@ -166,8 +173,7 @@ std::string geometry_fault(const Packing& packing) {
 
 std::string twofold_contact(const Packing& packing) {
   const Bins bins(packing);
-  double largest = 0.0;
-  for (const Grain& grain : packing.grains) largest = std::max(largest, grain.radius);
+  const double largest = largest_radius(packing);
   if (bins.period() >= 4.0 * largest) return {};  // two images of a grain are too far apart
   std::string fault;
   bins.for_near_pairs([&](std::size_t i, std::size_t j, double) {

@@ -12,6 +12,7 @@ again: results/preparation.
 """
 import argparse
 import csv
+import functools
 import math
 import pathlib
 import re
@@ -31,6 +32,10 @@ REST = ["inertial_number=0.05", "pressure_tolerance=5e-3", "unbalanced_force_rat
 MIDDLE = 0.74  # void ratio, of the laboratory's rows
 
 
+def strain_or_laboratory(text):
+    return text if text == "laboratory" else float(text)
+
+
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
@@ -40,7 +45,7 @@ def options():
     parser.add_argument("--packings", type=int, default=3, help="of each friction [3]")
     parser.add_argument("--grains", type=int, default=500)
     parser.add_argument("--strain", type=float, default=10.0, help="end of the tests, %% [10]")
-    parser.add_argument("--until", default="inf", help="look for peaks up to this strain, %%; `laboratory`: 1.3 times that of the laboratory's peak, 3 %% at least [the end]")
+    parser.add_argument("--until", type=strain_or_laboratory, default=math.inf, metavar="STRAIN", help="look for peaks up to this strain, %%; `laboratory`: 1.3 times that of the laboratory's peak, 3 %% at least [the end]")
     parser.add_argument("--tables", action="store_true", help="run nothing")
     parser.add_argument("--check", action="store_true", help="fail unless looser packings are weaker, and (ways fell and pressed) most contacts lie along the fall")
     parser.add_argument("--program", default="polargrain")
@@ -122,16 +127,22 @@ class Study:
                 "peak angle": angles[peak], "at strain": strains[peak], "at end": strains[peak] > 0.95 * strains[-1], "b": float(rows[peak]["b"]),
                 "volume at 2 %": next((v for s, v in zip(strains, volumes) if s > 1.99), math.nan)}
 
+    @functools.cache
     def all_figures(self, way, pressure, until=math.inf):
         found = [self.figures(way, friction, number, pressure, until) for number in range(1, self.given.packings + 1)
                  for friction in self.frictions(way)]
         return [one for one in found if one]
 
 
+def line_of(found):
+    """Peak angle over void ratio."""
+    return Line([one["void ratio"] for one in found], [one["peak angle"] for one in found])
+
+
 def until(given, row=None):
     """The strain (%) up to which a peak is looked for, of a row of the laboratory's."""
     if given.until != "laboratory":
-        return float(given.until)
+        return given.until
     return max(3.0, 1.3 * float(row["eps_a_at_peak_pct"] or 1.5)) if row else math.inf
 
 
@@ -155,7 +166,7 @@ def tables(study):
             if len(found) < 3:
                 continue
             column = lambda key: [one[key] for one in found]
-            line = Line(column("void ratio"), column("peak angle"))
+            line = line_of(found)
             middle = line.at(MIDDLE)
             text += (f"| {way} | {pressure:g} | {len(found)} | {min(column('void ratio')):.3f} to {max(column('void ratio')):.3f} | "
                      f"{line.slope:.0f} +- {line.half_of_slope:.0f} | {middle[0]:.1f} +- {middle[1]:.1f} | {line.scatter:.1f} | "
@@ -164,7 +175,7 @@ def tables(study):
                 if float(row["sigma3_kPa"]) != pressure:
                     continue
                 found = study.all_figures(way, pressure, until(given, row))
-                angle, half = Line([one["void ratio"] for one in found], [one["peak angle"] for one in found]).at(float(row["void_ratio"]))
+                angle, half = line_of(found).at(float(row["void_ratio"]))
                 difference = angle - float(row["phi_peak_deg"])
                 fitted = (row["sigma3_kPa"], row["void_ratio"]) == ("49", "0.717")
                 if not fitted:
@@ -181,7 +192,7 @@ def check(study):
     given = study.given
     found = {way: study.all_figures(way, given.pressures[0]) for way in given.ways}
     for way, figures in found.items():
-        slope = Line([one["void ratio"] for one in figures], [one["peak angle"] for one in figures]).slope
+        slope = line_of(figures).slope
         assert slope < -20, f"{way}: the peak angle changes by {slope:.0f} degrees a unit of void ratio"
     if len(found) < len(FRICTIONS):
         return

@@ -21,7 +21,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from intervals import mean_and_half  # noqa: E402
+from intervals import mean_and_half, shown  # noqa: E402
 SAND = (0.605, 0.977)    # least and largest void ratio of the sand (Lam and Tatsuoka 1988)
 DISCS = (0.20, 0.36)     # of the discs, friction 0.03 to 0.5
 LARGE = 0.30             # axial strain of the one test to large strain
@@ -174,13 +174,6 @@ def of_a_band(curve, softening=0.019):
     reached = next(k for k in range(peak, len(ratio)) if smooth[k] <= 1.05 * plateau)
     share = softening / (strain[reached] - strain[peak])
     return plateau, statistics.stdev(late), strain[reached], share, share * (volume[reached] - volume[peak])
-
-
-def shown(values, digits):
-    mean, half = mean_and_half(values)
-    if math.isnan(mean):
-        return "-"
-    return f"{mean:.{digits}f}" + ("" if math.isnan(half) else f" +- {half:.{digits}f}")
 
 
 def tables(study):

@@ -50,12 +50,11 @@ class Studies(unittest.TestCase):
         normal = np.array([-math.sin(angle), math.cos(angle)])
         moved = math.cos(parting) * np.array([math.cos(angle), math.sin(angle)]) + math.sin(parting) * normal
         gradient = np.outer(moved, normal) / thickness
-        samples = []
-        for x, y in np.random.default_rng(1).uniform(-0.1, 0.1, (500, 2)):
-            inside = abs(normal @ [x, y]) < 0.5 * thickness
-            samples.append({"x": 0.1 + x, "y": 0.2 + y, "area": 1e-4 + x * x,
-                            "shear": math.hypot(gradient[0, 0] - gradient[1, 1], gradient[0, 1] + gradient[1, 0]) if inside else 0.0,
-                            "volume_strain": np.trace(gradient) if inside else 0.01})
+        x, y = np.random.default_rng(1).uniform(-0.1, 0.1, (2, 500))
+        inside = abs(normal[0] * x + normal[1] * y) < 0.5 * thickness
+        shear = math.hypot(gradient[0, 0] - gradient[1, 1], gradient[0, 1] + gradient[1, 0])
+        samples = {"x": 0.1 + x, "y": 0.2 + y, "area": 1e-4 + x * x, "shear": np.where(inside, shear, 0.0),
+                   "volume_strain": np.where(inside, np.trace(gradient), 0.01)}
         band = {"inclination_degrees": -55.0, "centre": [0.1, 0.2], "thickness": thickness}
         self.assertAlmostEqual(dilatancy(samples, band), 12.0, 9)
         self.assertTrue(math.isnan(dilatancy(samples, {**band, "centre": [5.0, 5.0]})))
