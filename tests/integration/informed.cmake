@@ -20,9 +20,11 @@ if(TARGET polargrain AND TARGET polargrain-liggghts)
   target_compile_definitions(toyoura_study_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                         POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(toyoura_study_test polargrain)
-  # Spheres that fell and spheres pressed together, two void ratios each (a third of a minute).
+  # Spheres that fell and spheres pressed together, two void ratios each (a third of a minute). What is there of an earlier run would be taken as it is.
+  add_test(NAME ToyouraPreparation.Anew COMMAND ${CMAKE_COMMAND} -E rm -rf ${CMAKE_CURRENT_BINARY_DIR}/toyoura_preparation)
   add_test(NAME ToyouraPreparation.LooserPackingsAreWeaker COMMAND /usr/bin/python3
            ${PROJECT_SOURCE_DIR}/cases/studies/toyoura/preparation.py --check --ways fell pressed --grains 80 --packings 2
            --frictions 0.1 0.5 --strain 3 -o ${CMAKE_CURRENT_BINARY_DIR}/toyoura_preparation --program $<TARGET_FILE:polargrain>)
-  set_tests_properties(ToyouraPreparation.LooserPackingsAreWeaker PROPERTIES LABELS long TIMEOUT 600)
+  set_tests_properties(ToyouraPreparation.Anew PROPERTIES LABELS long FIXTURES_SETUP toyoura_preparation)
+  set_tests_properties(ToyouraPreparation.LooserPackingsAreWeaker PROPERTIES LABELS long TIMEOUT 600 FIXTURES_REQUIRED toyoura_preparation)
 endif()
