@@ -112,6 +112,7 @@ void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
   elastic.young_modulus = 2.0 * cosserat.shear_modulus * (1.0 + elastic.poisson_ratio);
   elastic.cosserat_shear_modulus = cosserat.cosserat_shear_modulus;
   elastic.internal_length = cosserat.internal_length;
+  plastic_length = cosserat.plastic_length;
 }
 
 InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters,
@@ -124,7 +125,7 @@ InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& pa
   if (!note.empty()) notes_.push_back(note);
   const fem::ElasticParameters& elastic = parameters.elastic;
   own_rules_ = {{elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)),
-                 elastic.cosserat_shear_modulus, elastic.internal_length},
+                 elastic.cosserat_shear_modulus, elastic.internal_length, parameters.plastic_length},
                 controlled(),
                 elastic.internal_length,
                 parameters.mobilisation.drift_shear};
@@ -197,19 +198,31 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
   }
 }
 
-Response InformedMaterial::integrate_unloading(const fem::Mobilisation& mobilisation,
+fem::ElastoplasticFrame InformedMaterial::frame_of(std::size_t point) const {
+  fem::ElastoplasticFrame frame = frame_;
+  if (parameters_.plastic_length) {
+    // The friction at the start of the step: within it the weight stands still, and the tangent is exact.
+    const double friction = committed_[point].mobilisation.cone.friction;
+    const double a3 = std::pow(friction * frame_.length / *parameters_.plastic_length, 2) / 3.0;
+    frame.moduli.weight[2] = 2.0 * a3;
+  }
+  return frame;
+}
+
+Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& frame,
+                                               const fem::Mobilisation& mobilisation,
                                                const fem::ElastoplasticState& start,
                                                const Increment& increment,
                                                fem::ElastoplasticState& end) const {
   Vector7 scale = Vector7::Ones();
-  scale.tail<2>().setConstant(frame_.length);
+  scale.tail<2>().setConstant(frame.length);
   Vector7 unscale = Vector7::Ones();
-  unscale.tail<2>().setConstant(frame_.length > 0.0 ? 1.0 / frame_.length : 0.0);
+  unscale.tail<2>().setConstant(frame.length > 0.0 ? 1.0 / frame.length : 0.0);
   const fem::UnloadingMode::Felt felt =
       mobilisation.unloading->felt(increment.strain().cwiseProduct(scale), controlled() ? 3 : 1);
   const fem::FrozenCone& cone = mobilisation.cone;
   Response response =
-      fem::integrate_elastoplastic(frame_,
+      fem::integrate_elastoplastic(frame,
                                    {fem::PiecewiseLinear(cone.friction), fem::PiecewiseLinear(cone.dilatancy),
                                     fem::PiecewiseLinear(cone.cohesion)},
                                    start, Vector7(felt.strain.cwiseProduct(unscale)), end);
@@ -221,18 +234,20 @@ Response InformedMaterial::integrate(std::size_t point, const Increment& increme
   const PointState& before = committed_[point];
   const fem::FrozenCone& cone = before.mobilisation.cone;
   const fem::ElastoplasticState start = law_start(point, increment);
+  const fem::ElastoplasticFrame frame = frame_of(point);
   fem::ElastoplasticState& end = trial_[point].law;
-  if (before.mobilisation.unloading) return integrate_unloading(before.mobilisation, start, increment, end);
+  if (before.mobilisation.unloading)
+    return integrate_unloading(frame, before.mobilisation, start, increment, end);
   if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
     using fem::PiecewiseLinear;
     const fem::HardeningCone taken_up{PiecewiseLinear({{start.gamma_p, before.held_friction},
                                                        {start.gamma_p + before.take_up, cone.friction}}),
                                       PiecewiseLinear(cone.dilatancy), PiecewiseLinear(cone.cohesion)};
-    Response response = fem::integrate_elastoplastic(frame_, taken_up, start, increment, end);
+    Response response = fem::integrate_elastoplastic(frame, taken_up, start, increment, end);
     if (response.quality == Quality::good) return response;
   }
   // Nothing to take up, or softening too steep to have one answer: at once.
-  return fem::integrate_elastoplastic(frame_, cone, start, increment, end);
+  return fem::integrate_elastoplastic(frame, cone, start, increment, end);
 }
 
 void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
@@ -263,14 +278,15 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
     if (cell.quality != Quality::failed) {
       take(replies[r], increments[point], point);
       const fem::ElastoplasticState start = law_start(point, increments[point]);
+      const fem::ElastoplasticFrame frame = frame_of(point);
       const fem::FrozenCone& cone = trial_[point].mobilisation.cone;
       Response& response = responses[point];
       fem::ElastoplasticState& end = trial_[point].law;
       if (trial_[point].mobilisation.unloading) {
-        response = integrate_unloading(trial_[point].mobilisation, start, increments[point], end);
+        response = integrate_unloading(frame, trial_[point].mobilisation, start, increments[point], end);
       } else {
-        response = fem::integrate_elastoplastic(frame_, cone, start, increments[point], end);
-        add_hardening(frame_, committed_[point].mobilisation.cone, cone, start, increments[point], end,
+        response = fem::integrate_elastoplastic(frame, cone, start, increments[point], end);
+        add_hardening(frame, committed_[point].mobilisation.cone, cone, start, increments[point], end,
                       response);
       }
       // Where the point yields its stress goes with the friction read from the cell, and scatters with it.

@@ -33,6 +33,9 @@ struct InformedParameters {
   fem::ElasticParameters elastic;  ///< of the law; its initial stress is that of the packing
   /// Of the law's invariant. Nothing: the standard ones, or, with controlled rotations, those of the cell (cell_limits.hpp).
   std::optional<fem::InvariantWeights> weights = {};
+  /// lp of grains whose rotations are free, m: the law yields at couple stresses of lp times the pressure, whatever its
+  /// friction. Nothing: the weights say where.
+  std::optional<double> plastic_length = {};
   fem::MobilisationOptions mobilisation;
   InformedUpdate update = InformedUpdate::frozen;
   /// Of grains whose rotations are controlled, m: their skew and couple stresses inform the law too. 0: they are free.
@@ -41,7 +44,7 @@ struct InformedParameters {
   double mismatch_limit = 0.3;
   BeyondMismatch beyond_mismatch = BeyondMismatch::tell;
 
-  /// Takes over the moduli of G, Gc and lc; Poisson's ratio must be set.
+  /// Takes over the moduli of G, Gc and lc, and lp; Poisson's ratio must be set.
   void set_moduli(const CosseratParameters& cosserat);
 };
 
@@ -102,9 +105,12 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
 
   template <class Visitor>
   static void visit_numbers(Visitor& visit, PointState& point, int window);
+  /// Elastic constants and weights of a point's law in this step.
+  [[nodiscard]] fem::ElastoplasticFrame frame_of(std::size_t point) const;
   [[nodiscard]] Response integrate(std::size_t point, const Increment& increment);
   /// A step inside of the cone, or back to it, with the stiffness and contraction that the cell shows there.
-  [[nodiscard]] Response integrate_unloading(const fem::Mobilisation& mobilisation,
+  [[nodiscard]] Response integrate_unloading(const fem::ElastoplasticFrame& frame,
+                                             const fem::Mobilisation& mobilisation,
                                              const fem::ElastoplasticState& start, const Increment& increment,
                                              fem::ElastoplasticState& end) const;
   void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);

@@ -66,6 +66,10 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   write(scratch.path() / "case.yaml", case_with("other.h5, lc: measured"));
   const Outcome good = run_in(scratch.path(), kProgram + " check case.yaml");
   EXPECT_EQ(good.status, 0) << good.errors;
+  // The law that grains inform takes both lengths too.
+  const Outcome informed =
+      run_in(scratch.path(), kProgram + " check case.yaml --set materials.sand.model=informed");
+  EXPECT_EQ(informed.status, 0) << informed.errors;
   std::filesystem::copy(scratch.path() / packing, scratch.path() / "bare.h5");
   write(scratch.path() / "case.yaml", case_with("bare.h5, lc: measured"));
   const Outcome none = run_in(scratch.path(), kProgram + " check case.yaml");

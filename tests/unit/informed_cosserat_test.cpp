@@ -251,5 +251,92 @@ TEST(InformedCosserat, TellsWhatItFoundAndMeasuresMomentsByTheGrains) {
   EXPECT_EQ(law.moment_length(), kDiameter);
 }
 
+/// Cells whose grains turn freely, of a law that has a plastic length.
+InformedParameters with_plastic_length(double length, double initial_friction) {
+  InformedParameters made = parameters(InformedUpdate::frozen);
+  made.mean_diameter = 0.0;
+  made.mobilisation.initial_friction = initial_friction;
+  made.plastic_length = length;
+  return made;
+}
+
+TEST(InformedPlasticLength, CoupleStressIsLimitedToItTimesThePressureWhateverTheFriction) {
+  const ConeCells cells(fem::InvariantWeights{});
+  constexpr double kLength = 7e-3;
+  for (const double friction : {0.05, 0.3}) {
+    InformedMaterial law(cells.calls(), with_plastic_length(kLength, friction));
+    law.allocate(1);
+    Response response;
+    for (int step = 0; step < 60;
+         ++step) {  // bent about one axis, then about the other: elastic to 2 G lc^2 kappa = 10 lp p
+      Increment increment;
+      increment.curvature(step < 30 ? 0 : 1) = 1.1;
+      law.evaluate({&increment, 1}, {&response, 1});
+      ASSERT_EQ(response.quality, Quality::good) << response.message;
+      law.commit();
+      if (step != 29 && step != 59) continue;
+      // The cohesion of 1 Pa raises the limit by 1e-4 and less of itself.
+      const double moment = response.stress.tail<2>().norm();
+      EXPECT_NEAR(moment / (kLength * kPressure), 1.0, 2e-4) << "friction " << friction << ", step " << step;
+    }
+    EXPECT_GT(response.stress(kCurvature2), 0.99 * response.stress.tail<2>().norm());
+  }
+}
+
+TEST(InformedPlasticLength, ShearAndBendingShareAnEllipse) {
+  const ConeCells cells(fem::InvariantWeights{});
+  constexpr double kLength = 7e-3;
+  InformedMaterial law(cells.calls(), with_plastic_length(kLength, 0.09));
+  law.allocate(1);
+  std::vector<double> fields(law.field_names().size());
+  Response response;
+  double least_share = 1.0;
+  for (int step = 0; step < 80; ++step) {
+    law.fields(0, fields);
+    const double friction = fields[0];  // of the step that comes
+    Increment increment;
+    increment.displacement_gradient << 5e-4, 0.0, 0.0, -5e-4;
+    if (step >= 40) increment.curvature << 0.05, 0.0;
+    law.evaluate({&increment, 1}, {&response, 1});
+    ASSERT_EQ(response.quality, Quality::good) << response.message;
+    // Without dilatancy s33 stays in the middle in the end, and the deviator is sqrt(3) times the shear in the plane.
+    const double pressure = -(response.stress(k11) + response.stress(k22) + response.stress(k33)) / 3.0;
+    const double shear = std::numbers::sqrt3 * 0.5 * (response.stress(k11) - response.stress(k22));
+    const double bent = response.stress.tail<2>().norm() / (kLength * pressure);
+    if (step >= 60) {
+      EXPECT_NEAR(std::hypot(shear / (friction * pressure), bent), 1.0, 2e-3) << "step " << step;
+      least_share = std::min(least_share, bent);
+    }
+    law.commit();
+  }
+  EXPECT_GT(least_share, 0.05) << "it is not bent enough to show anything";
+}
+
+TEST(InformedPlasticLength, TheTangentIsThatOfTheStep) {
+  const ConeCells cells(fem::InvariantWeights{});
+  InformedMaterial law(cells.calls(), with_plastic_length(7e-3, 0.3));
+  law.allocate(1);
+  Increment step;
+  step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
+  step.curvature << 1.0, -0.4;
+  Response response;
+  for (int k = 0; k < 3; ++k) {
+    law.evaluate({&step, 1}, {&response, 1});
+    ASSERT_EQ(response.quality, Quality::good);
+    if (k < 2) law.commit();
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    constexpr double kShift = 1e-6;
+    Response more, less;
+    Increment shifted = step;
+    shifted.curvature(axis) += kShift;
+    law.evaluate({&shifted, 1}, {&more, 1});
+    shifted.curvature(axis) -= 2.0 * kShift;
+    law.evaluate({&shifted, 1}, {&less, 1});
+    const Vector7 slope = (more.stress - less.stress) / (2.0 * kShift);
+    EXPECT_LT((slope - response.tangent.col(5 + axis)).norm(), 1e-5 * response.tangent.col(5 + axis).norm());
+  }
+}
+
 }  // namespace
 }  // namespace polargrain::coupler

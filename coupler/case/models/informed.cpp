@@ -54,14 +54,13 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   InformedParameters parameters = read_informed_parameters(section);
-  if (cosserat && cosserat->plastic_length) {
+  if (cosserat && cosserat->plastic_length && parameters.weights) {
     // Given, or what `lc: measured` comes with.
-    const bool given = section.find("lp") != nullptr;
     section.fault(
-        given ? "lp" : "lc",
-        fmt::format("{}: the law of 'model: informed' limits the couple stress itself, by the third "
-                    "of its 'invariants'; {}, or take 'model: cell'",
-                    given ? "lp" : "lc: measured", given ? "leave lp out" : "give a length"));
+        "invariants",
+        fmt::format("invariants: their third number limits the couple stress, and so does {}; leave one of "
+                    "the two out",
+                    section.find("lp") != nullptr ? "lp" : "the lp that comes with 'lc: measured'"));
   }
   read_adaptivity_options(section);  // checked, and no more: see there
   if (faults.size() != faults_before) return nullptr;
