@@ -45,7 +45,7 @@ RATE = 0.06  # 1/s, of the specimens: inertial number 1.0e-4
 QUICK = 0.24  # 3.9e-4
 SLOW = 1e-4  # inertial number of the cells in an element test
 LENGTH = 3.5  # mm; what a sheared layer asks for (docs/studies/internal_length.md)
-MEASURED = 3.2, 7.2  # mm; elastic and plastic length, what layers ask for where the couple stress has a limit
+PLASTIC_LENGTH = 7.2  # mm; what layers ask for where the couple stress has a limit, with an elastic one of 1 to 10 mm
 
 
 @dataclasses.dataclass(frozen=True)
@@ -131,8 +131,8 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for across in (4, 8, 16) for run in two_scale("informed", across, to(10), large=True)), *two_scale("controlled", 8, to(10), large=True),
              *(run for lc in (5, 10) for run in two_scale("informed", 8, to(10), lc=lc)),
              *(run for lc in (5, 7, 10) for across in (8, 12, 16) for run in two_scale("informed", across, to(10), lc=lc, large=True)),
-             *(run for across in (8, 12, 16) for run in two_scale("informed", across, to(10), lc=MEASURED[0], large=True, words=f"lp{MEASURED[1]}",
-                                                                      settings=(f"lp: {MEASURED[1]} mm",))),
+             *(run for lc in (7.2, 3.2) for across in (8, 12, 16) for run in two_scale(
+                 "informed", across, to(10), lc=lc, large=True, words=f"lp{PLASTIC_LENGTH}", settings=(f"lp: {PLASTIC_LENGTH} mm",))),
              *(run for across in (2, 4, 8) for run in rough(across, to(10))), *rough(4, to(10), mirrored=True), *rough(4, to(10), doubled=True),
              *rough(4, to(5), grains=400),
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 16, to(10))),

@@ -77,7 +77,9 @@ def lag_of_grains(run, output, band):
     if run.scheme not in ("informed", "fixed_point") or not band.get("found"):
         return math.nan
     result = polargrain.Result(output / run.name)
-    first = next(k for k, time in enumerate(result.times) if time >= 0.5 - 1e-9)
+    first = next((k for k, time in enumerate(result.times) if time >= 0.5 - 1e-9), None)
+    if first is None:  # it is still on its way
+        return math.nan
     before, after = (result.integration_points(k).point_data for k in (first, -1))
     shear = after["deviatoric_strain"] - before["deviatoric_strain"]
     inside = shear > 0.5 * shear.max()
@@ -161,13 +163,58 @@ def two_scale_text(groups):
         "\n" + markdown("group", of_kind, ("mismatch", "evaluations", "DEM steps", "iterations a step", "cuts")) + "\n"
 
 
+def without_mesh(run):
+    return run.group.replace(f"{run.across}x{2 * run.across}", "MESH")
+
+
+def of_one_pair(runs):
+    """@returns two-scale runs that differ by their mesh alone, the coarsest first, by (group without its mesh, pair)"""
+    families = {}
+    for run in sorted((run for run in runs if run.kind == "two_scale"), key=lambda run: run.across):
+        families.setdefault((without_mesh(run), run.seed), []).append(run)
+    return families
+
+
+def meshes_text(runs, output):
+    """Pair by pair the next finer mesh against each, in %."""
+    compared = {}
+    for (key, _), members in of_one_pair(runs).items():
+        for coarse, fine in zip(members, members[1:]):
+            name = key.replace("MESH", f"{fine.across}x{2 * fine.across}") + f" against {coarse.across}x{2 * coarse.across}"
+            row = of_meshes(coarse, fine, output)
+            if row:
+                compared.setdefault(name, []).append(row)
+    return "## Meshes\n\nDifferences of the same pair of packings, %; inclination in degrees\n\n" + markdown(
+        "group", compared, list(next(iter(compared.values()))[0])) + "\n" if compared else ""
+
+
+def of_meshes(coarse, fine, output):
+    """Loads at the same strains, as far as both came; nothing when one has not passed its peak by 1 % of strain."""
+    ones, others = ({round(strain, 6): ratio for strain, ratio in zip(rows["axial_strain"], rows["stress_ratio"])}
+                    for rows in (curve(output, coarse), curve(output, fine)))
+    peak = max(ones, key=ones.get)
+    behind = [strain for strain in ones if strain > peak and strain in others]
+    if not behind or behind[-1] < peak + 0.01:
+        return None
+    of_coarse, of_fine = figures(coarse, output), figures(fine, output)
+
+    def relative(key):
+        return 100 * (of_fine[key] / of_coarse[key] - 1)
+
+    apart = [100 * (others[strain] / ones[strain] - 1) for strain in behind]
+    return {"peak": relative("peak"), "load behind it, mean": sum(apart) / len(apart), "largest": max(map(abs, apart)),
+            "residual": relative("residual"), "thickness": relative("thickness, d"), "volume strain": relative("volume strain, %"),
+            "inclination": of_fine["inclination, deg"] - of_coarse["inclination, deg"]}
+
+
 def law_text(groups):
     of_kind = {group: rows for group, rows in groups.items() if group.startswith("law")}
     lines = [f"| {group} | {rows[0]['peak']:.4f} | {rows[0]['at, %']:.3g} |" for group, rows in of_kind.items()]
     return "## The law in closed form\n\n| run | peak | at, % |\n|---|---|---|\n" + "\n".join(lines) + "\n"
 
 
-def write_tables(rows, output):
+def write_tables(runs, output):
+    rows = [figures(run, output) for run in runs]
     with open(output / "table.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
@@ -178,7 +225,7 @@ def write_tables(rows, output):
     if any(group.startswith("grains") for group in groups):
         written.append(faces_text(groups))
     if any(group.split("-")[0] in TWO_SCALES for group in groups):
-        written.append(two_scale_text(groups))
+        written += [two_scale_text(groups), meshes_text(runs, output)]
     (output / "table.md").write_text("# Biaxial compression\n\nMeans and 95 % intervals.\n\n" + "\n".join(written), encoding="utf-8")
 
 
@@ -231,6 +278,35 @@ def draw_fields(plt, runs, output, picture):
     plt.close(figure)
 
 
+def draw_meshes(plt, runs, output, picture):
+    """One pair of packings on its meshes: stress ratios, the finest mesh in a full line, and shear strains on one scale."""
+    figure, axes = plt.subplots(1, 1 + len(runs), figsize=(3.6 + 1.7 * len(runs), 4.0), layout="constrained",
+                                gridspec_kw={"width_ratios": [3.1] + [1] * len(runs)})
+    families = list(dict.fromkeys(without_mesh(run) for run in runs))
+    for run in runs:
+        rows = curve(output, run)
+        finest = run.across == max(other.across for other in runs if without_mesh(other) == without_mesh(run))
+        axes[0].plot(100 * rows["axial_strain"], rows["stress_ratio"], color=COLOURS[families.index(without_mesh(run)) % len(COLOURS)], linewidth=1.3 if finest else 1.0,
+                     linestyle="-" if finest else ":", label=run.group)
+    axes[0].set_xlabel("axial strain, %")
+    axes[0].set_ylabel("stress ratio")
+    axes[0].grid(alpha=0.3)
+    axes[0].legend(fontsize=8, frameon=False)
+    samples = {run.name: read_table(output / f"{run.name}.samples.csv") for run in runs}
+    most = max(numpy.quantile(rows["shear"], 0.98) for rows in samples.values())
+    for axis, run in zip(axes[1:], runs):
+        rows = samples[run.name]
+        height = rows["y"].max() - rows["y"].min()
+        marks = axis.scatter(rows["x"], rows["y"], c=rows["shear"], s=rows["area"] * (72 * 2.9 / height) ** 2, marker="s", cmap="viridis",
+                             vmin=0.0, vmax=most, linewidths=0)
+        axis.set_aspect("equal")
+        axis.set_axis_off()
+        axis.set_title(run.group.replace("-", "\n"), fontsize=7)
+    figure.colorbar(marks, ax=axes[-1], shrink=0.7, label="shear strain, second half of the run")
+    figure.savefig(picture, dpi=90)
+    plt.close(figure)
+
+
 def draw(runs, output):
     try:
         import matplotlib
@@ -249,6 +325,13 @@ def draw(runs, output):
     firsts = {run.group: run for run in reversed(with_fields)}
     if firsts:
         draw_fields(plt, list(firsts.values())[::-1], output, output / "fields.png")
+    # Of each family the first pair, on the meshes that it has a band on.
+    families = {}
+    for (key, pair), members in sorted(of_one_pair(with_fields).items(), key=lambda family: family[0][1]):
+        if len(members) > 1:
+            families.setdefault(key, members)
+    if families:
+        draw_meshes(plt, [run for members in families.values() for run in members], output, output / "meshes.png")
 
 
 def write(runs, output):
@@ -256,6 +339,6 @@ def write(runs, output):
     if not runs:
         print("no run has come to its first step: no tables")
         return
-    write_tables([figures(run, output) for run in runs], output)
+    write_tables(runs, output)
     draw(runs, output)
     print(f"{output / 'table.md'}: {len(runs)} runs")
