@@ -39,8 +39,12 @@ double share(std::size_t way, const Vector7& stress) {
 
 fem::InvariantWeights CellLimits::weights(double internal_length) const {
   const double of_skew = 4.0 / 3.0 * std::pow(friction / skew, 2);
-  const double of_couple = 2.0 / 3.0 * std::pow(friction * internal_length / couple, 2);
-  return {0.25 + 0.25 * of_skew, 0.25 - 0.25 * of_skew, 0.5 * of_couple};
+  return {0.25 + 0.25 * of_skew, 0.25 - 0.25 * of_skew,
+          0.5 * couple_weight(friction, internal_length, couple)};
+}
+
+double couple_weight(double friction, double internal_length, double limit) {
+  return 2.0 / 3.0 * std::pow(friction * internal_length / limit, 2);
 }
 
 double CellLimits::plastic_length() const {

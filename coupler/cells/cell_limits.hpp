@@ -24,6 +24,10 @@ struct CellLimits {
   [[nodiscard]] std::string text() const;
 };
 
+/// The weight p_3 = 2 a3 with which a cone yields at a couple stress of `limit` times the pressure (docs/theory/plasticity.md, B.9).
+/// @param friction M of the cone @param internal_length lc, m @param limit m
+[[nodiscard]] double couple_weight(double friction, double internal_length, double limit);
+
 /// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
 /// @throws RunError where a path cannot be followed or a limit is none
 CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter);

@@ -202,9 +202,8 @@ fem::ElastoplasticFrame InformedMaterial::frame_of(std::size_t point) const {
   fem::ElastoplasticFrame frame = frame_;
   if (parameters_.plastic_length) {
     // The friction at the start of the step: within it the weight stands still, and the tangent is exact.
-    const double friction = committed_[point].mobilisation.cone.friction;
-    const double a3 = std::pow(friction * frame_.length / *parameters_.plastic_length, 2) / 3.0;
-    frame.moduli.weight[2] = 2.0 * a3;
+    frame.moduli.weight[2] = couple_weight(committed_[point].mobilisation.cone.friction, frame_.length,
+                                           *parameters_.plastic_length);
   }
   return frame;
 }

@@ -256,7 +256,8 @@ InformedParameters with_plastic_length(double length, double initial_friction) {
   InformedParameters made = parameters(InformedUpdate::frozen);
   made.mean_diameter = 0.0;
   made.mobilisation.initial_friction = initial_friction;
-  made.plastic_length = length;
+  // As a case hands it over.
+  made.set_moduli({13.4e6, made.elastic.cosserat_shear_modulus, made.elastic.internal_length, length});
   return made;
 }
 
