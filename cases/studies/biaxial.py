@@ -131,7 +131,7 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for across in (4, 8, 16) for run in two_scale("informed", across, to(10), large=True)), *two_scale("controlled", 8, to(10), large=True),
              *(run for lc in (5, 10) for run in two_scale("informed", 8, to(10), lc=lc)),
              *(run for lc in (5, 7, 10) for across in (8, 12, 16) for run in two_scale("informed", across, to(10), lc=lc, large=True)),
-             *(run for lc in (7.2, 3.2) for across in (8, 12, 16) for run in two_scale(
+             *(run for lc in (PLASTIC_LENGTH, 3.2) for across in (8, 12, 16) for run in two_scale(
                  "informed", across, to(10), lc=lc, large=True, words=f"lp{PLASTIC_LENGTH}", settings=(f"lp: {PLASTIC_LENGTH} mm",))),
              *(run for across in (2, 4, 8) for run in rough(across, to(10))), *rough(4, to(10), mirrored=True), *rough(4, to(10), doubled=True),
              *rough(4, to(5), grains=400),

@@ -175,36 +175,35 @@ def of_one_pair(runs):
     return families
 
 
-def meshes_text(runs, output):
+def meshes_text(runs, rows, output):
     """Pair by pair the next finer mesh against each, in %."""
+    shown = {row["run"]: row for row in rows}
     compared = {}
     for (key, _), members in of_one_pair(runs).items():
         for coarse, fine in zip(members, members[1:]):
             name = key.replace("MESH", f"{fine.across}x{2 * fine.across}") + f" against {coarse.across}x{2 * coarse.across}"
-            row = of_meshes(coarse, fine, output)
-            if row:
-                compared.setdefault(name, []).append(row)
+            loads = loads_of_meshes(curve(output, coarse), curve(output, fine))
+            if loads:
+                compared.setdefault(name, []).append(loads | of_meshes(shown[coarse.name], shown[fine.name]))
     return "## Meshes\n\nDifferences of the same pair of packings, %; inclination in degrees\n\n" + markdown(
         "group", compared, list(next(iter(compared.values()))[0])) + "\n" if compared else ""
 
 
-def of_meshes(coarse, fine, output):
-    """Loads at the same strains, as far as both came; nothing when one has not passed its peak by 1 % of strain."""
-    ones, others = ({round(strain, 6): ratio for strain, ratio in zip(rows["axial_strain"], rows["stress_ratio"])}
-                    for rows in (curve(output, coarse), curve(output, fine)))
+def loads_of_meshes(coarse, fine):
+    """Differences of two histories at the same strains, as far as both came; nothing when one has not passed its peak by 1 % of strain."""
+    ones, others = ({round(strain, 6): ratio for strain, ratio in zip(rows["axial_strain"], rows["stress_ratio"])} for rows in (coarse, fine))
     peak = max(ones, key=ones.get)
     behind = [strain for strain in ones if strain > peak and strain in others]
     if not behind or behind[-1] < peak + 0.01:
         return None
-    of_coarse, of_fine = figures(coarse, output), figures(fine, output)
-
-    def relative(key):
-        return 100 * (of_fine[key] / of_coarse[key] - 1)
-
     apart = [100 * (others[strain] / ones[strain] - 1) for strain in behind]
-    return {"peak": relative("peak"), "load behind it, mean": sum(apart) / len(apart), "largest": max(map(abs, apart)),
-            "residual": relative("residual"), "thickness": relative("thickness, d"), "volume strain": relative("volume strain, %"),
-            "inclination": of_fine["inclination, deg"] - of_coarse["inclination, deg"]}
+    return {"load behind the peak, mean": sum(apart) / len(apart), "largest": max(map(abs, apart))}
+
+
+def of_meshes(coarse, fine):
+    """Differences of two rows of table.csv."""
+    differences = {key: 100 * (fine[key] / coarse[key] - 1) for key in ("peak", "residual", "thickness, d", "volume strain, %")}
+    return differences | {"inclination, deg": fine["inclination, deg"] - coarse["inclination, deg"]}
 
 
 def law_text(groups):
@@ -225,7 +224,7 @@ def write_tables(runs, output):
     if any(group.startswith("grains") for group in groups):
         written.append(faces_text(groups))
     if any(group.split("-")[0] in TWO_SCALES for group in groups):
-        written += [two_scale_text(groups), meshes_text(runs, output)]
+        written += [two_scale_text(groups), meshes_text(runs, rows, output)]
     (output / "table.md").write_text("# Biaxial compression\n\nMeans and 95 % intervals.\n\n" + "\n".join(written), encoding="utf-8")
 
 
@@ -257,21 +256,24 @@ def draw_curves(plt, runs, output, picture):
     plt.close(figure)
 
 
+def scatter(axis, samples, values, marker, colour_map, least, most):
+    """Marks about as wide as what they stand for, in a picture 3 inches high, 72 points an inch."""
+    x, y = samples["x"], samples["y"]
+    axis.set_aspect("equal")
+    axis.set_axis_off()
+    return axis.scatter(x, y, c=values, s=samples["area"] * (72 * 3.0 / (y.max() - y.min())) ** 2, marker=marker, cmap=colour_map, vmin=least,
+                        vmax=most, linewidths=0)
+
+
 def draw_fields(plt, runs, output, picture):
     """Shear strain (above) and rotation (below) of the increment in which bands are looked for."""
     figure, axes = plt.subplots(2, len(runs), figsize=(2.1 * len(runs), 7.2), layout="constrained", squeeze=False)
     for column, run in enumerate(runs):
         samples = read_table(output / f"{run.name}.samples.csv")
-        x, y = samples["x"], samples["y"]
-        # Marks about as wide as what they stand for, in a picture 3 inches high, 72 points an inch.
-        sizes = samples["area"] * (72 * 3.0 / (y.max() - y.min())) ** 2
         for axis, values, colour_map, sided in ((axes[0][column], samples["shear"], "viridis", False),
                                                 (axes[1][column], samples["rotation"], "RdBu", True)):
             high = numpy.quantile(abs(values), 0.97) or 1.0
-            marks = axis.scatter(x, y, c=values, s=sizes, marker="o" if run.kind == "grains" else "s", cmap=colour_map,
-                                 vmin=-high if sided else 0.0, vmax=high, linewidths=0)
-            axis.set_aspect("equal")
-            axis.set_axis_off()
+            marks = scatter(axis, samples, values, "o" if run.kind == "grains" else "s", colour_map, -high if sided else 0.0, high)
             figure.colorbar(marks, ax=axis, shrink=0.6)
         axes[0][column].set_title(run.name, fontsize=7)
     figure.savefig(picture, dpi=60)
@@ -286,8 +288,8 @@ def draw_meshes(plt, runs, output, picture):
     for run in runs:
         rows = curve(output, run)
         finest = run.across == max(other.across for other in runs if without_mesh(other) == without_mesh(run))
-        axes[0].plot(100 * rows["axial_strain"], rows["stress_ratio"], color=COLOURS[families.index(without_mesh(run)) % len(COLOURS)], linewidth=1.3 if finest else 1.0,
-                     linestyle="-" if finest else ":", label=run.group)
+        axes[0].plot(100 * rows["axial_strain"], rows["stress_ratio"], color=COLOURS[families.index(without_mesh(run)) % len(COLOURS)],
+                     linewidth=1.3 if finest else 1.0, linestyle="-" if finest else ":", label=run.group)
     axes[0].set_xlabel("axial strain, %")
     axes[0].set_ylabel("stress ratio")
     axes[0].grid(alpha=0.3)
@@ -295,12 +297,7 @@ def draw_meshes(plt, runs, output, picture):
     samples = {run.name: read_table(output / f"{run.name}.samples.csv") for run in runs}
     most = max(numpy.quantile(rows["shear"], 0.98) for rows in samples.values())
     for axis, run in zip(axes[1:], runs):
-        rows = samples[run.name]
-        height = rows["y"].max() - rows["y"].min()
-        marks = axis.scatter(rows["x"], rows["y"], c=rows["shear"], s=rows["area"] * (72 * 2.9 / height) ** 2, marker="s", cmap="viridis",
-                             vmin=0.0, vmax=most, linewidths=0)
-        axis.set_aspect("equal")
-        axis.set_axis_off()
+        marks = scatter(axis, samples[run.name], samples[run.name]["shear"], "s", "viridis", 0.0, most)
         axis.set_title(run.group.replace("-", "\n"), fontsize=7)
     figure.colorbar(marks, ax=axes[-1], shrink=0.7, label="shear strain, second half of the run")
     figure.savefig(picture, dpi=90)
