@@ -104,66 +104,60 @@ def adaptivity(case, material, curve, tolerances):
 # Sections of the page: heading, words, file, columns (all if empty). Beginnings of the lines of a text
 # file that are shown, or of the rows of a table that are left out.
 SECTIONS = [
-    ("A cell", """One evaluation of a cell of 400 discs at the default settings costs 2.2 ms with its tangent, at an error of 1.1 +- 0.4 %.
-Eight packings, ten increments of isochoric strain 1e-3. The error is the largest relative difference of a normal stress from
-the slowest run (inertial number 1e-4, tolerance 1e-4) of the same packing, over 3 and over 10 increments. "reference" is that run at
-half its care; "yardstick" is LIGGGHTS's own loop at a tenth of the stable time step.""", "cell_bench.txt", [],
+    ("A cell", """At the default settings a cell of 400 discs costs 2.2 ms with its tangent, at an error of 1.1 +- 0.4 %. Eight packings, ten increments of
+isochoric strain 1e-3. The error is the largest relative difference of a normal stress from a slow run (inertial number 1e-4, tolerance 1e-4), over 3
+and over 10 increments. "reference" is that run at half its care; "yardstick" is LIGGGHTS's own loop at a tenth of the stable time step.""",
+     "cell_bench.txt", [],
      ["            inertial", " reference", " yardstick", "   default", "             1.2e-03     0.12      2e-02", "             2.0e-04     0.12"]),
-    ("", """- About 1 % costs 2.2 ms (the default: inertial number 6e-4, damping 0.12, tolerance 5e-3), about 0.3 % costs 4.4 ms, 2 to 3 % costs 1.6 ms.
-- With damping 0.12 a ramp at 6e-4 or slower ends at rest and needs no relaxation. Less damping rings, more damping lags behind. A tighter tolerance gains nothing.
+    ("", """- With damping 0.12 a ramp at 6e-4 or slower ends at rest. Less damping rings, more damping lags behind. A tighter tolerance gains nothing.
 - At the default rate peaks are 1.6 +- 1.1 % too high.
-- An increment of zero changes the stress by 0.4 % of the pressure at the default tolerance, because contacts creep.
-- Answers from one state scatter about a plane by 3e-5 to 5e-5 of the pressure. The estimate of noise (unbalanced ratio over the root of 400) is 2.5e-4.
-- A state has 100 to 120 bytes a grain. Masses of single grains are not scaled; equal masses save 3.4 +- 3.4 steps of 91.
+- An increment of zero changes the stress by 0.4 % of the pressure, because contacts creep.
+- Answers from one state scatter by 3e-5 to 5e-5 of the pressure. The estimate of noise is 2.5e-4.
+- A state has 100 to 120 bytes a grain.
 
 Nanoseconds a grain and step, over a bare loop of the same physics:""", "step_bench.txt", [],
-     ["  ", "bare loop with", "discs: hooke/radii li_chu", "discs: full: ", "plain twin: hooke/radii li_chu", "engine: hooke/radii li_chu",
-      "liggghts: hooke/stiffness history  ", "lammps: hooke/stiffness history  "]),
-    ("", "The tangent (10 % of the contacts slide, 10 % roll at their limit), milliseconds, least of many. All three instruction sets give the same bits.",
-     "tangent_bench.csv", [], []),
-    ("A cell of spheres", """1,000 spheres of `cases/spheres`, five increments of 1e-3 of triaxial compression at constant volume, one packing.
-"+tangent" is the additional time of the condensed tangent. "off" is the deviator against a run at 1e-4 and 5e-4.
-A state has 385 bytes a sphere.""", "sphere_bench.txt", [], ["contacts", "hooke/radii", "the same", "and torsion"]),
-    ("Contact models", "Nanoseconds a disc and DEM step; the stock program beside `polargrain-liggghts`, which prints the same digits.",
-     "contact_loop.csv", ["models", "`liggghts`", "`polargrain-liggghts`"], ["`hooke/radii`, `history`", "the same, symmetric"]),
-    ("Packings", """Processor seconds to rest (unbalanced ratio 1e-3) under 100 kPa, radii 3 to 7 mm, damping 0.12. `polargrain pack` takes damping 0.02 in
-space, which needs a third to a quarter of the steps. 10,000 spheres take 114 s with friction 0.5 and 127 s with friction 0.02. Without friction they were not at rest
-after 8.6 minutes.""", "pack_bench.csv", [], []),
-    ("A coupled run", """`./bootstrap demo` (200 cells, 23 steps, 2 workers) takes 30 s: grains 95.1 %, messages 1.6 %, waiting 0.9 %, finite
-elements 0.6 %. It makes 27,002 evaluations of 2.1 ms. The speed of such machines changes from day to day by more than a third.
+     ["  ", "bare loop with", "discs: full: ", "engine: full: ", "liggghts: hooke/stiffness history  ", "lammps: hooke/stiffness history  "]),
+    ("", "The condensed tangent, milliseconds. All three instruction sets give the same bits.", "tangent_bench.csv", [], ["by fronts, SSE2"]),
+    ("A cell of spheres", """1,000 spheres of `cases/spheres`, five increments of 1e-3 of triaxial compression at constant volume, one packing. "+tangent" is the
+additional time of the condensed tangent. "off" is the deviator against a slow run. A state has 385 bytes a sphere.""", "sphere_bench.txt", [],
+     ["contacts", "hooke/radii", "and torsion"]),
+    ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm, damping 0.12. `polargrain pack` takes damping 0.02 in space and needs a third to a quarter
+of the steps there. 10,000 spheres take 114 s with friction 0.5. Without friction they were not at rest after 8.6 minutes.""", "pack_bench.csv",
+     ["packing", "grains", "seconds", "DEM steps", "void ratio"], ["discs, void"]),
+    ("A coupled run", """`./bootstrap demo` (200 cells, 23 steps, 2 workers) takes 30 s: grains 95.1 %, messages 1.6 %, waiting 0.9 %, finite elements 0.6 %. It
+makes 27,002 evaluations of 2.1 ms. The speed of such machines changes from day to day by more than a third.
 
 Newton iterations a step (most in brackets), `cases/biaxial` with 2 elements, 40 steps to 4 %: 2.4 a step to 3 % with the condensed tangent, 11.5 with Voigt's.
-With more cells single steps near the peak take more, because answers jump when grains rearrange.""", "newton.csv", [], []),
-    ("", "Acceleration (`steps: {acceleration: 5}`), 2 x 4 elements. For the condensed tangent it saves a sixth.", "acceleration.csv", [], []),
-    ("A coupled run of spheres", """512 points of 1,000 spheres between rough plates. The time is acceptable, the answer is limited. These packings are stiff (shear modulus 122 MPa under 100 kPa): a step of a thousandth is
-as large as their elastic strain. Where law and cell differ by more than 0.3 the run says so.
-`adaptive` and `cell` are not practical here: `cell` takes 131 s for the first evaluation of all points and some 65 s for each of the next.""",
-     "spheres_512.csv", ["`informed`, frozen, 80 steps to 8 %, `drift_shear: 0.002`", "now, broken off at step 65 for want of time"], []),
-    ("The coordinator", """10,000 cells with states of 55 kB and simulated workers that answer at once; four evaluations of every cell and a commit. "Own" is
-processor time of the coordinator. It saturates where that is all of an evaluation of 2.9 ms.""", "coupler_scale.csv", ["workers", "other load", "own, us an evaluation", "kB an evaluation", "kB of memory a cell", "saturates at"], []),
-    ("", """- `coupler_scale lasting 15 100000 5000 30 200`: 4.8 million evaluations in a quarter of an hour, 5,150 a second. No answer was wrong, no worker was
-  lost. Memory: 13.6 kB a cell.
-- The caches of two workers (256 MB each) cannot hold the states of 10,000 cells. Then every request carries its state (84 kB, 45 us an
-  evaluation).
-- 300,000 broken messages of a guided search (`tests/fuzz/fuzz.sh messages 300000`, sanitizers): no crash, no hang.""", "", [], []),
-    ("Adaptivity", """`model: adaptive` ([explanation](adaptivity.md)) against a cell at every point; error of the load curve as a share of its largest value, in
-brackets the largest relative error of a step. `cases/footing_cells` (560 points; full run: 11,201 evaluations):""", "adaptive_footing_cells.csv",
-     ["`tolerance`", "error of the curve", "times fewer DEM steps", "cells", "audits: mean error / bound"], []),
-    ("", """`cases/biaxial` (200 points; full run: 26,402 evaluations). Here the bound exceeds the tolerance behind the peak, and the runs say so:""",
-     "adaptive_biaxial.csv", ["`tolerance`", "error of the curve", "times fewer DEM steps", "cells", "audits: mean error / bound"], []),
-    ("Speed against error", """`cases/biaxial` on 2 x 4 elements (32 points, 400 discs, 23 steps to 2.3 %). Errors are the largest difference from the reference over its range;
-those of packings are against the mean of the three largest ones. `x`: no other run beats it in seconds and in error.""", "bench_quick.csv",
-     ["what", "setting", "s", "DEM steps", "error of stress_ratio", "error of the peak", "front"], ["cell size"]),
+With more cells single steps near the peak take more, because answers jump when grains rearrange.""", "newton.csv",
+     ["tangent", "to 0.5 %", "1 %", "2 %", "3 %", "4 %", "cells run to 3 %"], []),
+    ("", "Acceleration (`steps: {acceleration: 5}`), 2 x 4 elements, saves a sixth for the condensed tangent.", "acceleration.csv",
+     ["tangent", "steps", "iterations a step, mean and most", "with acceleration"], []),
+    ("A coupled run of spheres", """512 points of 1,000 spheres between rough plates. The time is acceptable, the answer is limited. These packings are stiff (shear modulus 122 MPa under
+100 kPa): a step of a thousandth is as large as their elastic strain. Where law and cell differ by more than 0.3 the run says so. `adaptive` and `cell` are not
+practical here: `cell` takes 131 s for the first evaluation of all points.""", "spheres_512.csv",
+     ["`informed`, frozen, 80 steps to 8 %, `drift_shear: 0.002`", "now, broken off at step 65 for want of time"], ["largest"]),
+    ("The coordinator", """10,000 cells with states of 55 kB and simulated workers that answer at once. "Own" is processor time of the coordinator. It saturates where that is
+all of an evaluation of 2.9 ms.""", "coupler_scale.csv", ["workers", "other load", "own, us an evaluation", "kB an evaluation", "saturates at"], []),
+    ("", """- `coupler_scale lasting 15 100000 5000 30 200`: 4.8 million evaluations in a quarter of an hour. No answer was wrong, no worker was lost.
+- The caches of two workers (256 MB each) cannot hold the states of 10,000 cells. Then every request carries its state (84 kB).
+- 300,000 broken messages (`tests/fuzz/fuzz.sh messages 300000`, sanitizers): no crash, no hang.""", "", [], []),
+    ("Adaptivity", """`model: adaptive` ([explanation](adaptivity.md)) against a cell at every point. Error of the load curve as a share of its largest value; largest relative error
+of a step in brackets. `cases/footing_cells` (560 points; full run: 11,201 evaluations):""", "adaptive_footing_cells.csv",
+     ["`tolerance`", "error of the curve", "times fewer DEM steps", "audits: mean error / bound"], []),
+    ("", """`cases/biaxial` (200 points; full run: 26,402 evaluations). The bound exceeds the tolerance behind the peak, and the runs say so:""",
+     "adaptive_biaxial.csv", ["`tolerance`", "error of the curve", "times fewer DEM steps", "audits: mean error / bound"], []),
+    ("Speed against error", """`cases/biaxial` on 2 x 4 elements (32 points, 400 discs, 23 steps to 2.3 %). Errors are the largest difference from the reference over its range. Those of
+packings are against the mean of the three largest ones.""", "bench_quick.csv",
+     ["what", "setting", "s", "DEM steps", "error of stress_ratio", "error of the peak"], ["cell size"]),
     ("", """- **Scatter comes first**: three packings of 400 discs have a standard deviation of 5 % of the range, of 800 discs 10 %, of 100 discs 25 %.
-  Most settings change less.
 - The case as given is 6.1 % off its reference at worst and 0.8 % at its peak, with 4.9 times fewer DEM steps.
-- A looser balance changes nothing. Steps of twice the size take 15 % more DEM steps and lose nothing.
-- A bench of packings: `polargrain bench CASE.yaml --pack SPEC.yaml --grains 100,200,400,800,1600 --seeds 1,2,3`.""", "", [], []),
-    ("Finite elements", """Elastoplastic block between rough plates, a step in full plastic flow; processor seconds a Newton iteration. From 1e3 to 2e5 unknowns the
-solution grows like n^1.23. UMFPACK's factorisation takes 80 % of 1e5 unknowns. Own kernels with the same bits cost -4 to +5.5 %
-against serial OpenBLAS. A Cauchy scene has two unknowns a node in place of three.""", "fem_bench.csv", [], []),
-    ("Checkpoints", """512 cells of 400 discs. While a checkpoint is written the file is in memory twice: 10,000 cells need 0.97 GB for that moment. States keep every
-bit. Of 100,000 broken cases, packings, paths and checkpoints each was read or refused (target `fuzz_files`).""", "checkpoint_bench.csv", [], []),
+- A looser balance changes nothing. Steps of twice the size take 15 % more DEM steps and lose nothing.""", "", [], []),
+    ("Finite elements", """Elastoplastic block between rough plates in full plastic flow, seconds a Newton iteration. The solution grows like n^1.23. Own kernels with the same
+bits cost -4 to +5.5 % against serial OpenBLAS. A Cauchy scene has two unknowns a node in place of three.""", "fem_bench.csv",
+     ["unknowns", "assembly, s", "factorisation and solution, s", "peak, MiB"], []),
+    ("Checkpoints", """A checkpoint of 512 cells of 400 discs has 24.9 MB and takes 0.15 to 0.17 s. While it is written the file is in memory twice: 10,000 cells need 0.97 GB
+for that moment. States keep every bit. 100,000 broken cases, packings, paths and checkpoints were read or refused (target `fuzz_files`).
+(`build/release/bench/checkpoint_bench 512 48000`)""", "", [], []),
 ]
 
 
@@ -185,7 +179,8 @@ def page():
     lines = ["# Performance", "",
              "*What does a computation cost, and what accuracy does it buy? For users who plan runs.*", "",
              "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance).",
-             "Times differ by some ten per cent between machines; ratios within a table do not.", ""]
+             "Times differ by some ten per cent between machines; ratios within a table do not. Contact models in the stock loop:",
+             "[contact_loop.csv](data/performance/contact_loop.csv).", ""]
     for heading, words, name, columns, shown in SECTIONS:
         lines += [f"{'#' * (3 if heading == 'A coupled run of spheres' else 2)} {heading}", ""] if heading else []
         lines += [words, ""]
