@@ -67,7 +67,7 @@ class HostedCells {
 };
 
 /// The program whose workers serve cells: $POLARGRAIN_PROGRAM, or else the first of these that is there, or else
-/// `polargrain` of $PATH. @throws InputError when there is none
+/// `polargrain` of $PATH. @throws InputError when it is missing
 std::string program_for_workers(const std::vector<std::filesystem::path>& places);
 
 }  // namespace polargrain::coupler

@@ -29,7 +29,7 @@ class Foreman final : private CrewEvents {
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
 
   /// Returns when every task is done, with its reply; those of `fetch` and `again` have a state and no more.
-  /// @throws RunError when no worker is left, or one that is no evaluation cannot be done by anybody
+  /// @throws RunError when no worker is left, or nobody can do a task other than an evaluation
   void work(std::vector<Task>& tasks);
 
   StateBook& book() { return book_; }
@@ -69,7 +69,7 @@ class Foreman final : private CrewEvents {
   void take_states(Member& member, const States& answer);
   void take_reply(Member& member, Task& task, const CellReply& reply);
   void take_other_state(Member& member, Task& task, const CellReply& reply);
-  /// @throws FalseMessage when a state that was sent is none of such a cell
+  /// @throws FalseMessage when a state that was sent cannot be one of the cell
   void check_state(const Task& task, const StatePointer& state) const;
   /// Somebody has done a task: who refused it, or came to something else, was wrong.
   void blame_others(const Member& member, const Task& done);

@@ -23,7 +23,7 @@ struct WorkerKey {
 
 /// Makes `directory` (mode 0700) with coordinator.key, workers.allowed and NAME.key (mode 0600), or adds
 /// another worker's key to it. Nothing that exists is changed, but for the line that workers.allowed gains.
-/// @throws InputError when the worker's key exists or the name is no file name; RunError when a file cannot
+/// @throws InputError when the worker's key exists or the name is not a file name; RunError when a file cannot
 /// be written
 void make_keys(const std::filesystem::path& directory, const std::string& worker_name);
 

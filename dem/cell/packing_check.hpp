@@ -12,7 +12,7 @@
 namespace polargrain::dem {
 
 // Grains are rigid but for their contacts: laws of contacts mean something while overlaps are small against
-// the grains. What lies beyond is no answer about grains any more, however well it is balanced.
+// the grains. Beyond that an answer says nothing about grains, however well it is balanced.
 
 /// As kMostMeanOverlap for the largest overlap: forces of contacts reach some five times their mean.
 inline constexpr double kMostOverlap = 0.25;
