@@ -165,7 +165,7 @@ def hard_cases_page(figures):
             outcome = outcome if outcome == "to the end" else f"{outcome} (at {time} of {of})"
             rows.append(f"| {name} | {iterations} | {cuts} | {float(stress):.6g} | {error or ''} | {outcome} |")
         else:
-            others.append(f"- {figure}")
+            others.append(f"    {figure}")
     return "\n".join([
         "# Hard cases", "",
         "*What happens in cases that break other solvers? For users who doubt a run. With grains: [hard cells](hard_cells.md).*", "",
@@ -173,7 +173,7 @@ def hard_cases_page(figures):
         "compressed or extended in ten steps a leg, to a tolerance of 1e-8. The error is relative to the Mohr-Coulomb stress",
         "at which a homogeneous block must end. With friction at the platens, or after a stop, there is no exact answer.", "",
         "| case | iterations | cuts | axial stress, kPa | error | what happened |", "|---|---|---|---|---|---|",
-        *rows, "", "Others:", "", *others, ""])
+        *rows, "", "Refused cases, and cases of another kind:", "", *others, ""])
 
 
 def keep(results):
