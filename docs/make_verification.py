@@ -180,22 +180,23 @@ def keep(results):
     """The raw figures, one executable after the other."""
     lines = ["Figures of the tests, written by docs/make_verification.py BUILD_FOLDER. Do not edit."]
     for name, (figures, cases, seconds) in results.items():
-        lines += ["", f"== {name}: {seconds:.1f} s"] + [f"-- {case} {outcome}" for case, outcome in cases] + figures
+        lines += ["", f"== {name}: {len(cases)} cases, {seconds:.1f} s"]
+        lines += [f"-- failed: {case}" for case, outcome in cases if outcome == "FAILED"] + figures
     KEPT.parent.mkdir(exist_ok=True)
     KEPT.write_text("\n".join(lines) + "\n")
 
 
 def kept():
-    """@returns what keep() was given"""
+    """@returns what keep() was given; cases that passed have no names"""
     results = {}
     for line in KEPT.read_text().splitlines()[1:] if KEPT.exists() else []:
-        begin = re.fullmatch(r"== (\S+): (\S+) s", line)
-        case = re.fullmatch(r"-- (\S+) (OK|FAILED)", line)
+        begin = re.fullmatch(r"== (\S+): (\d+) cases, (\S+) s", line)
+        failed = re.fullmatch(r"-- failed: (\S+)", line)
         if begin:
-            figures, cases = [], []
-            results[begin[1]] = (figures, cases, float(begin[2]))
-        elif case:
-            cases.append((case[1], case[2]))
+            figures, cases = [], [("", "OK")] * int(begin[2])
+            results[begin[1]] = (figures, cases, float(begin[3]))
+        elif failed:
+            cases[cases.index(("", "OK"))] = (failed[1], "FAILED")
         elif line:
             figures.append(line)
     return results
@@ -215,22 +216,22 @@ def run_tests(build, sections):
 
 def verification_page(results):
     lines = ["# Verification", "",
-             "*Which problems with exact or published answers does the program solve, and how well? For users who want evidence.*", "",
+             "*How well does the program solve problems with exact or published answers? For users who want evidence.*", "",
              "`docs/make_verification.py` writes this page from the figures that the tests print. Each test checks its figures and fails",
              "beyond the error asked for. All figures are in [data/verification.txt](data/verification.txt). Labels such as E.4 are cited in the",
              "code; [theory](theory.md) explains the others. To measure again:", "",
              "    docs/make_verification.py build/release --long", "",
              "## Errors", "",
              "Errors are relative where the reference is not zero. Percent are marked.", "",
-             *summary_table(results), "", "## Tests", "", "| topic | content | test | cases | figures | s |", "|---|---|---|---|---|---|"]
+             *summary_table(results), "", "## Tests", "", "| topic | content | test | cases |", "|---|---|---|---|"]
     for title, name, about in SECTIONS + LONG:
         if name not in results:
             continue
-        figures, cases, seconds = results[name]
+        cases = results[name][1]
         bad = [case for case, outcome in cases if outcome == "FAILED"]
         outcome = f"{len(cases)}, **failed: {', '.join(bad)}**" if bad else f"{len(cases)} pass"
-        lines.append(f"| {title} | {about} | `{name}` | {outcome} | {len(figures)} | {seconds:.1f} |")
-    return lines + ["", "Times are processor seconds of the whole test on one machine. [Hard cases](hard_cases.md) have a page of their own.", ""]
+        lines.append(f"| {title} | {about} | `{name}` | {outcome} |")
+    return lines + ["", "[Hard cases](hard_cases.md) have a page of their own.", ""]
 
 
 def main():
