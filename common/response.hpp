@@ -64,7 +64,7 @@ inline Trust& trust_of(Trust& answer) {
   return answer;
 }
 
-/// What a material answers at one point.
+/// The answer of a material at one point.
 struct Response : Trust {
   /// s11, s22, s33, s12, s21 in Pa and couple stresses m1, m2 in N/m.
   Vector7 stress = Vector7::Zero();

@@ -56,7 +56,7 @@ class HostedCells {
   /// @returns the replies in the order of the requests; their states have their bytes
   /// @throws as initial
   std::vector<CellReply> evaluate(const std::vector<HostedRequest>& requests, const IsWanted& is_wanted = {});
-  /// What cells have cost since the pool was started last.
+  /// Costs of the cells since the pool was started last.
   [[nodiscard]] PoolCounts counts() const;
   /// Ends the workers now; the next question starts others.
   void close();

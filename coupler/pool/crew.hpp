@@ -33,7 +33,7 @@ struct CrewOptions {
   std::function<void(const std::string&)> tell;
 };
 
-/// What a worker was asked for with one message.
+/// The tasks of one message to a worker.
 struct Job {
   std::vector<std::size_t> tasks;
   std::uint64_t request = 0;  ///< number on the wire, never used twice
@@ -57,7 +57,7 @@ struct Member {
   bool has_answered = false;
   int unreadable = 0;  ///< messages in a row that made no sense
 
-  /// What its answers are held against: a guest may come again under another name, but not with another key.
+  /// The key for which its answers count: a guest may come again under another name, but not with another key.
   [[nodiscard]] const std::string& standing() const { return address.remote ? party : name; }
 };
 

@@ -51,7 +51,7 @@ class Foreman final : private CrewEvents {
     std::int64_t answers = 0;
   };
 
-  // What the crew tells.
+  // Messages of the crew.
   void joined(Member& member) override;
   void said(Member& member, const Message& message) override;
   void lost(Member& member, const Loss& loss) override;
@@ -93,7 +93,7 @@ class Foreman final : private CrewEvents {
   /// What is returned now has nobody's word but its own: noted, should its worker be found to answer falsely later.
   void note_returned();
 
-  // What cannot be carried to its end.
+  // Tasks that cannot be finished.
   void put_back(const Job& job);
   void end_attempt(Task& task, Attempt attempt);
   [[nodiscard]] bool may_take(const Member& member, const Task& task);

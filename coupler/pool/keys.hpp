@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// What a coordinator that serves workers over TCP has to hold: its own CURVE key pair, and who may connect.
+/// Keys of a coordinator that serves workers over TCP: its own CURVE key pair, and who may connect.
 /// Keys are in Z85, 40 characters.
 struct CoordinatorKeys {
   std::string public_key;
@@ -14,7 +14,7 @@ struct CoordinatorKeys {
   std::map<std::string, std::string> allowed;  ///< from a worker's public key to its name
 };
 
-/// What a worker has to hold: its own key pair and the public key of the only coordinator it trusts.
+/// Keys of a worker: its own key pair and the public key of the only coordinator it trusts.
 struct WorkerKey {
   std::string public_key;
   std::string secret_key;

@@ -10,7 +10,7 @@
 
 namespace polargrain::dem {
 
-// What cells of discs and of spheres have in common.
+// Parts that cells of discs and of spheres share.
 
 /// Spring that holds each grain in the condensed tangent, over the mean normal stiffness. From 1e-6 to 1e-3
 /// it changes no modulus by more than 1 %.
@@ -37,7 +37,7 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
            const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
            const Inertia& inertia, double time_step, double most_void_ratio);
 
-/// What the contacts of a cell tell of it, but for fabric and rotations.
+/// Diagnostics from the contacts of a cell, but for fabric and rotations.
 /// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
                                std::span<const double> radii, bool (*slides)(const Contact&));

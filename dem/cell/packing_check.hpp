@@ -58,7 +58,7 @@ std::string geometry_fault(const Packing& packing);
 /// that those of the two would be mixed up. Nothing when no grains do.
 std::string twofold_contact(const Packing& packing);
 
-/// What a packing is under a script before the first step.
+/// A packing under a script before the first step.
 struct PackingAtRest {
   double pressure = 0.0;         ///< mean normal stress, compression positive, Pa
   double recorded = 0.0;         ///< the packing file's, Pa; 0 when it has none
