@@ -222,7 +222,7 @@ def verification_page(results):
              "code; [theory](theory.md) explains the others. To measure again:", "",
              "    docs/make_verification.py build/release --long", "",
              "## Errors", "",
-             "Errors are relative where the reference is not zero. Percent are marked.", "",
+             "Errors are relative where the reference is not zero. Rows with % are in per cent.", "",
              *summary_table(results), "", "## Tests", "", "| topic | test | cases |", "|---|---|---|"]
     for title, name in SECTIONS + LONG:
         if name not in results:
