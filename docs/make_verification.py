@@ -231,7 +231,8 @@ def verification_page(results):
         bad = [case for case, outcome in cases if outcome == "FAILED"]
         outcome = f"{len(cases)}, **failed: {', '.join(bad)}**" if bad else f"{len(cases)} pass"
         lines.append(f"| {title} | `{name}` | {outcome} |")
-    return lines + ["", "[Hard cases](hard_cases.md) have a page of their own.", ""]
+    return lines + ["", "More paths of cells of discs and spheres: [data/exact_paths.csv](data/exact_paths.csv). [Hard cases](hard_cases.md) have",
+                    "a page of their own.", ""]
 
 
 def main():
