@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the words and links of the Markdown pages must keep to.
+
+    tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no headless clauses
+    tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
+
+Without PAGE: all pages that git knows. Prose only: tables, code, headings and references of literature are not counted as sentences.
+"""
+import collections
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+MOST_WORDS = 45000
+LONGEST_SENTENCE = 30
+MEAN_SENTENCE = 16.0
+README_WORDS = 700
+HEADLESS = re.compile(r"\b(is|are) none\b|\bwhat is not\b|, what is \w+ed\b|\bas is (none|what)\b|\bthat are none\b|^(What|None) (is|are|was|were|has|of) ", re.M)
+
+
+def without_code(text):
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
+    text = re.sub(r"```.*?```", "", text, flags=re.S)
+    return re.sub(r"^    .*$", "", text, flags=re.M)
+
+
+def sentences(text):
+    text = re.sub(r"^(\||#).*$", ".\n", without_code(text), flags=re.M)
+    text = re.sub(r"^\s*([-*]|\d+\.) ", "\n\n", text, flags=re.M)
+    found = re.split(r"(?<=[.!?:])\s+(?=[A-Z`*\"(\[])|\n\s*\n", text)
+    return [sentence for sentence in found if len(sentence.split()) > 3]
+
+
+def all_pages():
+    listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    return [ROOT / name for name in listed if (ROOT / name).is_file()]
+
+
+def check_words(pages, whole):
+    faults, lengths, total = [], [], 0
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        name = page.relative_to(ROOT)
+        words = len(text.split())
+        total += words
+        if str(name) == "README.md" and words > README_WORDS:
+            faults.append(f"{name}: {words} words, at most {README_WORDS}")
+        found = sentences(text)
+        of_page = [len(sentence.split()) for sentence in found]
+        lengths += of_page
+        for sentence, length in zip(found, of_page):
+            if length > LONGEST_SENTENCE:
+                faults.append(f"{name}: a sentence of {length} words: {' '.join(sentence.split()[:9])} ...")
+        for hit in HEADLESS.finditer(without_code(text)):
+            faults.append(f"{name}: a clause without a subject: '{hit.group(0)}'")
+    mean = sum(lengths) / max(1, len(lengths))
+    if mean > MEAN_SENTENCE:
+        faults.append(f"the mean sentence has {mean:.1f} words, at most {MEAN_SENTENCE:.0f}")
+    if whole and total > MOST_WORDS:
+        faults.append(f"{total} words in all, at most {MOST_WORDS}")
+    print(f"{len(pages)} pages, {total} words, {len(lengths)} sentences, {mean:.1f} words in the mean")
+    return faults
+
+
+def anchor(heading):
+    """The name that GitHub and mkdocs give a heading."""
+    plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+    return re.sub(r"[^\w\- ]", "", plain.strip().lower()).replace(" ", "-")
+
+
+def anchors(page):
+    names, counts = set(), collections.Counter()
+    for heading in re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S), re.M):
+        name = anchor(heading)
+        names.add(f"{name}-{counts[name]}" if counts[name] else name)
+        counts[name] += 1
+    return names
+
+
+def links(page):
+    """Pairs of a file and a place in it that a page leads to."""
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S)):
+        if not re.match(r"[a-z]+:", target):
+            file, _, place = target.partition("#")
+            to = (page.parent / file).resolve() if file else page
+            yield target, (to / "README.md" if to.is_dir() and (to / "README.md").exists() else to), place
+
+
+def check_links(pages, whole):
+    faults = []
+    for page in pages:
+        for target, to, place in links(page):
+            if not to.exists():
+                faults.append(f"{page.relative_to(ROOT)}: there is no '{target}'")
+            elif place and to.suffix == ".md" and place not in anchors(to):
+                faults.append(f"{page.relative_to(ROOT)}: '{target}': there is no such heading")
+    if whole:
+        near = {ROOT / "README.md"}
+        for _ in range(2):
+            near |= {to for page in near if page.suffix == ".md" and page.exists() for _, to, _ in links(page)}
+        faults += [f"{page.relative_to(ROOT)}: more than two clicks from README.md" for page in pages
+                   if page.relative_to(ROOT).parts[0] == "docs" and page not in near]
+    return faults
+
+
+def main():
+    checks = {"words": check_words, "links": check_links}
+    if len(sys.argv) < 2 or sys.argv[1] not in checks:
+        print(__doc__, file=sys.stderr)
+        return 2
+    named = [pathlib.Path(name).resolve() for name in sys.argv[2:]]
+    faults = checks[sys.argv[1]](named or all_pages(), not named)
+    print("\n".join(faults))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
