@@ -4,6 +4,7 @@
 
     tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no headless clauses
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
+    tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
 
 Without PAGE: all pages that git knows. Prose only: tables, code, headings and references of literature are not counted as sentences.
 """
@@ -106,8 +107,35 @@ def check_links(pages, whole):
     return faults
 
 
+KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
+                 r"\(\s*\"([A-Za-z]\w*)\"")
+KEYS_OF = ["coupler/case", "app/pack", "app/element", "app/calibrate"]
+REFERENCE = ["docs/user_guide.md", "docs/element_tests.md", "docs/file_formats.md", "docs/scripts.md", "docs/running.md"]
+
+
+def check_keys(_, __):
+    told = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in REFERENCE)
+    howto = told + "\n".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs/howto").glob("*.md"))
+    faults, count = [], 0
+    for folder in KEYS_OF:
+        for source in sorted((ROOT / folder).rglob("*.cpp")):
+            for key in sorted(set(KEY.findall(source.read_text(encoding="utf-8"))) - {"v_"}):  # a prefix of LIGGGHTS's
+                count += 1
+                if not re.search(rf"\b{key}\b", told):
+                    faults.append(f"{source.relative_to(ROOT)}: the key '{key}' is in no table of {', '.join(REFERENCE)}")
+    for source in sorted((ROOT / "app/commands").glob("*.cpp")):
+        text = source.read_text(encoding="utf-8")
+        names = re.findall(r"add_subcommand\(\s*\"(\w+)\"", text)
+        # Of an option with a letter, -o,--output, the letter will do.
+        names += re.findall(r"add_(?:option|flag)\(\s*\"(-\w|--[\w-]+)", text)
+        count += len(names)
+        faults += [f"{source.relative_to(ROOT)}: '{name}' is told of nowhere" for name in names if not re.search(rf"(?<![\w-]){re.escape(name)}\b", howto)]
+    print(f"{count} keys, commands and options")
+    return faults
+
+
 def main():
-    checks = {"words": check_words, "links": check_links}
+    checks = {"words": check_words, "links": check_links, "keys": check_keys}
     if len(sys.argv) < 2 or sys.argv[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2
