@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the words and links of the Markdown pages must keep to.
 
-    tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no headless clauses
+    tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no clauses without a subject;
+                                      a page of docs/ begins with whom it is for
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
     tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
 
@@ -49,6 +50,9 @@ def check_words(pages, whole):
         total += words
         if str(name) == "README.md" and words > README_WORDS:
             faults.append(f"{name}: {words} words, at most {README_WORDS}")
+        beginning = text.split("\n## ")[0][:700]
+        if name.parts[0] == "docs" and "paper" not in name.parts and not re.search(r"\bFor [A-Za-z]", beginning):
+            faults.append(f"{name}: its first lines do not say for whom it is")
         found = sentences(text)
         of_page = [len(sentence.split()) for sentence in found]
         lengths += of_page
