@@ -113,6 +113,7 @@ def check_links(pages, whole):
 
 KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
                  r"\(\s*\"([A-Za-z]\w*)\"")
+CHOICES = re.compile(r"\.choice(?:_or)?\(\s*\"\w+\",\s*\{([^}]*)\}")
 KEYS_OF = ["coupler/case", "app/pack", "app/element", "app/calibrate"]
 REFERENCE = ["docs/user_guide.md", "docs/element_tests.md", "docs/file_formats.md", "docs/scripts.md", "docs/running.md"]
 
@@ -123,10 +124,12 @@ def check_keys(_, __):
     faults, count = [], 0
     for folder in KEYS_OF:
         for source in sorted((ROOT / folder).rglob("*.cpp")):
-            for key in sorted(set(KEY.findall(source.read_text(encoding="utf-8"))) - {"v_"}):  # a prefix of LIGGGHTS's
+            text = source.read_text(encoding="utf-8")
+            words = {word for choices in CHOICES.findall(text) for word in re.findall(r"\"(\w+)\"", choices)}
+            for key in sorted((set(KEY.findall(text)) | words) - {"v_"}):  # a prefix of LIGGGHTS's
                 count += 1
                 if not re.search(rf"\b{key}\b", told):
-                    faults.append(f"{source.relative_to(ROOT)}: the key '{key}' is in no table of {', '.join(REFERENCE)}")
+                    faults.append(f"{source.relative_to(ROOT)}: the key or choice '{key}' is in no table of {', '.join(REFERENCE)}")
     for source in sorted((ROOT / "app/commands").glob("*.cpp")):
         text = source.read_text(encoding="utf-8")
         names = re.findall(r"add_subcommand\(\s*\"(\w+)\"", text)
