@@ -7,7 +7,7 @@
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
     tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
 
-Without PAGE: all pages that git knows. Tables, code and headings are no sentences; bars of tables and comments are no words.
+Without PAGE: all pages that git knows. Tables, code and headings are no sentences; code and the bars of tables are no words.
 """
 import collections
 import pathlib
@@ -48,10 +48,9 @@ def check_words(pages, whole):
     for page in pages:
         text = page.read_text(encoding="utf-8")
         name = page.relative_to(ROOT)
-        words = len(re.findall(r"\S*\w\S*", re.sub(r"<!--.*?-->", "", text, flags=re.S)))  # bars of tables are no words
-        total += words
-        if str(name) == "README.md" and words > README_WORDS:
-            faults.append(f"{name}: {words} words, at most {README_WORDS}")
+        total += len(re.findall(r"\S*\w\S*", without_code(text)))  # bars of tables are no words
+        if str(name) == "README.md" and len(text.split()) > README_WORDS:
+            faults.append(f"{name}: {len(text.split())} words, at most {README_WORDS}")
         beginning = text.split("\n## ")[0][:700]
         if name.parts[0] == "docs" and "paper" not in name.parts and not re.search(r"\bFor [A-Za-z]", beginning):
             faults.append(f"{name}: its first lines do not say for whom it is")
