@@ -26,7 +26,7 @@ int check(const CheckOptions& options) {
        the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
        the_case.needs_workers() ? "needs workers" : "needs no workers");
   if (the_case.check_share > 0.0 && the_case.needs_workers())
-    tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker none can be\n",
+    tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker nothing is checked\n",
          100.0 * the_case.check_share);
   for (std::size_t k = 0; k < lines.size(); ++k)
     tell(stdout, "material '{}': {}\n", cells[k]->name, lines[k]);

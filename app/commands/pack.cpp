@@ -147,7 +147,7 @@ Command add_pack(CLI::App& program, const Grains& grains) {
   const auto options = std::make_shared<PackOptions>();
   CLI::App& command = *program.add_subcommand("pack", "Make a packing of grains, or export one");
   CLI::Option* specification =
-      command.add_option("SPEC", options->specification_file, "What to make (YAML), or a packing to export");
+      command.add_option("SPEC", options->specification_file, "Specification (YAML), or a packing to export");
   specification->transform(brought_along);
   CLI::Option* output =
       command.add_option("-o,--output", options->output, "Packing to write (HDF5)")->type_name("FILE.h5");

@@ -37,8 +37,8 @@ constexpr Kind kKinds[] = {
     {"cannot be interrupted without loss", "A material of this case cannot be kept in a checkpoint."},
     {"with one worker no evaluation can be checked", "workers: check needs two workers or more."},
     {"did not converge",
-     "The run ended here: what was committed before is good. The last lines of the log say what was tried; the causes are most "
-     "often a body that has no balance at this load, steps that are too large, or a tolerance below the noise."},
+     "The run ended here. All steps that were committed before are good. The last lines of the log list the attempts. Frequent "
+     "causes are a body without balance at this load, steps that are too large, and a tolerance below the noise."},
     {"small deformation",
      "Rotations or strains have grown beyond what small deformation describes; deformation: large takes them into account."},
 };

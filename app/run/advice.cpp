@@ -82,7 +82,7 @@ std::string neighbours(const fem::Trouble& trouble, const fem::Solver& solver) {
       place->second = point;
   }
   fem::MaterialValues values(solver);
-  std::string text = "  what is known there, before this step:";
+  std::string text = "  values there, before this step:";
   for (const auto& [element, point] : nearest)
     text += fmt::format("\n    element {}, point {}: {}", element, point, words_of(solver, values, point));
   return text;

@@ -36,7 +36,7 @@ class CellMaterial : public fem::Material, public GrainsOfPoints {
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
-  /// The diagnostics of the cell (docs/user_guide.md).
+  /// The diagnostics of the cell (docs/file_formats.md).
   [[nodiscard]] double moment_length() const override { return 2.0 * mean_radius_; }
   [[nodiscard]] std::vector<std::string> field_names() const override;
   /// What the engine remarked on the packing and its script, once.

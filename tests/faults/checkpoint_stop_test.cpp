@@ -134,7 +134,8 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.errors, "out/checkpoint.h5: this checkpoint cannot be used: " + why + "; " + advice);
   };
-  const std::string cut = "it was cut short, or is none of ours: the mark at its end is missing";
+  const std::string cut =
+      "the file is truncated, or it is not a polargrain file: the mark at its end is missing";
   const std::string damaged = "it is damaged: its content does not match the hash at its end";
   expect_refused("", cut);
   expect_refused(good.substr(0, good.size() / 2), cut);
