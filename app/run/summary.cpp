@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/run/json_text.hpp"
+#include "app/run/monitor_notes.hpp"
 #include "app/run/proof.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
@@ -115,6 +116,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                      {"point_evaluations", record.evaluations},
                      {"workers", record.workers},
                      {"values", last_values(record)},
+                     {"monitors", monitor_notes(the_case)},
                      {"errors", error_figures(record)},
                      {"seconds", cost_figures(record.costs)},
                      {"cells", cell_figures(record.pool)},
