@@ -62,11 +62,14 @@ bool changes(const RunResult& result, const std::string& name) {
   return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
 }
 
-bool tells_what_moved(const RunResult& result, const std::string& name) {
+bool is_strain(const std::string& name) {
+  return name != "volume_strain" && name.find("strain") != std::string::npos;
+}
+
+bool is_displacement(const RunResult& result, const std::string& name) {
   const Json notes = monitors_of(result);
   const auto found = notes.find(name);
-  if (found != notes.end() && text_of(*found, "kind") == "displacement") return true;
-  return name != "volume_strain" && name.find("strain") != std::string::npos;
+  return found != notes.end() && text_of(*found, "kind") == "displacement";
 }
 
 }  // namespace
@@ -103,11 +106,17 @@ std::string unit_of_value(const std::vector<RunResult>& results, const std::stri
 }
 
 std::string value_moved(const std::vector<RunResult>& results) {
-  for (const std::string& name : in_order(results)) {
-    const auto suits = [&](const RunResult& result) {
+  const auto suits = [&](const std::string& name) {
+    return std::ranges::all_of(results, [&](const RunResult& result) {
       return !result.history || result.history->rows() == 0 || (has(result, name) && changes(result, name));
-    };
-    if (std::ranges::all_of(results, suits) && tells_what_moved(results.front(), name)) return name;
+    });
+  };
+  const FollowedNames names = followed_names(results, "");
+  for (const auto* const of : {&names.listed, &names.others}) {
+    for (const std::string& name : *of)
+      if (is_strain(name) && suits(name)) return name;
+    for (const std::string& name : *of)
+      if (is_displacement(results.front(), name) && suits(name)) return name;
   }
   return "time";
 }

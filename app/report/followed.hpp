@@ -18,8 +18,8 @@ FollowedNames followed_names(const std::vector<RunResult>& results, const std::s
 /// "N/m"; empty: without one, or not known. Runs agree on it, or it is not known.
 std::string unit_of_value(const std::vector<RunResult>& results, const std::string& name);
 
-/// What curves are drawn over: the first value in the order of the table, then of the monitors, that all runs have, that tells
-/// what was moved (a displacement, or a strain by its name) and that did change. Else `time`.
+/// What curves are drawn over: a strain by its name, else a displacement, that all runs have and that did change; of the table
+/// first, then of the other values. Else `time`.
 std::string value_moved(const std::vector<RunResult>& results);
 
 }  // namespace polargrain::app
