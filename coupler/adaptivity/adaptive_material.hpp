@@ -183,7 +183,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
 
   std::vector<Cell> cells_;
   std::vector<Point> points_;
-  std::int64_t step_ = 0;
+  std::int64_t step_ =
+      0;  ///< increments committed; more than steps of the run, where these are cut or pass jumps
 
   // The step at work; empty between steps.
   std::vector<Branch> branches_;
@@ -200,7 +201,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   struct Bounds {
     double last = 0.0;          ///< of the mean error of the last step, with 95 % confidence
     double largest = 0.0;       ///< of all steps
-    double steps_beyond = 0.0;  ///< steps whose bound was beyond the tolerance,
+    double steps_beyond = 0.0;  ///< increments whose bound was beyond the tolerance,
     double first_beyond = 0.0;  ///< and the first of them; 0: none
   } bounds_;
   std::array<std::int64_t, 3> sources_{};  ///< committed point steps by Source

@@ -262,6 +262,9 @@ TEST_F(AdaptiveMaterialTest, AStepBeyondTheToleranceIsAnsweredAnewAndWhatCannotB
   const std::vector<std::string> notes = sand.take_notes();
   ASSERT_FALSE(notes.empty());
   EXPECT_NE(notes.front().find("more than the tolerance of 0.02"), std::string::npos) << notes.front();
+  // The material knows increments; which step of a run they belong to is for the run to say.
+  EXPECT_EQ(notes.front().find("step"), std::string::npos) << notes.front();
+  EXPECT_NE(sand.doubt().find(" of 12 increments"), std::string::npos) << sand.doubt();
   EXPECT_TRUE(sand.take_notes().empty());
   EXPECT_NE(sand.doubt().find("cannot be vouched for"), std::string::npos) << sand.doubt();
 }
