@@ -14,6 +14,7 @@
 #include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
+#include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/pool/log_excerpt.hpp"
@@ -26,11 +27,8 @@ namespace {
 void check_output(const std::filesystem::path& output) {
   if (output.extension() != ".h5")
     throw InputError({"", 0, fmt::format("-o {}: the name of a packing must end in .h5", output.string())});
-  std::error_code error;
-  const std::filesystem::path directory = output.has_parent_path() ? output.parent_path() : ".";
-  if (!std::filesystem::is_directory(directory, error))
-    throw InputError(
-        {"", 0, fmt::format("-o {}: there is no folder {}", output.string(), directory.string())});
+  if (const std::string reason = why_no_output(output); !reason.empty())
+    throw InputError({"", 0, fmt::format("-o {}: {}", output.string(), reason)});
 }
 
 /// Makes the packing in a process of its own. @returns whether that ended well

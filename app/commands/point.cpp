@@ -92,7 +92,7 @@ class AnswerTable {
     if (file_) {
       file_->row(cells);
     } else {
-      if (!tell(stdout, "{}\n", fmt::join(cells, ","))) throw RunError("standard output takes no more rows");
+      if (!tell(stdout, "{}", csv_row(cells))) throw RunError("standard output takes no more rows");
     }
   }
   std::optional<CsvFile> file_;
@@ -101,7 +101,7 @@ class AnswerTable {
 /// @returns whether every increment was answered
 bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerTable& table) {
   material.allocate(1);
-  for (const std::string& note : material.take_notes()) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : material.take_notes()) tell(stderr, "note: {}\n", note);
   std::vector<double> fields(material.field_names().size());
   for (std::size_t i = 0; i <= path.size(); ++i) {
     const Increment increment = i == 0 ? Increment{} : path[i - 1];

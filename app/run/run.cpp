@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <optional>
@@ -16,6 +15,7 @@
 #include "app/run/resume.hpp"
 #include "app/run/run_checkpoints.hpp"
 #include "app/run/run_files.hpp"
+#include "app/run/run_log.hpp"
 #include "app/run/run_observer.hpp"
 #include "app/run/sample.hpp"
 #include "app/run/soft_contacts.hpp"
@@ -47,8 +47,7 @@ class Run {
         resume_command_(resume_command(options, directory_)),
         checkpoints_(directory_, case_.steps(),
                      60.0 * options.checkpoint_minutes.value_or(case_.checkpoint_minutes)),
-        log_("run",
-             std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), !from_)),
+        log_("run", run_log_sink(directory_ / "run.log", !from_)),
         observer_(Progress::style_for(stderr, options.quiet), case_.steps(), log_),
         files_(case_, directory_, from_.get()),
         cell_paths_(case_, directory_, from_ ? from_->step : -1) {
@@ -117,6 +116,7 @@ class Run {
       options.trust_scripts = options_.scripts.trusted;
       options.listening = std::move(listening_);
       options.state_fault = state_fault_;
+      options.heed = [] { stop_if_interrupted(); };
       if (case_.check_share > 0.0 && options.workers == 1 && !options.listening)
         options.tell("workers: check: with one worker no evaluation can be checked by another one");
       pool_.emplace(options);
@@ -178,7 +178,7 @@ class Run {
                                         report.message, advice(solver_->trouble(), *solver_, case_)));
         return false;
       }
-      log_notes();
+      log_notes(step);
       if (!left_out_) left_out_ = warn_if(solver_->left_out());
       if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
@@ -301,11 +301,10 @@ class Run {
     }
   }
 
-  void log_notes() {
+  void log_notes(int step) {
     for (auto& [region, material] : case_.problem.materials) {
       for (const std::string& note : material->take_notes()) {
-        observer_.clear();
-        tell(stderr, "note: region '{}': {}\n", region, note);
+        observer_.note(fmt::format("step {}, region '{}': {}", step, region, note));
         log_.warn("  region '{}': {}", region, note);
       }
     }
@@ -391,6 +390,7 @@ class Run {
     log_.info("{}", record_.status);
     save_sample();
     record_.settings = options_.settings;
+    // Behind the last line of the log, which is among them.
     record_.results = names_of_results(directory_);
     write_summary(directory_ / "summary.json", case_, record_);
   }
@@ -424,20 +424,23 @@ class Run {
 }  // namespace
 
 int run(const RunOptions& options) {
+  note_interrupts();  // first of all: from here on nobody is ended without a word
   coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
     throw InputError(
         {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
   }
   std::optional<coupler::Listening> listening;
+  if (!options.listen.empty()) coupler::check_tcp_url("--listen", options.listen);
   if (!options.listen.empty())
     listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
+  stop_if_interrupted("before anything was written");
   const auto lock = prepare_result_directory(directory, options.resume);
   std::unique_ptr<coupler::Checkpoint> from;
   if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
-  note_interrupts();
+  stop_if_interrupted("before its first step");
   if (!options.quiet) {
     tell(stdout, "{}\n", the_case.title);
     if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());

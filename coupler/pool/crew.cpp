@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/error.hpp"
+#include "coupler/pool/descriptors.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 
 namespace polargrain::coupler {
@@ -28,6 +29,12 @@ constexpr int kMostOffences = 3;
 constexpr int kMostUnreadable = 3;
 
 constexpr std::chrono::seconds kPingPeriod{1};
+
+/// Of a local worker: its connection, and the end of its process.
+constexpr std::size_t kDescriptorsOfWorker = 2;
+
+/// For the log of a worker that starts, and for what is written meanwhile.
+constexpr std::size_t kSpareDescriptors = 10;
 
 /// Messages read before the ends of workers and the clocks are looked at again.
 constexpr int kMostAtOnce = 1000;
@@ -64,6 +71,8 @@ Crew::~Crew() {
 
 void Crew::start() {
   std::filesystem::create_directories(options_.directory / "logs");
+  require_descriptors(kDescriptorsOfWorker * static_cast<std::size_t>(options_.workers) + kSpareDescriptors,
+                      options_.workers == 1 ? "one worker" : fmt::format("{} workers", options_.workers));
   for (int k = 1; k <= options_.workers; ++k) {
     Seat& seat = seats_.emplace_back();
     seat.number = k;
@@ -95,6 +104,7 @@ void Crew::fill(Seat& seat) {
 }
 
 void Crew::listen(std::chrono::milliseconds timeout) {
+  if (options_.heed) options_.heed();
   if (!seats_are_quiet_) watch_seats();
   ping_guests();
   const bool some_ended = switchboard_.wait(timeout);

@@ -31,6 +31,7 @@ struct CrewOptions {
   double heartbeat_seconds = 1.0;      ///< asked of working workers
   std::optional<Listening> listening;  ///< for workers of other machines
   std::function<void(const std::string&)> tell;
+  std::function<void()> heed;  ///< called before each wait; may throw
 };
 
 /// What a worker was asked for with one message.
@@ -95,7 +96,7 @@ class Crew {
   /// @throws RunError when all of them fail to: a program that cannot start
   void start();
   /// Waits for something to happen, not longer than `timeout`, and handles it.
-  /// @throws RunError when no worker is left and none can come
+  /// @throws RunError when no worker is left and none can come; what CrewOptions::heed throws
   void listen(std::chrono::milliseconds timeout);
   /// A member that cannot be reached is lost at the next listen.
   void send(Member& member, const Message& message);

@@ -47,6 +47,7 @@ CrewOptions crew_options(const PoolOptions& options) {
   crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;
   crew.listening = options.listening;
   crew.tell = options.tell;
+  crew.heed = options.heed;
   return crew;
 }
 

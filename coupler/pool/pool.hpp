@@ -38,6 +38,9 @@ struct PoolOptions {
   StateCheck state_fault;
   /// Share of the evaluations that two workers must agree on, 0 to 1; see foreman_checks.cpp.
   double check_share = 0.0;
+  /// Called twice a second at least while the pool waits for anything, its first workers included. What it throws ends the
+  /// waiting: this is where a program heeds the signals it was sent. Empty: the pool waits undisturbed.
+  std::function<void()> heed;
   /// Gets a sentence about everything the user should know that ends nothing: a worker lost, a guest refused.
   std::function<void(const std::string&)> tell;
 };
