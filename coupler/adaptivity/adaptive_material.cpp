@@ -11,6 +11,8 @@
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/cells/cell_increment.hpp"
+#include "coupler/cells/successive.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -95,7 +97,10 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
 Increment AdaptiveMaterial::increment_of_step(std::size_t point) const {
   const Increment whole = increment_for_cell(increments_[point]);
   // Grains whose rotations are free feel no micro-rotation and no curvature.
-  return measure_.controlled() ? whole : increment_of(whole.displacement_gradient);
+  if (measure_.controlled()) return whole;
+  Increment of_box = increment_of(whole.displacement_gradient);
+  of_box.configuration = whole.configuration;
+  return of_box;
 }
 
 double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
@@ -150,10 +155,12 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
     Departure expected = unmoved.departure;
-    const Vector7 strain = measure_.strain(target_[leader]);
+    const bool turns = target_[leader].configuration != Configuration::fixed;
+    const Vector7 own = measure_.strain(target_[leader]);
+    const Vector7 strain = turns ? fem::rotated(own, fem::rotation_angle(target_[leader])) : own;
     if (strain.norm() > 0.0) expected.direction = strain / strain.norm();
-    return estimate_.of(unmoved.answer.response, expected, offset_between(target_[leader], target_[other])) <=
-           tolerance();
+    return estimate_.of(with_tangent_turned(unmoved.answer.response, target_[leader]), expected,
+                        offset_between(target_[leader], target_[other])) <= tolerance();
   });
 }
 
@@ -208,8 +215,10 @@ Vector7 AdaptiveMaterial::stress_of_cells(std::size_t point) const {
 }
 
 Response AdaptiveMaterial::answer_to(std::size_t point, CosseratPart& part) const {
-  Response response = branches_[branch_of_point_[point]].answer.response;
-  if (response.quality == Quality::failed) return response;
+  const Branch& branch = branches_[branch_of_point_[point]];
+  if (branch.answer.response.quality == Quality::failed) return branch.answer.response;
+  Response response =
+      with_tangent_turned(branch.answer.response, offset_between(branch.place, target_[point]));
   response.stress = stress_of_cells(point);
   return cosserat_ ? part.follow(increments_[point], response, *cosserat_) : response;
 }

@@ -26,11 +26,12 @@ Matrix7 symmetric_tangent(const Matrix7& cell) {
 
 Response CosseratPart::follow(const Increment& increment, const Response& cell,
                               const CosseratParameters& cosserat) {
-  const Vector7 strain = increment.strain();
+  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  const Vector7 strain = step.stretch.strain();
   skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
+  couple_stress += cosserat.couple_modulus() * step.stretch.curvature;                 // A.4
   if (increment.configuration != Configuration::fixed)
-    couple_stress = fem::rotated(couple_stress, fem::rotation_angle(increment));
-  couple_stress += cosserat.couple_modulus() * increment.curvature;  // A.4
+    couple_stress = fem::rotated(couple_stress, step.angle);
   Response response = joined_to(cell, cosserat);
   if (!cosserat.plastic_length || response.quality == Quality::failed) return response;
 

@@ -26,8 +26,8 @@ struct CosseratParameters {
 ///
 ///     s21 - s12  +=  2 Gc (eps21 - eps12)        m_i  +=  2 G lc^2 kappa_i
 ///
-/// In large deformation the couple stress turns with the material before the curvature adds to it; the skew stress
-/// is the same in any frame. With a plastic length lp the couple stress is elastic and perfectly plastic: where
+/// In large deformation the curvature is that of the stretch of the step, and the couple stress then turns with the
+/// material (fem/material/rotation.hpp); the skew stress is the same in any frame. With a plastic length lp the couple stress is elastic and perfectly plastic: where
 /// |m| would exceed lp p, p = -(s11 + s22) / 2 of the cell at the end of the increment, it returns radially to that circle
 /// (closed form, backward Euler; docs/theory/grains.md, C.6). In tension there is none.
 struct CosseratPart {

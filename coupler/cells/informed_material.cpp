@@ -14,6 +14,8 @@
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cell_limits.hpp"
 #include "coupler/cells/cell_noise.hpp"
+#include "coupler/cells/successive.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -21,7 +23,11 @@ namespace {
 /// A cell follows a step in at most so many parts.
 constexpr int kMostParts = 16;
 
-Increment part_of(Increment increment, int parts) {
+/// @param part 0 to parts - 1
+Increment part_of(Increment increment, int part, int parts) {
+  if (increment.configuration != Configuration::fixed && parts > 1)
+    return offset_between(share_of(increment, static_cast<double>(part) / parts),
+                          share_of(increment, static_cast<double>(part + 1) / parts));
   increment.displacement_gradient /= parts;
   increment.micro_rotation /= parts;
   increment.curvature /= parts;
@@ -47,6 +53,12 @@ void add_hardening(const fem::ElastoplasticFrame& frame, const fem::FrozenCone& 
   if (hardening.quality == Quality::good && same.regime == fem::Regime::smooth) {
     response.tangent = hardening.tangent;
   }
+}
+
+/// The answer of a law, and where the law is, turned to the axes of the end of a step.
+Response turned(const Response& response, fem::ElastoplasticState& end, double angle) {
+  end.scaled_stress = fem::rotated(end.scaled_stress, angle);
+  return fem::rotated(response, angle);
 }
 
 /// Walks over the numbers of a point, writing or reading them.
@@ -152,20 +164,6 @@ void InformedMaterial::allocate(std::size_t points) {
   increments_.assign(points, Increment{});
 }
 
-fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Increment& increment) const {
-  fem::ElastoplasticState start = committed_[point].law;
-  if (increment.configuration != Configuration::fixed)
-    start.scaled_stress = fem::rotated(start.scaled_stress, fem::rotation_angle(increment));
-  return start;
-}
-
-Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increment) const {
-  const Vector7& stress = committed_[point].cell.response.stress;
-  return increment.configuration == Configuration::fixed
-             ? stress
-             : fem::rotated(stress, fem::rotation_angle(increment));
-}
-
 void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
   increments_.assign(increments.begin(), increments.end());
   if (parameters_.update == InformedUpdate::frozen) {
@@ -230,11 +228,18 @@ Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& fr
 }
 
 Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
+  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  fem::ElastoplasticState& end = trial_[point].law;
+  const Response response = integrate_stretch(point, step.stretch, end);
+  return increment.configuration == Configuration::fixed ? response : turned(response, end, step.angle);
+}
+
+Response InformedMaterial::integrate_stretch(std::size_t point, const Increment& increment,
+                                             fem::ElastoplasticState& end) const {
   const PointState& before = committed_[point];
   const fem::FrozenCone& cone = before.mobilisation.cone;
-  const fem::ElastoplasticState start = law_start(point, increment);
+  const fem::ElastoplasticState& start = before.law;
   const fem::ElastoplasticFrame frame = frame_of(point);
-  fem::ElastoplasticState& end = trial_[point].law;
   if (before.mobilisation.unloading)
     return integrate_unloading(frame, before.mobilisation, start, increment, end);
   if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
@@ -247,6 +252,17 @@ Response InformedMaterial::integrate(std::size_t point, const Increment& increme
   }
   // Nothing to take up, or softening too steep to have one answer: at once.
   return fem::integrate_elastoplastic(frame, cone, start, increment, end);
+}
+
+Response InformedMaterial::integrate_updated(std::size_t point, const Increment& stretch,
+                                             const fem::Mobilisation& mobilisation,
+                                             fem::ElastoplasticState& end) const {
+  const fem::ElastoplasticState& start = committed_[point].law;
+  const fem::ElastoplasticFrame frame = frame_of(point);
+  if (mobilisation.unloading) return integrate_unloading(frame, mobilisation, start, stretch, end);
+  Response response = fem::integrate_elastoplastic(frame, mobilisation.cone, start, stretch, end);
+  add_hardening(frame, committed_[point].mobilisation.cone, mobilisation.cone, start, stretch, end, response);
+  return response;
 }
 
 void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
@@ -276,18 +292,13 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
     const Response& cell = replies[r].response;
     if (cell.quality != Quality::failed) {
       take(replies[r], increments[point], point);
-      const fem::ElastoplasticState start = law_start(point, increments[point]);
-      const fem::ElastoplasticFrame frame = frame_of(point);
-      const fem::FrozenCone& cone = trial_[point].mobilisation.cone;
+      const fem::StretchAndTurn step = fem::stretch_and_turn(increments[point]);
       Response& response = responses[point];
       fem::ElastoplasticState& end = trial_[point].law;
-      if (trial_[point].mobilisation.unloading) {
-        response = integrate_unloading(frame, trial_[point].mobilisation, start, increments[point], end);
-      } else {
-        response = fem::integrate_elastoplastic(frame, cone, start, increments[point], end);
-        add_hardening(frame, committed_[point].mobilisation.cone, cone, start, increments[point], end,
-                      response);
-      }
+      // The mobilisation has turned already; nothing that the law takes of it has a direction.
+      response = integrate_updated(point, step.stretch, trial_[point].mobilisation, end);
+      if (increments[point].configuration != Configuration::fixed)
+        response = turned(response, end, step.angle);
       // Where the point yields its stress goes with the friction read from the cell, and scatters with it.
       if (end.regime != fem::Regime::elastic)
         response.noise = noise_of(trial_[point].cell, 0.5 * parameters_.mean_diameter);
@@ -384,7 +395,7 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
     for (int part = 0; part < parts && !following.empty(); ++part) {
       std::vector<PlaneRequest> requests;
       for (const std::size_t point : following) {
-        requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), parts)});
+        requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), part, parts)});
       }
       std::vector<PlaneReply> replies = calls.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {
@@ -401,23 +412,28 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
 
 void InformedMaterial::take(const PlaneReply& reply, const Increment& increment, std::size_t point) {
   PointState& trial = trial_[point];
+  const PointState& before = committed_[point];
+  const bool turns = increment.configuration != Configuration::fixed;
+  const fem::StretchAndTurn motion = fem::stretch_and_turn(increment);
+  // All in the axes of the start of the step. The pressures of the law, which are all that is lent, are in any.
+  const Vector7& answer = reply.response.stress;
+  const Vector7 after = turns ? fem::rotated(answer, -motion.angle) : answer;
   const fem::ScaledVector<double>& law = trial.law.scaled_stress;
-  const fem::MicroStep step{
-      scaled_strain(increment),
-      complete_cell_stress(cell_start(point, increment), law_start(point, increment).scaled_stress),
-      complete_cell_stress(reply.response.stress, law), law.head<3>().sum() / 3.0,
-      trial.law.regime == fem::Regime::smooth};
-  trial.mobilisation =
-      fem::advance(committed_[point].mobilisation, step, frame_.moduli, parameters_.mobilisation);
+  const fem::MicroStep step{scaled_strain(motion.stretch),
+                            complete_cell_stress(before.cell.response.stress, before.law.scaled_stress),
+                            complete_cell_stress(after, law), law.head<3>().sum() / 3.0,
+                            trial.law.regime == fem::Regime::smooth};
+  trial.mobilisation = fem::advance(before.mobilisation, step, frame_.moduli, parameters_.mobilisation);
+  if (turns) trial.mobilisation = fem::rotated(std::move(trial.mobilisation), motion.angle);
   const bool frozen = parameters_.update == InformedUpdate::frozen;
   trial.held_friction = (frozen ? committed_[point] : trial).mobilisation.cone.friction;
   trial.take_up = trial.law.gamma_p - committed_[point].law.gamma_p;
   trial.cell = reply;
 }
 
-fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& increment) const {
-  if (!controlled()) return symmetric_part(increment.strain());
-  Vector7 strain = increment.strain();
+fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& stretch) const {
+  if (!controlled()) return symmetric_part(stretch.strain());
+  Vector7 strain = stretch.strain();
   strain.tail<2>() *= frame_.length;
   return strain;
 }

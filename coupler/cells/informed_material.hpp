@@ -117,9 +117,13 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
   /// The points that go by their cells' answers.
   void evaluate_own(std::span<const Increment> increments, std::span<Response> responses);
-  /// Law and cell turned to the frame at the end of the increment.
-  [[nodiscard]] fem::ElastoplasticState law_start(std::size_t point, const Increment& increment) const;
-  [[nodiscard]] Vector7 cell_start(std::size_t point, const Increment& increment) const;
+  /// What the law answers to the stretch of a step, and where it ends, in the axes of the start of the step.
+  [[nodiscard]] Response integrate_stretch(std::size_t point, const Increment& stretch,
+                                           fem::ElastoplasticState& end) const;
+  /// The same with friction and dilatancy of the step itself.
+  [[nodiscard]] Response integrate_updated(std::size_t point, const Increment& stretch,
+                                           const fem::Mobilisation& mobilisation,
+                                           fem::ElastoplasticState& end) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(const CellCalls& calls, std::span<const std::size_t> points);
   /// Where law and cell disagree by more than they may, the point goes by its cell from the next step on.
@@ -138,7 +142,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] fem::ScaledVector<double> scaled_stress(const Vector7& stress) const;
   /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
-  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& increment) const;
+  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& stretch) const;
   [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
                                                                const fem::ScaledVector<double>& law) const;
 

@@ -27,9 +27,12 @@ OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const Respon
 Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
                     const Response& cell, OwnAnswer& end) {
   end = start;
-  if (increment.configuration != Configuration::fixed)
-    end.carried = fem::rotated(end.carried, fem::rotation_angle(increment));
-  Vector7 strain = increment.strain();
+  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  Vector7 strain = step.stretch.strain();
+  if (increment.configuration != Configuration::fixed) {
+    end.carried = fem::rotated(end.carried, step.angle);
+    strain = fem::rotated(strain, step.angle);
+  }
   Vector7 scale = Vector7::Ones();
   scale.tail<2>().setConstant(rules.length);
   strain = rules.controlled ? Vector7(strain.cwiseProduct(scale)) : symmetric_part(strain);

@@ -397,12 +397,11 @@ TEST_F(InformedPointTest, FrozenAsksItsCellOnceACommittedStep) {
 }
 
 TEST_F(InformedPointTest, GrainsAreTurnedByAllOfALargeRotation) {
-  // About the middle of the step a rotation by 0.6 has the gradient 2 tan 0.3: exact, with sines and cosines.
   const double angle = 0.6;
   Increment turn;
-  turn.displacement_gradient << 0.0, -2.0 * std::tan(angle / 2.0), 2.0 * std::tan(angle / 2.0), 0.0;
+  turn.displacement_gradient = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
   turn.micro_rotation = angle;
-  turn.configuration = Configuration::middle;
+  turn.configuration = Configuration::start;
   InformedMaterial sand = make(InformedUpdate::frozen);
   evaluate(sand, turn);
   sand.commit();

@@ -134,10 +134,10 @@ TEST(OwnAnswer, WhatIsCarriedTurnsWithTheMaterial) {
   const OwnAnswerRules by = rules(false);
   Response cell = cell_after(Increment{}, false);
   const OwnAnswer start = left_law(by, stress_of_law(), cell);
-  Increment turn;  // by a quarter about the middle of the step: the gradient is 2 tan(angle / 2)
-  turn.displacement_gradient << 0.0, -2.0, 2.0, 0.0;
-  turn.micro_rotation = 2.0;
-  turn.configuration = Configuration::middle;
+  Increment turn;  // by a quarter: R - I
+  turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
+  turn.micro_rotation = 0.5 * M_PI;
+  turn.configuration = Configuration::start;
   std::swap(cell.stress(k11), cell.stress(k22));
   cell.stress(k12) = cell.stress(k21) = -cell.stress(k12);
   OwnAnswer end;
