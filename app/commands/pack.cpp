@@ -10,8 +10,8 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/in_child.hpp"
-#include "app/commands/moduli.hpp"
 #include "app/pack/read_specification.hpp"
+#include "app/remarks/packing_at_rest.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
 #include "common/seconds.hpp"
@@ -169,8 +169,7 @@ Command add_pack(CLI::App& program, const Grains& grains) {
   add_trust(command, options->scripts, grains);
   return {&command, [options, &tools = grains.packing_tools] {
             options->moduli = [trusted = options->scripts.trusted](const CellDefinition& cell) {
-              const CellDefinition* const one = &cell;
-              return moduli_of({&one, 1}, trusted).front();
+              return "moduli of the packing at rest: " + packing_at_rest(cell, trusted).moduli.text();
             };
             return pack(*options, tools);
           }};

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/page/page.hpp"
+#include "app/report/report_remarks.hpp"
 #include "app/report/log_notes.hpp"
 #include "app/report/pictures.hpp"
 #include "app/run/progress.hpp"
@@ -359,6 +360,7 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
     const std::string name = results.size() > 1 ? result.name + ": " : "";
     body += "<p>" + escaped(name + status(result)) + "</p>\n";
   }
+  body += remarks_section(results);
   body +=
       "<h2>Curves</h2>\n<p>Drawing a rectangle with the mouse enlarges it, a double click shows all again.</p>\n" +
       curves(results, x);

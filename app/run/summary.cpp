@@ -7,6 +7,7 @@
 
 #include "app/run/json_text.hpp"
 #include "app/run/proof.hpp"
+#include "app/run/run_remarks.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
 #include "fem/output/write_file.hpp"
@@ -102,6 +103,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                      {"title", the_case.title},
                      {"status", record.status},
                      {"message", record.message},
+                     {"remarks", remarks_for_summary(record.remarks)},
                      {"not_vouched_for", record.doubts},
                      {"steps_asked", the_case.steps()},
                      {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},

@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/plane_in_space.hpp"
 #include "common/record_values.hpp"
+#include "grains_io/neighbour_distance.hpp"
 #include "grains_io/packing_data.hpp"
 
 namespace polargrain::coupler {
@@ -96,8 +97,9 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
       "# The README beside this file says what it is and what to expect. Add dumps and thermo output as you\n"
       "# like, behind the fix; they change nothing.\n\n"
       "variable        packing index {}\n"
+      "variable        neighbour_distance index {}\n"
       "include         {}\n\n",
-      definition.name, command_of(definition), kPacking, kScript);
+      definition.name, command_of(definition), kPacking, neighbour_distance(definition.packing), kScript);
   const bool controlled = definition.control.rotations == CellRotations::controlled;
   text += fmt::format(
       "fix             cell all cell/load version {} &\n"

@@ -10,6 +10,7 @@
 #include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/measured_length.hpp"
+#include "coupler/case/script_dimension.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -141,6 +142,9 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   const auto packing = packing_file(section, files.directory);
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
+      const Faults other =
+          dimension_faults(definition.script, definition.script_file, definition.packing.dimension);
+      faults.insert(faults.end(), other.begin(), other.end());
     } catch (const InputError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
