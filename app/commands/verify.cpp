@@ -101,6 +101,10 @@ int verify(const VerifyOptions& options) {
   tell(stdout, "{}: {}, {}\n", options.directory.string(), text_of(summary, "title"),
        text_of(summary, "status"));
   Findings findings;
+  if (const coupler::Entry* const limits = summary.find("at_limits")) {
+    for (const coupler::Entry::Member& member : limits->members)
+      findings.note(fmt::format("region '{}': {}", member.key, member.value.text));
+  }
   check_results(*results, options.directory, findings);
   std::vector<std::string> settings;
   if (const coupler::Entry* const list = proof->find("settings")) {

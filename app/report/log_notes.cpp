@@ -39,6 +39,10 @@ constexpr Kind kKinds[] = {
     {"did not converge",
      "The run ended here: what was committed before is good. The last lines of the log say what was tried; the causes are most "
      "often a body that has no balance at this load, steps that are too large, or a tolerance below the noise."},
+    {"points at the end (in any step)",
+     "Grains bear skew and couple stress only in proportion to their pressure, and none where they have parted; the stress of "
+     "these points is at that limit (fields skew_mobilisation, couple_mobilisation, parted). Usual in shear bands and behind "
+     "plates. Where many points have parted, ask whether the ground would be in tension there."},
     {"small deformation",
      "Rotations or strains have grown beyond what small deformation describes; deformation: large takes them into account."},
 };

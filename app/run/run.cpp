@@ -23,6 +23,7 @@
 #include "common/prefixed_archive.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
+#include "coupler/cells/grains_of_points.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "coupler/pool/process.hpp"
 #include "coupler/replay/replay.hpp"
@@ -377,11 +378,20 @@ class Run {
     }
   }
 
+  /// @param grains null: the material has none
+  void note_limits(const std::string& region, const coupler::GrainsOfPoints* grains) {
+    const std::string limits = grains == nullptr ? "" : grains->at_limits();
+    if (limits.empty()) return;
+    log_.warn("  region '{}': {}", region, limits);
+    record_.limits[region] = limits;
+  }
+
   void finish() {
     add_lap({});
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
+      note_limits(region, dynamic_cast<const coupler::GrainsOfPoints*>(material.get()));
       if (std::string doubt = material->doubt(); !doubt.empty()) {
         warn(fmt::format("region '{}': {}", region, doubt));
         record_.doubts[region] = std::move(doubt);

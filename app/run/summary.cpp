@@ -103,6 +103,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                      {"status", record.status},
                      {"message", record.message},
                      {"not_vouched_for", record.doubts},
+                     {"at_limits", record.limits},
                      {"steps_asked", the_case.steps()},
                      {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},
                      {"iterations", record.iterations},
@@ -191,6 +192,7 @@ std::string figures_text(const RunRecord& record) {
     for (const fem::Figure& figure : figures)
       text += fmt::format("  {:<34}{:>9.4g}\n", figure.name, figure.value);
   }
+  for (const auto& [region, limits] : record.limits) text += fmt::format("region '{}': {}\n", region, limits);
   for (const auto& [region, doubt] : record.doubts) text += fmt::format("region '{}': {}\n", region, doubt);
   return text;
 }

@@ -26,4 +26,10 @@ Increment increment_for_cell(const Increment& of_point) {
   return straight;
 }
 
+Increment increment_for_free_cell(const Increment& of_point) {
+  Increment felt;
+  felt.displacement_gradient = increment_for_cell(of_point).displacement_gradient;
+  return felt;
+}
+
 }  // namespace polargrain::coupler

@@ -12,4 +12,8 @@ bool is_zero(const Increment& increment);
 /// (docs/theory/solver.md, small and large deformation).
 Increment increment_for_cell(const Increment& of_point);
 
+/// The same for a cell whose grains turn as they like: they feel no micro-rotation and no curvature, which may go far where
+/// nothing resists them.
+Increment increment_for_free_cell(const Increment& of_point);
+
 }  // namespace polargrain::coupler

@@ -113,22 +113,25 @@ void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
   elastic.cosserat_shear_modulus = cosserat.cosserat_shear_modulus;
   elastic.internal_length = cosserat.internal_length;
   plastic_length = cosserat.plastic_length;
+  skew_limit = cosserat.skew_limit;
 }
 
 InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters,
                                    const std::string& note, CellCalls with_tangent)
     : calls_(std::move(calls)),
       with_tangent_(std::move(with_tangent)),
+      at_limits_(parameters.mean_diameter == 0.0),
       parameters_(parameters),
       frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights.value_or(fem::InvariantWeights{})),
              parameters.elastic.internal_length, 1e-3} {
   if (!note.empty()) notes_.push_back(note);
   const fem::ElasticParameters& elastic = parameters.elastic;
-  own_rules_ = {{elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)),
-                 elastic.cosserat_shear_modulus, elastic.internal_length, parameters.plastic_length},
-                controlled(),
-                elastic.internal_length,
-                parameters.mobilisation.drift_shear};
+  own_rules_ = {
+      {elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)), elastic.cosserat_shear_modulus,
+       elastic.internal_length, parameters.plastic_length, parameters.skew_limit},
+      controlled(),
+      elastic.internal_length,
+      parameters.mobilisation.drift_shear};
 }
 
 void InformedMaterial::allocate(std::size_t points) {
@@ -140,6 +143,7 @@ void InformedMaterial::allocate(std::size_t points) {
     notes_.push_back(fmt::format("limits of the packing: {}; invariants [{:.4g}, {:.4g}, {:.4g}]",
                                  limits.text(), weights.a1, weights.a2, weights.a3));
   }
+  own_rules_.packing = PackingAtStart(packing);
   PointState start;
   start.cell = packing;
   Vector7 stress = packing.response.stress;
@@ -150,6 +154,10 @@ void InformedMaterial::allocate(std::size_t points) {
   committed_.assign(points, start);
   trial_ = committed_;
   increments_.assign(points, Increment{});
+}
+
+Increment InformedMaterial::felt(const Increment& increment) const {
+  return controlled() ? increment_for_cell(increment) : increment_for_free_cell(increment);
 }
 
 fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Increment& increment) const {
@@ -173,7 +181,18 @@ void InformedMaterial::evaluate(std::span<const Increment> increments, std::span
   } else {
     evaluate_fixed_point(increments, responses);
   }
+  limit_skew_of_laws(responses);
   if (may_change()) evaluate_own(increments, responses);
+}
+
+void InformedMaterial::limit_skew_of_laws(std::span<Response> responses) {
+  if (controlled() || !parameters_.skew_limit) return;
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    Response& response = responses[point];
+    if (committed_[point].own.active || response.quality == Quality::failed) continue;
+    if (limit_skew(response, *parameters_.skew_limit, parameters_.elastic.cosserat_shear_modulus))
+      trial_[point].law.scaled_stress = scaled_stress(response.stress);
+  }
 }
 
 void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::span<Response> responses) {
@@ -181,7 +200,7 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     if (!committed_[point].own.active || is_zero(increments[point])) continue;
-    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
+    requests.push_back({committed_[point].cell.state, felt(increments[point])});
     points.push_back(point);
   }
   if (!points.empty()) {
@@ -192,7 +211,7 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
     const OwnAnswer& before = committed_[point].own;
     if (!before.active) continue;
     PointState& trial = trial_[point];
-    responses[point] = own_answer(own_rules_, before, increments[point], trial.cell.response, trial.own);
+    responses[point] = own_answer(own_rules_, before, increments[point], trial.cell, trial.own);
     responses[point].noise = noise_of(trial.cell, 0.5 * parameters_.mean_diameter);
     trial.law.scaled_stress = scaled_stress(responses[point].stress);
   }
@@ -266,7 +285,7 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
     if (committed_[point].own.active || is_zero(increments[point]) ||
         responses[point].quality == Quality::failed)
       continue;
-    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
+    requests.push_back({committed_[point].cell.state, felt(increments[point])});
     points.push_back(point);
   }
   if (points.empty()) return;
@@ -313,6 +332,31 @@ void InformedMaterial::commit() {
   for (PointState& point : trial_) states.push_back(&point.cell.state);
   collect(calls_, states);
   committed_ = trial_;
+  count_limits();
+}
+
+CosseratPart InformedMaterial::cosserat_part_of(const PointState& point) const {
+  if (point.own.active) return point.own.cosserat;
+  const Vector7 stress = frame_.unscaled_stress(point.law.scaled_stress);
+  CosseratPart part;
+  part.skew_stress = stress[k21] - stress[k12];
+  part.couple_stress = stress.tail<2>();
+  part.pressure = pressure_in_plane(stress);
+  return part;
+}
+
+LimitsReached InformedMaterial::reached(const PointState& point) const {
+  const double least = own_rules_.packing.least_pressure();
+  LimitsReached reached;
+  if (!controlled()) reached = cosserat_part_of(point).reached(own_rules_.cosserat, least);
+  reached.parted = pressure_in_plane(point.cell.response.stress) <= least;
+  return reached;
+}
+
+void InformedMaterial::count_limits() {
+  std::vector<LimitsReached> points;
+  for (const PointState& point : committed_) points.push_back(reached(point));
+  at_limits_.count(points);
 }
 
 void InformedMaterial::leave_laws() {
@@ -324,7 +368,7 @@ void InformedMaterial::leave_laws() {
   follow(with_tangent_, leaving);
   for (const std::size_t point : leaving) {
     PointState& trial = trial_[point];
-    trial.own = left_law(own_rules_, frame_.unscaled_stress(trial.law.scaled_stress), trial.cell.response);
+    trial.own = left_law(own_rules_, frame_.unscaled_stress(trial.law.scaled_stress), trial.cell);
   }
 }
 
@@ -384,7 +428,7 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
     for (int part = 0; part < parts && !following.empty(); ++part) {
       std::vector<PlaneRequest> requests;
       for (const std::size_t point : following) {
-        requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), parts)});
+        requests.push_back({last[point].state, part_of(felt(increments_[point]), parts)});
       }
       std::vector<PlaneReply> replies = calls.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {
@@ -464,6 +508,7 @@ void InformedMaterial::save(ArchiveWriter& archive) const {
   archive.write("laws", std::span<const double>(values));
   if (may_change()) write_records(archive, "own", std::span<const OwnAnswer>(own));
   write_records(archive, "cells", std::span<const PlaneReply>(cells));
+  at_limits_.save(archive);
 }
 
 void InformedMaterial::restore(ArchiveReader& archive) {
@@ -484,13 +529,15 @@ void InformedMaterial::restore(ArchiveReader& archive) {
     for (std::size_t point = 0; point < committed_.size(); ++point) committed_[point].own = own[point];
   }
   trial_ = committed_;
+  at_limits_.restore(archive);
 }
 
 std::vector<std::string> InformedMaterial::field_names() const {
   std::vector<std::string> own{"friction",      "dilatancy", "dilatancy_limited",
                                "plastic_shear", "regime",    "stress_mismatch"};
   if (may_change()) own.emplace_back("stress_of_cell");
-  return joined_names(own, names_of_columns<CellDiagnostics>());
+  return joined_names(joined_names(own, names_of_columns<CellDiagnostics>()),
+                      names_of_limit_fields(!controlled()));
 }
 
 void InformedMaterial::fields(std::size_t point, std::span<double> values) const {
@@ -499,8 +546,13 @@ void InformedMaterial::fields(std::size_t point, std::span<double> values) const
                           p.mobilisation.limited ? 1.0 : 0.0, p.law.gamma_p,
                           static_cast<double>(p.law.regime),  mismatch(p)};
   if (may_change()) own.push_back(p.own.active ? 1.0 : 0.0);
-  const auto rest = std::ranges::copy(own, values.begin()).out;
-  std::ranges::copy(values_of(p.cell.diagnostics), rest);
+  auto rest = std::ranges::copy(own, values.begin()).out;
+  rest = std::ranges::copy(values_of(p.cell.diagnostics), rest).out;
+  if (controlled()) {
+    write_limit_fields(reached(p), std::nullopt, {}, rest);
+  } else {
+    write_limit_fields(reached(p), own_rules_.cosserat, cosserat_part_of(p), rest);
+  }
 }
 
 std::vector<fem::Figure> InformedMaterial::figures() const {
@@ -523,6 +575,8 @@ std::vector<fem::Figure> InformedMaterial::figures() const {
                                    {"stress_mismatch_largest", mismatches.back()},
                                    {"dilatancy_limited", limited / count}};
   if (may_change()) figures.push_back({"stress_of_cell", by_cell / count});
+  const std::vector<fem::Figure> at_limits = at_limits_.figures();
+  figures.insert(figures.end(), at_limits.begin(), at_limits.end());
   return figures;
 }
 

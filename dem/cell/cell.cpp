@@ -82,7 +82,7 @@ Cell::Cell(const CellDefinition& definition)
       driver_(sound(definition).packing, definition.script, definition.script_file,
               definition.contact_library) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
-  if (controlled()) check_rolling_model(lammps);
+  if (controlled() && is_bent(control_)) check_rolling_model(lammps);
   const Packing& packing = definition.packing;
   if (packing.state) restore_packing([&] { restore_state(lammps, *packing.state); });
   driver_.set_up();

@@ -20,6 +20,12 @@ inline constexpr double kHold = 1e-4;
 /// one increment.
 inline constexpr double kLargestIncrement = 0.25;
 
+/// Whether cells of this kind may be given a curvature. Those that are asked for their network (CellTangent::cosserat) are
+/// sheared and turned, to find the moduli and limits of a packing, and never bent.
+inline bool is_bent(const CellControl& control) {
+  return control.tangent != CellTangent::cosserat;
+}
+
 /// Ends the process where rotations are controlled and the rolling model is one that would not feel a curvature.
 void check_rolling_model(LAMMPS_NS::LAMMPS& lammps);
 

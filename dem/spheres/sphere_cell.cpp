@@ -120,7 +120,7 @@ SphereCell::SphereCell(const CellDefinition& definition)
   engine_.progress = [this] {
     if (progress) progress();
   };
-  if (controlled()) check_rolling_model(engine_.lammps());
+  if (controlled() && is_bent(control_)) check_rolling_model(engine_.lammps());
   engine_.set_up();
   const std::string remark = engine_.settle_time_step(control_.damping);
   inertia_ = inertia_of(engine_.lammps());
