@@ -27,7 +27,7 @@ struct PoolOptions {
   std::vector<std::string> worker_command;
   /// Local workers run any script (grains_io/script.hpp).
   bool trust_scripts = false;
-  /// A worker that has not said Hello after so long is a start-up failure.
+  /// A worker that has not said Hello after so long is a start-up failure; see PatienceLimits for the time that counts.
   double startup_seconds = 60.0;
   /// What a worker is taken to keep; see StateCache.
   std::size_t cache_bytes = kWorkerCacheBytes;
