@@ -26,5 +26,5 @@ if(TARGET polargrain AND TARGET polargrain-liggghts)
            ${PROJECT_SOURCE_DIR}/cases/studies/toyoura/preparation.py --check --ways fell pressed --grains 80 --packings 2
            --frictions 0.1 0.5 --strain 3 -o ${CMAKE_CURRENT_BINARY_DIR}/toyoura_preparation --program $<TARGET_FILE:polargrain>)
   set_tests_properties(ToyouraPreparation.Anew PROPERTIES LABELS long FIXTURES_SETUP toyoura_preparation)
-  set_tests_properties(ToyouraPreparation.LooserPackingsAreWeaker PROPERTIES LABELS long TIMEOUT 600 FIXTURES_REQUIRED toyoura_preparation)
+  set_tests_properties(ToyouraPreparation.LooserPackingsAreWeaker PROPERTIES LABELS long TIMEOUT ${polargrain_patience} FIXTURES_REQUIRED toyoura_preparation)
 endif()

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/faults/killer.hpp"
 #include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
@@ -158,8 +159,13 @@ TEST_F(ReportTest, FollowsARunAtWork) {
   // A run holds its directory.
   const int lock = open((directory() / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   ASSERT_EQ(flock(lock, LOCK_EX), 0);
-  // It would go on as long as the run does: two seconds are enough to see the page.
-  EXPECT_NE(run_in(directory(), "timeout -s INT 2 " FAKE_POLARGRAIN " report out --live").status, 0);
+  std::filesystem::remove(directory() / "out/report.html");
+  Beside live("env -C '" + directory().string() + "' " FAKE_POLARGRAIN " report out --live >/dev/null");
+  // It would go on as long as the run does.
+  const auto page_is_whole = [this] { return page().find("</html>") != std::string::npos; };
+  EXPECT_TRUE(await(live, page_is_whole));
+  kill(live.id(), SIGINT);
+  EXPECT_NE(live.wait(), 0);
   const std::string text = page();
   EXPECT_NE(text.find("<meta http-equiv='refresh' content='5'>"), std::string::npos);
   EXPECT_NE(text.find("at work, step 5 committed (time 1)"), std::string::npos);

@@ -76,8 +76,7 @@ class SphereRun : public ::testing::Test {
     ASSERT_EQ(run.status, 0) << run.errors;
     {
       RunningProgram program(folder(), "run case.yaml -o " + killed + " -w 1 --quiet --checkpoint-minutes 0");
-      for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder() / killed / "checkpoint.h5"); ++wait)
-        sleep_for(0.01);
+      await(program, [&] { return std::filesystem::exists(folder() / killed / "checkpoint.h5"); });
       program.end(SIGKILL);
     }
     ASSERT_TRUE(std::filesystem::exists(folder() / killed / "checkpoint.h5"));
