@@ -23,6 +23,7 @@
 #include "common/prefixed_archive.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
+#include "common/stepping_note.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "coupler/pool/process.hpp"
 #include "coupler/replay/replay.hpp"
@@ -304,6 +305,10 @@ class Run {
   void log_notes() {
     for (auto& [region, material] : case_.problem.materials) {
       for (const std::string& note : material->take_notes()) {
+        if (note.starts_with(kSteppingNote)) {
+          log_.info("  region '{}': {}", region, note);
+          continue;
+        }
         observer_.clear();
         tell(stderr, "note: region '{}': {}\n", region, note);
         log_.warn("  region '{}': {}", region, note);

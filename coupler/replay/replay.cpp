@@ -152,11 +152,13 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
             "face.\n";
   if (replay.answers.empty()) return text + "\nThe cell gave no answer that could be compared.\n";
   text +=
-      definition.control.loop == CellLoop::engine || space
+      definition.control.loop == CellLoop::engine
           ? "The cell answered, and the replay prints the same digits:\n\n"
-          : "The cell answered, stepped by the loop over discs. The replay runs in LIGGGHTS's own loop and "
-            "agrees until\nround-off has grown, to eight digits and more over a thousand steps; with "
-            "`loop: engine` in the case to all:\n\n";
+          : fmt::format(
+                "The cell answered, stepped by the loop over {} unless run.log says otherwise. The replay runs in "
+                "LIGGGHTS's own loop and agrees until\nround-off has grown, to eight digits and more over a "
+                "thousand steps; with `loop: engine` in the case to all:\n\n",
+                space ? "spheres" : "discs");
   for (std::size_t k = 0; k < replay.answers.size(); ++k) {
     if (space) {
       const Vector18 s = replay.answers[k].components();

@@ -3,10 +3,13 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "common/cell.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/time_step.hpp"
+#include "dem/discs/combination.hpp"
 
 namespace polargrain::dem {
 
@@ -36,6 +39,12 @@ std::optional<CellReply> gone_astray(double size);
 void judge(CellResponse& response, const CellDiagnostics& diagnostics, const QuasiStatic& protocol,
            const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
            const Inertia& inertia, double time_step, double most_void_ratio);
+
+/// What a cell remarks on its packing at rest, a line each: `remark`, if there is one, and which loop steps its grains.
+/// @param loop that takes the scenes it knows: "the loop over discs" @param selection what it says of this scene
+/// @param instructions that it is compiled for, or nothing
+std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
+                            const DiscSelection& selection, std::string_view instructions = {});
 
 /// What the contacts of a cell tell of it, but for fabric and rotations.
 /// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres
