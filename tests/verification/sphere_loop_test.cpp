@@ -146,21 +146,22 @@ TEST_P(SphereLoop, AgreesWithTheEngineOverAThousandSteps) {
     // A dashpot that lets go at the limit of its spring is a jump: there round-off grows faster, when a contact is told
     // to be at its limit a step earlier or later.
     const bool jumps = GetParam().style.find("rollingDamping on") != std::string::npos;
+    const double share = jumps ? 1e-2 : 1e-5;
     for (std::size_t k = 0; k < spheres.size(); ++k) {
       EXPECT_LT(difference(spheres[k], engine[k]), jumps ? 1e-5 : 1e-10) << k;
       const CellDiagnostics& here = spheres[k].diagnostics;
       const CellDiagnostics& there = engine[k].diagnostics;
       EXPECT_EQ(here.dem_steps, there.dem_steps);
-      EXPECT_NEAR(here.mean_rotation, there.mean_rotation, 1e-10);
-      EXPECT_NEAR(here.rotation_spread, there.rotation_spread, 1e-8);
+      EXPECT_NEAR(here.mean_rotation, there.mean_rotation, jumps ? 1e-7 : 1e-10);
+      EXPECT_NEAR(here.rotation_spread, there.rotation_spread, jumps ? 1e-5 : 1e-8);
       EXPECT_NEAR(static_cast<double>(here.contacts), static_cast<double>(there.contacts), 1.0);
       EXPECT_NEAR(here.sliding_fraction, there.sliding_fraction, 2e-3);
       EXPECT_NEAR(here.rolling_fraction, there.rolling_fraction, 2e-3);
       EXPECT_NEAR(here.unbalanced_force_ratio, there.unbalanced_force_ratio,
-                  1e-5 * there.unbalanced_force_ratio);
+                  share * there.unbalanced_force_ratio);
       EXPECT_NEAR(here.unbalanced_moment_ratio, there.unbalanced_moment_ratio,
-                  1e-5 * (there.unbalanced_moment_ratio + 1e-9));
-      EXPECT_NEAR(here.multiplier, there.multiplier, 1e-6 * engine[k].response.stress.norm());
+                  share * (there.unbalanced_moment_ratio + 1e-9));
+      EXPECT_NEAR(here.multiplier, there.multiplier, 0.1 * share * engine[k].response.stress.norm());
     }
     EXPECT_TRUE(is_sphere_state(*spheres[2].state));  // it was this loop that ran
     EXPECT_FALSE(is_sphere_state(*engine[2].state));
