@@ -33,7 +33,7 @@ page() {
     open { print }
     END { if (open) print ".fi" }'
   heading "SEE ALSO"
-  echo "The documentation, in share/doc/polargrain; its beginning is docs/tutorial.md."
+  echo "The documentation, in share/doc/polargrain; its beginning is docs/README.md."
 }
 
 help=$("$program" --help)

@@ -78,7 +78,7 @@ void describe(Record& control, Visit&& visit) {
   visit(FieldNotes{"loop", "", "0 automatic, 1 the engine's own, 2 plain"}, control.loop);
 }
 
-/// What a worker must know to stand in for cells of one material. Sent whole, so that a worker needs no file.
+/// The knowledge of a worker about cells of one material. Sent whole, so that a worker needs no file.
 struct CellDefinition {
   std::string name;         ///< the material's name in the case
   std::string script_file;  ///< the user's file, for messages only

@@ -41,7 +41,7 @@ struct Deposition {
   bool keeps_width = false;
 };
 
-/// What `polargrain pack` is asked for: grains in a periodic box, compressed under given normal stresses.
+/// The request to `polargrain pack`: grains in a periodic box, compressed under given normal stresses.
 struct PackingSpecification {
   std::string text;         ///< the user's file, kept with the packing
   std::string script_file;  ///< for messages
@@ -80,7 +80,7 @@ struct PackingSpecification {
   std::int64_t most_steps = 2'000'000;
 };
 
-/// What a packing came to. No times: equal specifications give equal files.
+/// The values that a packing reached. No times: equal specifications give equal files.
 struct PackingReached {
   double void_ratio = 0.0;           ///< in plane; of the volumes in dimension 3
   double coordination_number = 0.0;  ///< 2 contacts / grains

@@ -90,7 +90,7 @@ void check_seal(const std::filesystem::path& file) {
   if (bytes < 0 ||
       pread(descriptor, &trailer, sizeof trailer, bytes) != static_cast<ssize_t>(sizeof trailer) ||
       trailer.mark != kMark) {
-    throw RunError("it was cut short, or is none of ours: the mark at its end is missing");
+    throw RunError("the file is truncated, or it is not a polargrain file: the mark at its end is missing");
   }
   const XXH128_canonical_t hash = hash_of(descriptor, bytes);
   if (std::memcmp(&hash, &trailer.hash, sizeof hash) != 0) {

@@ -7,7 +7,7 @@
 
 namespace polargrain {
 
-/// What blanks part in a line.
+/// The words of a line, parted by blanks.
 inline std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<std::string>(in), {}};

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs the hard cases with boxes of grains and prints the rows of the table in docs/hard_cells.md.
+"""Runs the hard cases with boxes of grains (docs/hard_cells.md) and prints a table of them.
 
 usage: docs/make_hard_cells.py POLARGRAIN [DIRECTORY]      from the root of the project; some minutes
 

@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What tools say of the code. Ends with status 77 (skipped) where the tool is not installed.
+# What tools say of the code and of the pages. Ends with status 77 (skipped) where the tool is not installed.
 #
 #   tests/style.sh format [--fix]     clang-format, all files
 #   tests/style.sh tidy BUILD [FOLDER...]  clang-tidy with the compile commands of a build: all but the grains, or these
 #                                     folders (half an hour on two cores)
 #   tests/style.sh pages              doxygen: comments without warnings; pages in build/doxygen/html
+#   tests/style.sh words [PAGE...]    Markdown: long sentences, clauses without a subject, words in all
+#   tests/style.sh links [PAGE...]    Markdown: dead links, pages that README.md does not lead to
+#   tests/style.sh keys               Markdown: keys, commands and options that the reference leaves out
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -39,8 +42,12 @@ case "${1:-}" in
     mkdir -p build
     doxygen docs/Doxyfile
     ;;
+  words | links | keys)
+    need python3
+    python3 -B tests/pages.py "$@"
+    ;;
   *)
-    sed -n '3,9s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,12s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

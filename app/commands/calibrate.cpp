@@ -185,6 +185,10 @@ std::string table_of(const Calibration& calibration, const CalibrationResult& re
 
 /// All faults are found before the first packing is made.
 Calibration read_and_make_packings(const CalibrateOptions& options, const PackingTools& tools) {
+  if (options.specification.extension() == ".csv" && options.laboratory.extension() != ".csv")
+    throw InputError({options.specification.string(), 0,
+                      fmt::format("the two files are exchanged; write polargrain calibrate {} {}",
+                                  options.specification.string(), options.laboratory.string())});
   const coupler::PrivateDirectory scratch;
   const auto read = [&options](const PackingsOf& packings_of) {
     return read_calibration(options.laboratory, options.specification, options.settings, options.scripts,

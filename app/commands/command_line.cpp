@@ -28,7 +28,7 @@ A Cosserat finite element model whose material, where you want it, is a box of g
 
 constexpr const char* kExamples = R"(
 Try:
-  polargrain check cases/biaxial/case.yaml          all faults of a case at once, and what its packings resist with
+  polargrain check cases/biaxial/case.yaml          all faults of a case at once, and the moduli of its packings
   polargrain run cases/biaxial/case.yaml -w 2       run it with two workers
   polargrain run cases/biaxial/case.yaml --resume   go on with a run that was stopped or killed
   polargrain examples                               what comes along; examples NAME copies one
@@ -45,7 +45,7 @@ Try:
 A run writes history.csv (a row a step), fields.pvd (open it in ParaView), costs.csv, summary.json and run.log.
 Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or written), 3 stopped by a signal
 (go on with --resume).
-The case file is described in docs/user_guide.md.
+All keys of a case: docs/user_guide.md. Recipes: docs/howto.
 )";
 
 /// The list of commands has one line for each: what is more stands in the help of the command.

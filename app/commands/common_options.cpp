@@ -31,6 +31,10 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+void add_strict(CLI::App& command, bool& strict) {
+  command.add_flag("--strict", strict, "Take remarks on the case for faults");
+}
+
 void add_trust(CLI::App& command, ScriptRules& rules, const Grains& grains) {
   rules.more_commands = grains.engine.script_commands;
   command.add_flag(

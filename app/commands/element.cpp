@@ -146,7 +146,7 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
 
 std::string description() {
   std::string text =
-      "What a soil laboratory does, with one material point: a cell of grains, or a law computed in place.\n\n"
+      "Test one material point as a soil laboratory does: a cell of grains, or a law computed in place.\n\n"
       "  polargrain element --test biaxial --pressure 100kPa dense400.h5 cells/hooke_rolling.in\n"
       "  polargrain element --test simple_shear --pressure 50kPa --set shear_strain=5% a.h5 b.h5 cells/hooke_radii.in\n"
       "  polargrain element SPEC.yaml        stages, cycles, components: docs/element_tests.md\n\n"

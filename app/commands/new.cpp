@@ -246,7 +246,7 @@ Command add_new(CLI::App& program, const Grains& grains) {
   const auto options = std::make_shared<NewOptions>();
   CLI::App& command = *program.add_subcommand("new", "Write a commented case of your own that runs as it is");
   command.description(new_description());
-  command.add_option("KIND", options->kind, "What to write")->required();
+  command.add_option("KIND", options->kind, "Kind of case")->required();
   command.add_option("-o,--output", options->directory, "Folder to write, new or empty")
       ->required()
       ->type_name("DIR");

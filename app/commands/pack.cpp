@@ -10,8 +10,8 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/in_child.hpp"
-#include "app/commands/moduli.hpp"
 #include "app/pack/read_specification.hpp"
+#include "app/remarks/packing_at_rest.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
 #include "common/regular_file.hpp"
@@ -145,7 +145,7 @@ Command add_pack(CLI::App& program, const Grains& grains) {
   const auto options = std::make_shared<PackOptions>();
   CLI::App& command = *program.add_subcommand("pack", "Make a packing of grains, or export one");
   CLI::Option* specification =
-      command.add_option("SPEC", options->specification_file, "What to make (YAML), or a packing to export");
+      command.add_option("SPEC", options->specification_file, "Specification (YAML), or a packing to export");
   specification->transform(brought_along);
   CLI::Option* output =
       command.add_option("-o,--output", options->output, "Packing to write (HDF5)")->type_name("FILE.h5");
@@ -167,8 +167,7 @@ Command add_pack(CLI::App& program, const Grains& grains) {
   add_trust(command, options->scripts, grains);
   return {&command, [options, &tools = grains.packing_tools] {
             options->moduli = [trusted = options->scripts.trusted](const CellDefinition& cell) {
-              const CellDefinition* const one = &cell;
-              return moduli_of({&one, 1}, trusted).front();
+              return "moduli of the packing at rest: " + packing_at_rest(cell, trusted).moduli.text();
             };
             return pack(*options, tools);
           }};

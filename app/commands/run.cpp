@@ -16,7 +16,7 @@ Command add_run(CLI::App& program, const Grains& grains) {
   add_workers(command, options->workers, 0);
   CLI::Option* listen = command
                             .add_option("--listen", options->listen,
-                                        "Where workers of other machines may join, for example tcp://*:5570")
+                                        "Address at which workers of other machines may join: tcp://*:5570")
                             ->type_name("URL");
   listen->needs(command.add_option("--keys", options->keys, "Directory of 'polargrain keys', to listen")
                     ->type_name("DIR"));
@@ -27,6 +27,7 @@ Command add_run(CLI::App& program, const Grains& grains) {
       ->type_name("MINUTES")
       ->check(CLI::NonNegativeNumber)
       ->check(finite_number());
+  add_strict(command, options->strict);
   command.add_flag("--quiet", options->quiet, "Print nothing but errors");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);

@@ -17,7 +17,7 @@ function axisOf(axis) {
   return {
     type: axis.logarithmic ? "logarithmic" : "linear",
     grace: axis.logarithmic ? 0 : "3%",
-    title: { display: true, text: axis.title, color: colourOf("--text") },
+    title: { display: true, text: axis.unit ? `${axis.title} (${axis.unit})` : axis.title, color: colourOf("--text") },
     grid: { color: colourOf("--faint") },
     ticks: {
       color: colourOf("--text"),
@@ -32,8 +32,12 @@ function axisOf(axis) {
   };
 }
 
+// Behind the last colour they begin anew, with another dash each time: 24 lines can be told apart.
+const dashes = [[], [8, 3], [2, 3]];
+
 function datasetOf(series, number) {
   const colour = series.colour || palette[number % palette.length];
+  const dash = series.colour ? [] : dashes[Math.floor(number / palette.length) % dashes.length];
   return {
     label: series.name,
     data: series.points.map(([x, y]) => ({ x, y })),
@@ -41,7 +45,7 @@ function datasetOf(series, number) {
     borderColor: series.line ? colour : colourOf("--text"),
     backgroundColor: colour,
     borderWidth: series.line ? 2 : 1,
-    borderDash: series.dashed ? [6, 4] : [],
+    borderDash: series.dashed ? [6, 4] : dash,
     pointStyle: series.line ? "line" : series.square ? "rect" : "circle",
     pointRadius: series.line ? 0 : series.size,
     pointHitRadius: 6,
@@ -125,6 +129,9 @@ function makeZoomable(chart) {
 
 for (const figure of document.querySelectorAll("figure.chart")) {
   const content = JSON.parse(figure.querySelector("script").textContent);
+  // A long legend gets room of its own; the curves keep theirs.
+  if (content.legend && content.series.length > 6)
+    figure.style.height = `calc(${getComputedStyle(figure).height} + ${Math.ceil(content.series.length / 2) * 1.2}em)`;
   const scales = { x: axisOf(content.x), y: axisOf(content.y) };
   const chart = new Chart(figure.querySelector("canvas"), {
     type: "scatter",

@@ -18,15 +18,23 @@ function colourAt(stops, share) {
   return `rgb(${low.map((value, i) => Math.round(value + (place - k) * (high[i] - value))).join(",")})`;
 }
 
-// The range of a field over all frames, so that colours mean the same in each; round zero where both signs are there.
-function scaleOf(content, field) {
+// What the pictures of a page show: runs that are compared have one scale of colours for a field.
+const pictures = [];
+
+// The range of a field over all frames of all pictures, so that colours mean the same everywhere; round zero where both
+// signs are there.
+function scaleOf(name) {
   let least = Infinity;
   let most = -Infinity;
-  for (const frame of content.frames) {
-    for (const value of frame.values[field]) {
-      if (value === null) continue;
-      least = Math.min(least, value);
-      most = Math.max(most, value);
+  for (const content of pictures) {
+    const field = content.fields.findIndex((of) => of.name === name);
+    if (field < 0) continue;
+    for (const frame of content.frames) {
+      for (const value of frame.values[field]) {
+        if (value === null) continue;
+        least = Math.min(least, value);
+        most = Math.max(most, value);
+      }
     }
   }
   if (!(least <= most)) return { least: 0, most: 1, stops: sequential };
@@ -49,8 +57,7 @@ function labelled(text, control, parent) {
   return control;
 }
 
-function showMesh(figure) {
-  const content = JSON.parse(figure.querySelector("script").textContent);
+function showMesh(figure, content) {
   const canvas = figure.querySelector("canvas");
   const controls = document.createElement("div");
   controls.className = "controls";
@@ -67,7 +74,7 @@ function showMesh(figure) {
   labelled("displacement times", factor, controls);
   const caption = element("figcaption", {}, figure);
 
-  let scale = scaleOf(content, 0);
+  let scale = scaleOf(content.fields[0].name);
   let shown = []; // paths of the elements as drawn last
 
   // What the body needs of the plane over all frames, so that it does not jump from one to the next.
@@ -120,15 +127,17 @@ function showMesh(figure) {
       context.stroke(path);
       return path;
     });
+    // As high as the picture, unless that leaves no room for its numbers.
+    const tall = Math.max(size * (high - low), 60);
     for (let k = 0; k < 100; ++k) {
       context.fillStyle = colourAt(scale.stops, 1 - k / 99);
-      context.fillRect(width - bar + 10, 20 + ((height - 40) * k) / 100, 14, (height - 40) / 100 + 1);
+      context.fillRect(width - bar + 10, 10 + (tall * k) / 100, 14, tall / 100 + 1);
     }
     context.fillStyle = colourOf("--text");
     context.font = "12px sans-serif";
     for (const share of [0, 0.25, 0.5, 0.75, 1])
       context.fillText(short(scale.least + share * (scale.most - scale.least)), width - bar + 28,
-                       24 + (height - 40) * (1 - share));
+                       14 + tall * (1 - share));
     say();
   }
 
@@ -150,7 +159,7 @@ function showMesh(figure) {
     say(found < 0 ? undefined : found);
   });
   field.addEventListener("change", () => {
-    scale = scaleOf(content, field.value);
+    scale = scaleOf(content.fields[field.value].name);
     draw();
   });
   frame.addEventListener("input", draw);
@@ -172,4 +181,6 @@ function showMesh(figure) {
   new ResizeObserver(draw).observe(canvas);
 }
 
-for (const figure of document.querySelectorAll("figure.mesh")) showMesh(figure);
+const figures = [...document.querySelectorAll("figure.mesh")];
+for (const figure of figures) pictures.push(JSON.parse(figure.querySelector("script").textContent));
+figures.forEach((figure, k) => showMesh(figure, pictures[k]));

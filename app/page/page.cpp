@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json axis(const ChartAxis& of) {
-  return {{"title", of.title}, {"logarithmic", of.logarithmic}, {"percent", of.percent}};
+  return {{"title", of.title}, {"unit", of.unit}, {"logarithmic", of.logarithmic}, {"percent", of.percent}};
 }
 
 Json one(const ChartSeries& of) {

@@ -13,6 +13,7 @@ std::string escaped(const std::string& text);
 /// One axis of a chart.
 struct ChartAxis {
   std::string title;
+  std::string unit = {};  ///< shown behind the title; empty: none
   bool logarithmic = false;
   bool percent = false;  ///< values are shares, shown as per cent
 };
@@ -37,7 +38,7 @@ std::string chart(const ChartAxis& x, const ChartAxis& y, const std::vector<Char
 /// A row of a table.
 struct TableRow {
   std::vector<std::string> cells;  ///< text, not HTML
-  std::string style = {};          ///< a class of page.css: "front"; empty: none
+  std::string style = {};          ///< a class of page.css: "front", "group"; empty: plain
 };
 
 /// A table that scrolls within the page where it is wider than that; numbers stand on the right.

@@ -8,38 +8,46 @@ namespace {
 
 struct Kind {
   const char* part;  ///< of the text
+  NoteWeight weight;
   const char* meaning;
 };
 
 /// What is said where: run.cpp, run_observer.cpp, and what materials and workers tell.
 constexpr Kind kKinds[] = {
-    {"within the noise of the stresses",
+    {"within the noise of the stresses", NoteWeight::look,
      "The step is as well balanced as the noise of the cells' stresses lets it be, but not to the tolerance asked for. Results "
      "are good to that noise (force_noise in history.csv). To get below it: a smaller unbalanced_force_ratio of the material, "
      "or more grains."},
-    {"nothing but rounding is left",
+    {"nothing but rounding is left", NoteWeight::usual,
      "The step is balanced to the last digits that numbers have; the tolerance asks for more than there are. Harmless; a "
      "larger steps: tolerance makes it go away."},
-    {"asked for strains beyond",
+    {"asked for strains beyond", NoteWeight::usual,
      "The tangent asked for a larger strain than steps: largest_strain allows and was not followed so far. Usual at a peak. "
      "Where it happens in every step: smaller steps."},
-    {"jumps of the stresses were passed",
+    {"jumps of the stresses were passed", NoteWeight::look,
      "Grains rearranged however small the step was made, and steps: jumps let the run go on; the step ended in balance. Each "
      "one is a place where the path is not the only possible one. Cells with more grains jump less."},
-    {"given up:",
+    {"given up:", NoteWeight::usual,
      "A step found no balance and was tried again, smaller. Usual at a peak. Where many steps are cut: a larger count of steps, "
      "acceleration: 5 where the tangent is not true, or a tolerance above force_noise (history.csv)."},
-    {"may hold false answers",
+    {"may hold false answers", NoteWeight::serious,
      "Two workers gave different answers to the same question; see polargrain verify and docs/trust.md."},
-    {"this result cannot be verified",
+    {"this result cannot be verified", NoteWeight::look,
      "The sample of answers could not be written; the result itself is whole."},
-    {"checkpoint was written by version", "The run was begun with another version of the program."},
-    {"cannot be interrupted without loss", "A material of this case cannot be kept in a checkpoint."},
-    {"with one worker no evaluation can be checked", "workers: check needs two workers or more."},
-    {"did not converge",
-     "The run ended here: what was committed before is good. The last lines of the log say what was tried; the causes are most "
-     "often a body that has no balance at this load, steps that are too large, or a tolerance below the noise."},
-    {"small deformation",
+    {"checkpoint was written by version", NoteWeight::look,
+     "The run was begun with another version of the program."},
+    {"cannot be interrupted without loss", NoteWeight::usual,
+     "A material of this case cannot be kept in a checkpoint."},
+    {"with one worker no evaluation can be checked", NoteWeight::usual,
+     "workers: check needs two workers or more."},
+    {"did not converge", NoteWeight::serious,
+     "The run ended here. All steps that were committed before are good. The last lines of the log list the attempts. Frequent "
+     "causes are a body without balance at this load, steps that are too large, and a tolerance below the noise."},
+    {"points at the end (in any step)", NoteWeight::look,
+     "Grains bear skew and couple stress only in proportion to their pressure, and none where they have parted. The stress of "
+     "these points is at that limit (fields skew_mobilisation, couple_mobilisation, parted). Usual in shear bands and behind "
+     "plates. Where many points have parted, ask whether the ground would be in tension there."},
+    {"small deformation", NoteWeight::serious,
      "Rotations or strains have grown beyond what small deformation describes; deformation: large takes them into account."},
 };
 
@@ -55,6 +63,18 @@ std::string kind_of(const std::string& text) {
 
 }  // namespace
 
+std::string name_of(NoteWeight weight) {
+  switch (weight) {
+    case NoteWeight::serious:
+      return "serious";
+    case NoteWeight::look:
+      return "look";
+    case NoteWeight::usual:
+      break;
+  }
+  return "usual";
+}
+
 std::vector<LogNote> notes_of(const std::vector<LoggedWarning>& warnings) {
   std::vector<LogNote> notes;
   std::vector<std::string> kinds;
@@ -63,8 +83,9 @@ std::vector<LogNote> notes_of(const std::vector<LoggedWarning>& warnings) {
     const auto place = static_cast<std::size_t>(std::ranges::find(kinds, kind) - kinds.begin());
     if (place == kinds.size()) {
       const auto* const known = std::ranges::find(kKinds, kind, &Kind::part);
-      notes.push_back(
-          {warning.text, 0, warning.step, warning.step, known == std::end(kKinds) ? "" : known->meaning});
+      notes.push_back({warning.text, 0, warning.step, warning.step,
+                       known == std::end(kKinds) ? NoteWeight::look : known->weight,
+                       known == std::end(kKinds) ? "" : known->meaning});
       kinds.push_back(kind);
     }
     LogNote& note = notes[place];

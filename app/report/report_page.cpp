@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "app/page/page.hpp"
+#include "app/report/followed.hpp"
 #include "app/report/log_notes.hpp"
 #include "app/report/pictures.hpp"
+#include "app/report/report_remarks.hpp"
 #include "app/run/progress.hpp"
 #include "app/run/proof.hpp"
 #include "common/error.hpp"
@@ -24,22 +26,12 @@ using Json = nlohmann::ordered_json;
 /// What has no place on a logarithmic axis.
 constexpr double kLeastResidual = 1e-17;
 
-/// The x that is asked for, or one that suits all of the runs.
+/// The x that is asked for, or what was moved.
 std::string x_of(const std::vector<RunResult>& results, const ReportContent& content) {
-  const auto everywhere = [&](const std::string& name) {
-    return std::ranges::all_of(results, [&](const RunResult& result) {
-      return !result.history ||
-             std::ranges::find(result.history->names(), name) != result.history->names().end();
-    });
-  };
-  if (!content.x.empty()) {
-    for (const RunResult& result : results)
-      if (result.history) (void)result.history->column(content.x);  // says which ones there are
-    return content.x;
-  }
-  for (const std::string& name : results.front().value_names())
-    if (name != "volume_strain" && name.find("strain") != std::string::npos && everywhere(name)) return name;
-  return "time";
+  if (content.x.empty()) return value_moved(results);
+  for (const RunResult& result : results)
+    if (result.history) (void)result.history->column(content.x);  // says which ones there are
+  return content.x;
 }
 
 bool has_column(const RunResult& result, const std::string& name) {
@@ -58,25 +50,27 @@ ChartSeries line_of(const std::string& name, const CsvTable& table, const std::s
   return line;
 }
 
-std::string curves(const std::vector<RunResult>& results, const std::string& x) {
-  std::vector<std::string> names;
-  for (const RunResult& result : results)
-    for (const std::string& name : result.value_names())
-      if (name != x && std::ranges::find(names, name) == names.end()) names.push_back(name);
-  // Monitors are the user's own: before what every run has.
-  const std::vector<std::string> of_every_run{"volume_strain", "external_work", "internal_work"};
-  std::ranges::stable_partition(names, [&](const std::string& name) {
-    return std::ranges::find(of_every_run, name) == of_every_run.end();
-  });
+std::string charts_of(const std::vector<RunResult>& results, const std::string& x,
+                      const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) {
     std::vector<ChartSeries> series;
     for (const RunResult& result : results)
       if (has_column(result, name)) series.push_back(line_of(result.name, *result.history, x, name));
-    text += chart({.title = x}, {.title = name}, series, results.size() > 1);
+    text += chart({.title = x, .unit = unit_of_value(results, x)},
+                  {.title = name, .unit = unit_of_value(results, name)}, series, results.size() > 1);
   }
-  if (text.empty()) return "<p>No step has been committed yet.</p>\n";
   return "<div class='grid'>\n" + text + "</div>\n";
+}
+
+std::string curves(const std::vector<RunResult>& results, const std::string& x) {
+  const FollowedNames names = followed_names(results, x);
+  if (names.listed.empty()) return "<p>No step has been committed yet.</p>\n";
+  std::string text = charts_of(results, x, names.listed);
+  if (!names.others.empty())
+    text +=
+        details(fmt::format("{} further curves", names.others.size()), charts_of(results, x, names.others));
+  return text;
 }
 
 /// Residuals of all iterations, those of a step between its number and the next.
@@ -183,7 +177,7 @@ std::string cost(const std::vector<RunResult>& results) {
   return text;
 }
 
-/// Name, and a text for each run.
+/// Name, and a text for each run; a row of the name alone begins a group.
 using KeyRow = std::vector<std::string>;
 
 /// What a paper's table says of runs: what was computed, how well balanced, at what cost, and what came of it.
@@ -200,6 +194,14 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   const auto of_summary = [&](const char* pointer) {
     return [&results, pointer](std::size_t k) { return figure(results[k].summary, pointer); };
   };
+  const auto end_group = [&] {  // without a row it would be a headline of nothing
+    if (!rows.empty() && rows.back().size() == 1) rows.pop_back();
+  };
+  const auto begin_group = [&](const std::string& name) {
+    end_group();
+    rows.push_back({name});
+  };
+  begin_group("Mesh and steps");
   add("elements", [&](std::size_t k) {
     return pictures[k].outlines.empty() ? "" : std::to_string(pictures[k].outlines.size());
   });
@@ -207,10 +209,12 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
     return pictures[k].nodes.empty() ? "" : std::to_string(pictures[k].nodes.size());
   });
   add("steps committed", of_summary("/steps_committed"));
-  add("iterations", of_summary("/iterations"));
-  add("cuts", of_summary("/cuts"));
+  begin_group("Balance: residuals are shares of the forces, before a step was accepted");
+  add("iterations of all steps", of_summary("/iterations"));
+  add("steps cut", of_summary("/cuts"));
   add("largest force residual", of_summary("/errors/largest_force_residual"));
   add("largest moment residual", of_summary("/errors/largest_moment_residual"));
+  begin_group("Cost");
   // A run without cells has none of these.
   const auto of_cells = [&](const char* pointer) {
     return [&results, pointer](std::size_t k) {
@@ -222,10 +226,13 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   add("DEM steps", of_cells("/cells/dem_steps"));
   add("workers", of_cells("/workers"));
   add("wall time, s", of_summary("/seconds/total"));
-  std::vector<std::string> names;
-  for (const RunResult& result : results)
-    for (const std::string& name : result.value_names())
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  const FollowedNames followed = followed_names(results, "");
+  std::vector<std::string> names = followed.listed;
+  names.insert(names.end(), followed.others.begin(), followed.others.end());
+  const auto with_unit = [&](const std::string& name) {
+    const std::string unit = unit_of_value(results, name);
+    return unit.empty() ? name : fmt::format("{}, {}", name, unit);
+  };
   const auto value_at = [&](std::size_t k, const std::string& name, bool extreme) -> std::string {
     if (!has_column(results[k], name) || results[k].history->rows() == 0) return "";
     const ChartSeries line = line_of(name, *results[k].history, x, name);
@@ -237,12 +244,13 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
     return std::isnan(largest->second) ? ""
                                        : fmt::format("{:.6g} at {:.4g}", largest->second, largest->first);
   };
-  for (const std::string& name : names) {
-    add(name + ", at the end", [&](std::size_t k) { return value_at(k, name, false); });
-    if (name != x)
-      add(fmt::format("{}, largest magnitude (at {})", name, x),
-          [&](std::size_t k) { return value_at(k, name, true); });
-  }
+  begin_group("Values at the end");
+  for (const std::string& name : names)
+    add(with_unit(name), [&](std::size_t k) { return value_at(k, name, false); });
+  begin_group(fmt::format("Largest magnitudes, and the {} there", x));
+  for (const std::string& name : names)
+    if (name != x) add(with_unit(name), [&](std::size_t k) { return value_at(k, name, true); });
+  end_group();
   return rows;
 }
 
@@ -280,8 +288,10 @@ std::string key_table(const std::vector<RunResult>& results, const std::vector<K
   };
   latex_row(titles);
   latex += "\\hline\n";
-  for (const KeyRow& row : rows) {
-    cells.push_back({row});
+  for (KeyRow row : rows) {
+    const bool begins_group = row.size() == 1;
+    row.resize(titles.size());
+    cells.push_back({row, begins_group ? "group" : ""});
     tabs += tab_row(row);
     latex_row(row);
   }
@@ -349,18 +359,28 @@ std::string status(const RunResult& result) {
 }
 
 std::string notes(const std::vector<RunResult>& results) {
-  std::vector<TableRow> rows;
+  struct Weighed {
+    NoteWeight weight;
+    TableRow row;
+  };
+  std::vector<Weighed> weighed;
   for (const RunResult& result : results) {
     for (const LogNote& note : notes_of(result.warnings)) {
       const std::string steps = note.first_step == note.last_step
                                     ? fmt::format("{}", note.first_step)
                                     : fmt::format("{} to {}", note.first_step, note.last_step);
-      rows.push_back({{result.name, std::to_string(note.count),
-                       note.first_step < 0 ? "before the first" : steps, note.first, note.meaning}});
+      weighed.push_back({note.weight,
+                         {{name_of(note.weight), result.name, std::to_string(note.count),
+                           note.first_step < 0 ? "before the first" : steps, note.first, note.meaning},
+                          note.weight == NoteWeight::serious ? "front" : ""}});
     }
   }
-  if (rows.empty()) return "<p>None.</p>\n";
-  std::string text = table({"run", "how often", "steps", "the first of them", "what it means"}, rows);
+  if (weighed.empty()) return "<p>The run gave no warning.</p>\n";
+  std::ranges::stable_sort(weighed, std::ranges::greater{}, &Weighed::weight);
+  std::vector<TableRow> rows;
+  for (Weighed& one : weighed) rows.push_back(std::move(one.row));
+  std::string text = table(
+      {"weight", "run", "how often", "steps", "the first of them", "what it means, and what to do"}, rows);
   return text.replace(text.find("<table>"), 7, "<table class='text'>");
 }
 
@@ -375,6 +395,7 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
     const std::string name = results.size() > 1 ? result.name + ": " : "";
     body += "<p>" + escaped(name + status(result)) + "</p>\n";
   }
+  body += remarks_section(results);
   body +=
       "<h2>Curves</h2>\n<p>Drawing a rectangle with the mouse enlarges it, a double click shows all again.</p>\n" +
       curves(results, x);

@@ -45,7 +45,7 @@ void RunCheckpoints::follow(const std::filesystem::path& directory, bool with_it
 }
 
 std::string RunCheckpoints::text() const {
-  return saved_step_ < 0 ? "there is none yet"
+  return saved_step_ < 0 ? "no checkpoint has been written yet"
                          : fmt::format("the last one is of step {} of {}", saved_step_, steps_);
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "app/run/json_text.hpp"
+#include "app/run/monitor_notes.hpp"
 #include "app/run/proof.hpp"
+#include "app/run/run_remarks.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
 #include "fem/output/write_file.hpp"
@@ -102,7 +104,9 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"title", the_case.title},
                {"status", record.status},
                {"message", record.message},
+               {"remarks", remarks_for_summary(record.remarks)},
                {"not_vouched_for", record.doubts},
+               {"at_limits", record.limits},
                {"steps_asked", the_case.steps()},
                {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},
                {"iterations", record.iterations},
@@ -115,6 +119,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"point_evaluations", record.evaluations},
                {"workers", record.workers},
                {"values", last_values(record)},
+               {"monitors", monitor_notes(the_case)},
                {"errors", error_figures(record)},
                {"seconds", cost_figures(record.costs)},
                {"cells", cell_figures(record.pool)},
@@ -193,6 +198,7 @@ std::string figures_text(const RunRecord& record) {
     for (const fem::Figure& figure : figures)
       text += fmt::format("  {:<34}{:>9.4g}\n", figure.name, figure.value);
   }
+  for (const auto& [region, limits] : record.limits) text += fmt::format("region '{}': {}\n", region, limits);
   for (const auto& [region, doubt] : record.doubts) text += fmt::format("region '{}': {}\n", region, doubt);
   return text;
 }

@@ -156,6 +156,8 @@ std::vector<fem::Figure> AdaptiveMaterial::figures() const {
       {"tolerance", options_.tolerance},
       {"tolerance_worked_with", options_.tolerance / tightening_},
   };
+  const std::vector<fem::Figure> at_limits = at_limits_.figures();
+  figures.insert(figures.end(), at_limits.begin(), at_limits.end());
   if (!audits()) return figures;
   figures.push_back({"points_followed", count(followed_.size())});
   figures.push_back({"history_errors", count(errors_.count())});
@@ -174,14 +176,17 @@ std::vector<std::string> AdaptiveMaterial::take_notes() {
 }
 
 std::vector<std::string> AdaptiveMaterial::field_names() const {
-  return joined_names({"source", "cell", "error_estimate"}, names_of_columns<CellDiagnostics>());
+  return joined_names(joined_names({"source", "cell", "error_estimate"}, names_of_columns<CellDiagnostics>()),
+                      names_of_limit_fields(cosserat_.has_value()));
 }
 
 void AdaptiveMaterial::fields(std::size_t point, std::span<double> values) const {
   values[0] = static_cast<double>(points_[point].source);
   values[1] = static_cast<double>(points_[point].cell);
   values[2] = points_[point].estimate / reference_;
-  std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3);
+  const auto rest =
+      std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3).out;
+  write_limit_fields(reached(points_[point]), cosserat_, points_[point].cosserat, rest);
 }
 
 }  // namespace polargrain::coupler

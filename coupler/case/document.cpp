@@ -37,8 +37,9 @@ class Builder : public YAML::EventHandler {
   explicit Builder(std::string file) : file_(std::move(file)) {}
 
   Entry root;
+  int first_line = 1;  ///< of the document
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark& mark) override { first_line = mark.line + 1; }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     leaf(Entry::Kind::nothing, "", mark, anchor);
@@ -160,6 +161,12 @@ Entry parse(const std::string& text, const std::string& file) {
   try {
     YAML::Parser parser(in);
     parser.HandleNextDocument(builder);
+    Builder second(file);
+    if (parser.HandleNextDocument(second))
+      throw InputError(
+          {file, second.first_line,
+           "a second document begins here, behind '---' or '...', and would not be read; remove that line, or "
+           "put what follows into a file of its own"});
   } catch (const YAML::Exception& error) {
     const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
     throw InputError({file, line, "this is no YAML: " + error.msg + advice_on_line(text, line)});

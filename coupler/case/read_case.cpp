@@ -80,7 +80,7 @@ class CaseReader {
     }
     materials.finish();
     if (entry.kind == Entry::Kind::map && entry.members.empty()) {
-      faults_.push_back(entry.fault("materials: there is none; give at least one"));
+      faults_.push_back(entry.fault("materials: expected at least one material"));
     }
   }
 

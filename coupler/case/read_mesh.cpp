@@ -93,9 +93,10 @@ void read_file(Section& mesh, const std::string& element, CaseParts& parts) {
   const std::string name = mesh.text("file", "the path of a mesh that Gmsh has written (.msh)");
   if (element != "Q8R" && element != "Q8") {
     if (!element.empty()) {
-      mesh.fault("element", fmt::format("element: the kinds of elements stand in the mesh file; '{}' is none "
-                                        "of the choices for its quadrilaterals of 8 nodes, Q8R and Q8",
-                                        element));
+      mesh.fault("element",
+                 fmt::format("element: the mesh file holds the kinds of its elements; for its quadrilaterals "
+                             "of 8 nodes choose Q8R or Q8, found '{}'",
+                             element));
     }
     return;
   }

@@ -80,7 +80,7 @@ void read_stage(const Entry& entry, const std::string& name, double& time, CaseP
     const double length = stage.quantity("arc_length", Dimension::length, Limit::positive);
     if (plan.empty()) {
       stage.fault("arc_length",
-                  "arc_length: its direction is that of the step before; begin with a stage 'until'");
+                  "arc_length: it goes on in the direction of the step before; begin with a stage 'until'");
     }
     for (int i = 0; i < count; ++i) plan.push_back({StepTarget::Control::arc_length, length / count, {}});
   }
@@ -124,7 +124,7 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   solver.moment_tolerance =
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
   for (const char* const key : {"tolerance", "moment_tolerance", "jump_residual"})
-    steps.require_below(key, 1.0, "what is out of balance may not be as large as the loads");
+    steps.require_below(key, 1.0, "the unbalanced forces may not be as large as the loads");
   solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
   // Grains rearrange: without passing their jumps no band is followed far.
   solver.most_jumps = steps.whole_or("jumps", 0, parts.result.needs_workers() ? 50 : 0);

@@ -30,7 +30,7 @@ std::filesystem::path checkpoint_before(const std::filesystem::path& file);
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint,
                       Durability durability = Durability::disk);
 
-/// @throws InputError when there is none, or when it is damaged, cut short, or of another version; it names
+/// @throws InputError when it is missing, damaged, truncated, or of another version; it names
 /// the one before when that can be read
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 

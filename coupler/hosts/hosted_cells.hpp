@@ -56,7 +56,7 @@ class HostedCells {
   /// @returns the replies in the order of the requests; their states have their bytes
   /// @throws as initial
   std::vector<CellReply> evaluate(const std::vector<HostedRequest>& requests, const IsWanted& is_wanted = {});
-  /// What cells have cost since the pool was started last.
+  /// Costs of the cells since the pool was started last.
   [[nodiscard]] PoolCounts counts() const;
   /// Ends the workers now; the next question starts others.
   void close();
@@ -67,7 +67,7 @@ class HostedCells {
 };
 
 /// The program whose workers serve cells: $POLARGRAIN_PROGRAM, or else the first of these that is there, or else
-/// `polargrain` of $PATH. @throws InputError when there is none
+/// `polargrain` of $PATH. @throws InputError when it is missing
 std::string program_for_workers(const std::vector<std::filesystem::path>& places);
 
 }  // namespace polargrain::coupler

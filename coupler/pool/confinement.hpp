@@ -21,7 +21,7 @@ class Confinement {
   /// Before the first script: starts no program, writes nothing outside of its folder, watches or signals no other
   /// process, changes nothing of the system.
   void close();
-  /// What the system does not allow, for the user; empty: all of it is in force.
+  /// Rights that the system could not take away, for the user; empty: all are taken.
   [[nodiscard]] std::string missing() const;
 
  private:

@@ -14,7 +14,7 @@ namespace polargrain::coupler {
 /// A worker's end of the line to its coordinator. Reconnects by itself; knows for how long nobody was there.
 class Connection {
  public:
-  /// @throws InputError when the URL needs a key and there is none; RunError when it cannot be used at all
+  /// @throws InputError when the URL needs a key and the key is missing; RunError when it cannot be used at all
   Connection(const std::string& url, const std::optional<WorkerKey>& key);
 
   void send(const std::string& bytes);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include "common/error.hpp"
 #include "coupler/pool/descriptors.hpp"
@@ -98,6 +99,7 @@ void Crew::fill(Seat& seat) {
   std::error_code none;
   seat.log_start = std::filesystem::exists(seat.log, none) ? std::filesystem::file_size(seat.log, none) : 0;
   seat.started = Clock::now();
+  seat.share = {};
   seat.address = {};
   seat.process.emplace(command, seat.log, options_.network);
   switchboard_.watch(seat.process->end_descriptor());
@@ -132,7 +134,8 @@ void Crew::watch_seats() {
     if (seat.process && !seat.address.id.empty()) continue;
     seats_are_quiet_ = false;
     if (!seat.process) continue;
-    const double waited = seconds_of(now - seat.started);
+    // Time in which others had the processors is not its fault.
+    const double waited = seconds_of(now - seat.started - seat.process->processor_share().waited);
     if (waited < options_.startup_seconds) continue;
     last_end_ = fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
                             seat.number, options_.startup_seconds, seat.log.string(),
@@ -230,6 +233,16 @@ void Crew::send_away(Member& member, const std::string& cause) {
     say(fmt::format("{} was sent away {} times: it is not started again", member.name, kMostOffences));
   }
   give_up(member, cause);
+}
+
+Clock::duration Crew::starved(const Member& member, Clock::duration elapsed) {
+  if (member.address.remote) return {};
+  for (Seat& seat : seats_) {
+    if (seat.address != member.address || !seat.process) continue;
+    const ProcessorShare now = seat.process->processor_share();
+    return starved_between(std::exchange(seat.share, now), now, elapsed);
+  }
+  return {};
 }
 
 void Crew::send(Member& member, const Message& message) {

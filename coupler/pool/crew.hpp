@@ -34,13 +34,14 @@ struct CrewOptions {
   std::function<void()> heed;  ///< called before each wait; may throw
 };
 
-/// What a worker was asked for with one message.
+/// The tasks of one message to a worker.
 struct Job {
   std::vector<std::size_t> tasks;
   std::uint64_t request = 0;  ///< number on the wire, never used twice
   Clock::time_point sent;     ///< or when the job before it was answered
   Clock::time_point heard;    ///< last sign of life, or `sent`
   Clock::time_point resent;   ///< last time it was sent, or sent again
+  Clock::duration excused{};  ///< since `sent`: nobody could have answered, or heard of it
   bool begun = false;         ///< it has said Working
   int supplied = 0;           ///< times it was sent again because something was missing
 };
@@ -58,7 +59,7 @@ struct Member {
   bool has_answered = false;
   int unreadable = 0;  ///< messages in a row that made no sense
 
-  /// What its answers are held against: a guest may come again under another name, but not with another key.
+  /// The key for which its answers count: a guest may come again under another name, but not with another key.
   [[nodiscard]] const std::string& standing() const { return address.remote ? party : name; }
 };
 
@@ -105,6 +106,9 @@ class Crew {
   /// The same with a member that was found to say what is false. A guest is told, is not let in again by this
   /// connection, and its key is shut out of the run when that happens too often; so is the place of one of ours.
   void send_away(Member& member, const std::string& cause);
+  /// How much of the time since `elapsed` ago, when this was asked last, a process of ours was ready to run and others
+  /// had the processors. Zero for guests: nobody here sees their machine.
+  [[nodiscard]] Clock::duration starved(const Member& member, Clock::duration elapsed);
   /// Local workers that have answered get their number of restarts back.
   static void praise(Member& member) { member.has_answered = true; }
 
@@ -124,6 +128,7 @@ class Crew {
     std::optional<Process> process = {};
     Address address = {};  ///< of its member; empty before its Hello
     Clock::time_point started = {};
+    ProcessorShare share = {};     ///< of the process, when it was looked at last
     Clock::time_point due = {};    ///< when an empty seat is to be filled
     int fruitless = 0;             ///< counts ends without a job since it last answered
     int offences = 0;              ///< times that it was sent away

@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// What an evaluation was seen to answer, kept with its state: should the state turn out to be false, whoever
+/// The answer of an evaluation, kept with its state: should the state turn out to be false, whoever
 /// evaluates again shows whether the numbers that were used are right.
 struct Evidence {
   ContentName answer = {};  ///< of the numbers; see name_of_answer

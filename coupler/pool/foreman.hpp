@@ -29,7 +29,7 @@ class Foreman final : private CrewEvents {
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
 
   /// Returns when every task is done, with its reply; those of `fetch` and `again` have a state and no more.
-  /// @throws RunError when no worker is left, or one that is no evaluation cannot be done by anybody
+  /// @throws RunError when no worker is left, or nobody can do a task other than an evaluation
   void work(std::vector<Task>& tasks);
 
   StateBook& book() { return book_; }
@@ -51,7 +51,7 @@ class Foreman final : private CrewEvents {
     std::int64_t answers = 0;
   };
 
-  // What the crew tells.
+  // Messages of the crew.
   void joined(Member& member) override;
   void said(Member& member, const Message& message) override;
   void lost(Member& member, const Loss& loss) override;
@@ -69,7 +69,7 @@ class Foreman final : private CrewEvents {
   void take_states(Member& member, const States& answer);
   void take_reply(Member& member, Task& task, const CellReply& reply);
   void take_other_state(Member& member, Task& task, const CellReply& reply);
-  /// @throws FalseMessage when a state that was sent is none of such a cell
+  /// @throws FalseMessage when a state that was sent cannot be one of the cell
   void check_state(const Task& task, const StatePointer& state) const;
   /// Somebody has done a task: who refused it, or came to something else, was wrong.
   void blame_others(const Member& member, const Task& done);
@@ -93,7 +93,7 @@ class Foreman final : private CrewEvents {
   /// What is returned now has nobody's word but its own: noted, should its worker be found to answer falsely later.
   void note_returned();
 
-  // What cannot be carried to its end.
+  // Tasks that cannot be finished.
   void put_back(const Job& job);
   void end_attempt(Task& task, Attempt attempt);
   [[nodiscard]] bool may_take(const Member& member, const Task& task);
@@ -103,7 +103,9 @@ class Foreman final : private CrewEvents {
   [[nodiscard]] std::string place_of(const Job& job) const;
 
   // Clocks.
-  void forgive(Clock::duration excess);
+  static void excuse(Member& member, Clock::duration time);
+  void excuse_all(Clock::duration time);
+  void count_seconds(Clock::duration passed);
   void check_clocks();
   void tell(const std::string& text) const;
 

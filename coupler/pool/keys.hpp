@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// What a coordinator that serves workers over TCP has to hold: its own CURVE key pair, and who may connect.
+/// Keys of a coordinator that serves workers over TCP: its own CURVE key pair, and who may connect.
 /// Keys are in Z85, 40 characters.
 struct CoordinatorKeys {
   std::string public_key;
@@ -14,7 +14,7 @@ struct CoordinatorKeys {
   std::map<std::string, std::string> allowed;  ///< from a worker's public key to its name
 };
 
-/// What a worker has to hold: its own key pair and the public key of the only coordinator it trusts.
+/// Keys of a worker: its own key pair and the public key of the only coordinator it trusts.
 struct WorkerKey {
   std::string public_key;
   std::string secret_key;
@@ -23,7 +23,7 @@ struct WorkerKey {
 
 /// Makes `directory` (mode 0700) with coordinator.key, workers.allowed and NAME.key (mode 0600), or adds
 /// another worker's key to it. Nothing that exists is changed, but for the line that workers.allowed gains.
-/// @throws InputError when the worker's key exists or the name is no file name; RunError when a file cannot
+/// @throws InputError when the worker's key exists or the name is not a file name; RunError when a file cannot
 /// be written
 void make_keys(const std::filesystem::path& directory, const std::string& worker_name);
 

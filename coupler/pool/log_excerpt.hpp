@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// What a dead worker's log says about its end: the last lines that contain "ERROR", as LIGGGHTS writes them,
+/// The end of a dead worker's log: the last lines that contain "ERROR", as LIGGGHTS writes them,
 /// or in their absence the last lines. Reads no more than the last 64 kB;
 /// lines come as plain text (common/plain_text.hpp).
 /// @param from where in the file to begin: what earlier processes wrote is of no interest

@@ -9,7 +9,7 @@
 
 namespace polargrain::coupler {
 
-/// What one worker answered to an evaluation that several are asked for.
+/// The answer of one worker to an evaluation that several make.
 struct Opinion {
   Candidate worker;
   std::string who;       ///< Member::name

@@ -27,9 +27,9 @@ struct PoolOptions {
   std::vector<std::string> worker_command;
   /// Local workers run any script (grains_io/script.hpp).
   bool trust_scripts = false;
-  /// A worker that has not said Hello after so long is a start-up failure.
+  /// A worker that has not said Hello after so long is a start-up failure; see PatienceLimits for the time that counts.
   double startup_seconds = 60.0;
-  /// What a worker is taken to keep; see StateCache.
+  /// Bytes that a worker is assumed to keep; see StateCache.
   std::size_t cache_bytes = kWorkerCacheBytes;
   PatienceLimits patience;
   /// Where workers of other machines may join and leave at any time.
@@ -60,7 +60,7 @@ struct CellFailure {
   std::string reason;
 };
 
-/// What the cells have cost so far.
+/// Costs of the cells so far.
 struct PoolCounts {
   std::int64_t evaluations = 0;
   std::int64_t dem_steps = 0;

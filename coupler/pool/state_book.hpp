@@ -18,7 +18,7 @@ struct Origin {
   Evidence evidence = {};
 };
 
-/// What the coordinator knows of the states it has given out: which worker has the bytes, and, of those whose
+/// The coordinator's record of the states it has given out: which worker has the bytes, and, of those whose
 /// bytes are with that worker alone (states on trial), how to make them again. An entry lives as long as
 /// somebody has a pointer to its state: who lets go of the last one needs to tell nobody.
 ///

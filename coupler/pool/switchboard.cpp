@@ -74,7 +74,7 @@ void Switchboard::serve_others(const Listening& listening) try {
   gate_->set(zmq::sockopt::linger, 0);
   gate_->bind("inproc://zeromq.zap.01");  // the name is ZeroMQ's own (its RFC 27)
   remote_.emplace(context_, zmq::socket_type::router);
-  remote_->set(zmq::sockopt::linger, 500);  // so that the last Stop goes out
+  remote_->set(zmq::sockopt::linger, 5000);  // so that the last Stop goes out, on a busy machine too
   remote_->set(zmq::sockopt::router_mandatory, true);
   remote_->set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
   remote_->set(zmq::sockopt::curve_server, true);

@@ -16,7 +16,7 @@ struct ServeOptions {
   std::size_t cache_bytes = kWorkerCacheBytes;
   /// Needed for tcp:// URLs: the worker talks to the coordinator that proves this key and to nobody else.
   std::optional<WorkerKey> key = {};
-  /// What this process could not give up; see Confinement.
+  /// Rights that this process could not give up; see Confinement.
   std::string unconfined = {};
   /// A worker without a connection gives up after so long. A coordinator that is killed and resumed within
   /// this time at the same URL finds its workers again.

@@ -18,7 +18,7 @@ void write_record(ArrayWriter& writer, const Record& record) {
   for (const StatePointer& state : values.states) writer.state(state);
 }
 
-/// @throws ProtocolError when the object is no such array
+/// @throws ProtocolError when the object is another kind of value
 template <Described Record>
 Record read_record(const msgpack::object& object, const char* what) {
   ArrayReader reader(object, what);

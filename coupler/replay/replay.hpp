@@ -12,7 +12,7 @@ namespace polargrain::coupler {
 struct Replay {
   StatePointer start;                     ///< null: the packing at rest
   std::vector<CellIncrement> increments;  ///< one after the other
-  /// What the cell answered, an answer an increment from the first on; as many as there are, for comparison.
+  /// The cell's answers, one an increment from the first on; as many as there are, for comparison.
   std::vector<CellResponse> answers;
   std::string reason;  ///< why it is written, a sentence for its README
 };

@@ -7,7 +7,7 @@
 
 namespace polargrain::dem {
 
-/// What mode 2 adds to the path of the box (docs/theory/grains.md, C.6).
+/// The addition of mode 2 to the path of the box (docs/theory/grains.md, C.6).
 struct RotationLoading {
   /// Change of the mean rotation of the grains over the path, in the laboratory, rad; its rate follows the
   /// path's.

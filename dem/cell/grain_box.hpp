@@ -17,7 +17,7 @@ class GrainBox {
  public:
   virtual ~GrainBox() = default;
 
-  /// Puts a state in place of what is there. @throws RunError when it is none of these grains and models
+  /// Replaces the state. @throws RunError when it does not fit these grains and models
   virtual void restore(const State& state) = 0;
   /// The grains as they are, in their box, folded back into it (Box::reduced).
   [[nodiscard]] virtual StatePointer save() = 0;
@@ -36,7 +36,7 @@ class GrainBox {
   /// `hold_rotation` puts the torques that hold the mean to the forces of set_up.
   virtual void set_rotation_weights(std::span<const double> weights) = 0;
   virtual void hold_rotation() = 0;
-  /// W_p over the volume: they add up to 1; empty while there are none.
+  /// W_p over the volume: they add up to 1; empty without them.
   [[nodiscard]] virtual std::span<const double> weights() const = 0;
   /// sigma_21 - sigma_12 that holds the mean rotation, Pa; 0 in mode 1.
   [[nodiscard]] virtual double multiplier() const = 0;

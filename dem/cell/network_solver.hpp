@@ -13,7 +13,7 @@ namespace polargrain::dem {
 inline constexpr int kPlaneMotions = 3;
 inline constexpr int kSpaceMotions = 6;
 
-/// What one contact adds to the equations of a network: unknowns and equations are those of its first, then
+/// The share of one contact in the equations of a network: unknowns and equations are those of its first, then
 /// of its second grain.
 template <int Motions, int MostRightSides>
 struct ContactEquations {

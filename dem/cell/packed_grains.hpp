@@ -32,7 +32,7 @@ struct PackedGrains {
   }
 };
 
-/// The first bytes are not looked at: a state that is none of discs (is_disc_state).
+/// The first bytes are not looked at: a state of other grains than discs (is_disc_state).
 /// @throws RunError when lengths do not fit each other or a number is not finite
 PackedGrains decode_grains(const State& state);
 /// The opposite. `starts` is not needed.
@@ -56,7 +56,7 @@ struct GrainLayout {
   double time_step = 0.0;                  ///< s
 };
 
-/// @throws RunError when a record is none of this engine: other grains, lengths that do not fit, partners
+/// @throws RunError when a record does not fit this engine: other grains, lengths that do not fit, partners
 /// that are no grains, a place outside of the box
 void check_records(const PackedGrains& state, const GrainLayout& layout);
 

@@ -12,7 +12,7 @@
 namespace polargrain::dem {
 
 // Grains are rigid but for their contacts: laws of contacts mean something while overlaps are small against
-// the grains. What lies beyond is no answer about grains any more, however well it is balanced.
+// the grains. Beyond that an answer says nothing about grains, however well it is balanced.
 
 /// As kMostMeanOverlap for the largest overlap: forces of contacts reach some five times their mean.
 inline constexpr double kMostOverlap = 0.25;
@@ -58,7 +58,7 @@ std::string geometry_fault(const Packing& packing);
 /// that those of the two would be mixed up. Nothing when no grains do.
 std::string twofold_contact(const Packing& packing);
 
-/// What a packing is under a script before the first step.
+/// A packing under a script before the first step.
 struct PackingAtRest {
   double pressure = 0.0;         ///< mean normal stress, compression positive, Pa
   double recorded = 0.0;         ///< the packing file's, Pa; 0 when it has none

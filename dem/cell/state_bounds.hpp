@@ -8,7 +8,7 @@
 
 namespace polargrain::dem {
 
-/// What a state says of one grain, in the frame of its box.
+/// One grain of a state, in the frame of its box.
 struct GrainMotion {
   double x = 0.0, y = 0.0;    ///< m
   double vx = 0.0, vy = 0.0;  ///< m/s
@@ -27,12 +27,12 @@ struct SpaceMotionOfGrain {
 // Bounds of what a state may say. Numbers that no evaluation leaves behind would make lists without end, not
 // answers.
 
-/// What is wrong with the box of a state; empty when it is sound. @param grain_area of all grains, m^2
+/// The fault of the box of a state; empty when it is sound. @param grain_area of all grains, m^2
 std::string box_fault(const Box& box, double grain_area);
 /// The same in space. @param grain_volume of all grains, m^3
 std::string box_fault(const SpaceBox& box, double grain_volume);
 
-/// What is wrong with a grain; empty when it is sound. @param grain its number, for the message
+/// The fault of a grain; empty when it is sound. @param grain its number, for the message
 /// @param radius m @param time_step s; 0: not known, motions need only be finite
 std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& motion, double radius,
                          double time_step);

@@ -7,7 +7,7 @@
 
 namespace polargrain::dem {
 
-/// What grains put against their forces and moments.
+/// Mass and inertia of grains.
 struct Inertia {
   std::vector<double> masses;   ///< kg
   std::vector<double> moments;  ///< of inertia, kg m^2

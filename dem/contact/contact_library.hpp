@@ -9,7 +9,7 @@ struct ContactLibraryFile;
 
 namespace polargrain::dem {
 
-/// What a library of contact laws tells the program that loads it; exported under kContactLibraryName.
+/// The description of a library of contact laws for the program that loads it; exported under kContactLibraryName.
 struct ContactLibrary {
   const char* version = nullptr;  ///< of the package whose headers it was compiled with
   std::size_t contact_bytes = 0;  ///< sizeof(Contact) in those headers

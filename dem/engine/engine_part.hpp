@@ -10,7 +10,7 @@ class LAMMPS;
 
 namespace polargrain::dem {
 
-/// What belongs to one engine, by type.
+/// The parts of one engine, by type.
 using EngineParts = std::unordered_map<std::type_index, std::shared_ptr<void>>;
 
 /// @param lammps of an Engine

@@ -27,7 +27,7 @@ constexpr std::array<std::array<int, 2>, 3> kPlanes{{{0, 1}, {0, 2}, {1, 2}}};
 /// first base vector lies along x1 (frame_of_packing_data).
 class PressedBox {
  public:
-  /// What the contacts say at the end of a move. Stresses in Pa, tension positive.
+  /// Values of the contacts at the end of a move. Stresses in Pa, tension positive.
   struct Look {
     int contacts = 0;
     Eigen::Vector3d stress = Eigen::Vector3d::Zero();  ///< normal stresses of the axes

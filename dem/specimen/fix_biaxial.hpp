@@ -63,7 +63,7 @@ class FixBiaxial : public LAMMPS_NS::Fix, public FurtherSprings {
   void add_springs(std::vector<Contact>& contacts, Inertia& inertia) const override;
 
  private:
-  /// What a restart file keeps.
+  /// The content of a restart file.
   struct State {
     double bottom = 0.0;
     double top = 0.0;

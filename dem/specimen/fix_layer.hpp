@@ -38,7 +38,7 @@ class FixLayer : public LAMMPS_NS::Fix {
   void restart(char* buffer) override;
 
  private:
-  /// What a restart file keeps.
+  /// The content of a restart file.
   struct State {
     double velocity_x = 0.0;  ///< of the upper plate
     double velocity_y = 0.0;

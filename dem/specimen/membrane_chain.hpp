@@ -19,7 +19,7 @@ enum class Side { left, right };
 /// @param probe radius of the probe disc, m; two of the largest grains' radii do not fall between grains
 /// @param bottom, top height of the platens' faces, m
 /// @returns indices into `discs`, bottom first. Equal discs give equal chains.
-/// @throws std::runtime_error when there is no grain next to the bottom platen, or the probe comes into the
+/// @throws std::runtime_error when no grain lies next to the bottom platen, or the probe comes into the
 /// specimen
 std::vector<std::size_t> membrane_chain(const std::vector<Disc>& discs, double probe, double bottom,
                                         double top, Side side);

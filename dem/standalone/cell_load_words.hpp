@@ -29,11 +29,11 @@ CellLoadWords read_cell_load_words(LAMMPS_NS::LAMMPS& lammps, int count, char** 
 MeanGrain mean_grain_of(LAMMPS_NS::Atom& atom, double (*size)(double radius), double depth);
 
 /// The scales of a packing at rest, and the time step: the script's own where it is stable.
-/// @param pressure that it carries; ends the process where it is none
+/// @param pressure that it carries; ends the process where it is not positive
 void take_packing(LAMMPS_NS::LAMMPS& lammps, QuasiStatic& protocol, const MeanGrain& grain,
                   std::vector<Contact>& at_rest, double pressure, const ScriptTimeStep& time_step);
 
-/// The bytes of a state in a file. Ends the process where there is none.
+/// The bytes of a state in a file. Ends the process where it is missing.
 StatePointer read_state_file(const std::string& file, LAMMPS_NS::Error& error);
 
 }  // namespace polargrain::dem

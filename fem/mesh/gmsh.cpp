@@ -160,7 +160,10 @@ class Reader {
         if (block.dimension == 2) add_entity(block.entity);
       }
     }
-    if (mesh_.elements.empty()) fail("it has no surface elements");
+    if (mesh_.elements.empty())
+      fail(
+          "it has no surface elements: where anything in the script for Gmsh has a physical name, Gmsh writes nothing else; "
+          "add Physical Surface(\"ground\") = {1}; with the number of the surface, and make the mesh again");
     std::vector<int>& all = mesh_.regions["all"];
     all.resize(mesh_.elements.size());
     std::iota(all.begin(), all.end(), 0);

@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> gmsh_module_places();
 /// @param quadrilateral8 the element for quadrilaterals of 8 nodes: "Q8R" or "Q8". Those of 4 nodes become
 /// Q4, triangles of 6 nodes T6.
 /// @throws InputError when the module with Gmsh's library cannot be loaded, the file cannot be read, has
-/// elements of other kinds, leaves the plane z = 0, or a curve of a physical group is no side of any element.
+/// elements of other kinds, leaves the plane z = 0, or a curve of a physical group is not a side of an element.
 Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8 = "Q8R",
                const std::vector<std::filesystem::path>& module_places = gmsh_module_places());
 

@@ -7,7 +7,7 @@
 
 namespace polargrain::fem {
 
-/// What a mesh file holds, in Gmsh's own numbers: the plain data that the module with Gmsh's library hands to
+/// The content of a mesh file, in Gmsh's own numbers: the plain data that the module with Gmsh's library hands to
 /// the reader. Both are compiled by the same compiler and know no more than this header of each other.
 struct GmshContent {
   struct Node {

@@ -10,7 +10,7 @@ namespace polargrain::fem {
 
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::byte> bytes);
-/// The bytes of such a text; what is no digit of it is skipped.
+/// The bytes of such a text; other characters are skipped.
 std::vector<std::byte> from_base64(std::string_view text);
 
 }  // namespace polargrain::fem

@@ -10,7 +10,7 @@
 
 namespace polargrain::fem {
 
-/// What materials show of their committed points (Material::fields), by point and name.
+/// Fields of the committed points of materials (Material::fields), by point and name.
 class MaterialValues {
  public:
   /// @param solver must live as long as this, and commit nothing meanwhile

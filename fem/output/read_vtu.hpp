@@ -7,7 +7,7 @@
 
 namespace polargrain::fem {
 
-/// What a field file holds: a mesh without named parts, and its fields.
+/// The content of a field file: a mesh without named parts, and its fields.
 struct FieldFile {
   Mesh mesh;
   Fields fields;

@@ -6,7 +6,7 @@
 
 namespace polargrain::fem {
 
-/// What engineers read off a stress, all from its symmetric part: s12 and s21 enter by their mean, couple stresses
+/// Measures of a stress for engineers, all from its symmetric part: s12 and s21 enter by their mean, couple stresses
 /// do not. Tension is positive but for the pressure.
 struct StressMeasures {
   double pressure = 0.0;    ///< p = -(s11 + s22 + s33) / 3, Pa, positive in compression

@@ -22,7 +22,7 @@ struct Correction {
 /// With a true tangent dX + C is zero and nothing changes. Differences that are mostly noise are damped: g_j
 /// costs (s_j |C_j|)^2, where s_j is the share of noise in the j-th difference.
 ///
-/// A jump of the stresses is no stiffness. Where a correction has made the residual larger and the next one does not go
+/// A jump of the stresses does not count as stiffness. Where a correction has made the residual larger and the next one does not go
 /// back along its way, as it does behind a tangent that was too soft, all places before are forgotten.
 class Anderson {
  public:

@@ -82,7 +82,7 @@ class Result:
 
         point -- its number, as in `integration_points()`
         steps -- steps of the history [all]; "last"
-        The way of the point is led again, with the same bits (docs/user_guide.md, The grains of a point), and the files
+        The way of the point is led again, with the same bits (docs/howto/point.md), and the files
         are left in DIR/grains. Raises InputError for a point without grains, RunError when they cannot be led again.
         """
         chosen = ["--last"] if steps == "last" else [word for step in steps or () for word in ("--step", step)]

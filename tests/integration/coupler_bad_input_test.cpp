@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:17: stage 1: expected one of until, measure (with grow) and arc_length"},
         BadInput{
             "ArcLengthAtFirst", "  count: 4", "  stages: [{count: 2, arc_length: 1 mm}]",
-            "case.yaml:17: stage 1: arc_length: its direction is that of the step before; begin with a stage "
+            "case.yaml:17: stage 1: arc_length: it goes on in the direction of the step before; begin with a stage "
             "'until'"},
         BadInput{
             "MeasureOfNothing", "  count: 4",

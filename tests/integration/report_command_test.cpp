@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/faults/killer.hpp"
 #include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
@@ -80,6 +81,10 @@ TEST_F(ReportTest, ShowsTheNumbersOfTheRun) {
   EXPECT_NEAR(force[5][0].get<double>(), 0.01, 1e-15);
   // In balance to 1e-10 of the force.
   EXPECT_NEAR(force[5][1].get<double>(), -0.4 * 100e6 / (1.0 - 0.0625) * 0.01, 1e-4);
+  EXPECT_EQ(chart_of(text, "axial_strain", "top_force")["y"]["unit"], "N/m");
+  EXPECT_EQ(chart_of(text, "axial_strain", "shortening")["y"]["unit"], "m");
+  EXPECT_EQ(text.find("further curves"), std::string::npos)
+      << "the case has no table: no curve is folded away";
   const Json iterations = chart_of(text, "step", "iterations and cuts of the step")["series"];
   EXPECT_EQ(iterations[0]["points"][3], Json({3, 1}));
   EXPECT_EQ(iterations[1]["points"][3], Json({3, 0}));
@@ -152,7 +157,7 @@ TEST_F(ReportTest, NamesAreNoCommandsOfLatex) {
   write(directory() / "case.yaml", text);
   ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
   ASSERT_EQ(polargrain("report out").status, 0);
-  EXPECT_NE(page().find("n\\textbackslash{}input\\{secret\\}\\^{}\\~{}\\#, at the end"), std::string::npos);
+  EXPECT_NE(page().find("n\\textbackslash{}input\\{secret\\}\\^{}\\~{}\\#, N/m"), std::string::npos);
 }
 
 // A summary of which somebody has made something else.
@@ -174,13 +179,35 @@ TEST_F(ReportTest, NamesASummaryThatNoRunWrites) {
   }
 }
 
+// The table of the case says which curves come first. Over time nothing was moved; the shortening tells it.
+TEST_F(ReportTest, DrawsOverTheValueThatWasMovedAndFoldsAwayTheOthers) {
+  std::string text = content(directory() / "case.yaml");
+  const auto replace = [&text](const std::string& old, const std::string& by) {
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace("  axial_strain: -shortening / 0.8 m\n", "");
+  replace("output: {every: 2}", "output: {table: [top_force, shortening]}");
+  write(directory() / "listed.yaml", text);
+  ASSERT_EQ(polargrain("run listed.yaml -o listed --quiet").status, 0);
+  ASSERT_EQ(polargrain("report listed").status, 0);
+  const std::string shown = page("listed/report.html");
+  const Json force = chart_of(shown, "shortening", "top_force");
+  EXPECT_EQ(force["x"]["unit"], "m");
+  EXPECT_NEAR(force["series"][0]["points"][5][0].get<double>(), -0.008, 1e-15);
+  const std::size_t folded = shown.find("<summary>3 further curves</summary>");
+  ASSERT_NE(folded, std::string::npos);
+  EXPECT_LT(shown.find("top_force against shortening"), folded);
+  EXPECT_GT(shown.find("volume_strain against shortening"), folded);
+}
+
 TEST_F(ReportTest, SaysWhatWarningsMean) {
   std::ofstream(directory() / "out/run.log", std::ios::app)
       << "[2026-01-01 00:00:00.000] [run] [info] step 7\n"
          "[2026-01-01 00:00:00.000] [run] [warning]   2 corrections asked for strains beyond 0.05 and were shortened\n"
          "[2026-01-01 00:00:00.000] [run] [info] step 9\n"
          "[2026-01-01 00:00:00.000] [run] [warning]   5 corrections asked for strains beyond 0.05 and were shortened\n"
-         "[2026-01-01 00:00:00.000] [run] [warning]   nobody has heard of 3 <things>\n";
+         "[2026-01-01 00:00:00.000] [run] [warning]   nobody has heard of 3 <things>\n"
+         "[2026-01-01 00:00:00.000] [run] [error] step 9 did not converge\n";
   ASSERT_EQ(polargrain("report out").status, 0);
   const std::string text = page();
   EXPECT_NE(text.find("<td class='number'>2</td><td>7 to 9</td>"
@@ -189,6 +216,13 @@ TEST_F(ReportTest, SaysWhatWarningsMean) {
       << text.substr(text.find("<h2>Warnings"), 1500);
   EXPECT_NE(text.find("larger strain than steps: largest_strain allows"), std::string::npos);
   EXPECT_NE(text.find("nobody has heard of 3 &lt;things&gt;"), std::string::npos);
+  // The most serious first.
+  const std::size_t serious = text.find("<tr class='front'><td>serious</td>");
+  const std::size_t look = text.find("<tr><td>look</td>");
+  const std::size_t usual = text.find("<tr><td>usual</td>");
+  ASSERT_NE(usual, std::string::npos);
+  EXPECT_LT(serious, look);
+  EXPECT_LT(look, usual);
 }
 
 TEST_F(ReportTest, LaysRunsOverEachOther) {
@@ -216,8 +250,13 @@ TEST_F(ReportTest, FollowsARunAtWork) {
   // A run holds its directory.
   const int lock = open((directory() / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   ASSERT_EQ(flock(lock, LOCK_EX), 0);
-  // It would go on as long as the run does: two seconds are enough to see the page.
-  EXPECT_NE(run_in(directory(), "timeout -s INT 2 " FAKE_POLARGRAIN " report out --live").status, 0);
+  std::filesystem::remove(directory() / "out/report.html");
+  Beside live("env -C '" + directory().string() + "' " FAKE_POLARGRAIN " report out --live >/dev/null");
+  // It would go on as long as the run does.
+  const auto page_is_whole = [this] { return page().find("</html>") != std::string::npos; };
+  EXPECT_TRUE(await(live, page_is_whole));
+  kill(live.id(), SIGINT);
+  EXPECT_NE(live.wait(), 0);
   const std::string text = page();
   EXPECT_NE(text.find("<meta http-equiv='refresh' content='5'>"), std::string::npos);
   EXPECT_NE(text.find("at work, step 5 committed (time 1)"), std::string::npos);

@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler::mgis {
 
-/// What a point is at one end of the time step.
+/// A point at one end of the time step.
 template <class Real>
 struct StateView {
   const double* gradients;
@@ -30,7 +30,7 @@ struct DataView {
   StateView<double> end;
 };
 
-/// What the first number of the tangent asks for.
+/// The request in the first number of the tangent.
 struct Wish {
   explicit Wish(double code)
       : is_of_sound(code > 50.0),
@@ -41,7 +41,7 @@ struct Wish {
   bool has_tangent;
 };
 
-/// What a behaviour returns.
+/// Return values of a behaviour.
 inline constexpr int kFailed = -1;
 inline constexpr int kUnreliable = 0;
 inline constexpr int kReliable = 1;

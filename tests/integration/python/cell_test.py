@@ -157,7 +157,7 @@ class States(InFolder):
         answers = processes.Queue()
         other = processes.Process(target=go_on, args=(self.cell, answers))
         other.start()
-        self.assertEqual(answers.get(timeout=60), self.next.tobytes())
+        self.assertEqual(answers.get(timeout=600), self.next.tobytes())
         other.join()
 
     def test_of_other_cells_are_refused(self):
@@ -214,7 +214,7 @@ class Workers(InFolder):
 
         child = multiprocessing.get_context("fork").Process(target=ask)
         child.start()
-        self.assertIn("forked", answers.get(timeout=60))
+        self.assertIn("forked", answers.get(timeout=600))
         child.join()
         cell.step(shear(1e-4))  # the parent's go on
 

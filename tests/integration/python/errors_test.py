@@ -133,7 +133,7 @@ class Errors(InFolder):
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.stdout.readline(), "interrupted\n")
         self.assertEqual(process.stdout.readline(), "good\n")
-        self.assertEqual(process.wait(60), 0)
+        self.assertEqual(process.wait(600), 0)
         process.stdout.close()
 
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/report/followed.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace polargrain::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What the summary says of its monitors; empty where it is not there or of another form.
+Json monitors_of(const RunResult& result) {
+  if (!result.summary.is_object()) return Json::object();
+  const auto found = result.summary.find("monitors");
+  return found != result.summary.end() && found->is_object() ? *found : Json::object();
+}
+
+std::string text_of(const Json& note, const char* key) {
+  if (!note.is_object()) return "";
+  const auto found = note.find(key);
+  return found != note.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+bool is_in_table(const Json& note) {
+  if (!note.is_object()) return false;
+  const auto found = note.find("table");
+  return found != note.end() && found->is_boolean() && found->get<bool>();
+}
+
+/// What every run has, whatever its case.
+bool is_built_in(const std::string& name) {
+  return name == "volume_strain" || name == "external_work" || name == "internal_work";
+}
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+/// All names of values, the listed ones first.
+std::vector<std::string> in_order(const std::vector<RunResult>& results) {
+  std::vector<std::string> names;
+  for (const RunResult& result : results) {
+    const Json notes = monitors_of(result);
+    for (const auto& [name, note] : notes.items())
+      if (is_in_table(note)) add_once(names, name);
+  }
+  for (const bool built_in : {false, true})
+    for (const RunResult& result : results)
+      for (const std::string& name : result.value_names())
+        if (is_built_in(name) == built_in) add_once(names, name);
+  return names;
+}
+
+bool has(const RunResult& result, const std::string& name) {
+  const std::vector<std::string> names = result.value_names();
+  return std::ranges::find(names, name) != names.end();
+}
+
+bool changes(const RunResult& result, const std::string& name) {
+  const std::vector<double> values = result.history->numbers(name);
+  return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
+}
+
+bool tells_what_moved(const RunResult& result, const std::string& name) {
+  const Json notes = monitors_of(result);
+  const auto found = notes.find(name);
+  if (found != notes.end() && text_of(*found, "kind") == "displacement") return true;
+  return name != "volume_strain" && name.find("strain") != std::string::npos;
+}
+
+}  // namespace
+
+FollowedNames followed_names(const std::vector<RunResult>& results, const std::string& x) {
+  const auto is_listed = [&](const std::string& name) {
+    return std::ranges::any_of(results, [&](const RunResult& result) {
+      const Json notes = monitors_of(result);
+      const auto found = notes.find(name);
+      return found != notes.end() && is_in_table(*found);
+    });
+  };
+  FollowedNames names;
+  for (const std::string& name : in_order(results)) {
+    const bool is_there =
+        std::ranges::any_of(results, [&](const RunResult& result) { return has(result, name); });
+    if (name == x || !is_there) continue;
+    (is_listed(name) ? names.listed : names.others).push_back(name);
+  }
+  if (names.listed.empty()) names.listed.swap(names.others);
+  return names;
+}
+
+std::string unit_of_value(const std::vector<RunResult>& results, const std::string& name) {
+  std::string unit;
+  for (const RunResult& result : results) {
+    const Json notes = monitors_of(result);
+    const auto found = notes.find(name);
+    const std::string own = found == notes.end() ? "" : text_of(*found, "unit");
+    if (&result != &results.front() && own != unit) return "";
+    unit = own;
+  }
+  return unit;
+}
+
+std::string value_moved(const std::vector<RunResult>& results) {
+  for (const std::string& name : in_order(results)) {
+    const auto suits = [&](const RunResult& result) {
+      return !result.history || result.history->rows() == 0 || (has(result, name) && changes(result, name));
+    };
+    if (std::ranges::all_of(results, suits) && tells_what_moved(results.front(), name)) return name;
+  }
+  return "time";
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the words and links of the Markdown pages must keep to.
+
+    tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no clauses without a subject;
+                                      a page of docs/ begins with whom it is for
+    tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
+    tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
+
+Without PAGE: all pages that git knows. Tables, code and headings are no sentences; code and the bars of tables are no words.
+The paper (docs/paper) is not documentation: its words are not in the sum.
+"""
+import collections
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+MOST_WORDS = 45000
+LONGEST_SENTENCE = 30
+MEAN_SENTENCE = 16.0
+README_WORDS = 700
+HEADLESS = re.compile(r"\b(is|are) none\b|\bwhat is not\b|, what is \w+ed\b|\bas is (none|what)\b|\bthat are none\b|^(What|None) (is|are|was|were|has|of) ", re.M)
+
+
+def without_code(text):
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
+    text = re.sub(r"```.*?```", "", text, flags=re.S)
+    return re.sub(r"^    .*$", "", text, flags=re.M)
+
+
+def sentences(text):
+    text = re.sub(r"^(\||#).*$", ".\n", without_code(text), flags=re.M)
+    text = re.sub(r"^\s*([-*]|\d+\.) ", "\n\n", text, flags=re.M)
+    found = re.split(r"(?<=[.!?:])\s+(?=[A-Z`*\"(\[])|\n\s*\n", text)
+    return [sentence for sentence in found if len(sentence.split()) > 3]
+
+
+def all_pages():
+    listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=False).stdout.split()
+    if not listed:  # sources without their history
+        return [page for page in sorted(ROOT.rglob("*.md")) if "build" not in page.relative_to(ROOT).parts]
+    return [ROOT / name for name in listed if (ROOT / name).is_file()]
+
+
+def check_words(pages, whole):
+    faults, lengths, total = [], [], 0
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        name = page.relative_to(ROOT)
+        total += 0 if "paper" in name.parts else len(re.findall(r"\S*\w\S*", without_code(text)))  # bars of tables are no words
+        if str(name) == "README.md" and len(text.split()) > README_WORDS:
+            faults.append(f"{name}: {len(text.split())} words, at most {README_WORDS}")
+        beginning = text.split("\n## ")[0][:700]
+        if name.parts[0] == "docs" and "paper" not in name.parts and not re.search(r"\bFor [A-Za-z]", beginning):
+            faults.append(f"{name}: its first lines do not say for whom it is")
+        found = sentences(text)
+        of_page = [len(sentence.split()) for sentence in found]
+        lengths += of_page
+        for sentence, length in zip(found, of_page):
+            if length > LONGEST_SENTENCE:
+                faults.append(f"{name}: a sentence of {length} words: {' '.join(sentence.split()[:9])} ...")
+        for hit in HEADLESS.finditer(without_code(text)):
+            faults.append(f"{name}: a clause without a subject: '{hit.group(0)}'")
+    mean = sum(lengths) / max(1, len(lengths))
+    if mean > MEAN_SENTENCE:
+        faults.append(f"the mean sentence has {mean:.1f} words, at most {MEAN_SENTENCE:.0f}")
+    if whole and total > MOST_WORDS:
+        faults.append(f"{total} words in all, at most {MOST_WORDS}")
+    print(f"{len(pages)} pages, {total} words, {len(lengths)} sentences, {mean:.1f} words in the mean")
+    return faults
+
+
+def anchor(heading):
+    """The name that GitHub and mkdocs give a heading."""
+    plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+    return re.sub(r"[^\w\- ]", "", plain.strip().lower()).replace(" ", "-")
+
+
+def anchors(page):
+    names, counts = set(), collections.Counter()
+    for heading in re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S), re.M):
+        name = anchor(heading)
+        names.add(f"{name}-{counts[name]}" if counts[name] else name)
+        counts[name] += 1
+    return names
+
+
+def links(page):
+    """Pairs of a file and a place in it that a page leads to."""
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S)):
+        if not re.match(r"[a-z]+:", target):
+            file, _, place = target.partition("#")
+            to = (page.parent / file).resolve() if file else page
+            yield target, (to / "README.md" if to.is_dir() and (to / "README.md").exists() else to), place
+
+
+def check_links(pages, whole):
+    faults = []
+    for page in pages:
+        for target, to, place in links(page):
+            if not to.exists():
+                faults.append(f"{page.relative_to(ROOT)}: there is no '{target}'")
+            elif place and to.suffix == ".md" and place not in anchors(to):
+                faults.append(f"{page.relative_to(ROOT)}: '{target}': there is no such heading")
+    if whole:
+        near = {ROOT / "README.md"}
+        for _ in range(2):
+            near |= {to for page in near if page.suffix == ".md" and page.exists() for _, to, _ in links(page)}
+        faults += [f"{page.relative_to(ROOT)}: more than two clicks from README.md" for page in pages
+                   if page.relative_to(ROOT).parts[0] == "docs" and page not in near]
+    return faults
+
+
+KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
+                 r"\(\s*\"([A-Za-z]\w*)\"")
+CHOICES = re.compile(r"\.choice(?:_or)?\(\s*\"\w+\",\s*\{([^}]*)\}")
+KEYS_OF = ["coupler/case", "app/pack", "app/element", "app/calibrate"]
+REFERENCE = ["docs/user_guide.md", "docs/element_tests.md", "docs/file_formats.md", "docs/scripts.md", "docs/running.md"]
+
+
+def check_keys(_, __):
+    told = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in REFERENCE)
+    howto = told + "\n".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs/howto").glob("*.md"))
+    faults, count = [], 0
+    for folder in KEYS_OF:
+        for source in sorted((ROOT / folder).rglob("*.cpp")):
+            text = source.read_text(encoding="utf-8")
+            words = {word for choices in CHOICES.findall(text) for word in re.findall(r"\"(\w+)\"", choices)}
+            for key in sorted((set(KEY.findall(text)) | words) - {"v_"}):  # a prefix of LIGGGHTS's
+                count += 1
+                if not re.search(rf"\b{key}\b", told):
+                    faults.append(f"{source.relative_to(ROOT)}: the key or choice '{key}' is in no table of {', '.join(REFERENCE)}")
+    for source in sorted((ROOT / "app/commands").glob("*.cpp")):
+        text = source.read_text(encoding="utf-8")
+        names = re.findall(r"add_subcommand\(\s*\"(\w+)\"", text)
+        # Of an option with a letter, -o,--output, the letter will do.
+        names += re.findall(r"add_(?:option|flag)\(\s*\"(-\w|--[\w-]+)", text)
+        count += len(names)
+        faults += [f"{source.relative_to(ROOT)}: '{name}' is told of nowhere" for name in names if not re.search(rf"(?<![\w-]){re.escape(name)}\b", howto)]
+    print(f"{count} keys, commands and options")
+    return faults
+
+
+def main():
+    checks = {"words": check_words, "links": check_links, "keys": check_keys}
+    if len(sys.argv) < 2 or sys.argv[1] not in checks:
+        print(__doc__, file=sys.stderr)
+        return 2
+    named = [pathlib.Path(name).resolve() for name in sys.argv[2:]]
+    faults = checks[sys.argv[1]](named or all_pages(), not named)
+    print("\n".join(faults))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
