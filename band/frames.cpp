@@ -15,6 +15,7 @@
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
 #include "common/plain_text.hpp"
+#include "common/regular_file.hpp"
 #include "common/words.hpp"
 
 namespace polargrain::band {
@@ -60,6 +61,7 @@ std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& f
 }
 
 Frame read_grain_dump(const std::filesystem::path& file) {
+  if (const std::string reason = why_no_input(file); !reason.empty()) fail(file, 0, reason);
   std::ifstream in(file);
   std::string line;
   int number_of_line = 0;

@@ -19,7 +19,7 @@ MENU = {
     "Learn": ["README.md", "docs/tutorial.md", "docs/tutorial_yade.md", "docs/tutorial_fem.md", "docs/gallery.md"],
     "Do": ["docs/howto/README.md", "docs/settings.md", "docs/own_contact_law/README.md"],
     "Look up": ["docs/user_guide.md", "docs/element_tests.md", "docs/scripts.md", "docs/file_formats.md", "docs/running.md", "docs/python.md",
-                "docs/other_hosts.md", "docs/questions.md", "docs/glossary.md", "docs/README.md"],
+                "docs/other_hosts.md", "docs/remarks.md", "docs/questions.md", "docs/glossary.md", "docs/README.md"],
     "Trust": ["docs/verification.md", "docs/performance.md", "docs/adaptivity.md", "docs/hard_cases.md", "docs/hard_cells.md",
               "docs/trust.md"],
     "Theory": ["docs/theory.md", "docs/studies/README.md"],

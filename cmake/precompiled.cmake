@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Half of the time of a compilation went into reading the same headers of Eigen, fmt and the standard library: they are
 # read once for the libraries and once more, with GoogleTest, for the tests.
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache AND NOT CMAKE_CXX_FLAGS MATCHES "-fpch-preprocess")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)  # or it knows no file that was compiled with such a header
+endif()
+
 function(polargrain_precompile name)  # polargrain_precompile(NAME headers...): a library to reuse from
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "// Nothing but precompiled headers.\n")

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "common/plain_text.hpp"
+#include "common/regular_file.hpp"
 
 namespace polargrain {
 namespace {
@@ -25,8 +26,8 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults) : file_(file) {
+  if (const std::string reason = why_no_input(file); !reason.empty()) fail(0, reason);
   std::ifstream stream(file);
-  if (!stream) fail(0, "cannot be read: no such file, or no permission");
   std::string line;
   std::vector<Fault> ragged;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -96,15 +97,28 @@ const std::string& CsvTable::cell(std::size_t row, std::size_t column) const {
   return rows_.at(row).cells.at(column);
 }
 
-double CsvTable::number(std::size_t row, std::size_t column) const {
+std::optional<double> CsvTable::value(std::size_t row, std::size_t column) const {
   const std::string& text = cell(row, column);
   const char* const end = text.data() + text.size();
   const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
   double value = 0.0;
   const auto [place, error] = std::from_chars(begin, end, value);
-  if (error != std::errc{} || place != end || !std::isfinite(value))
-    fail(line_of(row), fmt::format("'{}' in column '{}' is not a number", text, names_[column]));
+  if (error != std::errc{} || place != end) return std::nullopt;
   return value;
+}
+
+double CsvTable::number(std::size_t row, std::size_t column) const {
+  const std::optional<double> found = value(row, column);
+  if (!found || !std::isfinite(*found))
+    fail(line_of(row), fmt::format("'{}' in column '{}' is not a number", cell(row, column), names_[column]));
+  return *found;
+}
+
+double CsvTable::figure(std::size_t row, std::size_t column) const {
+  const std::optional<double> found = value(row, column);
+  if (!found)
+    fail(line_of(row), fmt::format("'{}' in column '{}' is not a number", cell(row, column), names_[column]));
+  return *found;
 }
 
 std::vector<double> CsvTable::numbers(const std::string& name) const {

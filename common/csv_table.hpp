@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ class CsvTable {
   }
   /// @throws InputError naming file and line when the cell is no (finite) number
   [[nodiscard]] double number(std::size_t row, std::size_t column) const;
+  /// The same of a table that this program wrote: where there was nothing to say, as of the quotient 0/0, stands 'nan', and
+  /// that is what comes back. @throws InputError when the cell is something else
+  [[nodiscard]] double figure(std::size_t row, std::size_t column) const;
   /// A whole column. @throws InputError as above
   [[nodiscard]] std::vector<double> numbers(const std::string& name) const;
   [[noreturn]] void fail(int line, const std::string& message) const;
@@ -42,6 +46,7 @@ class CsvTable {
     int line;
     std::vector<std::string> cells;
   };
+  [[nodiscard]] std::optional<double> value(std::size_t row, std::size_t column) const;
   [[nodiscard]] std::vector<std::string> cells_of(const std::string& line, int number) const;
 
   std::filesystem::path file_;

@@ -16,9 +16,8 @@ enum Component : int { k11 = 0, k22 = 1, k33 = 2, k12 = 3, k21 = 4, kCurvature1 
 /// Which shape of the body the gradients of an increment refer to, and with it who turns the stress
 /// (docs/theory/solver.md, small and large deformation).
 enum class Configuration {
-  fixed,   ///< small deformation: the shape at the start of the run; no stress turns with the continuum
-  middle,  ///< large deformation: half way through the step, as elements have it; stresses turn
-  start    ///< large deformation: at the start of the step, as boxes of grains take it; stresses turn
+  fixed,  ///< small deformation: the shape at the start of the run; no stress turns with the continuum
+  start   ///< large deformation: the shape at the start of the step; stresses turn
 };
 
 /// The change over a load step of what a material point feels, counted from the start of the step.
@@ -32,7 +31,8 @@ struct Increment {
   /// Not in the description below: what travels to cells has been referred to what they take.
   Configuration configuration = Configuration::fixed;
 
-  /// Cosserat strain (mechanics A.1): eps_12 = h21 - w, eps_21 = h12 + w, eps_33 = 0 (plane strain).
+  /// Cosserat strain (mechanics A.1): eps_12 = h21 - w, eps_21 = h12 + w, eps_33 = 0 (plane strain). Of large
+  /// deformation take the strain of the stretch instead (fem/material/rotation.hpp).
   [[nodiscard]] Vector7 strain() const {
     Vector7 e;
     e << displacement_gradient(0, 0), displacement_gradient(1, 1), 0.0,

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstring>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "common/error.hpp"
 #include "common/hdf5_file.hpp"
 #include "common/record_table.hpp"
+#include "common/regular_file.hpp"
 #include "common/sealed_file.hpp"
 #include "common/state.hpp"
 #include "common/trial.hpp"
@@ -172,9 +172,8 @@ void write_packing_file(const std::filesystem::path& file, const PreparedPacking
 PreparedPacking read_packing_file(const std::filesystem::path& file) {
   hdf5::silence();
   const auto fail = [&file](const std::string& message) { return InputError({file.string(), 0, message}); };
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw fail("there is no such file; expected a packing (HDF5)");
+  if (const std::string reason = why_no_input(file); !reason.empty())
+    throw fail(reason + "; expected a packing (HDF5)");
   try {
     check_seal(file);
     // A forger's file has the right hash: HDF5 is not let near it before it has survived it once.

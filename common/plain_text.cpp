@@ -43,4 +43,34 @@ std::string plain_text(std::string_view text, std::size_t most_bytes) {
   return plain + cut;
 }
 
+std::string without_control_characters(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
+  for (std::size_t place = 0; place < text.size();) {
+    const auto byte = static_cast<std::uint8_t>(text[place]);
+    const std::size_t length = byte < 0x80 ? 0 : length_beyond_ascii(text.substr(place));
+    if (length > 0) {
+      plain += text.substr(place, length);
+    } else {
+      const bool is_printable = byte < 0x80 ? byte >= 0x20 && byte != 0x7f : byte >= 0xa0;
+      // Of U+0080 to U+009F two bytes are left, one for each of which a '?' stands.
+      const bool begins_control = byte == 0xc2 && place + 1 < text.size() &&
+                                  (static_cast<std::uint8_t>(text[place + 1]) & 0xe0) == 0x80;
+      plain += (is_printable && !begins_control) || byte == '\n' || byte == '\t' ? text[place] : '?';
+    }
+    place += length == 0 ? 1 : length;
+  }
+  return plain;
+}
+
+std::string control_character_in(std::string_view text) {
+  for (std::size_t place = 0; place < text.size(); ++place) {
+    const auto byte = static_cast<std::uint8_t>(text[place]);
+    const auto next = place + 1 < text.size() ? static_cast<std::uint8_t>(text[place + 1]) : std::uint8_t{0};
+    if (byte < 0x20 || byte == 0x7f) return fmt::format("U+{:04X}", byte);
+    if (byte == 0xc2 && next >= 0x80 && next < 0xa0) return fmt::format("U+{:04X}", next);
+  }
+  return {};
+}
+
 }  // namespace polargrain

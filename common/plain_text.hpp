@@ -16,4 +16,12 @@ inline constexpr std::size_t kLongestWords = 1000;
 /// already comes back as it is.
 std::string plain_text(std::string_view text, std::size_t most_bytes = kLongestWords);
 
+/// A text of several lines for a terminal or a log: line ends and tabs stay, every other control character becomes '?'. Bytes
+/// that are no UTF-8 stay where no terminal takes them for a control character, so that names of files can be copied.
+std::string without_control_characters(std::string_view text);
+
+/// The first control character of a text, as people name it ("U+001B"); empty when there is none. Line ends and tabs are
+/// control characters too.
+std::string control_character_in(std::string_view text);
+
 }  // namespace polargrain

@@ -68,7 +68,8 @@ inline Trust& trust_of(Trust& answer) {
 struct Response : Trust {
   /// s11, s22, s33, s12, s21 in Pa and couple stresses m1, m2 in N/m.
   Vector7 stress = Vector7::Zero();
-  /// d stress / d strain (Increment::strain), consistent with the increment evaluated; need not be symmetric.
+  /// d stress / d strain (Increment::strain), consistent with the increment evaluated; need not be symmetric. In large
+  /// deformation stress and strain are both in the axes of the end of the step, along which the stretch has turned.
   Matrix7 tangent = Matrix7::Zero();
 };
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "common/regular_file.hpp"
 
 namespace polargrain {
 namespace {
@@ -82,6 +83,7 @@ void seal(std::string& bytes) {
 }
 
 void check_seal(const std::filesystem::path& file) {
+  if (const std::string reason = why_no_input(file); !reason.empty()) throw RunError("it " + reason);
   const Descriptor descriptor(file, O_RDONLY);
   const off_t bytes = size_of(descriptor) - static_cast<off_t>(sizeof(Trailer));
   Trailer trailer{};

@@ -5,6 +5,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "common/plain_text.hpp"
+
 namespace polargrain {
 
 void open_standard_streams() {
@@ -19,7 +21,8 @@ void make_signals_of_writes_errors() {
   for (const int signal_of_write : {SIGPIPE, SIGXFSZ}) signal(signal_of_write, SIG_IGN);
 }
 
-bool tell_text(std::FILE* stream, const std::string& text) {
+bool tell_text(std::FILE* stream, const std::string& said) {
+  const std::string text = without_control_characters(said);
   return std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
 }
 

@@ -16,7 +16,8 @@ void open_standard_streams();
 /// process. Programs that are started inherit it.
 void make_signals_of_writes_errors();
 
-/// Prints to a stream. What nobody can receive (a closed pipe, a full disk) is dropped.
+/// Prints to a stream. What nobody can receive (a closed pipe, a full disk) is dropped. Names of the user's may stand in the
+/// text: characters that steer a terminal become '?' here, whatever they came from.
 /// @returns whether the stream took it
 bool tell_text(std::FILE* stream, const std::string& text);
 

@@ -3,11 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <system_error>
 
 #include "common/error.hpp"
@@ -15,16 +17,55 @@
 namespace polargrain {
 namespace {
 
-/// @returns 0, or why the file cannot be written (errno)
-int try_to_write(const std::filesystem::path& file, const std::string& content, Durability durability) {
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) return errno;
+namespace fs = std::filesystem;
+
+/// The place that a name stands for: where a link leads, though nothing may be there yet. Renaming onto a link would take the
+/// link away, and leave what it led to as it was. @returns nothing when links lead round in circles
+std::optional<fs::path> place_of(const fs::path& file) {
+  constexpr int kMostLinks = 40;  // as the system has it
+  fs::path place = file;
+  for (int links = 0; links < kMostLinks; ++links) {
+    std::error_code error;
+    const fs::path target = fs::read_symlink(place, error);
+    if (error) return place;
+    place = place.parent_path() / target;  // an absolute one stands alone
+  }
+  return std::nullopt;
+}
+
+/// Whether a name stands for something that takes bytes but is no file: a device, a pipe, a socket.
+bool is_stream(const fs::path& file) {
+  struct stat status {};
+  return stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+/// @returns 0, or why the bytes cannot be written (errno)
+int write_all(int descriptor, const std::string& content) {
   int reason = 0;
   for (std::size_t place = 0; place < content.size() && reason == 0;) {
     const ssize_t count = write(descriptor, content.data() + place, content.size() - place);
     if (count > 0) place += static_cast<std::size_t>(count);
     if (count < 0 && errno != EINTR) reason = errno;
   }
+  return reason;
+}
+
+/// Into what is there already: nothing takes its place. A pipe that nobody reads is an error, not something to wait for.
+int write_into_stream(const fs::path& stream, const std::string& content) {
+  const int descriptor = open(stream.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+  const int reason = write_all(descriptor, content);
+  return close(descriptor) != 0 && reason == 0 ? errno : reason;
+}
+
+/// @returns 0, or why the file cannot be written (errno)
+int try_to_write(const std::filesystem::path& file, const std::string& content, Durability durability) {
+  // What lies there under that name is ours, or it is an error: no link is followed, no pipe waited for.
+  const int descriptor =
+      open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (descriptor < 0) return errno;
+  int reason = write_all(descriptor, content);
   if (reason == 0 && durability == Durability::disk && syncfs(descriptor) != 0) reason = errno;
   // Some file systems find out only now that there is no room.
   if (close(descriptor) != 0 && reason == 0) reason = errno;
@@ -56,20 +97,30 @@ void keep_as(const std::filesystem::path& file, const std::filesystem::path& kep
 
 void write_file(const std::filesystem::path& file, const std::string& content, Durability durability,
                 const std::filesystem::path& keep) {
-  std::filesystem::path temporary = file;
+  const auto fail = [&file](const char* what, int reason) {
+    throw RunError(fmt::format("{} cannot be {}: {}", file.string(), what, std::strerror(reason)));
+  };
+  if (file.native().find('\0') != std::string::npos) fail("written", EINVAL);  // it would be another file
+  if (is_stream(file)) {
+    if (const int reason = write_into_stream(file, content); reason != 0) fail("written", reason);
+    return;
+  }
+  const std::optional<fs::path> place = place_of(file);
+  if (!place) fail("written", ELOOP);
+  std::filesystem::path temporary = *place;
   temporary += ".part";
   std::error_code nothing;
   if (const int reason = try_to_write(temporary, content, durability); reason != 0) {
     std::filesystem::remove(temporary, nothing);
-    throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(reason)));
+    fail("written", reason);
   }
-  if (!keep.empty()) keep_as(file, keep);
-  if (std::rename(temporary.c_str(), file.c_str()) != 0) {
+  if (!keep.empty()) keep_as(*place, keep);
+  if (std::rename(temporary.c_str(), place->c_str()) != 0) {
     const int reason = errno;
     std::filesystem::remove(temporary, nothing);
-    throw RunError(fmt::format("{} cannot be put in place: {}", file.string(), std::strerror(reason)));
+    fail("put in place", reason);
   }
-  if (durability == Durability::disk) synchronise(file.parent_path());
+  if (durability == Durability::disk) synchronise(place->parent_path());
 }
 
 }  // namespace polargrain

@@ -11,7 +11,8 @@ enum class Durability {
 };
 
 /// Writes a file beside its final place and renames it, so that readers see it complete or not at all, and
-/// whatever happens it is the former one or the new one.
+/// whatever happens it is the former one or the new one. Through a link the file is written that it leads to. Into what is no
+/// file (/dev/stdout, a pipe) the bytes are written as they are: nothing takes its place.
 /// @param keep where the former one goes when the new one is there; empty: nowhere
 /// @throws RunError with the reason when it cannot be written; a former one is then untouched
 void write_file(const std::filesystem::path& file, const std::string& content,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 
@@ -56,6 +57,21 @@ double sum(const CsvTable& table, const std::string& name) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+/// Without the steps at which one of both is no number, as a ratio of forces is before there are any.
+BenchCurve curve_of(const CsvTable& history, const std::string& x, const std::string& y) {
+  BenchCurve curve;
+  const std::size_t of_x = history.column(x);
+  const std::size_t of_y = history.column(y);
+  for (std::size_t row = 0; row < history.rows(); ++row) {
+    const double at = history.figure(row, of_x);
+    const double value = history.figure(row, of_y);
+    if (!std::isfinite(at) || !std::isfinite(value)) continue;
+    curve.x.push_back(at);
+    curve.y.push_back(value);
+  }
+  return curve;
+}
+
 BenchResult take(const BenchSetting& setting, const std::filesystem::path& directory,
                  const BenchOptions& options, const BenchAxes& axes) {
   BenchResult result{setting, "done", 0, 0.0, 0.0, 0.0, {}, {}, {}, {}, false};
@@ -81,9 +97,8 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
   result.evaluations = sum(costs, "cell_evaluations");
   result.dem_steps = sum(costs, "dem_steps");
   for (const std::string& y : axes.y) {
-    BenchCurve curve{history.numbers(axes.x), history.numbers(y)};
-    result.steps = std::max(0, static_cast<int>(curve.x.size()) - 1);
-    result.curves.push_back(std::move(curve));
+    result.steps = std::max(0, static_cast<int>(history.rows()) - 1);
+    result.curves.push_back(curve_of(history, axes.x, y));
   }
   if (axes.band) result.band = bench_band(directory, axes.x, options.band.front(), options.band.back());
   return result;

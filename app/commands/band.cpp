@@ -180,7 +180,8 @@ BandMeasurement measure_band_of_fields(const BandCommandOptions& options) {
 
 int band(const BandCommandOptions& options) {
   const bool of_fields = std::ranges::none_of(options.places, [](const std::filesystem::path& place) {
-    return std::filesystem::is_directory(place);
+    std::error_code error;  // links that lead round in circles are no directory either
+    return std::filesystem::is_directory(place, error);
   });
   if (!of_fields && options.places.size() > 1)
     throw InputError({options.places.back().string(), 0,
@@ -231,12 +232,15 @@ Command add_band(CLI::App& program, const Grains&) {
           "between two fields (columns x, y, u, v)")
       ->required()
       ->expected(1, 2);
-  command.add_option("--from", options->from, "Axial strain where the increment begins [2/3 of the last]");
-  command.add_option("--to", options->to, "Axial strain where it ends [the last]");
+  command.add_option("--from", options->from, "Axial strain where the increment begins [2/3 of the last]")
+      ->check(finite_number());
+  command.add_option("--to", options->to, "Axial strain where it ends [the last]")->check(finite_number());
   command.add_option("--window", options->window, "Axial strain of the increments for the onset [0.005]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(finite_number());
   command.add_option("--contrast", options->contrast, "Least shear of a band over the background [2]")
-      ->check(CLI::Range(1.0, 1e9));
+      ->check(CLI::Range(1.0, 1e9))
+      ->check(finite_number());
   command.add_option("--strain", options->strain_column, "Column of history.csv with the axial strain")
       ->type_name("COLUMN")
       ->capture_default_str();

@@ -44,7 +44,8 @@ void add_comparisons(CLI::App& command, BenchOptions& to) {
       ->delimiter(',')
       ->expected(2)
       ->type_name("FROM,TO")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->check(finite_number());
 }
 
 }  // namespace

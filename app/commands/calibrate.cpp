@@ -139,13 +139,12 @@ std::string row_of(const Evaluation& evaluation) {
   for (const double value : evaluation.values) cells.push_back(exact(value));
   cells.push_back(exact(evaluation.misfit));
   for (const double difference : evaluation.differences) cells.push_back(exact(difference));
-  cells.push_back(evaluation.left_out.empty() ? "" : fmt::format("\"{}\"", evaluation.left_out));
-  return fmt::format("{}\n", fmt::join(cells, ","));
+  cells.push_back(evaluation.left_out);
+  return csv_row(cells);
 }
 
 std::string heading_of(const Calibration& calibration) {
-  return fmt::format("# calibration {}\n{}\n", calibration.identity,
-                     fmt::join(columns_of_record(calibration), ","));
+  return fmt::format("# calibration {}\n{}", calibration.identity, csv_row(columns_of_record(calibration)));
 }
 
 /// The evaluations that a record holds. @throws InputError when it is one of another calibration
@@ -177,15 +176,19 @@ std::string table_of(const Calibration& calibration, const CalibrationResult& re
   for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
     const Parameter& parameter = calibration.parameters[k];
     const double place = parameter.place_of(result.best.values[k]);
-    text += fmt::format("{},{},{},{}\n", parameter.name, exact(result.best.values[k]),
-                        exact(parameter.value_at(place - result.half_width[k])),
-                        exact(parameter.value_at(place + result.half_width[k])));
+    text += csv_row({parameter.name, exact(result.best.values[k]),
+                     exact(parameter.value_at(place - result.half_width[k])),
+                     exact(parameter.value_at(place + result.half_width[k]))});
   }
   return text;
 }
 
 /// All faults are found before the first packing is made.
 Calibration read_and_make_packings(const CalibrateOptions& options, const PackingTools& tools) {
+  if (options.specification.extension() == ".csv" && options.laboratory.extension() != ".csv")
+    throw InputError({options.specification.string(), 0,
+                      fmt::format("the two files are exchanged; write polargrain calibrate {} {}",
+                                  options.specification.string(), options.laboratory.string())});
   const coupler::PrivateDirectory scratch;
   const auto read = [&options](const PackingsOf& packings_of) {
     return read_calibration(options.laboratory, options.specification, options.settings, options.scripts,
@@ -202,11 +205,16 @@ Calibration read_and_make_packings(const CalibrateOptions& options, const Packin
 std::string profile_of(const Calibration& calibration, const CalibrationResult& result) {
   std::vector<std::string> names;
   for (const Parameter& parameter : calibration.parameters) names.push_back(parameter.name);
-  std::string text = fmt::format("held,{},misfit,within_95\n", fmt::join(names, ","));
+  std::vector<std::string> titles{"held"};
+  titles.insert(titles.end(), names.begin(), names.end());
+  titles.insert(titles.end(), {"misfit", "within_95"});
+  std::string text = csv_row(titles);
   for (const ProfilePoint& point : result.profile) {
-    text += names[point.parameter];
-    for (const double value : point.values) text += "," + exact(value);
-    text += fmt::format(",{},{}\n", exact(point.misfit), point.misfit <= result.threshold ? 1 : 0);
+    std::vector<std::string> cells{names[point.parameter]};
+    for (const double value : point.values) cells.push_back(exact(value));
+    cells.push_back(exact(point.misfit));
+    cells.emplace_back(point.misfit <= result.threshold ? "1" : "0");
+    text += csv_row(cells);
   }
   return text;
 }

@@ -2,9 +2,10 @@
 #include <memory>
 
 #include "app/commands/command.hpp"
-#include "app/commands/moduli.hpp"
+#include "app/remarks/remarks.hpp"
+#include "app/remarks/sizes.hpp"
 #include "common/standard_streams.hpp"
-#include "coupler/case/case.hpp"
+#include "coupler/case/document_kind.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -13,23 +14,31 @@ struct CheckOptions {
   std::filesystem::path case_file;
   std::vector<std::string> settings;
   ScriptRules scripts;
+  bool strict = false;
+  bool all = false;
 };
 
-int check(const CheckOptions& options) {
-  const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
-  std::vector<const CellDefinition*> cells;
-  for (const auto& [name, material] : the_case.materials)
-    if (material->needs_workers()) cells.push_back(material->grains());
-  // Each script and packing in an engine, before anything is said to be well.
-  const std::vector<std::string> lines = moduli_of(cells, options.scripts.trusted);
-  tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", options.case_file.string(),
-       the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
-       the_case.needs_workers() ? "needs workers" : "needs no workers");
+void tell_cells(const coupler::Case& the_case, const PackingsAtRest& packings) {
   if (the_case.check_share > 0.0 && the_case.needs_workers())
     tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker nothing is checked\n",
          100.0 * the_case.check_share);
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    tell(stdout, "material '{}': {}\n", cells[k]->name, lines[k]);
+  for (const auto& [name, packing] : packings)
+    tell(stdout, "material '{}': moduli of the packing at rest: {}\n", name, packing.moduli.text());
+}
+
+int check(const CheckOptions& options) {
+  const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
+  const coupler::Entry document =
+      coupler::load_document_of(coupler::DocumentKind::problem, options.case_file, options.settings);
+  // Each script and packing in an engine, before anything is said to be well.
+  const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
+  const Remarks remarks = remarks_on(the_case, document, packings);
+  if (options.strict) refuse(remarks);
+  tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", options.case_file.string(),
+       the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
+       the_case.needs_workers() ? "needs workers" : "needs no workers");
+  tell_cells(the_case, packings);
+  tell(stdout, "{}{}", sizes_text(Scene(the_case, document, packings)), text_of(remarks, options.all));
   return 0;
 }
 
@@ -37,8 +46,11 @@ int check(const CheckOptions& options) {
 
 Command add_check(CLI::App& program, const Grains& grains) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App& command = *program.add_subcommand("check", "Report all faults of a case; take no step");
+  CLI::App& command = *program.add_subcommand(
+      "check", "Report all faults of a case, and what is doubtful of it; take no step");
   add_case(command, options->case_file);
+  add_strict(command, options->strict);
+  command.add_flag("--all", options->all, "Show all remarks, not the most serious alone");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);
   return {&command, [options] { return check(*options); }};

@@ -33,8 +33,12 @@ std::string brought_along(const std::string& name);
 void add_case(CLI::App& command, std::filesystem::path& file);
 /// --set KEY=VALUE
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
+/// --strict
+void add_strict(CLI::App& command, bool& strict);
 /// --trust-scripts. @param rules of the command, which get what the engine understands too
 void add_trust(CLI::App& command, ScriptRules& rules, const Grains& grains);
+/// For options that are numbers, beside their bounds: nan lies within any bounds, and nothing can be done infinitely.
+CLI::Validator finite_number();
 /// -w,--workers; one a core where it is not given. @param least may be 0 where others may join
 void add_workers(CLI::App& command, int& workers, int least);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <vector>
@@ -68,6 +69,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const Interrupted& error) {
     tell(stderr, "{}\n", error.what());
     return kStopped;
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell(stderr, "error: {}: {}\n", error.path1().string(), error.code().message());
+    return kRunFailed;
   } catch (const std::exception& error) {
     tell(stderr, "error: {}\n", error.what());
     return kRunFailed;

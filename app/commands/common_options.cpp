@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -9,7 +12,9 @@
 namespace polargrain::app {
 
 std::string brought_along(const std::string& name) {
-  if (std::filesystem::exists(name)) return name;
+  std::error_code
+      error;  // of a name that is too long, or links that lead round in circles: who opens it says so
+  if (std::filesystem::exists(name, error) || error) return name;
   const auto file = coupler::find_data_file(name, {});
   return file ? file->string() : name;
 }
@@ -26,12 +31,28 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+void add_strict(CLI::App& command, bool& strict) {
+  command.add_flag("--strict", strict, "Take remarks on the case for faults");
+}
+
 void add_trust(CLI::App& command, ScriptRules& rules, const Grains& grains) {
   rules.more_commands = grains.engine.script_commands;
   command.add_flag(
       "--trust-scripts", rules.trusted,
       "Run scripts of cells that can do more than set up a cell (start programs, read and write files), and "
       "libraries of contact laws");
+}
+
+CLI::Validator finite_number() {
+  // Without a name: help says the bounds.
+  return CLI::Validator(
+      [](std::string& text) {
+        double value = 0.0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        return is_number && std::isfinite(value) ? std::string()
+                                                 : fmt::format("'{}' is no finite number", text);
+      },
+      "");
 }
 
 void add_workers(CLI::App& command, int& workers, int least) {

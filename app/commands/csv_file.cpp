@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "common/error.hpp"
@@ -30,14 +31,17 @@ CsvFile::~CsvFile() {
 }
 
 void CsvFile::open(bool anew) {
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND | (anew ? O_TRUNC : 0), 0666);
+  // A pipe that nobody reads is an error, not something to wait for.
+  descriptor_ = ::open(file_.c_str(),
+                       O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND | O_NONBLOCK | (anew ? O_TRUNC : 0), 0666);
   if (descriptor_ < 0) {
     throw RunError(fmt::format("{} cannot be written: {}", file_.string(), std::strerror(errno)));
   }
+  fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
 }
 
 void CsvFile::add(const std::vector<std::string>& cells) {
-  text_ += fmt::format("{}\n", fmt::join(cells, ","));
+  text_ += csv_row(cells);
 }
 
 void CsvFile::write() {
@@ -61,7 +65,30 @@ void CsvFile::row(const std::vector<std::string>& cells) {
   write();
 }
 
+std::string csv_row(const std::vector<std::string>& cells) {
+  std::string row;
+  for (const std::string& cell : cells) {
+    if (&cell != cells.data()) row += ',';
+    // Readers trim blanks, and take a row for a comment that begins so.
+    const bool is_quoted = cell.find_first_of(",\"\r\n\t") != std::string::npos || cell.starts_with(' ') ||
+                           cell.ends_with(' ') || cell.starts_with('#');
+    if (!is_quoted) {
+      row += cell;
+      continue;
+    }
+    row += '"';
+    for (const char c : cell) {
+      const bool ends_line = c == '\n' || c == '\r';  // no reader of ours takes a row for two lines
+      row += ends_line ? ' ' : c;
+      if (c == '"') row += '"';
+    }
+    row += '"';
+  }
+  return row + '\n';
+}
+
 std::string exact(double value) {
+  if (std::isnan(value)) return "nan";  // its sign and payload depend on the processor
   return fmt::format("{:.17g}", value);
 }
 

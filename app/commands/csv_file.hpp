@@ -38,6 +38,10 @@ class CsvFile {
   std::size_t written_ = 0;
 };
 
+/// A row of a CSV file, its line end included. Cells are quoted where they must be (RFC 4180); line ends in them become blanks.
+/// The one place where names of the user's become cells.
+std::string csv_row(const std::vector<std::string>& cells);
+
 /// A double with 17 digits: enough to get the same bits back.
 std::string exact(double value);
 

@@ -8,6 +8,7 @@
 #include "app/element/element_page.hpp"
 #include "app/element/run_element.hpp"
 #include "app/pack/made_packings.hpp"
+#include "common/regular_file.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
 #include "coupler/case/document.hpp"
@@ -78,12 +79,14 @@ std::filesystem::path with_ending(const std::filesystem::path& output, const std
 }
 
 std::string table_of(const ElementResult& result) {
-  std::string text = fmt::format("packing,{}\n", fmt::join(result.columns, ","));
+  std::vector<std::string> titles{"packing"};
+  titles.insert(titles.end(), result.columns.begin(), result.columns.end());
+  std::string text = csv_row(titles);
   for (const ElementCurve& curve : result.curves) {
     for (const std::vector<double>& row : curve.rows) {
-      text += curve.name;
-      for (const double value : row) text += "," + exact(value);
-      text += '\n';
+      std::vector<std::string> cells{curve.name};
+      for (const double value : row) cells.push_back(exact(value));
+      text += csv_row(cells);
     }
   }
   return text;
@@ -114,10 +117,10 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
   };
   // All faults are found before the first packing is made.
   read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
-  const std::filesystem::path folder = options.output.has_parent_path() ? options.output.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(
-        {"", 0, fmt::format("-o {}: there is no folder {}", options.output.string(), folder.string())});
+  for (const char* const ending : {".csv", "_mean.csv", ".html"}) {
+    if (const std::string reason = why_no_output(with_ending(options.output, ending)); !reason.empty())
+      throw InputError({"", 0, fmt::format("-o {}: {}", options.output.string(), reason)});
+  }
   ElementSpecification specification = read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
       if (!options.quiet) tell(stderr, "{}\n", line);

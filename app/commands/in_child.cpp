@@ -13,6 +13,7 @@
 #include <cstdlib>
 
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 #include "common/standard_streams.hpp"
 
 namespace polargrain::app {
@@ -40,7 +41,8 @@ ProgressLine::ProgressLine(int shown) : shown_(shown), terminal_(shown >= 0 && i
 void ProgressLine::say(const std::string& line) {
   if (shown_ < 0 || (!terminal_ && seconds_since(said_) < kSecondsOfLine)) return;
   said_ = Clock::now();
-  const std::string text = terminal_ ? "\r" + line + "   " : line + "\n";
+  const std::string plain = without_control_characters(line);
+  const std::string text = terminal_ ? "\r" + plain + "   " : plain + "\n";
   if (write(shown_, text.data(), text.size()) < 0) shown_ = -1;  // nobody looks: nothing lost
 }
 

@@ -25,16 +25,20 @@ void add_sizes(CLI::App& command, LayerOptions& to) {
       ->type_name("K,K,...");
   command.add_option("--shear", options->shear, "Of a layer: displacement over height [0.16]")
       ->type_name("S")
-      ->check(CLI::Range(0.01, 10.0));
+      ->check(CLI::Range(0.01, 10.0))
+      ->check(finite_number());
   command.add_option("--inertial-number", options->inertial_number, "Of a layer [2e-4]")
       ->type_name("I")
-      ->check(CLI::Range(1e-6, 0.1));
+      ->check(CLI::Range(1e-6, 0.1))
+      ->check(finite_number());
   command.add_option("--way", options->way, "Past the peak, over which layers and columns are compared [4]")
       ->type_name("D")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(CLI::Range(1.0, 1000.0))
+      ->check(finite_number());
   command.add_option("--column", options->column_height, "Height of a column of cells [20]")
       ->type_name("D")
-      ->check(CLI::Range(2.0, 1000.0));
+      ->check(CLI::Range(2.0, 1000.0))
+      ->check(finite_number());
   command.add_option("--elements", options->elements, "Of a column [10]")
       ->type_name("N")
       ->check(CLI::Range(4, 1000));
@@ -71,12 +75,14 @@ Command add_layer(CLI::App& program, const Grains& grains) {
   command.add_option("--lc", options->internal_lengths, "Internal lengths to try [0.2,0.4,0.8]")
       ->delimiter(',')
       ->type_name("D,D,...")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(finite_number());
   CLI::Option* const plastic =
       command.add_option("--lp", options->plastic_lengths, "Plastic lengths to try [0.25,0.5,1]")
           ->delimiter(',')
           ->type_name("D,D,...")
-          ->check(CLI::PositiveNumber);
+          ->check(CLI::PositiveNumber)
+          ->check(finite_number());
   const auto elastic = std::make_shared<bool>(false);
   command.add_flag("--no-lp", *elastic, "No limit of the couple stress: lc alone is sought")
       ->excludes(plastic);

@@ -32,7 +32,9 @@ constexpr const char* kMaterialText = R"(materials:
     packing: packing.h5             # made of packing.yaml, at rest under @PRESSURE@
     # G and Gc, stiffness against shear and against rotation of the grains relative to the continuum, are those of the
     # contact network of the packing unless they are given here.
-    lc: @LENGTH@                        # internal length: an assumption, and what sets the width of a shear band
+    # Internal length: it sets the width of a shear band. As small as these elements resolve (2.5 lc); the grains alone would
+    # have about a mean diameter, and a mesh as fine as that many times the points.
+    lc: @LENGTH@
 @SCHEME_KEYS@)";
 
 constexpr const char* kBiaxialText =
@@ -158,6 +160,16 @@ std::string steps_text(const NewCase& what, int count, const std::string& tolera
   return fmt::format("steps: {{count: {}, cut: 6, iterations: 20, tolerance: {}}}", count, tolerance);
 }
 
+/// The internal length that elements of a size resolve, rounded up to two digits, m.
+std::string resolved_length(double element) {
+  constexpr double kElementsOverLength = 2.5;  // docs/settings.md
+  const double length = element / kElementsOverLength;
+  double unit = 1.0;
+  while (unit > length) unit *= 0.1;
+  while (10.0 * unit <= length) unit *= 10.0;
+  return fmt::format("{:.3g} m", 0.1 * unit * std::ceil(10.0 * length / unit - 1e-6));
+}
+
 std::string materials_text(const NewCase& what, const std::string& length) {
   const std::string keys =
       what.scheme == "adaptive"
@@ -221,21 +233,23 @@ std::string packing_text(const NewCase& what) {
 }
 
 std::string biaxial_text(const NewCase& what) {
-  return filled(kBiaxialText, {{"MATERIALS", materials_text(what, "8 mm")},
-                               {"STEPS", steps_text(what, 23, "1e-2")},
-                               {"POINTS", std::to_string(4 * what.columns * what.rows)},
-                               {"GRAINS", std::to_string(what.grains)},
-                               {"WIDTH", fmt::format("{:g}", what.width)},
-                               {"HEIGHT", fmt::format("{:g}", what.height)},
-                               {"SHORTENING", fmt::format("{:g}", 0.023 * what.height)},
-                               {"COLUMNS", std::to_string(what.columns)},
-                               {"ROWS", std::to_string(what.rows)},
-                               {"PRESSURE", pascals(what.pressure)}});
+  return filled(kBiaxialText,
+                {{"MATERIALS", materials_text(what, resolved_length(std::sqrt(what.width / what.columns *
+                                                                              what.height / what.rows)))},
+                 {"STEPS", steps_text(what, 23, "1e-2")},
+                 {"POINTS", std::to_string(4 * what.columns * what.rows)},
+                 {"GRAINS", std::to_string(what.grains)},
+                 {"WIDTH", fmt::format("{:g}", what.width)},
+                 {"HEIGHT", fmt::format("{:g}", what.height)},
+                 {"SHORTENING", fmt::format("{:g}", 0.023 * what.height)},
+                 {"COLUMNS", std::to_string(what.columns)},
+                 {"ROWS", std::to_string(what.rows)},
+                 {"PRESSURE", pascals(what.pressure)}});
 }
 
 std::string footing_text(const NewCase& what) {
   // Contacts are linear, so that what a strain mobilises goes with the pressure: 20 mm at 100 kPa.
-  return filled(kFootingText, {{"MATERIALS", materials_text(what, "5 cm")},
+  return filled(kFootingText, {{"MATERIALS", materials_text(what, resolved_length(0.41))},
                                {"STEPS", steps_text(what, 8, "1e-3")},
                                {"SETTLEMENT", fmt::format("{:g}", 0.02 * what.pressure / 100e3)},
                                {"PRESSURE", pascals(what.pressure)}});
@@ -273,10 +287,9 @@ std::string mesh_text(const NewCase& what, const fem::Mesh& mesh, const std::str
     if (is_highest)
       monitors += fmt::format("  settlement: {{on: {}, displacement: u2}}\n", yaml_name(names[k]));
   }
-  // An eighth of an element, as in the case of the footing: what the mesh can resolve, no property of the grains.
   const Eigen::Vector2d size = largest - least;
-  const double length = std::sqrt(size.x() * size.y() / static_cast<double>(mesh.elements.size())) / 8.0;
-  return filled(kMeshText, {{"MATERIALS", materials_text(what, fmt::format("{:.1g} m", length))},
+  const double element = std::sqrt(size.x() * size.y() / static_cast<double>(mesh.elements.size()));
+  return filled(kMeshText, {{"MATERIALS", materials_text(what, resolved_length(element))},
                             {"STEPS", steps_text(what, 4, "1e-3")},
                             {"LEFT", fmt::format("{:g}", least.x())},
                             {"RIGHT", fmt::format("{:g}", largest.x())},

@@ -10,10 +10,11 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/in_child.hpp"
-#include "app/commands/moduli.hpp"
 #include "app/pack/read_specification.hpp"
+#include "app/remarks/packing_at_rest.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
+#include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/pool/log_excerpt.hpp"
@@ -26,11 +27,8 @@ namespace {
 void check_output(const std::filesystem::path& output) {
   if (output.extension() != ".h5")
     throw InputError({"", 0, fmt::format("-o {}: the name of a packing must end in .h5", output.string())});
-  std::error_code error;
-  const std::filesystem::path directory = output.has_parent_path() ? output.parent_path() : ".";
-  if (!std::filesystem::is_directory(directory, error))
-    throw InputError(
-        {"", 0, fmt::format("-o {}: there is no folder {}", output.string(), directory.string())});
+  if (const std::string reason = why_no_output(output); !reason.empty())
+    throw InputError({"", 0, fmt::format("-o {}: {}", output.string(), reason)});
 }
 
 /// Makes the packing in a process of its own. @returns whether that ended well
@@ -169,8 +167,7 @@ Command add_pack(CLI::App& program, const Grains& grains) {
   add_trust(command, options->scripts, grains);
   return {&command, [options, &tools = grains.packing_tools] {
             options->moduli = [trusted = options->scripts.trusted](const CellDefinition& cell) {
-              const CellDefinition* const one = &cell;
-              return moduli_of({&one, 1}, trusted).front();
+              return "moduli of the packing at rest: " + packing_at_rest(cell, trusted).moduli.text();
             };
             return pack(*options, tools);
           }};

@@ -21,6 +21,7 @@
 #include "common/record_table.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/cells/cell_increment.hpp"
 #include "coupler/pool/private_directory.hpp"
 #include "coupler/replay/replay.hpp"
 
@@ -92,16 +93,24 @@ class AnswerTable {
     if (file_) {
       file_->row(cells);
     } else {
-      if (!tell(stdout, "{}\n", fmt::join(cells, ","))) throw RunError("standard output takes no more rows");
+      if (!tell(stdout, "{}", csv_row(cells))) throw RunError("standard output takes no more rows");
     }
   }
   std::optional<CsvFile> file_;
 };
 
+/// The rows as the case deforms: in large deformation each counts from the shape at its start, and stresses turn.
+std::vector<Increment> path_for(const coupler::Case& the_case, const std::filesystem::path& file) {
+  std::vector<Increment> path = read_path(file);
+  if (the_case.problem.deformation == fem::Deformation::small) return path;
+  for (Increment& increment : path) increment.configuration = Configuration::start;
+  return path;
+}
+
 /// @returns whether every increment was answered
 bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerTable& table) {
   material.allocate(1);
-  for (const std::string& note : material.take_notes()) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : material.take_notes()) tell(stderr, "note: {}\n", note);
   std::vector<double> fields(material.field_names().size());
   for (std::size_t i = 0; i <= path.size(); ++i) {
     const Increment increment = i == 0 ? Increment{} : path[i - 1];
@@ -184,7 +193,7 @@ std::vector<Increment> read_path(const std::filesystem::path& file) {
 
 int point(const PointOptions& options) {
   const coupler::Case the_case = case_for(options);
-  const std::vector<Increment> path = read_path(options.path_file);
+  const std::vector<Increment> path = path_for(the_case, options.path_file);
   const auto recipe = the_case.materials.find(options.material);
   if (recipe == the_case.materials.end()) {
     std::vector<std::string> names;
@@ -195,7 +204,8 @@ int point(const PointOptions& options) {
   }
   const CellDefinition* const cell = recipe->second->cell();
   coupler::Replay replay{nullptr, {}, {}, fmt::format("The path {}.", options.path_file.string())};
-  for (const Increment& increment : path) replay.increments.push_back(in_space(increment));
+  for (const Increment& increment : path)
+    replay.increments.push_back(in_space(coupler::increment_for_cell(increment)));
   if (!options.replay.empty()) {
     if (cell == nullptr)
       throw InputError(

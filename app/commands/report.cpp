@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -36,7 +38,14 @@ bool write_report(const ReportOptions& options, const std::filesystem::path& fil
   }
   ReportContent content = options.content;
   content.refresh_seconds = options.live && at_work ? kRefreshSeconds : 0;
-  write_file(file, report_page(results, content));
+  try {
+    write_file(file, report_page(results, content));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(
+        {"", 0,
+         fmt::format("the summary.json of a result holds what no run writes there ({}); run the case anew",
+                     error.what())});
+  }
   return at_work;
 }
 

@@ -25,7 +25,9 @@ Command add_run(CLI::App& program, const Grains& grains) {
       .add_option("--checkpoint-minutes", options->checkpoint_minutes,
                   "Least time between two checkpoints; 0: one a step [of the case: 10]")
       ->type_name("MINUTES")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->check(finite_number());
+  add_strict(command, options->strict);
   command.add_flag("--quiet", options->quiet, "Print nothing but errors");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);

@@ -2,8 +2,12 @@
 #include "app/commands/verify.hpp"
 
 #include <fmt/format.h>
-#include <memory>
+#include <fmt/ranges.h>
 
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,9 +15,9 @@
 #include "app/run/proof.hpp"
 #include "app/run/sample.hpp"
 #include "common/error.hpp"
+#include "common/regular_file.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
-#include "coupler/case/document.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
 #include "coupler/pool/private_directory.hpp"
 
@@ -28,6 +32,10 @@ class Findings {
     tell(stdout, "  DIFFERS   {}\n", what);
     good_ = false;
   }
+  void missing(const std::string& what) {
+    tell(stdout, "  missing   {}\n", what);
+    good_ = false;
+  }
   void note(const std::string& what) { tell(stdout, "            {}\n", what); }
   [[nodiscard]] bool good() const { return good_; }
 
@@ -35,30 +43,86 @@ class Findings {
   bool good_ = true;
 };
 
-std::string text_of(const coupler::Entry& summary, const std::string& key) {
-  const coupler::Entry* const entry = summary.find(key);
-  return entry == nullptr ? std::string() : entry->text;
+using Summary = nlohmann::ordered_json;
+
+/// The text at a place of a summary ("/proof/case_file"); empty where there is none.
+std::string word_at(const Summary& summary, const char* place) {
+  const Summary::json_pointer pointer(place);
+  return summary.contains(pointer) && summary.at(pointer).is_string() ? summary.at(pointer).get<std::string>()
+                                                                      : std::string();
 }
 
-void check_results(const coupler::Entry& recorded, const std::filesystem::path& directory,
+/// @throws InputError when there is none, or none that can be read
+Summary summary_in(const std::filesystem::path& file, Findings& findings) {
+  if (const std::string reason = why_no_input(file); !reason.empty())
+    throw InputError({file.string(), 0, reason + "; a run writes it when it ends"});
+  std::ifstream in(file, std::ios::binary);
+  // Of two values of one key some readers see the first and some the last.
+  std::vector<std::set<std::string>> open;
+  const auto watch = [&](int, Summary::parse_event_t event, Summary& value) {
+    if (event == Summary::parse_event_t::object_start) open.emplace_back();
+    if (event == Summary::parse_event_t::object_end && !open.empty()) open.pop_back();
+    if (event == Summary::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
+      findings.differs(fmt::format("summary.json has two values of '{}'", value.get<std::string>()));
+    return true;
+  };
+  Summary summary = Summary::parse(in, watch, false);
+  if (!summary.is_object()) throw InputError({file.string(), 0, "is no JSON: it was cut or changed"});
+  if (!summary.contains("proof") || !summary["proof"].is_object() || !summary["proof"].contains("results") ||
+      !summary["proof"]["results"].is_object())
+    throw InputError(
+        {file.string(), 0, "holds no proof; it was written by an older version, which cannot be verified"});
+  return summary;
+}
+
+/// @returns whether all of the results that are here now are under the proof, as this version writes it
+bool check_summary(const Summary& summary, Findings& findings) {
+  const std::string recorded = word_at(summary, "/proof/summary");
+  if (recorded.empty()) {
+    findings.note(
+        "summary.json is of an older version: what it says, and some of the files, are under no proof");
+    return false;
+  }
+  recorded == name_of_summary(summary) ? findings.agrees("summary.json")
+                                       : findings.differs("summary.json was changed after the run");
+  return true;
+}
+
+void check_results(const Summary& recorded, const std::filesystem::path& directory, bool all_recorded,
                    Findings& findings) {
   const std::map<std::string, std::string> now = names_of_results(directory);
-  for (const coupler::Entry::Member& member : recorded.members) {
-    const auto found = now.find(member.key);
+  for (const auto& [name, content] : recorded.items()) {
+    const auto found = now.find(name);
     if (found == now.end()) {
-      findings.differs(member.key + " is not there any more");
-    } else if (found->second != member.value.text) {
-      findings.differs(member.key + " was changed after the run");
+      findings.missing(name);
+    } else if (found->second != content) {
+      findings.differs(name + " was changed after the run");
     } else {
-      findings.agrees(member.key);
+      findings.agrees(name);
     }
   }
+  for (const auto& [name, content] : now)
+    if (all_recorded && !recorded.contains(name))
+      findings.differs(name + " was not there when the run ended");
+  if (all_recorded && !recorded.contains(kSampleFile))
+    findings.missing(fmt::format("{}: the run could not write it", kSampleFile));
+  if (const std::vector<std::string> others = without_proof(directory); !others.empty())
+    findings.note(fmt::format("under no proof, since other commands and machines change it: {}",
+                              fmt::join(others, ", ")));
 }
 
 void check_case(const coupler::Case& now, const coupler::Checkpoint& sample, Findings& findings) {
   const std::vector<std::string> lines = differences(sample.identity, now.identity);
   if (lines.empty()) return findings.agrees(fmt::format("{} and the files it names", now.file.string()));
   for (const std::string& line : lines) findings.differs(line);
+}
+
+/// The same where there is no sample, which knows every value: by contents of files alone.
+void check_case(const coupler::Case& now, const Summary& summary, Findings& findings) {
+  const bool same = word_at(summary, "/proof/case_file") == name_of_file(now.file) &&
+                    summary["proof"].value("files", Summary::object()) == Summary(now.identity.files);
+  same ? findings.agrees(fmt::format("{} and the files it names", now.file.string()))
+       : findings.differs(fmt::format("{} or a file it names was changed after the run", now.file.string()));
 }
 
 /// Asks the cells of the sample once more.
@@ -91,31 +155,35 @@ void check_cells(const coupler::Case& the_case, const std::vector<SampledAnswer>
 
 int verify(const VerifyOptions& options) {
   const std::filesystem::path file = options.directory / "summary.json";
-  const coupler::Entry summary = coupler::load_document(file);
-  const coupler::Entry* const proof = summary.find("proof");
-  const coupler::Entry* const results = proof == nullptr ? nullptr : proof->find("results");
-  if (results == nullptr) {
-    throw InputError(
-        {file.string(), 0, "holds no proof; it was written by an older version, which cannot be verified"});
-  }
-  tell(stdout, "{}: {}, {}\n", options.directory.string(), text_of(summary, "title"),
-       text_of(summary, "status"));
   Findings findings;
-  check_results(*results, options.directory, findings);
+  const Summary summary = summary_in(file, findings);
+  tell(stdout, "{}: {}, {}\n", options.directory.string(), word_at(summary, "/title"),
+       word_at(summary, "/status"));
+  const bool all_recorded = check_summary(summary, findings);
+  for (const auto& [region, limits] : summary.value("at_limits", Summary::object()).items())
+    if (limits.is_string()) findings.note(fmt::format("region '{}': {}", region, limits.get<std::string>()));
+  const Summary& proof = summary["proof"];
+  check_results(proof["results"], options.directory, all_recorded, findings);
   std::vector<std::string> settings;
-  if (const coupler::Entry* const list = proof->find("settings")) {
-    for (const coupler::Entry& item : list->items) settings.push_back(item.text);
+  for (const Summary& setting : proof.value("settings", Summary::array()))
+    if (setting.is_string()) settings.push_back(setting.get<std::string>());
+  const coupler::Case the_case = coupler::read_case(word_at(summary, "/case"), settings, options.scripts);
+  const std::filesystem::path sample_file = options.directory / kSampleFile;
+  if (word_at(summary, "/proof/results/sample.h5") != name_of_file(sample_file) ||
+      !why_no_input(sample_file).empty()) {
+    check_case(the_case, summary, findings);
+    findings.note("no cell is evaluated again: there is no sample that the run has left");
+  } else {
+    coupler::Checkpoint sample = coupler::read_checkpoint(sample_file);
+    check_case(the_case, sample, findings);
+    if (sample.program != POLARGRAIN_VERSION) {
+      findings.note(
+          fmt::format("it was written by version {}; the last bits of cells may differ", sample.program));
+    }
+    const std::vector<SampledAnswer> answers = answers_of(sample);
+    if (answers.empty()) findings.note("no cell took part: nothing is evaluated again");
+    if (!answers.empty() && findings.good()) check_cells(the_case, answers, options, findings);
   }
-  coupler::Checkpoint sample = coupler::read_checkpoint(options.directory / kSampleFile);
-  const coupler::Case the_case = coupler::read_case(text_of(summary, "case"), settings, options.scripts);
-  check_case(the_case, sample, findings);
-  if (sample.program != POLARGRAIN_VERSION) {
-    findings.note(
-        fmt::format("it was written by version {}; the last bits of cells may differ", sample.program));
-  }
-  const std::vector<SampledAnswer> answers = answers_of(sample);
-  if (answers.empty()) findings.note("no cell took part: nothing is evaluated again");
-  if (!answers.empty() && findings.good()) check_cells(the_case, answers, options, findings);
   tell(stdout, "{}\n", findings.good() ? "all agrees" : "NOT all agrees");
   return findings.good() ? 0 : 1;
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "app/commands/worker.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,6 +17,7 @@
 #include "common/standard_streams.hpp"
 #include "coupler/pool/confinement.hpp"
 #include "coupler/pool/keys.hpp"
+#include "coupler/pool/listening.hpp"
 
 namespace polargrain::app {
 
@@ -34,11 +39,19 @@ std::unique_ptr<CellService> make_checked_service(const CellDefinition& definiti
 }
 
 int work(const WorkerOptions& options, const WorkerEngine& engine) {
+  if (!options.log.empty()) {
+    // A pipe that nobody reads is an error, not something to wait for.
+    const int log = open(options.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (log < 0)
+      throw RunError(fmt::format("the log {} cannot be written: {}", options.log, std::strerror(errno)));
+    close(log);
+  }
   for (std::FILE* stream : {stdout, stderr}) {
     if (!options.log.empty() && std::freopen(options.log.c_str(), "a", stream) == nullptr) {
       throw RunError(fmt::format("the log {} cannot be written", options.log));
     }
   }
+  if (options.url.starts_with("tcp:")) coupler::check_tcp_url("--connect", options.url);
   try {
     coupler::ServeOptions serve_options;
     serve_options.patience_seconds = options.patience_seconds;
@@ -72,7 +85,9 @@ Command add_worker(CLI::App& program, const Grains& grains) {
       ->type_name("FILE");
   command
       .add_option("--patience", options->patience_seconds, "Give up after so long without a coordinator [60]")
-      ->type_name("SECONDS");
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber)
+      ->check(finite_number());
   command.add_option("--log", options->log, "Append all output to this file")->type_name("FILE");
   add_trust(command, options->scripts, grains);
   return {&command, [options, &engine = grains.engine] { return work(*options, engine); }};

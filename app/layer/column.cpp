@@ -50,7 +50,7 @@ std::string column_case(const ColumnSpecification& column) {
                   width_of(column), column.height, column.elements, levels);
   text += fmt::format("materials:\n  sand: {{model: cell, script: {}, packing: {}, lc: {:.17g}",
                       column.script.string(), column.packing.string(), column.internal_length);
-  if (column.plastic_length) text += fmt::format(", lp: {:.17g}", *column.plastic_length);
+  text += column.plastic_length ? fmt::format(", lp: {:.17g}", *column.plastic_length) : ", lp: none";
   text +=
       "}\nregions: {all: sand}\nboundary:\n  - {on: left, tie: right}\n  - {on: bottom, fix: [u1, u2, w]}\n";
   text += fmt::format("  - {{on: top, fix: [w], move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",

@@ -13,6 +13,7 @@
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/case/document_kind.hpp"
+#include "coupler/case/script_dimension.hpp"
 #include "coupler/case/section.hpp"
 
 namespace polargrain::app {
@@ -150,6 +151,54 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
   specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
 }
 
+void require_dimension(const PackingSpecification& specification, coupler::Faults& faults) {
+  const coupler::Faults other =
+      coupler::dimension_faults(specification.script, specification.script_file, specification.dimension);
+  faults.insert(faults.end(), other.begin(), other.end());
+}
+
+/// Grains of metres, and a density of less than aerogel's, are numbers in other units.
+constexpr double kLargestPlainRadius = 0.25;  // m
+constexpr double kLeastDensity = 20.0;        // kg/m^3
+constexpr double kLeastPlainPressure = 1e3;   // Pa
+
+/// A plain number that can hardly be meant in SI units. @param unit that was most likely meant
+void doubt_plain_number(const coupler::Entry& entry, const std::string& key, bool doubtful,
+                        const std::string& as_read, const std::string& unit, coupler::Faults& faults) {
+  if (!doubtful || entry.line == 0 || !coupler::is_plain_number(entry.text)) return;
+  faults.push_back(entry.fault(
+      fmt::format("{0}: '{1}' without a unit is {2}; write '{1} {3}', or with the unit that is meant", key,
+                  entry.text, as_read, unit)));
+}
+
+void doubt_sizes(const coupler::Entry& sizes, coupler::Faults& faults) {
+  for (const coupler::Entry::Member& member : sizes.members) {
+    const bool diameter = member.key == "diameter";
+    if (!diameter && member.key != "radius") continue;
+    for (const coupler::Entry& item : member.value.items) {
+      const auto value = coupler::parse_quantity(item.text, coupler::Dimension::length);
+      if (!value) continue;
+      doubt_plain_number(item, "sizes: " + member.key, *value > kLargestPlainRadius * (diameter ? 2.0 : 1.0),
+                         fmt::format("{:g} m", *value), "mm", faults);
+    }
+  }
+}
+
+void doubt_numbers(const coupler::Entry& document, const PackingSpecification& specification,
+                   coupler::Faults& faults) {
+  if (const coupler::Entry* const sizes = document.find("sizes")) doubt_sizes(*sizes, faults);
+  if (const coupler::Entry* const pressure = document.find("pressure"))
+    doubt_plain_number(*pressure, "pressure", specification.pressure < kLeastPlainPressure,
+                       fmt::format("{:g} Pa, the weight of {:.2g} mm of soil", specification.pressure,
+                                   specification.pressure / 18.0),
+                       "kPa", faults);
+  if (const coupler::Entry* const density = document.find("density"))
+    if (specification.density < kLeastDensity)
+      faults.push_back(density->fault(fmt::format(
+          "density: {:g} kg/m3 is lighter than any grain (quartz 2650); write {:g} if it was in g/cm3",
+          specification.density, 1e3 * specification.density)));
+}
+
 }  // namespace
 
 PackingSpecification read_packing_specification(const std::filesystem::path& file,
@@ -187,8 +236,10 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   coupler::CellScript script = read_cell_script("script", top, faults, files);
   specification.script_file = std::move(script.file);
   specification.script = std::move(script.text);
+  require_dimension(specification, faults);
   specification.contact_library = coupler::read_contact_library(top, files);
   top.finish();
+  doubt_numbers(document, specification, faults);
   if (!faults.empty()) throw InputError(faults);
   return specification;
 }
@@ -222,6 +273,7 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   specification.script_file = file->lexically_normal().string();
   specification.script = coupler::text_of_script(*file);
   faults = script_faults(specification.script, specification.script_file, scripts);
+  require_dimension(specification, faults);
   if (!faults.empty()) throw InputError(faults);
   specification.text =
       text + fmt::format("# settled under {} at {:.6g} Pa\n", script.string(), specification.pressure);

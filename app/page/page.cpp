@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "app/page/assets.hpp"
+#include "common/plain_text.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -39,7 +40,7 @@ std::string in_script(const Json& value) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : without_control_characters(text)) {
     if (c == '<')
       out += "&lt;";
     else if (c == '>')
@@ -48,6 +49,8 @@ std::string escaped(const std::string& text) {
       out += "&amp;";
     else if (c == '"')
       out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
     else
       out += c;
   }
@@ -76,7 +79,7 @@ std::string table(const std::vector<std::string>& titles, const std::vector<Tabl
   for (const std::string& title : titles) text += "<th>" + escaped(title) + "</th>";
   text += "</tr>\n";
   for (const TableRow& row : rows) {
-    text += row.style.empty() ? "<tr>" : "<tr class='" + row.style + "'>";
+    text += row.style.empty() ? "<tr>" : "<tr class='" + escaped(row.style) + "'>";
     for (const std::string& cell : row.cells)
       text += (is_number(cell) ? "<td class='number'>" : "<td>") + escaped(cell) + "</td>";
     text += "</tr>\n";

@@ -6,7 +6,8 @@
 
 namespace polargrain::app {
 
-/// With what < > & and quotation marks mean in HTML taken away.
+/// Text for HTML, between elements and as the value of an attribute in quotation marks of either kind: nothing in it has a
+/// meaning there. The one place where text becomes HTML.
 std::string escaped(const std::string& text);
 
 /// One axis of a chart.

@@ -11,9 +11,11 @@
 #include "app/report/followed.hpp"
 #include "app/report/log_notes.hpp"
 #include "app/report/pictures.hpp"
+#include "app/report/report_remarks.hpp"
 #include "app/run/progress.hpp"
 #include "app/run/proof.hpp"
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 #include "coupler/case/data_files.hpp"
 
 namespace polargrain::app {
@@ -44,7 +46,7 @@ ChartSeries line_of(const std::string& name, const CsvTable& table, const std::s
   const std::size_t x_column = table.column(x);
   const std::size_t y_column = table.column(y);
   for (std::size_t row = 0; row < table.rows(); ++row)
-    line.points.emplace_back(table.number(row, x_column), table.number(row, y_column));
+    line.points.emplace_back(table.figure(row, x_column), table.figure(row, y_column));
   return line;
 }
 
@@ -233,11 +235,14 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   };
   const auto value_at = [&](std::size_t k, const std::string& name, bool extreme) -> std::string {
     if (!has_column(results[k], name) || results[k].history->rows() == 0) return "";
-    const std::vector<double> values = results[k].history->numbers(name);
-    if (!extreme) return fmt::format("{:.6g}", values.back());
-    const auto largest = std::ranges::max_element(values, {}, [](double value) { return std::abs(value); });
-    const auto row = static_cast<std::size_t>(largest - values.begin());
-    return fmt::format("{:.6g} at {:.4g}", *largest, results[k].history->numbers(x)[row]);
+    const ChartSeries line = line_of(name, *results[k].history, x, name);
+    if (!extreme) return fmt::format("{:.6g}", line.points.back().second);
+    // A quotient of what was zero yet is no number, and not the largest one.
+    const auto largest = std::ranges::max_element(line.points, {}, [](const auto& point) {
+      return std::isnan(point.second) ? -1.0 : std::abs(point.second);
+    });
+    return std::isnan(largest->second) ? ""
+                                       : fmt::format("{:.6g} at {:.4g}", largest->second, largest->first);
   };
   begin_group("Values at the end");
   for (const std::string& name : names)
@@ -249,20 +254,32 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   return rows;
 }
 
+/// Text for LaTeX: nothing in it is a command.
 std::string for_latex(const std::string& text) {
   std::string out;
-  for (const char c : text) {
-    if (std::string_view("_%&#$").find(c) != std::string_view::npos) out += '\\';
-    out += c;
+  for (const char c : plain_text(text)) {
+    if (c == '\\')
+      out += "\\textbackslash{}";
+    else if (c == '~' || c == '^')
+      out += std::string("\\") + c + "{}";
+    else
+      out += (std::string_view("_%&#${}").find(c) != std::string_view::npos ? "\\" : "") + std::string(1, c);
   }
   return out;
+}
+
+/// A row with tabulators between its cells, and in none of them.
+std::string tab_row(const KeyRow& row) {
+  std::vector<std::string> cells;
+  for (const std::string& cell : row) cells.push_back(plain_text(cell));
+  return fmt::format("{}\n", fmt::join(cells, "\t"));
 }
 
 std::string key_table(const std::vector<RunResult>& results, const std::vector<KeyRow>& rows) {
   std::vector<std::string> titles{""};
   for (const RunResult& result : results) titles.push_back(result.name);
   std::vector<TableRow> cells;
-  std::string tabs = fmt::format("{}\n", fmt::join(titles, "\t"));
+  std::string tabs = tab_row(titles);
   std::string latex = "\\begin{tabular}{l" + std::string(results.size(), 'r') + "}\n";
   const auto latex_row = [&](const KeyRow& row) {
     std::vector<std::string> escaped_cells;
@@ -275,7 +292,7 @@ std::string key_table(const std::vector<RunResult>& results, const std::vector<K
     const bool begins_group = row.size() == 1;
     row.resize(titles.size());
     cells.push_back({row, begins_group ? "group" : ""});
-    tabs += fmt::format("{}\n", fmt::join(row, "\t"));
+    tabs += tab_row(row);
     latex_row(row);
   }
   latex += "\\end{tabular}\n";
@@ -378,6 +395,7 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
     const std::string name = results.size() > 1 ? result.name + ": " : "";
     body += "<p>" + escaped(name + status(result)) + "</p>\n";
   }
+  body += remarks_section(results);
   body +=
       "<h2>Curves</h2>\n<p>Drawing a rectangle with the mouse enlarges it, a double click shows all again.</p>\n" +
       curves(results, x);

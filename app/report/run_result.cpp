@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "common/regular_file.hpp"
 #include "common/words.hpp"
 
 namespace polargrain::app {
@@ -106,7 +107,8 @@ RunResult read_result(const fs::path& directory) {
   result.name = fs::absolute(directory).lexically_normal().filename().string();
   if (result.name.empty()) result.name = fs::absolute(directory).parent_path().filename().string();
   result.is_at_work = is_at_work(directory);
-  if (!fs::exists(directory / "history.csv") && !fs::exists(directory / "run.log"))
+  std::error_code error;
+  if (!fs::exists(directory / "history.csv", error) && !fs::exists(directory / "run.log", error))
     throw InputError(
         {directory.string(), 0,
          "holds no result of `polargrain run` (there is neither history.csv nor run.log); name the "
@@ -114,13 +116,13 @@ RunResult read_result(const fs::path& directory) {
   result.history = table_of(directory / "history.csv");
   result.costs = table_of(directory / "costs.csv");
   // The summary of a former run, that one at work goes on from, would tell of other steps.
-  if (std::ifstream in(directory / "summary.json"); in && !result.is_at_work) {
+  if (const fs::path file = directory / "summary.json"; why_no_input(file).empty() && !result.is_at_work) {
+    std::ifstream in(file);
     result.summary = nlohmann::ordered_json::parse(in, nullptr, false);
     if (result.summary.is_discarded())
       throw InputError({(directory / "summary.json").string(), 0, "is no JSON: it was cut or changed"});
   }
-  read_log(directory / "run.log", result);
-  std::error_code error;
+  if (const fs::path log = directory / "run.log"; why_no_input(log).empty()) read_log(log, result);
   for (const auto& entry : fs::directory_iterator(directory / "fields", error)) {
     const std::string stem = entry.path().stem().string();
     int step = 0;

@@ -188,16 +188,42 @@ std::string corner(const fem::Trouble& trouble, const fem::Problem& problem) {
       at(problem.mesh.nodes[static_cast<std::size_t>(node)]), fmt::join(places, " and "));
 }
 
+/// A residual that no tolerance should cover.
+std::string far_from_balance(const fem::Trouble& trouble) {
+  if (trouble.not_good > 0 || trouble.least_force_residual <= kLoosest) return {};
+  return fmt::format(
+      "  the iteration stands at {:.2g} of the loads at best: a tolerance as loose as that would take forces out of balance for a "
+      "result, and a higher inertial_number or unbalanced_force_ratio grains that are not at rest; shorter steps do not",
+      trouble.least_force_residual);
+}
+
+Lines what_is_seen(const fem::Trouble& trouble, const fem::Solver& solver) {
+  const bool good = trouble.not_good == 0;
+  return {good ? where(trouble, solver.problem().mesh) : "", points_without_answer(trouble, solver),
+          good ? neighbours(trouble, solver) : "", good ? corner(trouble, solver.problem()) : "",
+          without_stress(solver)};
+}
+
 }  // namespace
 
 std::string advice(const fem::Trouble& trouble, const fem::Solver& solver, const coupler::Case& the_case) {
   const Lines keys = keys_of(trouble, the_case);
-  Lines parts{trouble.not_good == 0 ? where(trouble, solver.problem().mesh) : "",
-              points_without_answer(trouble, solver),
-              trouble.not_good == 0 ? neighbours(trouble, solver) : "",
-              trouble.not_good == 0 ? corner(trouble, solver.problem()) : "",
-              without_stress(solver),
-              fmt::format("  worth trying below 'steps': {}", fmt::join(keys, "; "))};
+  Lines parts = what_is_seen(trouble, solver);
+  parts.push_back(far_from_balance(trouble));
+  parts.push_back(fmt::format("  worth trying below 'steps': {}", fmt::join(keys, "; ")));
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, "\n"));
+}
+
+std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver& solver, const Remarks& remarks) {
+  Lines parts = what_is_seen(trouble, solver);
+  parts.emplace_back(
+      "  step 0 brings the stress at time zero (of the packings, or initial_stress) into balance with the loads and supports at "
+      "time zero. No key below 'steps' helps: let each boundary that is free carry the pressure of its grains at time zero, "
+      "and let loads change from there over steps, [[0, FIRST], [1, LAST]]");
+  for (const Remark& remark : remarks)
+    if (remark.rank != Rank::costly)
+      parts.push_back(fmt::format("    {}\n      -> {}", remark.at.text(), remark.remedy));
   std::erase(parts, "");
   return fmt::format("{}", fmt::join(parts, "\n"));
 }

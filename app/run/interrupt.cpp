@@ -45,4 +45,8 @@ void stop_if_interrupted() {
   if (noted != 0) throw Interrupted(fmt::format("stopped by SIG{}", sigabbrev_np(noted)));
 }
 
+void stop_if_interrupted(const char* when) {
+  if (noted != 0) throw Interrupted(fmt::format("stopped by SIG{} {}", sigabbrev_np(noted), when));
+}
+
 }  // namespace polargrain::app

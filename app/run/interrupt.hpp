@@ -20,5 +20,7 @@ void note_interrupts();
 /// @throws Interrupted when an interrupt was noted, with the name of the signal. To be called wherever a run
 /// may stop in good order.
 void stop_if_interrupted();
+/// The same where there is nothing to go on from. @param when of the run, for the message
+void stop_if_interrupted(const char* when);
 
 }  // namespace polargrain::app

@@ -13,6 +13,14 @@ namespace polargrain::app {
 namespace {
 constexpr double kTerminalSeconds = 0.1;
 constexpr double kSparseSeconds = 10.0;
+
+/// The line of a terminal is renewed by control characters, which `tell` lets nobody print.
+void renew_line(std::FILE* out, const std::string& line) {
+  std::fputs("\r", out);
+  tell(out, "{}", line);
+  std::fputs("\033[K", out);
+  std::fflush(out);
+}
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -78,21 +86,30 @@ void Progress::show(bool whole_line) {
   if (!whole_line && seconds_of(now - shown_) < wait) return;
   shown_ = now;
   if (style_ == Style::terminal) {
-    tell(out_, "\r{}\033[K{}", line(), whole_line ? "\n" : "");
+    renew_line(out_, line());
+    if (whole_line) tell(out_, "\n");
   } else {
     tell(out_, "{}\n", line());
   }
 }
 
 void Progress::warn(const std::string& text) {
+  say("warning", text);
+}
+
+void Progress::note(const std::string& text) {
+  say("note", text);
+}
+
+void Progress::say(const char* kind, const std::string& text) {
   if (style_ == Style::quiet) return;
   clear();
-  tell(out_, "warning: {}\n", text);
+  tell(out_, "{}: {}\n", kind, text);
 }
 
 void Progress::clear() {
   if (style_ != Style::terminal) return;
-  tell(out_, "\r\033[K");
+  renew_line(out_, "");
 }
 
 }  // namespace polargrain::app

@@ -27,11 +27,14 @@ class Progress : public fem::Observer {
   void iterated(const fem::IterationReport& report) override;
   /// Something the user should know that ends nothing; a line of its own.
   void warn(const std::string& text);
+  /// The same of something that is as it should be.
+  void note(const std::string& text);
   /// Wipes the renewing line, so that other text can follow.
   void clear();
 
  private:
   void show(bool whole_line);
+  void say(const char* kind, const std::string& text);
   [[nodiscard]] std::string line() const;
 
   std::FILE* out_;

@@ -2,8 +2,8 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace polargrain::app {
@@ -11,11 +11,21 @@ namespace polargrain::app {
 /// The file with a run's sample of answers, in its result directory.
 constexpr const char* kSampleFile = "sample.h5";
 
-/// Names (XXH3, 128 bits, 32 hexadecimal digits) of what a run has come to: history.csv, fields.pvd, points.pvd, all of fields/ as one,
-/// the sample; of those that are there.
+/// Names (XXH3, 128 bits, 32 hexadecimal digits) of what a run has come to, by file or folder, a folder as one; of those that are
+/// there: history.csv, costs.csv, run.log, fields.pvd, points.pvd, fields, cell_paths, the sample, the checkpoint. To be asked
+/// for when all of them are written, the log included.
+/// @throws RunError when one that is there cannot be read
 std::map<std::string, std::string> names_of_results(const std::filesystem::path& directory);
+
+/// What a result directory may hold that no proof covers, because commands and users change it after the run: of those that are
+/// there.
+std::vector<std::string> without_proof(const std::filesystem::path& directory);
 
 /// The name of a file's content; empty when it cannot be read.
 std::string name_of_file(const std::filesystem::path& file);
+
+/// The name of all that a summary says, except of that name itself (proof: summary): of its keys in the order of the alphabet,
+/// so that neither blanks nor the order of keys matter.
+std::string name_of_summary(const nlohmann::ordered_json& summary);
 
 }  // namespace polargrain::app

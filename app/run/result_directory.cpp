@@ -8,11 +8,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <system_error>
+#include <thread>
 
 #include "app/grains/cell_paths.hpp"
 #include "app/grains/grain_files.hpp"
 #include "common/error.hpp"
+#include "common/seconds.hpp"
 
 namespace polargrain::app {
 namespace fs = std::filesystem;
@@ -23,9 +26,26 @@ fs::path default_result_directory(const fs::path& case_file) {
   return fs::path("results") / name;
 }
 
+namespace {
+
+/// A run that is killed while it starts a worker leaves a child for a moment, which has its lock until it notices: time enough
+/// for that on a busy machine.
+constexpr double kSecondsForALock = 3.0;
+
+bool held_by_another(int descriptor) {
+  const Clock::time_point begin = Clock::now();
+  while (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (seconds_since(begin) > kSecondsForALock) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+}  // namespace
+
 DirectoryLock::DirectoryLock(const fs::path& directory)
     : directory_(directory), descriptor_(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  if (descriptor_ >= 0 && held_by_another(descriptor_)) {
     close(descriptor_);
     throw InputError({directory.string(), 0,
                       "another run is at work in this directory; wait for its end, or give another with -o "

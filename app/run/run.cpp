@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <optional>
@@ -16,13 +15,17 @@
 #include "app/run/resume.hpp"
 #include "app/run/run_checkpoints.hpp"
 #include "app/run/run_files.hpp"
+#include "app/run/run_log.hpp"
 #include "app/run/run_observer.hpp"
+#include "app/run/run_remarks.hpp"
 #include "app/run/sample.hpp"
 #include "app/run/soft_contacts.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
+#include "common/stepping_note.hpp"
+#include "coupler/cells/grains_of_points.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "coupler/pool/process.hpp"
 #include "coupler/replay/replay.hpp"
@@ -36,7 +39,7 @@ class Run {
   /// @param from where to go on; null for a run from the start
   Run(const RunOptions& options, coupler::Case the_case, std::filesystem::path directory,
       const DirectoryLock& lock, std::optional<coupler::Listening> listening,
-      std::unique_ptr<coupler::Checkpoint> from)
+      std::unique_ptr<coupler::Checkpoint> from, Remarks remarks)
       : options_(options),
         lock_(lock),
         case_(std::move(the_case)),
@@ -47,8 +50,7 @@ class Run {
         resume_command_(resume_command(options, directory_)),
         checkpoints_(directory_, case_.steps(),
                      60.0 * options.checkpoint_minutes.value_or(case_.checkpoint_minutes)),
-        log_("run",
-             std::make_shared<spdlog::sinks::basic_file_sink_mt>((directory_ / "run.log").string(), !from_)),
+        log_("run", run_log_sink(directory_ / "run.log", !from_)),
         observer_(Progress::style_for(stderr, options.quiet), case_.steps(), log_),
         files_(case_, directory_, from_.get()),
         cell_paths_(case_, directory_, from_ ? from_->step : -1) {
@@ -57,6 +59,8 @@ class Run {
     log_.info("polargrain {}: {} ({})", POLARGRAIN_VERSION, case_.title, case_.file.string());
     for (const std::string& setting : options.settings) log_.info("--set {}", setting);
     if (case_.needs_workers()) record_.workers = options.workers;
+    record_.remarks = std::move(remarks);
+    for (const Remark& remark : record_.remarks) log_.warn("remark: {}", line_of(remark));
     if (from_) go_on();
   }
 
@@ -117,6 +121,7 @@ class Run {
       options.trust_scripts = options_.scripts.trusted;
       options.listening = std::move(listening_);
       options.state_fault = state_fault_;
+      options.heed = [] { stop_if_interrupted(); };
       if (case_.check_share > 0.0 && options.workers == 1 && !options.listening)
         options.tell("workers: check: with one worker no evaluation can be checked by another one");
       pool_.emplace(options);
@@ -136,8 +141,7 @@ class Run {
     solver_.emplace(case_.problem, case_.solver);
     solver_->set_observer(&observer_);
     observer_.on_struggle = [this](const fem::Trouble& trouble) {
-      warn(fmt::format("this step has been cut twice: {}\n{}", trouble.reason,
-                       advice(trouble, *solver_, case_)));
+      warn(fmt::format("this step has been cut twice: {}\n{}", trouble.reason, advice_on(trouble)));
     };
     if (!from_) return;
     PrefixedReader state(from_->state, "solver/");
@@ -153,6 +157,7 @@ class Run {
       stop_if_interrupted();
       observer_.begin_step(step);
       log_.info("step {}", step);
+      step_ = step;
       const fem::StepReport report =
           step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
       log_step(log_, report, case_.solver.largest_strain);
@@ -175,10 +180,10 @@ class Run {
       record_.add(std::move(committed));
       if (!report.converged) {
         end_badly("failed", fmt::format("step {} of {} did not converge: {}\n{}", step, case_.steps(),
-                                        report.message, advice(solver_->trouble(), *solver_, case_)));
+                                        report.message, advice_on(solver_->trouble())));
         return false;
       }
-      log_notes();
+      log_notes(step);
       if (!left_out_) left_out_ = warn_if(solver_->left_out());
       if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
@@ -281,6 +286,11 @@ class Run {
                      coupler::log_excerpt(log)));
   }
 
+  [[nodiscard]] std::string advice_on(const fem::Trouble& trouble) const {
+    return step_ == 0 ? advice_at_start(trouble, *solver_, record_.remarks)
+                      : advice(trouble, *solver_, case_);
+  }
+
   void warn(const std::string& text) {
     log_.warn("  {}", text);
     observer_.warn(text);
@@ -301,11 +311,14 @@ class Run {
     }
   }
 
-  void log_notes() {
+  void log_notes(int step) {
     for (auto& [region, material] : case_.problem.materials) {
       for (const std::string& note : material->take_notes()) {
-        observer_.clear();
-        tell(stderr, "note: region '{}': {}\n", region, note);
+        if (note.starts_with(kSteppingNote)) {
+          log_.info("  region '{}': {}", region, note);
+          continue;
+        }
+        observer_.note(fmt::format("step {}, region '{}': {}", step, region, note));
         log_.warn("  region '{}': {}", region, note);
       }
     }
@@ -377,11 +390,20 @@ class Run {
     }
   }
 
+  /// @param grains null: the material has none
+  void note_limits(const std::string& region, const coupler::GrainsOfPoints* grains) {
+    const std::string limits = grains == nullptr ? "" : grains->at_limits();
+    if (limits.empty()) return;
+    log_.warn("  region '{}': {}", region, limits);
+    record_.limits[region] = limits;
+  }
+
   void finish() {
     add_lap({});
     for (const auto& [region, material] : case_.problem.materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
+      note_limits(region, dynamic_cast<const coupler::GrainsOfPoints*>(material.get()));
       if (std::string doubt = material->doubt(); !doubt.empty()) {
         warn(fmt::format("region '{}': {}", region, doubt));
         record_.doubts[region] = std::move(doubt);
@@ -391,6 +413,7 @@ class Run {
     log_.info("{}", record_.status);
     save_sample();
     record_.settings = options_.settings;
+    // Behind the last line of the log, which is among them.
     record_.results = names_of_results(directory_);
     write_summary(directory_ / "summary.json", case_, record_);
   }
@@ -413,6 +436,7 @@ class Run {
   bool grains_failed_ = false;
   RunRecord record_;
   int first_step_ = 0;
+  int step_ = 0;                       ///< that is taken now
   bool left_out_ = false;              ///< it was said what small deformation leaves out
   bool soft_contacts_ = false;         ///< it was said that contacts are soft for the stress
   coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from
@@ -424,25 +448,31 @@ class Run {
 }  // namespace
 
 int run(const RunOptions& options) {
+  note_interrupts();  // first of all: from here on nobody is ended without a word
   coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
     throw InputError(
         {"", 0, "--workers 0: the case needs workers; give at least 1, or --listen for others to come"});
   }
   std::optional<coupler::Listening> listening;
+  if (!options.listen.empty()) coupler::check_tcp_url("--listen", options.listen);
   if (!options.listen.empty())
     listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
+  Remarks remarks = remarks_before(options, the_case);
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
+  stop_if_interrupted("before anything was written");
   const auto lock = prepare_result_directory(directory, options.resume);
   std::unique_ptr<coupler::Checkpoint> from;
   if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
-  note_interrupts();
+  stop_if_interrupted("before its first step");
   if (!options.quiet) {
     tell(stdout, "{}\n", the_case.title);
     if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());
   }
-  Run the_run(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from));
+  if (!options.quiet && !remarks.empty()) tell(stderr, "{}", text_of(remarks));
+  Run the_run(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from),
+              std::move(remarks));
   const bool done = the_run.go();
   const RunRecord& record = the_run.record();
   if (!options.quiet) {

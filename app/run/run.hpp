@@ -17,6 +17,7 @@ struct RunOptions {
   bool resume = false;                       ///< go on from the checkpoint in the directory
   std::optional<double> checkpoint_minutes;  ///< in place of the case's own
   bool quiet = false;
+  bool strict = false;         ///< remarks on the case are faults
   std::string listen;          ///< tcp://HOST:PORT where workers of other machines may join; empty: none may
   std::filesystem::path keys;  ///< directory of 'polargrain keys', needed to listen
   std::vector<std::string> settings;  ///< of --set

@@ -10,17 +10,13 @@
 #include "common/cell.hpp"
 #include "common/error.hpp"
 #include "common/record_table.hpp"
+#include "coupler/case/columns_of_steps.hpp"
 
 namespace polargrain::app {
 namespace {
 
-constexpr std::size_t kReportColumns = 14;  ///< of history.csv, before the values
-
 std::vector<std::string> history_columns(const coupler::Case& the_case) {
-  std::vector<std::string> columns{"step",        "time",         "substeps",        "cuts",
-                                   "iterations",  "evaluations",  "force_residual",  "moment_residual",
-                                   "force_noise", "within_noise", "within_rounding", "limited",
-                                   "jumps",       "jump_residual"};
+  std::vector<std::string> columns = coupler::columns_of_steps();
   for (const std::string& name : coupler::built_in_values()) {
     if (name != "time") columns.push_back(name);
   }
@@ -185,7 +181,8 @@ std::vector<CommittedStep> steps_of_history(const std::string& history, const co
     report.jumps = static_cast<int>(whole(12));
     report.jump_residual = real(13);
     step.values.emplace_back("time", report.time);
-    for (std::size_t c = kReportColumns; c < cells.size(); ++c) step.values.emplace_back(columns[c], real(c));
+    for (std::size_t c = coupler::columns_of_steps().size(); c < cells.size(); ++c)
+      step.values.emplace_back(columns[c], real(c));
     steps.push_back(std::move(step));
   }
   return steps;

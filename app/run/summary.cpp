@@ -8,6 +8,7 @@
 #include "app/run/json_text.hpp"
 #include "app/run/monitor_notes.hpp"
 #include "app/run/proof.hpp"
+#include "app/run/run_remarks.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
 #include "fem/output/write_file.hpp"
@@ -98,30 +99,34 @@ void RunRecord::add(CommittedStep step) {
 
 void write_summary(const std::filesystem::path& file, const coupler::Case& the_case,
                    const RunRecord& record) {
-  const Json summary{{"program", "polargrain " POLARGRAIN_VERSION},
-                     {"case", the_case.file.string()},
-                     {"title", the_case.title},
-                     {"status", record.status},
-                     {"message", record.message},
-                     {"not_vouched_for", record.doubts},
-                     {"steps_asked", the_case.steps()},
-                     {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},
-                     {"iterations", record.iterations},
-                     {"cuts", record.cuts},
-                     {"substeps_within_noise", record.within_noise},
-                     {"substeps_within_rounding", record.within_rounding},
-                     {"corrections_limited", record.limited},
-                     {"jumps_passed", record.jumps},
-                     {"largest_jump_residual", record.jump_residual},
-                     {"point_evaluations", record.evaluations},
-                     {"workers", record.workers},
-                     {"values", last_values(record)},
-                     {"monitors", monitor_notes(the_case)},
-                     {"errors", error_figures(record)},
-                     {"seconds", cost_figures(record.costs)},
-                     {"cells", cell_figures(record.pool)},
-                     {"materials", material_figures(record)},
-                     {"proof", proof_figures(the_case, record)}};
+  Json summary{{"program", "polargrain " POLARGRAIN_VERSION},
+               {"case", the_case.file.string()},
+               {"title", the_case.title},
+               {"status", record.status},
+               {"message", record.message},
+               {"remarks", remarks_for_summary(record.remarks)},
+               {"not_vouched_for", record.doubts},
+               {"at_limits", record.limits},
+               {"steps_asked", the_case.steps()},
+               {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},
+               {"iterations", record.iterations},
+               {"cuts", record.cuts},
+               {"substeps_within_noise", record.within_noise},
+               {"substeps_within_rounding", record.within_rounding},
+               {"corrections_limited", record.limited},
+               {"jumps_passed", record.jumps},
+               {"largest_jump_residual", record.jump_residual},
+               {"point_evaluations", record.evaluations},
+               {"workers", record.workers},
+               {"values", last_values(record)},
+               {"monitors", monitor_notes(the_case)},
+               {"errors", error_figures(record)},
+               {"seconds", cost_figures(record.costs)},
+               {"cells", cell_figures(record.pool)},
+               {"materials", material_figures(record)},
+               {"proof", proof_figures(the_case, record)}};
+  // Of all that stands above, whatever it is: a key that is added is under the proof.
+  summary["proof"]["summary"] = name_of_summary(summary);
   fem::write_file(file, json_text(summary));
 }
 
@@ -193,6 +198,7 @@ std::string figures_text(const RunRecord& record) {
     for (const fem::Figure& figure : figures)
       text += fmt::format("  {:<34}{:>9.4g}\n", figure.name, figure.value);
   }
+  for (const auto& [region, limits] : record.limits) text += fmt::format("region '{}': {}\n", region, limits);
   for (const auto& [region, doubt] : record.doubts) text += fmt::format("region '{}': {}\n", region, doubt);
   return text;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/remarks/remark.hpp"
 #include "app/run/costs.hpp"
 #include "app/run/monitor_values.hpp"
 
@@ -35,7 +36,9 @@ struct RunRecord {
   Costs costs;
   /// What materials tell of their cost and error, by region; only of those that do.
   std::map<std::string, std::vector<fem::Figure>> figures;
+  Remarks remarks;                             ///< on the case, before it began
   std::map<std::string, std::string> doubts;   ///< what materials cannot vouch for, by region
+  std::map<std::string, std::string> limits;   ///< which points are at limits of their grains, by region
   std::vector<std::string> settings;           ///< of --set
   std::map<std::string, std::string> results;  ///< names of contents, see names_of_results
   std::map<std::string, coupler::WorkerRecord>

@@ -45,6 +45,7 @@ void AdaptiveMaterial::save(ArchiveWriter& archive) const {
   archive.write("followed", std::span<const std::int64_t>(followed));
   archive.write("followed_states", std::span<const StatePointer>(states));
   archive.write("history_errors", std::span<const double>(errors_.all()));
+  at_limits_.save(archive);
 }
 
 void AdaptiveMaterial::restore(ArchiveReader& archive) {
@@ -66,6 +67,7 @@ void AdaptiveMaterial::restore(ArchiveReader& archive) {
     followed_.push_back({static_cast<std::size_t>(followed[k]), states[k]});
   }
   errors_ = MeasuredErrors(archive.doubles("history_errors"));
+  at_limits_.restore(archive);
   tightening_ = bounds[0];
   bounds_ = {bounds[1], bounds[2], bounds[3], bounds[4]};
   step_ = counts[1];

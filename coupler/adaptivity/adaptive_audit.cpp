@@ -98,11 +98,11 @@ std::string AdaptiveMaterial::reference_name() const {
 }
 
 void AdaptiveMaterial::note_tightening(double bound_before, double bound) {
-  notes_.push_back(fmt::format(
-      "step {}: the mean error is at most {:.3g} of {} (95 % confidence, {} points followed), more "
-      "than the tolerance of {:.3g}; with estimates below {:.3g} it is {:.3g}",
-      step_ + 1, bound_before, reference_name(), followed_.size(), options_.tolerance,
-      options_.tolerance / tightening_, bound));
+  notes_.push_back(
+      fmt::format("the mean error is at most {:.3g} of {} (95 % confidence, {} points followed), more "
+                  "than the tolerance of {:.3g}; with estimates below {:.3g} it is {:.3g}",
+                  bound_before, reference_name(), followed_.size(), options_.tolerance,
+                  options_.tolerance / tightening_, bound));
 }
 
 void AdaptiveMaterial::keep_audit() {
@@ -130,10 +130,10 @@ std::string AdaptiveMaterial::doubt() const {
   if (!audits()) return "without audits (audit: 0) nothing is known of the error of its stresses";
   if (bounds_.steps_beyond == 0.0) return {};
   return fmt::format(
-      "its stresses cannot be vouched for: in {:.0f} of {} steps, from step {:.0f} on, the mean error may be above the "
-      "tolerance of {:.3g} of {}; with 95 % confidence it is at most {:.3g}, at the end {:.3g}",
-      bounds_.steps_beyond, step_, bounds_.first_beyond, options_.tolerance, reference_name(),
-      bounds_.largest, bounds_.last);
+      "its stresses cannot be vouched for: in {:.0f} of {} increments (a step that is cut, or passes jumps, takes several) "
+      "the mean error may be above the tolerance of {:.3g} of {}; with 95 % confidence it is at most {:.3g}, at the end "
+      "{:.3g}",
+      bounds_.steps_beyond, step_, options_.tolerance, reference_name(), bounds_.largest, bounds_.last);
 }
 
 std::vector<fem::Figure> AdaptiveMaterial::figures() const {
@@ -156,6 +156,8 @@ std::vector<fem::Figure> AdaptiveMaterial::figures() const {
       {"tolerance", options_.tolerance},
       {"tolerance_worked_with", options_.tolerance / tightening_},
   };
+  const std::vector<fem::Figure> at_limits = at_limits_.figures();
+  figures.insert(figures.end(), at_limits.begin(), at_limits.end());
   if (!audits()) return figures;
   figures.push_back({"points_followed", count(followed_.size())});
   figures.push_back({"history_errors", count(errors_.count())});
@@ -174,14 +176,17 @@ std::vector<std::string> AdaptiveMaterial::take_notes() {
 }
 
 std::vector<std::string> AdaptiveMaterial::field_names() const {
-  return joined_names({"source", "cell", "error_estimate"}, names_of_columns<CellDiagnostics>());
+  return joined_names(joined_names({"source", "cell", "error_estimate"}, names_of_columns<CellDiagnostics>()),
+                      names_of_limit_fields(cosserat_.has_value()));
 }
 
 void AdaptiveMaterial::fields(std::size_t point, std::span<double> values) const {
   values[0] = static_cast<double>(points_[point].source);
   values[1] = static_cast<double>(points_[point].cell);
   values[2] = points_[point].estimate / reference_;
-  std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3);
+  const auto rest =
+      std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3).out;
+  write_limit_fields(reached(points_[point]), cosserat_, points_[point].cosserat, rest);
 }
 
 }  // namespace polargrain::coupler

@@ -11,6 +11,8 @@
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/cells/cell_increment.hpp"
+#include "coupler/cells/successive.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -37,7 +39,11 @@ constexpr double kGrows = 1.1;
 
 AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const std::optional<CosseratParameters>& cosserat,
                                    const AdaptivityOptions& options, const std::string& note)
-    : calls_(std::move(calls)), cosserat_(cosserat), options_(options), measure_(options.mean_diameter) {
+    : calls_(std::move(calls)),
+      cosserat_(cosserat),
+      at_limits_(cosserat.has_value()),
+      options_(options),
+      measure_(options.mean_diameter) {
   if (cosserat_.has_value() == measure_.controlled())
     throw RunError("an adaptive material takes either a Cosserat part or the diameter of controlled grains");
   if (!note.empty()) notes_.push_back(note);
@@ -46,8 +52,8 @@ AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const std::optional<Cosserat
 void AdaptiveMaterial::allocate(std::size_t points) {
   Cell packing{packing_at_rest(calls_, notes_), {}};
   if (!measure_.controlled()) keep_symmetric(packing.answer.response);
-  const Vector7& stress = packing.answer.response.stress;
-  reference_ = options_.reference_pressure.value_or(-0.5 * (stress[k11] + stress[k22]));
+  packing_ = PackingAtStart(packing.answer);
+  reference_ = options_.reference_pressure.value_or(packing_.pressure);
   if (!(reference_ > 0.0)) {
     throw RunError(
         "an adaptive material needs a packing under pressure, which its tolerance is a share of, or another "
@@ -59,6 +65,7 @@ void AdaptiveMaterial::allocate(std::size_t points) {
   estimate_ = ErrorEstimate(measure_, elastic, noise_strain_);
   cells_.assign(1, packing);
   points_.assign(points, Point{});
+  for (Point& point : points_) point.cosserat = packing_.part();
   // With nothing to measure it by, an estimate is held to what was asked for.
   tightening_ = audits() ? 1.0 / kLooseAtFirst : 1.0;
   choose_followed();
@@ -95,7 +102,10 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
 Increment AdaptiveMaterial::increment_of_step(std::size_t point) const {
   const Increment whole = increment_for_cell(increments_[point]);
   // Grains whose rotations are free feel no micro-rotation and no curvature.
-  return measure_.controlled() ? whole : increment_of(whole.displacement_gradient);
+  if (measure_.controlled()) return whole;
+  Increment of_box = increment_of(whole.displacement_gradient);
+  of_box.configuration = whole.configuration;
+  return of_box;
 }
 
 double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
@@ -150,10 +160,12 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
     Departure expected = unmoved.departure;
-    const Vector7 strain = measure_.strain(target_[leader]);
+    const bool turns = target_[leader].configuration != Configuration::fixed;
+    const Vector7 own = measure_.strain(target_[leader]);
+    const Vector7 strain = turns ? fem::rotated(own, fem::rotation_angle(target_[leader])) : own;
     if (strain.norm() > 0.0) expected.direction = strain / strain.norm();
-    return estimate_.of(unmoved.answer.response, expected, offset_between(target_[leader], target_[other])) <=
-           tolerance();
+    return estimate_.of(with_tangent_turned(unmoved.answer.response, target_[leader]), expected,
+                        offset_between(target_[leader], target_[other])) <= tolerance();
   });
 }
 
@@ -208,10 +220,15 @@ Vector7 AdaptiveMaterial::stress_of_cells(std::size_t point) const {
 }
 
 Response AdaptiveMaterial::answer_to(std::size_t point, CosseratPart& part) const {
-  Response response = branches_[branch_of_point_[point]].answer.response;
-  if (response.quality == Quality::failed) return response;
+  const Branch& branch = branches_[branch_of_point_[point]];
+  const PlaneReply& answer = branch.answer;
+  if (answer.response.quality == Quality::failed) return answer.response;
+  Response response = with_tangent_turned(answer.response, offset_between(branch.place, target_[point]));
   response.stress = stress_of_cells(point);
-  return cosserat_ ? part.follow(increments_[point], response, *cosserat_) : response;
+  if (cosserat_)
+    return part.follow(increments_[point], response, *cosserat_, packing_.kept(answer.diagnostics));
+  part.pressure = pressure_in_plane(response.stress);
+  return response;
 }
 
 bool AdaptiveMaterial::confirm() {
@@ -269,8 +286,17 @@ void AdaptiveMaterial::commit() {
   collect(calls_, states);
   count_unused(in_use);
   notice_sharing(kept.size());
+  std::vector<LimitsReached> reached_limits;
+  for (const Point& point : points_) reached_limits.push_back(reached(point));
+  at_limits_.count(reached_limits);
   cells_ = std::move(kept);
   forget_step();
+}
+
+LimitsReached AdaptiveMaterial::reached(const Point& point) const {
+  const double least = packing_.least_pressure();
+  if (cosserat_) return point.cosserat.reached(*cosserat_, least);
+  return {.parted = point.cosserat.pressure <= least};
 }
 
 void AdaptiveMaterial::count_unused(const std::vector<char>& in_use) {

@@ -10,6 +10,8 @@
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
+#include "coupler/cells/packing_at_start.hpp"
+#include "coupler/cells/points_at_limits.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {
@@ -77,8 +79,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   void restore(ArchiveReader& archive) override;
 
   [[nodiscard]] double moment_length() const override { return options_.mean_diameter; }
-  /// source (see Source), cell (its number), error_estimate (of the reference pressure), and of the cell
-  /// void_ratio, coordination_number, unbalanced_force_ratio, sliding_fraction, dem_steps.
+  /// source (see Source), cell (its number), error_estimate (of the reference pressure), the diagnostics of the cell, and
+  /// of the point parted, skew_mobilisation, couple_mobilisation (PointsAtLimits).
   [[nodiscard]] std::vector<std::string> field_names() const override;
   void fields(std::size_t point, std::span<double> values) const override;
   [[nodiscard]] StatePointer grains_of(std::size_t point) const override {
@@ -86,6 +88,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   }
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
   [[nodiscard]] std::string doubt() const override;
+  [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
   [[nodiscard]] std::vector<std::string> take_notes() override;
 
  private:
@@ -152,6 +155,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   /// What the cells say of a point, carried to it; without the Cosserat part of the case.
   [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * reference_; }
+  [[nodiscard]] LimitsReached reached(const Point& point) const;
   void choose_followed();
   /// Runs the cells that follow points through the step at work, those that have not been. One that fails is let go.
   void run_followed();
@@ -175,6 +179,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
 
   CellCalls calls_;
   std::optional<CosseratParameters> cosserat_;
+  PointsAtLimits at_limits_;
+  PackingAtStart packing_;
   AdaptivityOptions options_;
   GrainMeasure measure_;
   double reference_ = 0.0;  ///< the pressure that errors are shares of, Pa
@@ -183,7 +189,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
 
   std::vector<Cell> cells_;
   std::vector<Point> points_;
-  std::int64_t step_ = 0;
+  std::int64_t step_ =
+      0;  ///< increments committed; more than steps of the run, where these are cut or pass jumps
 
   // The step at work; empty between steps.
   std::vector<Branch> branches_;
@@ -200,7 +207,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   struct Bounds {
     double last = 0.0;          ///< of the mean error of the last step, with 95 % confidence
     double largest = 0.0;       ///< of all steps
-    double steps_beyond = 0.0;  ///< steps whose bound was beyond the tolerance,
+    double steps_beyond = 0.0;  ///< increments whose bound was beyond the tolerance,
     double first_beyond = 0.0;  ///< and the first of them; 0: none
   } bounds_;
   std::array<std::int64_t, 3> sources_{};  ///< committed point steps by Source

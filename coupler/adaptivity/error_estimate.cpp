@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coupler/adaptivity/linearised.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -43,11 +44,13 @@ Departure ErrorEstimate::learn(const Response& start, const Response& end, const
   const Vector7 strain = measure_.strain(offset);
   const double missed = measure_.stress(end.stress - linearised_stress(start, offset));
   Departure seen;
-  // The tangent may have turned more than the stress shows.
-  seen.error =
-      std::max(missed, 0.5 * measure_.stress((end.tangent - start.tangent) * measure_.unmeasured(strain)));
+  // The tangent may have changed more than the stress shows. In large deformation all is compared in the axes of the end.
+  const bool turns = offset.configuration != Configuration::fixed;
+  const Vector7 along = turns ? fem::rotated(strain, fem::rotation_angle(offset)) : strain;
+  const Matrix7 before = with_tangent_turned(start, offset).tangent;
+  seen.error = std::max(missed, 0.5 * measure_.stress((end.tangent - before) * measure_.unmeasured(along)));
   seen.length = size;
-  if (strain.norm() > 0.0) seen.direction = strain / strain.norm();
+  if (along.norm() > 0.0) seen.direction = along / along.norm();
   const bool replaces = !at_start.known() || (at_start.length < noise_length_ && size > at_start.length);
   const double expected = replaces ? 0.0 : at_start.over(size);
   seen.error = std::max(seen.error, kMemory * expected);

@@ -12,7 +12,8 @@ struct Departure {
   /// while length is 0: nothing has been learned of this cell or of those it comes from.
   double error = 0.0;
   double length = 0.0;
-  /// Unit strain (GrainMeasure::strain) that the cell was last loaded along; zero for a packing at rest.
+  /// Unit strain (GrainMeasure::strain) that the cell was last loaded along, in the axes of where it ended; zero for a
+  /// packing at rest.
   Vector7 direction = Vector7::Zero();
   [[nodiscard]] bool known() const { return length > 0.0; }
   /// The error (Pa) that the departure seen makes over an offset of some size: it grows with the power 3/2 up

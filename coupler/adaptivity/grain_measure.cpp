@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coupler/cells/cosserat_part.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -14,8 +15,8 @@ constexpr double kVolume = 0.35;
 }  // namespace
 
 Vector7 GrainMeasure::strain(const Increment& increment) const {
-  if (!controlled()) return symmetric_part(increment.strain());
-  Vector7 strain = increment.strain();
+  Vector7 strain = fem::stretch_and_turn(increment).stretch.strain();
+  if (!controlled()) return symmetric_part(strain);
   strain.tail<2>() *= diameter_;
   return strain;
 }

@@ -15,7 +15,8 @@ class GrainMeasure {
   explicit GrainMeasure(double mean_diameter) : diameter_(mean_diameter) {}
 
   [[nodiscard]] bool controlled() const { return diameter_ > 0.0; }
-  /// Strain of an increment with the curvatures times d; free rotations: the symmetric part alone.
+  /// Strain of an increment with the curvatures times d; free rotations: the symmetric part alone. In large deformation
+  /// the strain of its stretch, in the axes of its start.
   [[nodiscard]] Vector7 strain(const Increment& increment) const;
   /// The strain (Increment::strain) whose measured one this is.
   [[nodiscard]] Vector7 unmeasured(const Vector7& strain) const;

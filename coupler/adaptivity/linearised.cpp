@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/adaptivity/linearised.hpp"
 
-#include <Eigen/LU>
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
-
-Increment followed_by(const Increment& first, const Increment& second) {
-  const Eigen::Matrix2d& h = first.displacement_gradient;
-  Increment both;
-  both.displacement_gradient = h + second.displacement_gradient + second.displacement_gradient * h;
-  both.micro_rotation = first.micro_rotation + second.micro_rotation;
-  both.curvature = first.curvature + second.curvature + h.transpose() * second.curvature;
-  return both;
-}
-
-Increment offset_between(const Increment& from, const Increment& to) {
-  const Eigen::Matrix2d back = (Eigen::Matrix2d::Identity() + from.displacement_gradient).inverse();
-  Increment offset;
-  offset.displacement_gradient = (to.displacement_gradient - from.displacement_gradient) * back;
-  offset.micro_rotation = to.micro_rotation - from.micro_rotation;
-  offset.curvature = back.transpose() * (to.curvature - from.curvature);
-  return offset;
-}
 
 Increment increment_of(const Eigen::Matrix2d& displacement_gradient) {
   Increment increment;
@@ -30,6 +12,10 @@ Increment increment_of(const Eigen::Matrix2d& displacement_gradient) {
 }
 
 Vector7 linearised_stress(const Response& answer, const Increment& offset) {
+  if (offset.configuration != Configuration::fixed) {
+    const fem::StretchAndTurn step = fem::stretch_and_turn(offset);
+    return fem::rotated(Vector7(answer.stress + answer.tangent * step.stretch.strain()), step.angle);
+  }
   Vector7 stress = answer.stress + answer.tangent * offset.strain();
   const Eigen::Matrix2d& h = offset.displacement_gradient;
   const double turn = 0.5 * (h(1, 0) - h(0, 1));
@@ -42,6 +28,12 @@ Vector7 linearised_stress(const Response& answer, const Increment& offset) {
   stress[kCurvature1] -= turn * answer.stress[kCurvature2];
   stress[kCurvature2] += turn * answer.stress[kCurvature1];
   return stress;
+}
+
+Response with_tangent_turned(Response answer, const Increment& offset) {
+  if (offset.configuration != Configuration::fixed)
+    answer.tangent = fem::rotated(answer.tangent, fem::rotation_angle(offset));
+  return answer;
 }
 
 }  // namespace polargrain::coupler

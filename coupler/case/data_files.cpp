@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/regular_file.hpp"
+
 namespace polargrain::coupler {
 
 std::vector<std::filesystem::path> data_places(const std::filesystem::path& case_directory) {
@@ -19,6 +21,8 @@ std::vector<std::filesystem::path> data_places(const std::filesystem::path& case
 
 std::optional<std::filesystem::path> find_data_file(const std::string& name,
                                                     const std::filesystem::path& case_directory) {
+  if (name.find('\0') != std::string::npos)
+    return std::nullopt;  // the system would look for what stands before it
   std::error_code error;
   for (const std::filesystem::path& place : data_places(case_directory)) {
     for (const std::filesystem::path& file : {place / name, place / "liggghts_inputs" / name}) {
@@ -29,6 +33,7 @@ std::optional<std::filesystem::path> find_data_file(const std::string& name,
 }
 
 std::string content_of(const std::filesystem::path& file) {
+  if (!why_no_input(file).empty()) return {};
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

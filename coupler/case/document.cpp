@@ -12,6 +12,9 @@
 #include <sstream>
 #include <utility>
 
+#include "common/plain_text.hpp"
+#include "common/regular_file.hpp"
+
 namespace polargrain::coupler {
 namespace {
 
@@ -20,14 +23,23 @@ constexpr std::size_t kMostEntries = 100000;
 constexpr std::size_t kDeepest = 20;
 constexpr std::uintmax_t kLargestFile = 10'000'000;
 
+/// The first control character that no value may hold; empty: none. A text may have several lines, and tabs. What names
+/// something ends up on terminals, in logs, in tables and as a name of a file, and each has characters that steer it.
+std::string forbidden_in(const std::string& text) {
+  std::string lines = text;
+  std::erase_if(lines, [](char c) { return c == '\n' || c == '\r' || c == '\t'; });
+  return control_character_in(lines);
+}
+
 /// Builds the tree of entries from the parser's events.
 class Builder : public YAML::EventHandler {
  public:
   explicit Builder(std::string file) : file_(std::move(file)) {}
 
   Entry root;
+  int first_line = 1;  ///< of the document
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark& mark) override { first_line = mark.line + 1; }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     leaf(Entry::Kind::nothing, "", mark, anchor);
@@ -83,6 +95,8 @@ class Builder : public YAML::EventHandler {
 
   void leaf(Entry::Kind kind, const std::string& text, const YAML::Mark& mark, YAML::anchor_t anchor) {
     count(mark, 1);
+    if (const std::string character = forbidden_in(text); !character.empty())
+      refuse(mark, fmt::format("a text holds the control character {}; remove it", character));
     Entry entry = made(kind, mark);
     entry.text = text;
     if (anchor != YAML::NullAnchor) anchors_[anchor] = {entry, 1};
@@ -115,7 +129,8 @@ class Builder : public YAML::EventHandler {
     if (parent.entry.kind == Entry::Kind::sequence) {
       parent.entry.items.push_back(std::move(entry));
     } else if (!parent.awaits_value) {
-      if (entry.kind != Entry::Kind::scalar) refuse(mark, "a key must be a plain word");
+      if (entry.kind != Entry::Kind::scalar || !control_character_in(entry.text).empty())
+        refuse(mark, "a key must be a plain word");
       parent.entry.members.push_back({entry.text, entry.line, {}});
       parent.awaits_value = true;
     } else {
@@ -146,6 +161,12 @@ Entry parse(const std::string& text, const std::string& file) {
   try {
     YAML::Parser parser(in);
     parser.HandleNextDocument(builder);
+    Builder second(file);
+    if (parser.HandleNextDocument(second))
+      throw InputError(
+          {file, second.first_line,
+           "a second document begins here, behind '---' or '...', and would not be read; remove that line, or "
+           "put what follows into a file of its own"});
   } catch (const YAML::Exception& error) {
     const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
     throw InputError({file, line, "this is no YAML: " + error.msg + advice_on_line(text, line)});
@@ -194,9 +215,8 @@ const Entry* Entry::find(const std::string& key) const {
 Entry load_document(const std::filesystem::path& file) {
   std::error_code error;
   const std::string name = file.string();
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError({name, 0, "there is no such file; give the path of a case file (case.yaml)"});
-  }
+  if (const std::string reason = why_no_input(file); !reason.empty())
+    throw InputError({name, 0, reason + "; give the path of a case file (case.yaml)"});
   constexpr std::array<std::pair<const char*, const char*>, 5> kOthers{{{".h5", "a packing or a checkpoint"},
                                                                         {".csv", "a table"},
                                                                         {".in", "a LIGGGHTS script"},
@@ -222,6 +242,8 @@ void apply_setting(Entry& document, const std::string& setting) {
   if (equals == std::string::npos || equals == 0) {
     throw InputError({file, 0, "expected key=value, for example --set steps.count=10"});
   }
+  if (!control_character_in(setting.substr(0, equals)).empty())
+    throw InputError({file, 0, "a key must be a plain word; there is a control character in it"});
   Entry value = parse(setting.substr(equals + 1), file);
   forget_lines(value);
   value.file = file;

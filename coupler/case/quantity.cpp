@@ -16,9 +16,10 @@ struct Unit {
   Dimension dimension;
   std::string_view name;
   double factor;
+  bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 24> kUnits{{
+constexpr std::array<Unit, 28> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -29,6 +30,10 @@ constexpr std::array<Unit, 24> kUnits{{
     {Dimension::pressure, "kPa", 1e3},
     {Dimension::pressure, "MPa", 1e6},
     {Dimension::pressure, "GPa", 1e9},
+    {Dimension::pressure, "N/m2", 1.0, false},
+    {Dimension::pressure, "kN/m2", 1e3, false},
+    {Dimension::pressure, "MN/m2", 1e6, false},
+    {Dimension::pressure, "N/mm2", 1e6, false},
     {Dimension::angle, "rad", 1.0},
     {Dimension::angle, "deg", std::numbers::pi / 180.0},
     {Dimension::angle, "mrad", 1e-3},
@@ -54,7 +59,7 @@ std::string_view trimmed(std::string_view text) {
 std::string units_of(Dimension dimension) {
   std::string list;
   for (const Unit& unit : kUnits) {
-    if (unit.dimension != dimension) continue;
+    if (unit.dimension != dimension || !unit.listed) continue;
     if (!list.empty()) list += ", ";
     list += unit.name;
   }
@@ -95,7 +100,9 @@ std::optional<double> parse_quantity(std::string_view text, Dimension dimension)
   const std::string_view unit = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
   if (unit.empty()) return value;
   for (const Unit& known : kUnits) {
-    if (known.dimension == dimension && known.name == unit) return value * known.factor;
+    if (known.dimension != dimension || known.name != unit) continue;
+    const double in_si = value * known.factor;
+    return std::isfinite(in_si) ? std::optional(in_si) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -108,6 +115,19 @@ bool is_plain_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+double largest_of(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::length:
+      return 1e7;
+    case Dimension::pressure:
+      return 1e14;
+    case Dimension::unit_weight:
+      return 1e11;
+    default:
+      return 1e18;
+  }
+}
+
 std::string_view si_unit(Dimension dimension) {
   for (const Unit& unit : kUnits) {
     if (unit.dimension == dimension && unit.factor == 1.0) return unit.name;
@@ -118,6 +138,7 @@ std::string_view si_unit(Dimension dimension) {
 std::string all_units() {
   std::string list;
   for (const Unit& unit : kUnits) {
+    if (!unit.listed) continue;
     if (!list.empty()) list += ", ";
     list += unit.name;
   }
@@ -130,7 +151,7 @@ std::optional<UnitAhead> unit_ahead(std::string_view text) {
     if (!text.starts_with(unit.name) || (longest && longest->length >= unit.name.size())) continue;
     const char next = text.size() > unit.name.size() ? text[unit.name.size()] : ' ';
     const bool goes_on = std::isalnum(static_cast<unsigned char>(next)) != 0 || next == '_';
-    if (unit.name == "%" || !goes_on) longest = UnitAhead{unit.name.size(), unit.factor};
+    if (unit.name == "%" || !goes_on) longest = UnitAhead{unit.name.size(), unit.factor, unit.dimension};
   }
   return longest;
 }

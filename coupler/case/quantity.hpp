@@ -29,6 +29,10 @@ std::optional<double> parse_quantity(std::string_view text, Dimension dimension)
 /// Whether the text ends without a unit. @param text one that parse_quantity takes
 bool is_plain_number(std::string_view text);
 
+/// The largest magnitude that a quantity of the dimension may have, in SI units: far beyond soil, rock and diamond, so that
+/// nothing larger can be meant.
+double largest_of(Dimension dimension);
+
 /// "Pa": what a number without a unit is taken for; empty for Dimension::number.
 std::string_view si_unit(Dimension dimension);
 
@@ -37,6 +41,7 @@ std::string_view si_unit(Dimension dimension);
 struct UnitAhead {
   std::size_t length;  ///< characters
   double factor;       ///< to SI units
+  Dimension dimension;
 };
 std::optional<UnitAhead> unit_ahead(std::string_view text);
 

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <set>
 
+#include "common/plain_text.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/case/columns_of_steps.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/case/document_kind.hpp"
 #include "coupler/case/parts.hpp"
@@ -28,6 +30,10 @@ class CaseReader {
   Case read() {
     Section top(document_, "case", faults_);
     case_.title = top.text("title", "a line that says what the case is");
+    while (case_.title.ends_with('\n')) case_.title.pop_back();  // of a text in lines of its own
+    if (!control_character_in(case_.title).empty())
+      top.fault("title",
+                "title: must be one line without control characters; write what is more as comments");
     case_.problem.continuum = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy"
                                   ? fem::Continuum::cauchy
                                   : fem::Continuum::cosserat;
@@ -127,14 +133,18 @@ class CaseReader {
     Section monitors(entry, "monitors", faults_);
     for (const Entry::Member& member : entry.members) {
       monitors.find(member.key);
-      const bool taken = std::find(built_in_values().begin(), built_in_values().end(), member.key) !=
-                         built_in_values().end();
-      if (taken)
+      const auto is_among = [&](const std::vector<std::string>& names) {
+        return std::find(names.begin(), names.end(), member.key) != names.end();
+      };
+      if (is_among(built_in_values()) || is_among(columns_of_steps()))
         monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
-      if (member.key.find_first_of(",\"\r\n") != std::string::npos) {
-        monitors.fault(member.key,
-                       "the name of a monitor heads a column of a CSV file: no comma, quotation "
-                       "mark or line break in it");
+      // A spreadsheet computes what begins like a formula.
+      const bool is_formula = member.key.find_first_of("=+-@") == 0;
+      if (member.key.empty() || is_formula || member.key.find_first_of(",\"") != std::string::npos) {
+        monitors.fault(
+            member.key,
+            "the name of a monitor heads a column of a CSV file: no comma or quotation mark in it, and "
+            "none of = + - @ at its beginning");
       }
       Monitor monitor;
       monitor.name = member.key;
@@ -313,6 +323,15 @@ class CaseReader {
 
 const std::vector<std::string>& built_in_values() {
   static const std::vector<std::string> names{"time", "volume_strain", "external_work", "internal_work"};
+  return names;
+}
+
+const std::vector<std::string>& columns_of_steps() {
+  static const std::vector<std::string> names{
+      "step",        "time",         "substeps",        "cuts",
+      "iterations",  "evaluations",  "force_residual",  "moment_residual",
+      "force_noise", "within_noise", "within_rounding", "limited",
+      "jumps",       "jump_residual"};
   return names;
 }
 

@@ -56,7 +56,9 @@ bool read_supports(Section& item, const std::vector<std::string>& places, CasePa
   if (item.find("fix") == nullptr) return found;
   for (const std::string& name : item.words("fix", "a list of u1, u2, w")) {
     if (std::find(dof_names().begin(), dof_names().end(), name) == dof_names().end()) {
-      item.fault("fix", fmt::format("fix: expected u1, u2 or w, found '{}'", name));
+      const std::string guess = nearest(name, dof_names());
+      item.fault("fix", fmt::format("fix: expected u1, u2 or w, found '{}'{}", name,
+                                    guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     } else {
       prescribe(dof_of(name), fem::TimeTable::constant(0.0));
     }

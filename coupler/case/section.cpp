@@ -82,6 +82,7 @@ constexpr OtherName kOtherNames[] = {{"dilation_angle", "dilatancy_angle"},
                                      {"internal_length", "lc"},
                                      {"characteristic_length", "lc"},
                                      {"plastic_length", "lp"},
+                                     {"skew_stress_limit", "skew_limit"},
                                      {"gamma", "unit_weight"},
                                      {"type", "model"},
                                      {"law", "model"},
@@ -89,7 +90,25 @@ constexpr OtherName kOtherNames[] = {{"dilation_angle", "dilatancy_angle"},
                                      {"number", "count"},
                                      {"number_of_steps", "count"},
                                      {"displacement", "move"},
-                                     {"load", "traction"}};
+                                     {"load", "traction"},
+                                     {"mohr_coulomb", "elastoplastic"},
+                                     {"mohr-coulomb", "elastoplastic"},
+                                     {"drucker_prager", "elastoplastic"},
+                                     {"plastic", "elastoplastic"},
+                                     {"linear_elastic", "elastic"},
+                                     {"linear", "elastic"},
+                                     {"dem", "cell"},
+                                     {"grains", "cell"},
+                                     {"ux", "u1"},
+                                     {"uy", "u2"},
+                                     {"u_x", "u1"},
+                                     {"u_y", "u2"},
+                                     {"x", "u1"},
+                                     {"y", "u2"},
+                                     {"ur", "w"},
+                                     {"rz", "w"},
+                                     {"theta", "w"},
+                                     {"rotation", "w"}};
 
 std::string in_small_letters(std::string word) {
   std::ranges::transform(word, word.begin(),
@@ -168,6 +187,12 @@ double Section::number_of(const Entry& entry, const std::string& key, Dimension 
   if (!value) {
     faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'{}", name_, key, expected, text,
                                               has_decimal_comma(text) ? kDecimalComma : "")));
+    return 1.0;
+  }
+  if (std::abs(*value) > largest_of(dimension)) {
+    faults_.push_back(entry.fault(fmt::format(
+        "{}: {}: '{}' is larger than any such quantity: at most {:g} {} is taken; correct the number or its unit",
+        name_, key, text, largest_of(dimension), si_unit(dimension))));
     return 1.0;
   }
   if (dimension == Dimension::angle && is_plain_number(text) && std::abs(*value) > 2.0 * std::numbers::pi) {

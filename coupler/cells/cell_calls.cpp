@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "common/error.hpp"
@@ -28,7 +30,8 @@ PlaneReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& not
   if (packing.response.quality == Quality::failed)
     throw RunError(
         fmt::format("the packing of a cell cannot be brought to rest: {}", packing.response.message));
-  if (!packing.response.message.empty()) notes.push_back(std::exchange(packing.response.message, {}));
+  std::istringstream remarks(std::exchange(packing.response.message, {}));
+  for (std::string remark; std::getline(remarks, remark);) notes.push_back(remark);
   return packing;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/cells/cell_increment.hpp"
 
-#include "fem/material/rotation.hpp"
-
 namespace polargrain::coupler {
 
 bool is_zero(const Increment& increment) {
@@ -14,16 +12,17 @@ Increment increment_for_cell(const Increment& of_point) {
   if (of_point.configuration == Configuration::start) return of_point;
   const Eigen::Matrix2d& h = of_point.displacement_gradient;
   const double rotation = 0.5 * (h(1, 0) - h(0, 1));
-  if (of_point.configuration == Configuration::middle) {
-    Increment turning = fem::about_start(of_point);
-    // Elements count the micro-rotation against the tangent of half the turn; a box is turned by the angle.
-    turning.micro_rotation += fem::rotation_angle(of_point) - rotation;
-    return turning;
-  }
   Increment straight = of_point;
   straight.displacement_gradient = 0.5 * (h + h.transpose());
   straight.micro_rotation -= rotation;
   return straight;
+}
+
+Increment increment_for_free_cell(const Increment& of_point) {
+  Increment felt;
+  felt.displacement_gradient = increment_for_cell(of_point).displacement_gradient;
+  felt.configuration = of_point.configuration;
+  return felt;
 }
 
 }  // namespace polargrain::coupler

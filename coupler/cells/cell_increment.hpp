@@ -6,10 +6,14 @@ namespace polargrain::coupler {
 
 bool is_zero(const Increment& increment);
 
-/// What the cell of a point is to follow. In large deformation the same with its gradients about the start of the
-/// step: the box turns, and its stress with it. In small deformation no stress turns with the continuum, so the box
+/// What the cell of a point is to follow. In large deformation the increment as it is: the box turns, and its stress
+/// with it. In small deformation no stress turns with the continuum, so the box
 /// gets the symmetric part of the gradient, and its grains the micro-rotation against the rotation left out
 /// (docs/theory/solver.md, small and large deformation).
 Increment increment_for_cell(const Increment& of_point);
+
+/// The same for a cell whose grains turn as they like: they feel no micro-rotation and no curvature, which may go far where
+/// nothing resists them.
+Increment increment_for_free_cell(const Increment& of_point);
 
 }  // namespace polargrain::coupler

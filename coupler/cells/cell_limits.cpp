@@ -22,7 +22,7 @@ constexpr double kRotation = 2e-3;
 constexpr double kBending = 3e-3;
 
 enum Way : std::size_t { kSheared, kTurned, kBent };
-constexpr std::array<const char*, 3> kWays{"sheared", "turned", "bent"};
+constexpr std::array<const char*, 3> kNames{"sheared", "turned", "bent"};
 
 /// What a stress is of each limit.
 double share(std::size_t way, const Vector7& stress) {
@@ -58,35 +58,77 @@ std::string CellLimits::text() const {
       friction, skew, 1e3 * couple, 1e3 * plastic_length());
 }
 
-CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter) {
-  std::array<Increment, 3> increments;
+namespace {
+
+constexpr std::size_t kWays = 3;
+
+/// What became of the packing on the way to each limit.
+struct Pushed {
+  std::array<double, kWays> largest{};   ///< share of the limit
+  std::array<std::string, kWays> fault;  ///< why the path ended early; empty: it did not
+};
+
+/// @param ways those to go, the first ones
+Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
+              const std::array<Increment, kWays>& increments, std::size_t ways) {
+  Pushed found;
+  std::vector<PlaneReply> at(ways, packing);
+  std::vector<std::size_t> going{};
+  for (std::size_t way = 0; way < ways; ++way) going.push_back(way);
+  for (int k = 0; k < kIncrements && !going.empty(); ++k) {
+    std::vector<PlaneRequest> requests;
+    for (const std::size_t way : going) requests.push_back({at[way].state, increments[way]});
+    const std::vector<std::size_t> points(going.size(), 0);  // each stands for all
+    std::vector<PlaneReply> replies = calls.evaluate(requests, points);
+    std::vector<std::size_t> still;
+    for (std::size_t r = 0; r < going.size(); ++r) {
+      const std::size_t way = going[r];
+      at[way] = std::move(replies[r]);
+      const Response& response = at[way].response;
+      if (response.quality == Quality::failed) {
+        found.fault[way] = response.message;
+        continue;
+      }
+      still.push_back(way);
+      if (response.quality == Quality::good)  // what is not at rest may be beyond a limit
+        found.largest[way] = std::max(found.largest[way], share(way, response.stress));
+    }
+    going = std::move(still);
+  }
+  return found;
+}
+
+std::array<Increment, kWays> increments_to_limits(double mean_diameter) {
+  std::array<Increment, kWays> increments;
   increments[kSheared].displacement_gradient << kCompression, 0.0, 0.0, -kCompression;
   increments[kTurned].micro_rotation = kRotation;
-  increments[kBent].curvature << kBending / mean_diameter, 0.0;
-  std::array<double, 3> largest{};
-  std::vector<PlaneReply> at(3, packing);
-  const std::vector<std::size_t> points(3, 0);  // each stands for all
-  for (int k = 0; k < kIncrements; ++k) {
-    std::vector<PlaneRequest> requests;
-    for (std::size_t way = 0; way < 3; ++way) requests.push_back({at[way].state, increments[way]});
-    at = calls.evaluate(requests, points);
-    for (std::size_t way = 0; way < 3; ++way) {
-      if (at[way].response.quality == Quality::failed)
-        throw RunError(fmt::format("the limits of a packing cannot be found: {} it fails: {}", kWays[way],
-                                   at[way].response.message));
-      if (at[way].response.quality == Quality::good)  // what is not at rest may be beyond a limit
-        largest[way] = std::max(largest[way], share(way, at[way].response.stress));
-    }
+  if (mean_diameter > 0.0) increments[kBent].curvature << kBending / mean_diameter, 0.0;
+  return increments;
+}
+
+}  // namespace
+
+CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing) {
+  const Pushed found = pushed(calls, packing, increments_to_limits(0.0), kBent);
+  return {found.largest[kSheared], found.largest[kTurned], 0.0};
+}
+
+CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter) {
+  const Pushed found = pushed(calls, packing, increments_to_limits(mean_diameter), kWays);
+  for (std::size_t way = 0; way < kWays; ++way) {
+    if (!found.fault[way].empty())
+      throw RunError(fmt::format("the limits of a packing cannot be found: {} it fails: {}", kNames[way],
+                                 found.fault[way]));
   }
-  for (std::size_t way = 0; way < 3; ++way) {
-    if (!(largest[way] > 0.0))
+  for (std::size_t way = 0; way < kWays; ++way) {
+    if (!(found.largest[way] > 0.0))
       throw RunError(
           fmt::format("the limits of a packing cannot be found: {} it resists nothing; 'model: informed' "
                       "with 'rotations: "
                       "controlled' needs sliding friction, and rolling resistance or grains of unequal radii",
-                      kWays[way]));
+                      kNames[way]));
   }
-  return {largest[kSheared], largest[kTurned], largest[kBent]};
+  return {found.largest[kSheared], found.largest[kTurned], found.largest[kBent]};
 }
 
 }  // namespace polargrain::coupler

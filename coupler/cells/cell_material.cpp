@@ -16,7 +16,7 @@ namespace polargrain::coupler {
 
 CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
                            const std::optional<CosseratParameters>& cosserat, const std::string& note)
-    : calls_(calls_of(pool, definition)), cosserat_(cosserat) {
+    : calls_(calls_of(pool, definition)), cosserat_(cosserat), at_limits_(cosserat.has_value()) {
   if (!note.empty()) notes_.push_back(note);
   const CellDefinition& cell = pool.definition(definition);
   if (cell.control.rotations == CellRotations::controlled) mean_radius_ = cell.packing.mean_radius();
@@ -25,6 +25,8 @@ CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
 void CellMaterial::allocate(std::size_t points) {
   PointState start;
   start.cell = packing_at_rest(calls_, notes_);
+  packing_ = PackingAtStart(start.cell);
+  start.cosserat = packing_.part();
   committed_.assign(points, start);
   trial_ = committed_;
 }
@@ -35,7 +37,8 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (is_zero(increments[point])) continue;
-    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
+    requests.push_back({committed_[point].cell.state, cosserat_ ? increment_for_free_cell(increments[point])
+                                                                : increment_for_cell(increments[point])});
     points.push_back(point);
   }
   std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
@@ -50,7 +53,8 @@ void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Res
     } else if (is_zero(increments[point])) {
       responses[point] = state.cosserat.joined_to(state.cell.response, *cosserat_);
     } else {
-      responses[point] = state.cosserat.follow(increments[point], state.cell.response, *cosserat_);
+      responses[point] = state.cosserat.follow(increments[point], state.cell.response, *cosserat_,
+                                               packing_.kept(state.cell.diagnostics));
     }
     responses[point].noise = noise_of(state.cell, mean_radius_);
   }
@@ -61,23 +65,35 @@ void CellMaterial::commit() {
   for (PointState& point : trial_) states.push_back(&point.cell.state);
   collect(calls_, states);
   committed_ = trial_;
+  std::vector<LimitsReached> reached_limits;
+  for (const PointState& point : committed_) reached_limits.push_back(reached(point));
+  at_limits_.count(reached_limits);
+}
+
+LimitsReached CellMaterial::reached(const PointState& point) const {
+  if (cosserat_) return point.cosserat.reached(*cosserat_, packing_.least_pressure());
+  return {.parted = pressure_in_plane(point.cell.response.stress) <= packing_.least_pressure()};
 }
 
 void CellMaterial::save(ArchiveWriter& archive) const {
   write_records(archive, "points", std::span<const PointState>(committed_));
+  at_limits_.save(archive);
 }
 
 void CellMaterial::restore(ArchiveReader& archive) {
   committed_ = read_records<PointState>(archive, "points", committed_.size());
   trial_ = committed_;
+  at_limits_.restore(archive);
 }
 
 std::vector<std::string> CellMaterial::field_names() const {
-  return names_of_columns<CellDiagnostics>();
+  return joined_names(names_of_columns<CellDiagnostics>(), names_of_limit_fields(cosserat_.has_value()));
 }
 
 void CellMaterial::fields(std::size_t point, std::span<double> values) const {
-  std::ranges::copy(values_of(committed_[point].cell.diagnostics), values.begin());
+  const PointState& state = committed_[point];
+  const auto rest = std::ranges::copy(values_of(state.cell.diagnostics), values.begin()).out;
+  write_limit_fields(reached(state), cosserat_, state.cosserat, rest);
 }
 
 }  // namespace polargrain::coupler

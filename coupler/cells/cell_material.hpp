@@ -9,6 +9,8 @@
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
+#include "coupler/cells/packing_at_start.hpp"
+#include "coupler/cells/points_at_limits.hpp"
 #include "coupler/pool/pool.hpp"
 #include "fem/material/material.hpp"
 
@@ -36,12 +38,14 @@ class CellMaterial : public fem::Material, public GrainsOfPoints {
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
-  /// The diagnostics of the cell (docs/file_formats.md).
+  /// The diagnostics of the cell (docs/file_formats.md), parted, and with free rotations skew_mobilisation and couple_mobilisation.
   [[nodiscard]] double moment_length() const override { return 2.0 * mean_radius_; }
   [[nodiscard]] std::vector<std::string> field_names() const override;
   /// What the engine remarked on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   void fields(std::size_t point, std::span<double> values) const override;
+  [[nodiscard]] std::vector<fem::Figure> figures() const override { return at_limits_.figures(); }
+  [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
   [[nodiscard]] StatePointer grains_of(std::size_t point) const override {
     return committed_[point].cell.state;
   }
@@ -58,8 +62,12 @@ class CellMaterial : public fem::Material, public GrainsOfPoints {
     }
   };
 
+  [[nodiscard]] LimitsReached reached(const PointState& point) const;
+
   CellCalls calls_;
   std::optional<CosseratParameters> cosserat_;
+  PointsAtLimits at_limits_;
+  PackingAtStart packing_;
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> committed_;

@@ -2,6 +2,7 @@
 #include "coupler/cells/cosserat_part.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fem/material/rotation.hpp"
 
@@ -24,32 +25,84 @@ Matrix7 symmetric_tangent(const Matrix7& cell) {
   return tangent;
 }
 
-Response CosseratPart::follow(const Increment& increment, const Response& cell,
-                              const CosseratParameters& cosserat) {
-  const Vector7 strain = increment.strain();
-  skew_stress += 2.0 * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
-  if (increment.configuration != Configuration::fixed)
-    couple_stress = fem::rotated(couple_stress, fem::rotation_angle(increment));
-  couple_stress += cosserat.couple_modulus() * increment.curvature;  // A.4
-  Response response = joined_to(cell, cosserat);
-  if (!cosserat.plastic_length || response.quality == Quality::failed) return response;
+bool limit_skew(Response& response, double skew_limit, double modulus) {
+  const double pressure = pressure_in_plane(response.stress);
+  const double limit = skew_limit * std::max(0.0, pressure);
+  const double trial = response.stress[k21] - response.stress[k12];
+  if (std::abs(trial) <= limit) return false;
+  const double shear = 0.5 * (response.stress[k12] + response.stress[k21]);
+  const double sign = trial > 0.0 ? 1.0 : -1.0;
+  response.stress[k12] = shear - 0.5 * sign * limit;
+  response.stress[k21] = shear + 0.5 * sign * limit;
+  Vector7 slope = Vector7::Zero();  // of the skew stress
+  if (pressure > 0.0)
+    slope = -0.5 * sign * skew_limit * (response.tangent.row(k11) + response.tangent.row(k22)).transpose();
+  const double hold = 2.0 * CosseratPart::kHold * modulus;
+  slope[k12] -= hold;
+  slope[k21] += hold;
+  const Vector7 mean = 0.5 * (response.tangent.row(k12) + response.tangent.row(k21)).transpose();
+  response.tangent.row(k12) = (mean - 0.5 * slope).transpose();
+  response.tangent.row(k21) = (mean + 0.5 * slope).transpose();
+  return true;
+}
 
-  const double length = *cosserat.plastic_length;
-  const double pressure = -0.5 * (response.stress[k11] + response.stress[k22]);
+namespace {
+
+/// The same of the couple stress.
+void limit_couple(Response& response, double length, double modulus) {
+  const double pressure = pressure_in_plane(response.stress);
   const double limit = length * std::max(0.0, pressure);
+  const Eigen::Vector2d couple_stress = response.stress.tail<2>();
   const double trial = couple_stress.norm();
-  if (trial <= limit) return response;
+  if (trial <= limit) return;
   const Eigen::Vector2d direction = couple_stress / trial;
-  couple_stress = limit * direction;
-  response.stress.tail<2>() = couple_stress;
+  response.stress.tail<2>() = limit * direction;
   response.tangent.bottomRightCorner<2, 2>() =
-      cosserat.couple_modulus() * limit / trial *
-      (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+      modulus * limit / trial * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
   if (pressure > 0.0) {  // the limit goes with it
     const Vector7 rise = -0.5 * (response.tangent.row(k11) + response.tangent.row(k22)).transpose();
     response.tangent.bottomLeftCorner<2, 5>() = length * direction * rise.head<5>().transpose();
   }
+}
+
+/// What rounding may leave of a stress that is at its limit.
+constexpr double kAtLimit = 1.0 - 1e-9;
+
+double share_of_limit(double stress, std::optional<double> limit, double pressure) {
+  if (!limit || !(*limit * pressure > 0.0)) return 0.0;
+  return std::min(1.0, stress / (*limit * pressure));
+}
+
+}  // namespace
+
+Response CosseratPart::follow(const Increment& increment, const Response& cell,
+                              const CosseratParameters& cosserat, double kept) {
+  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  const Vector7 strain = step.stretch.strain();
+  const double couple_modulus = contacts_kept * cosserat.couple_modulus();
+  skew_stress += 2.0 * contacts_kept * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
+  couple_stress += couple_modulus * step.stretch.curvature;                                            // A.4
+  if (increment.configuration != Configuration::fixed)
+    couple_stress = fem::rotated(couple_stress, step.angle);
+  Response response = joined_to(cell, cosserat);
+  if (response.quality == Quality::failed) return response;
+  if (cosserat.skew_limit) limit_skew(response, *cosserat.skew_limit, cosserat.cosserat_shear_modulus);
+  if (cosserat.plastic_length) limit_couple(response, *cosserat.plastic_length, couple_modulus);
+  keep_within(cosserat, pressure_in_plane(response.stress));
+  contacts_kept = kept;
   return response;
+}
+
+void CosseratPart::keep_within(const CosseratParameters& cosserat, double new_pressure) {
+  pressure = new_pressure;
+  if (cosserat.skew_limit) {
+    const double limit = *cosserat.skew_limit * std::max(0.0, pressure);
+    skew_stress = std::clamp(skew_stress, -limit, limit);
+  }
+  if (!cosserat.plastic_length) return;
+  const double limit = *cosserat.plastic_length * std::max(0.0, pressure);
+  const double trial = couple_stress.norm();
+  if (trial > limit) couple_stress = limit * (couple_stress / trial);
 }
 
 Response CosseratPart::joined_to(const Response& cell, const CosseratParameters& cosserat) const {
@@ -60,14 +113,35 @@ Response CosseratPart::joined_to(const Response& cell, const CosseratParameters&
   response.stress[k21] += 0.5 * skew_stress;
   response.stress.tail<2>() = couple_stress;
   response.tangent = symmetric_tangent(response.tangent);
-  const double skew_modulus = cosserat.cosserat_shear_modulus;
+  const double skew_modulus = std::max(contacts_kept, kHold) * cosserat.cosserat_shear_modulus;
   response.tangent(k12, k12) += skew_modulus;
   response.tangent(k21, k21) += skew_modulus;
   response.tangent(k12, k21) -= skew_modulus;
   response.tangent(k21, k12) -= skew_modulus;
-  response.tangent(kCurvature1, kCurvature1) = cosserat.couple_modulus();
-  response.tangent(kCurvature2, kCurvature2) = cosserat.couple_modulus();
+  const double couple_modulus = contacts_kept * cosserat.couple_modulus();
+  response.tangent(kCurvature1, kCurvature1) = couple_modulus;
+  response.tangent(kCurvature2, kCurvature2) = couple_modulus;
   return response;
+}
+
+double CosseratPart::skew_mobilisation(const CosseratParameters& cosserat) const {
+  return share_of_limit(std::abs(skew_stress), cosserat.skew_limit, pressure);
+}
+
+double CosseratPart::couple_mobilisation(const CosseratParameters& cosserat) const {
+  return share_of_limit(couple_stress.norm(), cosserat.plastic_length, pressure);
+}
+
+LimitsReached CosseratPart::reached(const CosseratParameters& cosserat, double least) const {
+  LimitsReached reached;
+  reached.parted = pressure <= least;
+  const auto is_at = [&](double mobilisation, std::optional<double> limit) {
+    return !reached.parted && limit && (*limit == 0.0 || mobilisation >= kAtLimit);
+  };
+  reached.skew = is_at(skew_mobilisation(cosserat), cosserat.skew_limit);
+  reached.couple = is_at(couple_mobilisation(cosserat), cosserat.plastic_length);
+  reached.held = reached.parted || (reached.skew && reached.couple);
+  return reached;
 }
 
 }  // namespace polargrain::coupler

@@ -14,6 +14,8 @@
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cell_limits.hpp"
 #include "coupler/cells/cell_noise.hpp"
+#include "coupler/cells/successive.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -21,7 +23,11 @@ namespace {
 /// A cell follows a step in at most so many parts.
 constexpr int kMostParts = 16;
 
-Increment part_of(Increment increment, int parts) {
+/// @param part 0 to parts - 1
+Increment part_of(Increment increment, int part, int parts) {
+  if (increment.configuration != Configuration::fixed && parts > 1)
+    return offset_between(share_of(increment, static_cast<double>(part) / parts),
+                          share_of(increment, static_cast<double>(part + 1) / parts));
   increment.displacement_gradient /= parts;
   increment.micro_rotation /= parts;
   increment.curvature /= parts;
@@ -47,6 +53,12 @@ void add_hardening(const fem::ElastoplasticFrame& frame, const fem::FrozenCone& 
   if (hardening.quality == Quality::good && same.regime == fem::Regime::smooth) {
     response.tangent = hardening.tangent;
   }
+}
+
+/// The answer of a law, and where the law is, turned to the axes of the end of a step.
+Response turned(const Response& response, fem::ElastoplasticState& end, double angle) {
+  end.scaled_stress = fem::rotated(end.scaled_stress, angle);
+  return fem::rotated(response, angle);
 }
 
 /// Walks over the numbers of a point, writing or reading them.
@@ -113,22 +125,25 @@ void InformedParameters::set_moduli(const CosseratParameters& cosserat) {
   elastic.cosserat_shear_modulus = cosserat.cosserat_shear_modulus;
   elastic.internal_length = cosserat.internal_length;
   plastic_length = cosserat.plastic_length;
+  skew_limit = cosserat.skew_limit;
 }
 
 InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& parameters,
                                    const std::string& note, CellCalls with_tangent)
     : calls_(std::move(calls)),
       with_tangent_(std::move(with_tangent)),
+      at_limits_(parameters.mean_diameter == 0.0),
       parameters_(parameters),
       frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights.value_or(fem::InvariantWeights{})),
              parameters.elastic.internal_length, 1e-3} {
   if (!note.empty()) notes_.push_back(note);
   const fem::ElasticParameters& elastic = parameters.elastic;
-  own_rules_ = {{elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)),
-                 elastic.cosserat_shear_modulus, elastic.internal_length, parameters.plastic_length},
-                controlled(),
-                elastic.internal_length,
-                parameters.mobilisation.drift_shear};
+  own_rules_ = {
+      {elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)), elastic.cosserat_shear_modulus,
+       elastic.internal_length, parameters.plastic_length, parameters.skew_limit},
+      controlled(),
+      elastic.internal_length,
+      parameters.mobilisation.drift_shear};
 }
 
 void InformedMaterial::allocate(std::size_t points) {
@@ -140,6 +155,7 @@ void InformedMaterial::allocate(std::size_t points) {
     notes_.push_back(fmt::format("limits of the packing: {}; invariants [{:.4g}, {:.4g}, {:.4g}]",
                                  limits.text(), weights.a1, weights.a2, weights.a3));
   }
+  own_rules_.packing = PackingAtStart(packing);
   PointState start;
   start.cell = packing;
   Vector7 stress = packing.response.stress;
@@ -152,18 +168,8 @@ void InformedMaterial::allocate(std::size_t points) {
   increments_.assign(points, Increment{});
 }
 
-fem::ElastoplasticState InformedMaterial::law_start(std::size_t point, const Increment& increment) const {
-  fem::ElastoplasticState start = committed_[point].law;
-  if (increment.configuration != Configuration::fixed)
-    start.scaled_stress = fem::rotated(start.scaled_stress, fem::rotation_angle(increment));
-  return start;
-}
-
-Vector7 InformedMaterial::cell_start(std::size_t point, const Increment& increment) const {
-  const Vector7& stress = committed_[point].cell.response.stress;
-  return increment.configuration == Configuration::fixed
-             ? stress
-             : fem::rotated(stress, fem::rotation_angle(increment));
+Increment InformedMaterial::felt(const Increment& increment) const {
+  return controlled() ? increment_for_cell(increment) : increment_for_free_cell(increment);
 }
 
 void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
@@ -173,7 +179,18 @@ void InformedMaterial::evaluate(std::span<const Increment> increments, std::span
   } else {
     evaluate_fixed_point(increments, responses);
   }
+  limit_skew_of_laws(responses);
   if (may_change()) evaluate_own(increments, responses);
+}
+
+void InformedMaterial::limit_skew_of_laws(std::span<Response> responses) {
+  if (controlled() || !parameters_.skew_limit) return;
+  for (std::size_t point = 0; point < committed_.size(); ++point) {
+    Response& response = responses[point];
+    if (committed_[point].own.active || response.quality == Quality::failed) continue;
+    if (limit_skew(response, *parameters_.skew_limit, parameters_.elastic.cosserat_shear_modulus))
+      trial_[point].law.scaled_stress = scaled_stress(response.stress);
+  }
 }
 
 void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::span<Response> responses) {
@@ -181,7 +198,7 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     if (!committed_[point].own.active || is_zero(increments[point])) continue;
-    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
+    requests.push_back({committed_[point].cell.state, felt(increments[point])});
     points.push_back(point);
   }
   if (!points.empty()) {
@@ -192,7 +209,7 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
     const OwnAnswer& before = committed_[point].own;
     if (!before.active) continue;
     PointState& trial = trial_[point];
-    responses[point] = own_answer(own_rules_, before, increments[point], trial.cell.response, trial.own);
+    responses[point] = own_answer(own_rules_, before, increments[point], trial.cell, trial.own);
     responses[point].noise = noise_of(trial.cell, 0.5 * parameters_.mean_diameter);
     trial.law.scaled_stress = scaled_stress(responses[point].stress);
   }
@@ -230,11 +247,18 @@ Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& fr
 }
 
 Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
+  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  fem::ElastoplasticState& end = trial_[point].law;
+  const Response response = integrate_stretch(point, step.stretch, end);
+  return increment.configuration == Configuration::fixed ? response : turned(response, end, step.angle);
+}
+
+Response InformedMaterial::integrate_stretch(std::size_t point, const Increment& increment,
+                                             fem::ElastoplasticState& end) const {
   const PointState& before = committed_[point];
   const fem::FrozenCone& cone = before.mobilisation.cone;
-  const fem::ElastoplasticState start = law_start(point, increment);
+  const fem::ElastoplasticState& start = before.law;
   const fem::ElastoplasticFrame frame = frame_of(point);
-  fem::ElastoplasticState& end = trial_[point].law;
   if (before.mobilisation.unloading)
     return integrate_unloading(frame, before.mobilisation, start, increment, end);
   if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
@@ -247,6 +271,17 @@ Response InformedMaterial::integrate(std::size_t point, const Increment& increme
   }
   // Nothing to take up, or softening too steep to have one answer: at once.
   return fem::integrate_elastoplastic(frame, cone, start, increment, end);
+}
+
+Response InformedMaterial::integrate_updated(std::size_t point, const Increment& stretch,
+                                             const fem::Mobilisation& mobilisation,
+                                             fem::ElastoplasticState& end) const {
+  const fem::ElastoplasticState& start = committed_[point].law;
+  const fem::ElastoplasticFrame frame = frame_of(point);
+  if (mobilisation.unloading) return integrate_unloading(frame, mobilisation, start, stretch, end);
+  Response response = fem::integrate_elastoplastic(frame, mobilisation.cone, start, stretch, end);
+  add_hardening(frame, committed_[point].mobilisation.cone, mobilisation.cone, start, stretch, end, response);
+  return response;
 }
 
 void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
@@ -266,7 +301,7 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
     if (committed_[point].own.active || is_zero(increments[point]) ||
         responses[point].quality == Quality::failed)
       continue;
-    requests.push_back({committed_[point].cell.state, increment_for_cell(increments[point])});
+    requests.push_back({committed_[point].cell.state, felt(increments[point])});
     points.push_back(point);
   }
   if (points.empty()) return;
@@ -276,18 +311,13 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
     const Response& cell = replies[r].response;
     if (cell.quality != Quality::failed) {
       take(replies[r], increments[point], point);
-      const fem::ElastoplasticState start = law_start(point, increments[point]);
-      const fem::ElastoplasticFrame frame = frame_of(point);
-      const fem::FrozenCone& cone = trial_[point].mobilisation.cone;
+      const fem::StretchAndTurn step = fem::stretch_and_turn(increments[point]);
       Response& response = responses[point];
       fem::ElastoplasticState& end = trial_[point].law;
-      if (trial_[point].mobilisation.unloading) {
-        response = integrate_unloading(frame, trial_[point].mobilisation, start, increments[point], end);
-      } else {
-        response = fem::integrate_elastoplastic(frame, cone, start, increments[point], end);
-        add_hardening(frame, committed_[point].mobilisation.cone, cone, start, increments[point], end,
-                      response);
-      }
+      // The mobilisation has turned already; nothing that the law takes of it has a direction.
+      response = integrate_updated(point, step.stretch, trial_[point].mobilisation, end);
+      if (increments[point].configuration != Configuration::fixed)
+        response = turned(response, end, step.angle);
       // Where the point yields its stress goes with the friction read from the cell, and scatters with it.
       if (end.regime != fem::Regime::elastic)
         response.noise = noise_of(trial_[point].cell, 0.5 * parameters_.mean_diameter);
@@ -313,6 +343,31 @@ void InformedMaterial::commit() {
   for (PointState& point : trial_) states.push_back(&point.cell.state);
   collect(calls_, states);
   committed_ = trial_;
+  count_limits();
+}
+
+CosseratPart InformedMaterial::cosserat_part_of(const PointState& point) const {
+  if (point.own.active) return point.own.cosserat;
+  const Vector7 stress = frame_.unscaled_stress(point.law.scaled_stress);
+  CosseratPart part;
+  part.skew_stress = stress[k21] - stress[k12];
+  part.couple_stress = stress.tail<2>();
+  part.pressure = pressure_in_plane(stress);
+  return part;
+}
+
+LimitsReached InformedMaterial::reached(const PointState& point) const {
+  const double least = own_rules_.packing.least_pressure();
+  LimitsReached reached;
+  if (!controlled()) reached = cosserat_part_of(point).reached(own_rules_.cosserat, least);
+  reached.parted = pressure_in_plane(point.cell.response.stress) <= least;
+  return reached;
+}
+
+void InformedMaterial::count_limits() {
+  std::vector<LimitsReached> points;
+  for (const PointState& point : committed_) points.push_back(reached(point));
+  at_limits_.count(points);
 }
 
 void InformedMaterial::leave_laws() {
@@ -324,7 +379,7 @@ void InformedMaterial::leave_laws() {
   follow(with_tangent_, leaving);
   for (const std::size_t point : leaving) {
     PointState& trial = trial_[point];
-    trial.own = left_law(own_rules_, frame_.unscaled_stress(trial.law.scaled_stress), trial.cell.response);
+    trial.own = left_law(own_rules_, frame_.unscaled_stress(trial.law.scaled_stress), trial.cell);
   }
 }
 
@@ -384,7 +439,7 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
     for (int part = 0; part < parts && !following.empty(); ++part) {
       std::vector<PlaneRequest> requests;
       for (const std::size_t point : following) {
-        requests.push_back({last[point].state, part_of(increment_for_cell(increments_[point]), parts)});
+        requests.push_back({last[point].state, part_of(felt(increments_[point]), part, parts)});
       }
       std::vector<PlaneReply> replies = calls.evaluate(requests, following);
       for (std::size_t r = 0; r < replies.size(); ++r) {
@@ -401,23 +456,28 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
 
 void InformedMaterial::take(const PlaneReply& reply, const Increment& increment, std::size_t point) {
   PointState& trial = trial_[point];
+  const PointState& before = committed_[point];
+  const bool turns = increment.configuration != Configuration::fixed;
+  const fem::StretchAndTurn motion = fem::stretch_and_turn(increment);
+  // All in the axes of the start of the step. The pressures of the law, which are all that is lent, are in any.
+  const Vector7& answer = reply.response.stress;
+  const Vector7 after = turns ? fem::rotated(answer, -motion.angle) : answer;
   const fem::ScaledVector<double>& law = trial.law.scaled_stress;
-  const fem::MicroStep step{
-      scaled_strain(increment),
-      complete_cell_stress(cell_start(point, increment), law_start(point, increment).scaled_stress),
-      complete_cell_stress(reply.response.stress, law), law.head<3>().sum() / 3.0,
-      trial.law.regime == fem::Regime::smooth};
-  trial.mobilisation =
-      fem::advance(committed_[point].mobilisation, step, frame_.moduli, parameters_.mobilisation);
+  const fem::MicroStep step{scaled_strain(motion.stretch),
+                            complete_cell_stress(before.cell.response.stress, before.law.scaled_stress),
+                            complete_cell_stress(after, law), law.head<3>().sum() / 3.0,
+                            trial.law.regime == fem::Regime::smooth};
+  trial.mobilisation = fem::advance(before.mobilisation, step, frame_.moduli, parameters_.mobilisation);
+  if (turns) trial.mobilisation = fem::rotated(std::move(trial.mobilisation), motion.angle);
   const bool frozen = parameters_.update == InformedUpdate::frozen;
   trial.held_friction = (frozen ? committed_[point] : trial).mobilisation.cone.friction;
   trial.take_up = trial.law.gamma_p - committed_[point].law.gamma_p;
   trial.cell = reply;
 }
 
-fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& increment) const {
-  if (!controlled()) return symmetric_part(increment.strain());
-  Vector7 strain = increment.strain();
+fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& stretch) const {
+  if (!controlled()) return symmetric_part(stretch.strain());
+  Vector7 strain = stretch.strain();
   strain.tail<2>() *= frame_.length;
   return strain;
 }
@@ -464,6 +524,7 @@ void InformedMaterial::save(ArchiveWriter& archive) const {
   archive.write("laws", std::span<const double>(values));
   if (may_change()) write_records(archive, "own", std::span<const OwnAnswer>(own));
   write_records(archive, "cells", std::span<const PlaneReply>(cells));
+  at_limits_.save(archive);
 }
 
 void InformedMaterial::restore(ArchiveReader& archive) {
@@ -484,13 +545,15 @@ void InformedMaterial::restore(ArchiveReader& archive) {
     for (std::size_t point = 0; point < committed_.size(); ++point) committed_[point].own = own[point];
   }
   trial_ = committed_;
+  at_limits_.restore(archive);
 }
 
 std::vector<std::string> InformedMaterial::field_names() const {
   std::vector<std::string> own{"friction",      "dilatancy", "dilatancy_limited",
                                "plastic_shear", "regime",    "stress_mismatch"};
   if (may_change()) own.emplace_back("stress_of_cell");
-  return joined_names(own, names_of_columns<CellDiagnostics>());
+  return joined_names(joined_names(own, names_of_columns<CellDiagnostics>()),
+                      names_of_limit_fields(!controlled()));
 }
 
 void InformedMaterial::fields(std::size_t point, std::span<double> values) const {
@@ -499,8 +562,13 @@ void InformedMaterial::fields(std::size_t point, std::span<double> values) const
                           p.mobilisation.limited ? 1.0 : 0.0, p.law.gamma_p,
                           static_cast<double>(p.law.regime),  mismatch(p)};
   if (may_change()) own.push_back(p.own.active ? 1.0 : 0.0);
-  const auto rest = std::ranges::copy(own, values.begin()).out;
-  std::ranges::copy(values_of(p.cell.diagnostics), rest);
+  auto rest = std::ranges::copy(own, values.begin()).out;
+  rest = std::ranges::copy(values_of(p.cell.diagnostics), rest).out;
+  if (controlled()) {
+    write_limit_fields(reached(p), std::nullopt, {}, rest);
+  } else {
+    write_limit_fields(reached(p), own_rules_.cosserat, cosserat_part_of(p), rest);
+  }
 }
 
 std::vector<fem::Figure> InformedMaterial::figures() const {
@@ -523,6 +591,8 @@ std::vector<fem::Figure> InformedMaterial::figures() const {
                                    {"stress_mismatch_largest", mismatches.back()},
                                    {"dilatancy_limited", limited / count}};
   if (may_change()) figures.push_back({"stress_of_cell", by_cell / count});
+  const std::vector<fem::Figure> at_limits = at_limits_.figures();
+  figures.insert(figures.end(), at_limits.begin(), at_limits.end());
   return figures;
 }
 

@@ -10,6 +10,7 @@
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
 #include "coupler/cells/own_answer.hpp"
+#include "coupler/cells/points_at_limits.hpp"
 #include "fem/material/elastoplastic.hpp"
 #include "fem/material/material.hpp"
 #include "fem/material/mobilisation.hpp"
@@ -36,6 +37,8 @@ struct InformedParameters {
   /// lp of grains whose rotations are free, m: the law yields at couple stresses of lp times the pressure, whatever its
   /// friction. Nothing: the weights say where.
   std::optional<double> plastic_length = {};
+  /// Of grains whose rotations are free: the skew stress of the law is at most so many times its pressure in the plane.
+  std::optional<double> skew_limit = {};
   fem::MobilisationOptions mobilisation;
   InformedUpdate update = InformedUpdate::frozen;
   /// Of grains whose rotations are controlled, m: their skew and couple stresses inform the law too. 0: they are free.
@@ -44,7 +47,7 @@ struct InformedParameters {
   double mismatch_limit = 0.3;
   BeyondMismatch beyond_mismatch = BeyondMismatch::tell;
 
-  /// Takes over the moduli of G, Gc and lc, and lp; Poisson's ratio must be set.
+  /// Takes over the moduli of G, Gc and lc, lp, and the limit of the skew stress; Poisson's ratio must be set.
   void set_moduli(const CosseratParameters& cosserat);
 };
 
@@ -88,6 +91,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] std::vector<fem::Figure> figures() const override;
   /// At how many points that go by their law it has left its cell, and by how much at the worst.
   [[nodiscard]] std::string doubt() const override;
+  [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
   /// What the engine remarked on the packing and its script, and that a law has left its cell; once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 
@@ -113,13 +117,26 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
                                              const fem::Mobilisation& mobilisation,
                                              const fem::ElastoplasticState& start, const Increment& increment,
                                              fem::ElastoplasticState& end) const;
+  /// The standard invariant leaves skew stress elastic: it returns to its limit behind the law, which goes by the same limit
+  /// as the part of a cell (cosserat_part.hpp).
+  void limit_skew_of_laws(std::span<Response> responses);
+  /// Skew and couple stress of a point with free rotations, for its mobilisation.
+  [[nodiscard]] CosseratPart cosserat_part_of(const PointState& point) const;
+  [[nodiscard]] LimitsReached reached(const PointState& point) const;
+  void count_limits();
   void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);
   void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
   /// The points that go by their cells' answers.
   void evaluate_own(std::span<const Increment> increments, std::span<Response> responses);
-  /// Law and cell turned to the frame at the end of the increment.
-  [[nodiscard]] fem::ElastoplasticState law_start(std::size_t point, const Increment& increment) const;
-  [[nodiscard]] Vector7 cell_start(std::size_t point, const Increment& increment) const;
+  /// What the law answers to the stretch of a step, and where it ends, in the axes of the start of the step.
+  [[nodiscard]] Response integrate_stretch(std::size_t point, const Increment& stretch,
+                                           fem::ElastoplasticState& end) const;
+  /// The same with friction and dilatancy of the step itself.
+  [[nodiscard]] Response integrate_updated(std::size_t point, const Increment& stretch,
+                                           const fem::Mobilisation& mobilisation,
+                                           fem::ElastoplasticState& end) const;
+  /// What the grains of a cell feel of an increment.
+  [[nodiscard]] Increment felt(const Increment& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(const CellCalls& calls, std::span<const std::size_t> points);
   /// Where law and cell disagree by more than they may, the point goes by its cell from the next step on.
@@ -138,13 +155,14 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] fem::ScaledVector<double> scaled_stress(const Vector7& stress) const;
   /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
-  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& increment) const;
+  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& stretch) const;
   [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
                                                                const fem::ScaledVector<double>& law) const;
 
   CellCalls calls_;
   CellCalls with_tangent_;
   OwnAnswerRules own_rules_;
+  PointsAtLimits at_limits_;
   bool told_of_mismatch_ = false;
   std::vector<std::string> notes_;
   InformedParameters parameters_;

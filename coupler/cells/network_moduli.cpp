@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "coupler/cells/cell_calls.hpp"
+#include "coupler/cells/cell_limits.hpp"
 #include "coupler/pool/pool.hpp"
 
 namespace polargrain::coupler {
@@ -41,6 +42,42 @@ NetworkModuli network_moduli(Pool& pool, CellDefinition definition) {
   return network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
 }
 
+namespace {
+
+/// The packing is sheared and turned and never bent: any rolling model will do, which a cell with this tangent allows.
+CellLimits limits_of_free(Pool& pool, CellDefinition definition) {
+  definition.control.rotations = CellRotations::controlled;
+  definition.control.tangent = CellTangent::cosserat;
+  const CellCalls calls = calls_of(pool, pool.define(std::move(definition)));
+  std::vector<std::string> remarks;  // the material's own cell makes them too
+  return limits_without_bending(calls, packing_at_rest(calls, remarks));
+}
+
+/// Fills in the limits of skew stress and couple stress. @returns a line that says what was found, or nothing
+std::string resolve_limits(const CosseratChoice& choice, Pool& pool, const CellDefinition& definition,
+                           CosseratParameters& parameters) {
+  parameters.skew_limit = choice.skew_limit.value;
+  parameters.plastic_length = choice.plastic_length.value;
+  if (definition.control.rotations != CellRotations::free) return {};
+  if (!choice.skew_limit.is_open() && !choice.plastic_length.is_open()) return {};
+  const CellLimits limits = limits_of_free(pool, definition);
+  std::string note = "limits of the packing:";
+  if (choice.skew_limit.is_open()) {
+    parameters.skew_limit = limits.skew;
+    note += fmt::format(" skew stress {:.4g} times the pressure", limits.skew);
+    if (!(limits.skew > 0.0)) note += " (its grains bear none: the micro-rotation is held numerically)";
+  }
+  if (choice.plastic_length.is_open()) {
+    parameters.plastic_length = std::sqrt(2.0 / 3.0) * limits.friction * parameters.internal_length;
+    note += fmt::format("{} couple stress {:.4g} mm times the pressure (lp = sqrt(2/3) M lc, M {:.4g})",
+                        choice.skew_limit.is_open() ? "," : "", 1e3 * *parameters.plastic_length,
+                        limits.friction);
+  }
+  return note;
+}
+
+}  // namespace
+
 CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const CellDefinition& definition,
                             std::string& note) {
   NetworkModuli packing;
@@ -64,7 +101,8 @@ CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const Cell
   parameters.shear_modulus = choice.shear_modulus.value_or(packing.shear);
   parameters.cosserat_shear_modulus = choice.cosserat_shear_modulus.value_or(packing.cosserat_shear);
   parameters.internal_length = choice.internal_length.value_or(packing.length());
-  parameters.plastic_length = choice.plastic_length;
+  if (const std::string limits = resolve_limits(choice, pool, definition, parameters); !limits.empty())
+    note += (note.empty() ? "" : "; ") + limits;
   return parameters;
 }
 

@@ -13,30 +13,39 @@ double share_left(const OwnAnswerRules& rules, double strained) {
 
 }  // namespace
 
-OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const Response& cell) {
+OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneReply& reply) {
+  const Response& cell = reply.response;
   OwnAnswer own;
   own.active = true;
   if (!rules.controlled) {
     own.cosserat.skew_stress = law(k21) - law(k12);
     own.cosserat.couple_stress = law.tail<2>();
+    own.cosserat.contacts_kept = rules.packing.kept(reply.diagnostics);
+    own.cosserat.keep_within(rules.cosserat, pressure_in_plane(cell.stress));
   }
   own.carried = law - (rules.controlled ? cell : own.cosserat.joined_to(cell, rules.cosserat)).stress;
   return own;
 }
 
 Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
-                    const Response& cell, OwnAnswer& end) {
+                    const PlaneReply& reply, OwnAnswer& end) {
+  const Response& cell = reply.response;
   end = start;
-  if (increment.configuration != Configuration::fixed)
-    end.carried = fem::rotated(end.carried, fem::rotation_angle(increment));
-  Vector7 strain = increment.strain();
+  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  Vector7 strain = step.stretch.strain();
+  if (increment.configuration != Configuration::fixed) {
+    end.carried = fem::rotated(end.carried, step.angle);
+    strain = fem::rotated(strain, step.angle);
+  }
   Vector7 scale = Vector7::Ones();
   scale.tail<2>().setConstant(rules.length);
   strain = rules.controlled ? Vector7(strain.cwiseProduct(scale)) : symmetric_part(strain);
   const double size = strain.norm();
   end.strained += size;
 
-  Response response = rules.controlled ? cell : end.cosserat.follow(increment, cell, rules.cosserat);
+  Response response = rules.controlled ? cell
+                                       : end.cosserat.follow(increment, cell, rules.cosserat,
+                                                             rules.packing.kept(reply.diagnostics));
   if (response.quality == Quality::failed) return response;
   const double left = share_left(rules, end.strained);
   if (!(left > 0.0)) {

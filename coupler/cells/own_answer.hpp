@@ -6,6 +6,7 @@
 #include "common/record.hpp"
 #include "common/response.hpp"
 #include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/packing_at_start.hpp"
 
 namespace polargrain::coupler {
 
@@ -39,14 +40,16 @@ struct OwnAnswerRules {
   /// Over which the strain of a curvature is counted, m; of no effect with free rotations.
   double length = 0.0;
   double work_off_strain = 0.0;  ///< over which a carried stress goes to zero; 0: at once
+  PackingAtStart packing = {};
 };
 
-/// From the law's stress to the cell's answer. @param law, cell stresses at the end of the step, Pa and N/m
-OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const Response& cell);
+/// From the law's stress to the cell's answer. What the law has of skew and couple stress beyond the limits of the cell is
+/// carried along too. @param law stress at the end of the step, Pa and N/m
+OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneReply& cell);
 
 /// The answer of a point that goes by its cell. @param start at the start of the step @param cell what the cell answered
 /// to the increment @param end gets the point at the end of the step
 Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
-                    const Response& cell, OwnAnswer& end);
+                    const PlaneReply& cell, OwnAnswer& end);
 
 }  // namespace polargrain::coupler

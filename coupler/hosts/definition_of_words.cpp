@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/hosts/definition_of_words.hpp"
 
+#include <fmt/format.h>
+
+#include "common/plain_text.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 
 namespace polargrain::coupler {
@@ -23,6 +26,11 @@ CellDefinition definition_of(const CellWords& cell) {
   document.kind = Entry::Kind::map;
   document.file = cell.source;
   for (const auto& [key, text] : cell.words) {
+    // The system would read the name of a file to its first NUL.
+    if (const std::string character = control_character_in(key + text); !character.empty())
+      throw InputError(
+          {cell.source, 0,
+           fmt::format("{}: holds the control character {}; remove it", plain_text(key), character)});
     Entry value;
     value.kind = Entry::Kind::scalar;
     value.text = text;

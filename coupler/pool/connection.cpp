@@ -7,12 +7,16 @@
 #include <cstring>
 
 #include "common/error.hpp"
+#include "coupler/pool/descriptors.hpp"
 #include "coupler/protocol/messages.hpp"
 
 namespace polargrain::coupler {
 namespace {
 constexpr const char* kMonitorUrl = "inproc://connection";
-}
+
+/// For the connection, and for what the engine opens at a time.
+constexpr std::size_t kDescriptors = 8;
+}  // namespace
 
 Connection::Connection(const std::string& url, const std::optional<WorkerKey>& key) {
   if (url.rfind("tcp://", 0) == 0 && !key) {
@@ -22,6 +26,7 @@ Connection::Connection(const std::string& url, const std::optional<WorkerKey>& k
                      "it takes scripts from nobody who cannot prove to be its coordinator",
                      url)});
   }
+  require_descriptors(kDescriptors, "a worker");
   // What is still unsent when a worker is told to stop is of no use to anybody.
   socket_.set(zmq::sockopt::linger, 0);
   socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include "common/error.hpp"
+#include "coupler/pool/descriptors.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 
 namespace polargrain::coupler {
@@ -28,6 +30,12 @@ constexpr int kMostOffences = 3;
 constexpr int kMostUnreadable = 3;
 
 constexpr std::chrono::seconds kPingPeriod{1};
+
+/// Of a local worker: its connection, and the end of its process.
+constexpr std::size_t kDescriptorsOfWorker = 2;
+
+/// For the log of a worker that starts, and for what is written meanwhile.
+constexpr std::size_t kSpareDescriptors = 10;
 
 /// Messages read before the ends of workers and the clocks are looked at again.
 constexpr int kMostAtOnce = 1000;
@@ -64,6 +72,8 @@ Crew::~Crew() {
 
 void Crew::start() {
   std::filesystem::create_directories(options_.directory / "logs");
+  require_descriptors(kDescriptorsOfWorker * static_cast<std::size_t>(options_.workers) + kSpareDescriptors,
+                      options_.workers == 1 ? "one worker" : fmt::format("{} workers", options_.workers));
   for (int k = 1; k <= options_.workers; ++k) {
     Seat& seat = seats_.emplace_back();
     seat.number = k;
@@ -89,12 +99,14 @@ void Crew::fill(Seat& seat) {
   std::error_code none;
   seat.log_start = std::filesystem::exists(seat.log, none) ? std::filesystem::file_size(seat.log, none) : 0;
   seat.started = Clock::now();
+  seat.share = {};
   seat.address = {};
   seat.process.emplace(command, seat.log, options_.network);
   switchboard_.watch(seat.process->end_descriptor());
 }
 
 void Crew::listen(std::chrono::milliseconds timeout) {
+  if (options_.heed) options_.heed();
   if (!seats_are_quiet_) watch_seats();
   ping_guests();
   const bool some_ended = switchboard_.wait(timeout);
@@ -122,7 +134,8 @@ void Crew::watch_seats() {
     if (seat.process && !seat.address.id.empty()) continue;
     seats_are_quiet_ = false;
     if (!seat.process) continue;
-    const double waited = seconds_of(now - seat.started);
+    // Time in which others had the processors is not its fault.
+    const double waited = seconds_of(now - seat.started - seat.process->processor_share().waited);
     if (waited < options_.startup_seconds) continue;
     last_end_ = fmt::format("worker {} did not report within {} s of its start; its log {} ends with:\n{}",
                             seat.number, options_.startup_seconds, seat.log.string(),
@@ -220,6 +233,16 @@ void Crew::send_away(Member& member, const std::string& cause) {
     say(fmt::format("{} was sent away {} times: it is not started again", member.name, kMostOffences));
   }
   give_up(member, cause);
+}
+
+Clock::duration Crew::starved(const Member& member, Clock::duration elapsed) {
+  if (member.address.remote) return {};
+  for (Seat& seat : seats_) {
+    if (seat.address != member.address || !seat.process) continue;
+    const ProcessorShare now = seat.process->processor_share();
+    return starved_between(std::exchange(seat.share, now), now, elapsed);
+  }
+  return {};
 }
 
 void Crew::send(Member& member, const Message& message) {

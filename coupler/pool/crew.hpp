@@ -31,6 +31,7 @@ struct CrewOptions {
   double heartbeat_seconds = 1.0;      ///< asked of working workers
   std::optional<Listening> listening;  ///< for workers of other machines
   std::function<void(const std::string&)> tell;
+  std::function<void()> heed;  ///< called before each wait; may throw
 };
 
 /// The tasks of one message to a worker.
@@ -40,6 +41,7 @@ struct Job {
   Clock::time_point sent;     ///< or when the job before it was answered
   Clock::time_point heard;    ///< last sign of life, or `sent`
   Clock::time_point resent;   ///< last time it was sent, or sent again
+  Clock::duration excused{};  ///< since `sent`: nobody could have answered, or heard of it
   bool begun = false;         ///< it has said Working
   int supplied = 0;           ///< times it was sent again because something was missing
 };
@@ -95,7 +97,7 @@ class Crew {
   /// @throws RunError when all of them fail to: a program that cannot start
   void start();
   /// Waits for something to happen, not longer than `timeout`, and handles it.
-  /// @throws RunError when no worker is left and none can come
+  /// @throws RunError when no worker is left and none can come; what CrewOptions::heed throws
   void listen(std::chrono::milliseconds timeout);
   /// A member that cannot be reached is lost at the next listen.
   void send(Member& member, const Message& message);
@@ -104,6 +106,9 @@ class Crew {
   /// The same with a member that was found to say what is false. A guest is told, is not let in again by this
   /// connection, and its key is shut out of the run when that happens too often; so is the place of one of ours.
   void send_away(Member& member, const std::string& cause);
+  /// How much of the time since `elapsed` ago, when this was asked last, a process of ours was ready to run and others
+  /// had the processors. Zero for guests: nobody here sees their machine.
+  [[nodiscard]] Clock::duration starved(const Member& member, Clock::duration elapsed);
   /// Local workers that have answered get their number of restarts back.
   static void praise(Member& member) { member.has_answered = true; }
 
@@ -123,6 +128,7 @@ class Crew {
     std::optional<Process> process = {};
     Address address = {};  ///< of its member; empty before its Hello
     Clock::time_point started = {};
+    ProcessorShare share = {};     ///< of the process, when it was looked at last
     Clock::time_point due = {};    ///< when an empty seat is to be filled
     int fruitless = 0;             ///< counts ends without a job since it last answered
     int offences = 0;              ///< times that it was sent away

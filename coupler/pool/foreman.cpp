@@ -47,6 +47,7 @@ CrewOptions crew_options(const PoolOptions& options) {
   crew.heartbeat_seconds = options.patience.silence_seconds / kHeartbeatsInSilence;
   crew.listening = options.listening;
   crew.tell = options.tell;
+  crew.heed = options.heed;
   return crew;
 }
 
@@ -84,8 +85,9 @@ void Foreman::work(std::vector<Task>& tasks) {
   while (done_ < tasks.size()) {
     crew_.listen(tick_);
     const Clock::time_point now = Clock::now();
-    counts.member_seconds += static_cast<double>(crew_.members().size()) * seconds_of(now - last);
-    forgive(now - last - tick_);
+    count_seconds(now - last);
+    const Clock::duration excess = now - last - tick_;
+    if (excess > Clock::duration::zero()) excuse_all(excess);
     last = now;
     if (now - checked_ >= tick_ / 2) check_clocks();
     settle_what_waits();
@@ -95,7 +97,12 @@ void Foreman::work(std::vector<Task>& tasks) {
   tasks_ = nullptr;
   counts.bytes_sent = crew_.bytes_sent();
   counts.bytes_received = crew_.bytes_received();
-  counts.wall_seconds += seconds_of(Clock::now() - start);
+  count_seconds(Clock::now() - last);
+}
+
+void Foreman::count_seconds(Clock::duration passed) {
+  counts.wall_seconds += seconds_of(passed);
+  counts.member_seconds += static_cast<double>(crew_.members().size()) * seconds_of(passed);
 }
 
 // ---- what the crew tells
@@ -249,23 +256,28 @@ EvaluateRequest Foreman::request_for(Member& member, const Job& job) {
 
 // ---- clocks
 
-/// Time in which this process itself did not run (stopped, the machine asleep or overloaded) is nobody's
-/// silence.
-void Foreman::forgive(Clock::duration excess) {
-  if (excess < std::chrono::seconds(1)) return;
-  for (Member& member : crew_.members()) {
-    for (Job& job : member.jobs) {
-      job.sent += excess;
-      job.heard += excess;
-      job.resent += excess;
-    }
+void Foreman::excuse(Member& member, Clock::duration time) {
+  for (Job& job : member.jobs) {
+    job.heard += time;
+    job.resent += time;
+    job.excused += time;
   }
 }
 
+/// Time in which this process itself did not run (stopped, the machine asleep or overloaded) is nobody's
+/// silence.
+void Foreman::excuse_all(Clock::duration time) {
+  for (Member& member : crew_.members()) excuse(member, time);
+}
+
+/// Nor is time in which a worker was ready to run and others had the processors: no verdict may depend on what else the
+/// machine does.
 void Foreman::check_clocks() {
   const PatienceLimits& patience = options_.patience;
   const Clock::time_point now = Clock::now();
+  const Clock::duration elapsed = now - checked_;
   checked_ = now;
+  for (Member& member : crew_.members()) excuse(member, crew_.starved(member, elapsed));
   std::vector<std::pair<Member*, std::string>> hung;
   for (Member& member : crew_.members()) {
     if (member.jobs.empty()) continue;
@@ -277,7 +289,7 @@ void Foreman::check_clocks() {
     if (silence > patience.silence_seconds) {
       hung.emplace_back(&member,
                         fmt::format("it hangs: no sign of life for {:.3g} s", patience.silence_seconds));
-    } else if (seconds_of(now - job.sent) > limit) {
+    } else if (seconds_of(now - job.sent - job.excused) > limit) {
       hung.emplace_back(
           &member, fmt::format("the cell takes longer than {:.3g} s; the longest before took {:.3g} s", limit,
                                longest));

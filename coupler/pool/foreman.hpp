@@ -103,7 +103,9 @@ class Foreman final : private CrewEvents {
   [[nodiscard]] std::string place_of(const Job& job) const;
 
   // Clocks.
-  void forgive(Clock::duration excess);
+  static void excuse(Member& member, Clock::duration time);
+  void excuse_all(Clock::duration time);
+  void count_seconds(Clock::duration passed);
   void check_clocks();
   void tell(const std::string& text) const;
 

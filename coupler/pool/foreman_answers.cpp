@@ -185,6 +185,7 @@ Job Foreman::finished(Member& member, std::uint64_t request) {
   if (was_current && !member.jobs.empty()) {
     Job& next = member.jobs.front();
     next.sent = next.heard = next.resent = now;
+    next.excused = {};
   }
   Crew::praise(member);
   const double busy = was_current ? seconds_of(now - job.sent) : 0.0;

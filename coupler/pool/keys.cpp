@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
+#include "common/regular_file.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -58,11 +59,11 @@ struct Line {
 };
 
 std::vector<Line> read_private(const std::filesystem::path& file) {
+  if (const std::string reason = why_no_input(file); !reason.empty())
+    refuse(file, 0, reason + "; 'polargrain keys DIR' makes the files of keys");
   struct stat status {};
   std::ifstream in(file);
-  if (!in || stat(file.c_str(), &status) != 0) {
-    refuse(file, 0, "there is no such file that can be read; 'polargrain keys DIR' makes the files of keys");
-  }
+  if (!in || stat(file.c_str(), &status) != 0) refuse(file, 0, "cannot be read");
   if ((status.st_mode & 077) != 0) {
     refuse(file, 0,
            fmt::format("other users may read or change this file; say: chmod 600 {}", file.string()));

@@ -3,7 +3,8 @@
 
 namespace polargrain::coupler {
 
-/// When a worker that does not answer is taken for hung.
+/// When a worker that does not answer is taken for hung. For processes of our own time counts in which they run or
+/// wait for something; not that in which they are ready to run and others have the processors.
 struct PatienceLimits {
   /// A worker at work that has given no sign of life for so long is given up; alive, it says so thirty times
   /// as often.

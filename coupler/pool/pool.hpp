@@ -27,7 +27,7 @@ struct PoolOptions {
   std::vector<std::string> worker_command;
   /// Local workers run any script (grains_io/script.hpp).
   bool trust_scripts = false;
-  /// A worker that has not said Hello after so long is a start-up failure.
+  /// A worker that has not said Hello after so long is a start-up failure; see PatienceLimits for the time that counts.
   double startup_seconds = 60.0;
   /// Bytes that a worker is assumed to keep; see StateCache.
   std::size_t cache_bytes = kWorkerCacheBytes;
@@ -38,6 +38,9 @@ struct PoolOptions {
   StateCheck state_fault;
   /// Share of the evaluations that two workers must agree on, 0 to 1; see foreman_checks.cpp.
   double check_share = 0.0;
+  /// Called twice a second at least while the pool waits for anything, its first workers included. What it throws ends the
+  /// waiting: this is where a program heeds the signals it was sent. Empty: the pool waits undisturbed.
+  std::function<void()> heed;
   /// Gets a sentence about everything the user should know that ends nothing: a worker lost, a guest refused.
   std::function<void(const std::string&)> tell;
 };

@@ -56,7 +56,10 @@ int take_lock(const fs::path& directory) {
 
 PrivateDirectory::PrivateDirectory() {
   std::error_code error;
-  std::string name = (fs::temp_directory_path(error) / (std::string(kPrefix) + "XXXXXX")).string();
+  // Absolute: a worker that is confined, or that lives in another folder, would look for the socket elsewhere.
+  fs::path place = fs::temp_directory_path(error);
+  if (!error) place = fs::absolute(place, error).lexically_normal();
+  std::string name = (place / (std::string(kPrefix) + "XXXXXX")).string();
   if (error || name.size() > 90) name = std::string("/tmp/") + kPrefix + "XXXXXX";
   remove_stale(fs::path(name).parent_path());
   if (mkdtemp(name.data()) == nullptr) {

@@ -15,7 +15,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 
@@ -136,12 +138,26 @@ std::optional<std::string> Process::end() {
   return end_;
 }
 
-bool Process::stopped() const {
+std::chrono::nanoseconds starved_between(const ProcessorShare& before, const ProcessorShare& now,
+                                         std::chrono::nanoseconds elapsed) {
+  if (now.ready && now.ran == before.ran) return elapsed;  // this wait is not over, and not in `waited` yet
+  return std::clamp(now.waited - before.waited, std::chrono::nanoseconds::zero(), elapsed);
+}
+
+ProcessorShare Process::processor_share() const {
+  std::ifstream in(fmt::format("/proc/{}/schedstat", id_));
+  std::int64_t ran = 0;
+  std::int64_t waited = 0;
+  if (!(in >> ran >> waited)) return {};
+  return {std::chrono::nanoseconds(ran), std::chrono::nanoseconds(waited), state() == 'R'};
+}
+
+char Process::state() const {
   std::ifstream in(fmt::format("/proc/{}/stat", id_));
   std::string line;
   std::getline(in, line);
   const std::size_t name_end = line.rfind(')');  // the name may hold anything
-  return name_end != std::string::npos && line.size() > name_end + 2 && line[name_end + 2] == 'T';
+  return name_end != std::string::npos && line.size() > name_end + 2 ? line[name_end + 2] : ' ';
 }
 
 void Process::note(int status) {

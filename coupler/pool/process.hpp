@@ -2,12 +2,24 @@
 #pragma once
 #include <sys/types.h>
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace polargrain::coupler {
+
+/// What the main thread of a process had of the processors since its start. Zeros where the system does not tell.
+struct ProcessorShare {
+  std::chrono::nanoseconds ran{};
+  std::chrono::nanoseconds waited{};  ///< it was ready to run, and others ran; as of when it ran last
+  bool ready = false;                 ///< it is ready to run now
+};
+
+/// How long a process was ready to run and did not, between two looks at it that are `elapsed` apart.
+std::chrono::nanoseconds starved_between(const ProcessorShare& before, const ProcessorShare& now,
+                                         std::chrono::nanoseconds elapsed);
 
 /// A child process whose whole output goes to a file. It ends with us, however we end: by this destructor, or
 /// by the kernel when we are killed (PR_SET_PDEATHSIG).
@@ -36,12 +48,15 @@ class Process {
   /// The signal that ended it, once end() has told; nothing when it ended by itself.
   [[nodiscard]] std::optional<int> end_signal() const { return end_signal_; }
   /// Whether a signal has stopped it (SIGSTOP), so that it cannot even be heard of.
-  [[nodiscard]] bool stopped() const;
+  [[nodiscard]] bool stopped() const { return state() == 'T'; }
+  [[nodiscard]] ProcessorShare processor_share() const;
   /// Waits so long for the end, then kills.
   void finish(int milliseconds);
 
  private:
   void note(int status);
+  /// The letter that the system gives it: R runs or is ready to, T is stopped, S sleeps; a space when it is gone.
+  [[nodiscard]] char state() const;
 
   pid_t id_ = -1;
   int end_descriptor_ = -1;

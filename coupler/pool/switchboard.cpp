@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 #include <sys/epoll.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <string_view>
 
 #include "common/error.hpp"
+#include "coupler/pool/descriptors.hpp"
 #include "coupler/protocol/messages.hpp"
 
 namespace polargrain::coupler {
@@ -20,14 +22,6 @@ constexpr const char* kMonitorUrl = "inproc://handshakes";
 
 /// Peers refused one by one in the log; of the rest only a count now and then.
 constexpr std::size_t kToldSingly = 10;
-
-/// Every worker over TCP needs a descriptor; the usual limit of 1024 is meant for programs that use select.
-void allow_many_descriptors() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  limit.rlim_cur = limit.rlim_max;
-  setrlimit(RLIMIT_NOFILE, &limit);
-}
 
 std::string next_part(zmq::socket_t& socket, bool& more) {
   zmq::message_t part;
@@ -46,7 +40,7 @@ Switchboard::Switchboard(const std::filesystem::path& directory, const std::opti
     : tell_(std::move(tell)),
       watched_(epoll_create1(EPOLL_CLOEXEC)),
       local_url_("ipc://" + (directory / "coordinator").string()) {
-  if (listening) allow_many_descriptors();
+  allow_many_descriptors();  // every worker needs one or two
   local_.set(zmq::sockopt::linger, 0);
   local_.set(zmq::sockopt::router_mandatory, true);
   local_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
@@ -58,16 +52,29 @@ Switchboard::~Switchboard() {
   close(watched_);
 }
 
+void check_tcp_url(const std::string& option, const std::string& url) {
+  constexpr std::string_view kScheme = "tcp://";
+  const std::size_t colon = url.rfind(':');
+  const std::string port = colon == std::string::npos ? "" : url.substr(colon + 1);
+  int number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  const bool is_port = port == "*" || (error == std::errc() && end == port.data() + port.size() &&
+                                       number >= 1 && number <= 65535 && port.front() != '-');
+  if (url.starts_with(kScheme) && colon != std::string::npos && colon > kScheme.size() && is_port) return;
+  throw InputError(
+      {"", 0,
+       fmt::format("{} {}: expected tcp://HOST:PORT, with a port of 1 to 65535, such as tcp://*:5570", option,
+                   url)});
+}
+
 void Switchboard::serve_others(const Listening& listening) try {
-  if (listening.url.rfind("tcp://", 0) != 0) {
-    throw InputError({"", 0, fmt::format("--listen {}: expected tcp://HOST:PORT", listening.url)});
-  }
+  check_tcp_url("--listen", listening.url);
   keys_ = listening.keys;
   gate_.emplace(context_, zmq::socket_type::rep);
   gate_->set(zmq::sockopt::linger, 0);
   gate_->bind("inproc://zeromq.zap.01");  // the name is ZeroMQ's own (its RFC 27)
   remote_.emplace(context_, zmq::socket_type::router);
-  remote_->set(zmq::sockopt::linger, 500);  // so that the last Stop goes out
+  remote_->set(zmq::sockopt::linger, 5000);  // so that the last Stop goes out, on a busy machine too
   remote_->set(zmq::sockopt::router_mandatory, true);
   remote_->set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
   remote_->set(zmq::sockopt::curve_server, true);

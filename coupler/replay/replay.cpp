@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/plane_in_space.hpp"
 #include "common/record_values.hpp"
+#include "grains_io/neighbour_distance.hpp"
 #include "grains_io/packing_data.hpp"
 
 namespace polargrain::coupler {
@@ -96,8 +97,9 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
       "# The README beside this file says what it is and what to expect. Add dumps and thermo output as you\n"
       "# like, behind the fix; they change nothing.\n\n"
       "variable        packing index {}\n"
+      "variable        neighbour_distance index {}\n"
       "include         {}\n\n",
-      definition.name, command_of(definition), kPacking, kScript);
+      definition.name, command_of(definition), kPacking, neighbour_distance(definition.packing), kScript);
   const bool controlled = definition.control.rotations == CellRotations::controlled;
   text += fmt::format(
       "fix             cell all cell/load version {} &\n"
@@ -152,11 +154,13 @@ std::string readme(const CellDefinition& definition, const Replay& replay) {
             "face.\n";
   if (replay.answers.empty()) return text + "\nThe cell gave no answer that could be compared.\n";
   text +=
-      definition.control.loop == CellLoop::engine || space
+      definition.control.loop == CellLoop::engine
           ? "The cell answered, and the replay prints the same digits:\n\n"
-          : "The cell answered, stepped by the loop over discs. The replay runs in LIGGGHTS's own loop and "
-            "agrees until\nround-off has grown, to eight digits and more over a thousand steps; with "
-            "`loop: engine` in the case to all:\n\n";
+          : fmt::format(
+                "The cell answered, stepped by the loop over {} unless run.log says otherwise. The replay runs in "
+                "LIGGGHTS's own loop and agrees until\nround-off has grown, to eight digits and more over a "
+                "thousand steps; with `loop: engine` in the case to all:\n\n",
+                space ? "spheres" : "discs");
   for (std::size_t k = 0; k < replay.answers.size(); ++k) {
     if (space) {
       const Vector18 s = replay.answers[k].components();

@@ -82,7 +82,7 @@ Cell::Cell(const CellDefinition& definition)
       driver_(sound(definition).packing, definition.script, definition.script_file,
               definition.contact_library) {
   LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
-  if (controlled()) check_rolling_model(lammps);
+  if (controlled() && is_bent(control_)) check_rolling_model(lammps);
   const Packing& packing = definition.packing;
   if (packing.state) restore_packing([&] { restore_state(lammps, *packing.state); });
   driver_.set_up();
@@ -96,7 +96,8 @@ Cell::Cell(const CellDefinition& definition)
   if (controlled()) renew_weights();
 
   initial_.response = respond(tangent(0.0));
-  initial_.response.message = remark;
+  initial_.response.message =
+      remarks_at_rest(remark, control_, "the loop over discs", disc_combination(lammps));
   initial_.diagnostics = measure();
   const double pressure = -0.5 * (initial_.response.stress(0, 0) + initial_.response.stress(1, 1));
   check(packing, pressure, definition.script_file);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/stepping_note.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/script_time_step.hpp"
 #include "dem/engine/liggghts.hpp"
@@ -65,6 +66,21 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
   response.quality = Quality::unreliable;
   response.step_factor = 0.5;
   response.message = std::move(reason);
+}
+
+std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
+                            const DiscSelection& selection, std::string_view instructions) {
+  std::string note(kSteppingNote);
+  if (control.loop == CellLoop::engine)
+    note += "LIGGGHTS's own loop, as `loop: engine` asks";
+  else if (!selection.combination)
+    note += fmt::format("LIGGGHTS's own loop, which is slower: {} does not take {}", loop, selection.reason);
+  else if (control.loop == CellLoop::plain)
+    note += fmt::format("the plain twin of {} ({})", loop, selection.combination->name());
+  else
+    note += fmt::format("{} ({}{}{})", loop, selection.combination->name(), instructions.empty() ? "" : "; ",
+                        instructions);
+  return remark.empty() ? note : remark + "\n" + note;
 }
 
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,

@@ -3,10 +3,13 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "common/cell.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/time_step.hpp"
+#include "dem/discs/combination.hpp"
 
 namespace polargrain::dem {
 
@@ -19,6 +22,12 @@ inline constexpr double kHold = 1e-4;
 /// The largest strain, displacement gradient, rotation, or curvature times mean diameter that a cell takes in
 /// one increment.
 inline constexpr double kLargestIncrement = 0.25;
+
+/// Whether cells of this kind may be given a curvature. Those that are asked for their network (CellTangent::cosserat) are
+/// sheared and turned, to find the moduli and limits of a packing, and never bent.
+inline bool is_bent(const CellControl& control) {
+  return control.tangent != CellTangent::cosserat;
+}
 
 /// Ends the process where rotations are controlled and the rolling model is one that would not feel a curvature.
 void check_rolling_model(LAMMPS_NS::LAMMPS& lammps);
@@ -36,6 +45,12 @@ std::optional<CellReply> gone_astray(double size);
 void judge(CellResponse& response, const CellDiagnostics& diagnostics, const QuasiStatic& protocol,
            const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
            const Inertia& inertia, double time_step, double most_void_ratio);
+
+/// What a cell remarks on its packing at rest, a line each: `remark`, if there is one, and which loop steps its grains.
+/// @param loop that takes the scenes it knows: "the loop over discs" @param selection what it says of this scene
+/// @param instructions that it is compiled for, or nothing
+std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
+                            const DiscSelection& selection, std::string_view instructions = {});
 
 /// Diagnostics from the contacts of a cell, but for fabric and rotations.
 /// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres

@@ -13,6 +13,7 @@
 #include "dem/cell/packed_grains.hpp"
 #include "dem/discs/disc_box.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/sphere_loop/sphere_box.hpp"
 
 namespace polargrain::dem {
 
@@ -145,10 +146,22 @@ RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   for (const DiscSnapshot::Motion& disc : snapshot.discs) restored.rotations.push_back(disc.turned);
   return restored;
 }
+
+/// The same of the loop over spheres.
+RestoredState restore_spheres(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+  const DiscSelection models = disc_models(lammps);
+  if (!models.combination) throw RunError("this state belongs to a cell of another input script");
+  const SphereSnapshot snapshot = decode_spheres(state);
+  put_spheres(lammps, *models.combination, snapshot);
+  RestoredState restored{{}, {}, snapshot.box};
+  for (const SphereSnapshot::Motion& sphere : snapshot.spheres)
+    restored.rotations.insert(restored.rotations.end(), sphere.turned.begin(), sphere.turned.end());
+  return restored;
+}
 }  // namespace
 
 bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  if (is_disc_state(state)) return false;
+  if (is_disc_state(state) || is_sphere_state(state)) return false;
   try {
     const PackedGrains packed = decode_grains(state);
     return packed.grains() == static_cast<std::size_t>(lammps.atom->natoms) &&
@@ -161,6 +174,7 @@ bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
 
 RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   if (is_disc_state(state) && lammps.domain->dimension == 2) return restore_discs(lammps, state);
+  if (is_sphere_state(state) && lammps.domain->dimension == 3) return restore_spheres(lammps, state);
   PackedGrains packed = decode_grains(state);
   gather_histories(lammps);
   check_records(packed, layout_of(lammps));

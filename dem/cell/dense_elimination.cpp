@@ -178,20 +178,6 @@ void substitute_baseline(const FrontMatrix& factors, const double* known, int kn
 
 }  // namespace
 
-bool is_supported(InstructionSet set) {
-  __builtin_cpu_init();
-  if (set == InstructionSet::avx512) return __builtin_cpu_supports("avx512f") != 0;
-  if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2") != 0;
-  return true;
-}
-
-InstructionSet best_instruction_set() {
-  static const InstructionSet best = is_supported(InstructionSet::avx512) ? InstructionSet::avx512
-                                     : is_supported(InstructionSet::avx2) ? InstructionSet::avx2
-                                                                          : InstructionSet::baseline;
-  return best;
-}
-
 bool eliminate(const FrontMatrix& front, InstructionSet set) {
   if (set == InstructionSet::avx512) return eliminate_avx512(front);
   if (set == InstructionSet::avx2) return eliminate_avx2(front);

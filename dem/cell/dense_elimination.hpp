@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "dem/cell/instruction_set.hpp"
 
 namespace polargrain::dem {
 
@@ -8,14 +9,6 @@ namespace polargrain::dem {
 // ... in this order, each product and each difference rounded on its own, and instruction sets differ only in
 // how many elements they treat at a time. Hence no fused multiply-add may be used here (CMakeLists.txt
 // forbids the compiler to make any).
-
-enum class InstructionSet { baseline, avx2, avx512 };
-
-/// Whether this processor can run kernels of that instruction set.
-bool is_supported(InstructionSet set);
-
-/// The best one supported.
-InstructionSet best_instruction_set();
 
 /// Doubles that must follow the last column of each row of a matrix given to the kernels; they come out
 /// unchanged if they are zero.

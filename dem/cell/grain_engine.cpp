@@ -31,7 +31,7 @@ GrainEngine::GrainEngine(const Packing& packing, const std::string& script, cons
     mean_mass_ += grain.mass / grains_;
   }
   const PackingDataFile data(packing);
-  engine_.command(fmt::format("variable packing index {}", data.path()));
+  data.define_variables(engine_);
   engine_.script(script, script_file);
   if (after_script) after_script(engine_);
   time_step_.emplace(engine_.lammps());

@@ -47,9 +47,9 @@ class GrainEngine {
   /// The time step from the recorded contacts, or the script's checked against them (ScriptTimeStep::settle).
   /// @param damping as CellControl::damping @returns a remark for the user, or nothing
   std::string settle_time_step(double damping);
-  /// A shorter one where the recorded contacts have stiffened (ScriptTimeStep::shorten). @returns whether it was taken
-  bool shorten_time_step(const Inertia& inertia, double damping_rate) {
-    return time_step_->shorten(lammps(), contacts(), inertia, damping_rate);
+  /// A shorter one where contacts have stiffened (ScriptTimeStep::shorten). @returns whether it was taken
+  bool shorten_time_step(std::span<const Contact> stiffened, const Inertia& inertia, double damping_rate) {
+    return time_step_->shorten(lammps(), stiffened, inertia, damping_rate);
   }
   /// The time step of a packing in the making (ScriptTimeStep::renew).
   void renew_time_step(const StiffestContact& stiffest, double damping_rate) {

@@ -6,11 +6,14 @@
 #include <unistd.h>
 
 #include "common/error.hpp"
+#include "dem/engine/engine.hpp"
+#include "grains_io/neighbour_distance.hpp"
 #include "grains_io/packing_data.hpp"
 
 namespace polargrain::dem {
 
-PackingDataFile::PackingDataFile(const Packing& packing) : descriptor_(memfd_create("packing", MFD_CLOEXEC)) {
+PackingDataFile::PackingDataFile(const Packing& packing)
+    : neighbour_distance_(neighbour_distance(packing)), descriptor_(memfd_create("packing", MFD_CLOEXEC)) {
   const std::string text = packing_data(packing);
   std::size_t written = 0;
   while (descriptor_ >= 0 && written < text.size()) {
@@ -27,6 +30,11 @@ PackingDataFile::~PackingDataFile() {
 
 std::string PackingDataFile::path() const {
   return fmt::format("/proc/self/fd/{}", descriptor_);
+}
+
+void PackingDataFile::define_variables(Engine& engine) const {
+  engine.command(fmt::format("variable packing index {}", path()));
+  engine.command(fmt::format("variable neighbour_distance index {}", neighbour_distance_));
 }
 
 }  // namespace polargrain::dem

@@ -6,6 +6,8 @@
 
 namespace polargrain::dem {
 
+class Engine;
+
 /// The data file of a packing (grains_io/packing_data.hpp) that exists in memory only, for `read_data
 /// ${packing}`: an engine error ends the process on the spot, and must leave no file behind.
 class PackingDataFile {
@@ -17,8 +19,12 @@ class PackingDataFile {
   ~PackingDataFile();
   /// Path that this process can open.
   [[nodiscard]] std::string path() const;
+  /// Gives the engine what scripts ask of a packing: ${packing}, that path, and ${neighbour_distance}
+  /// (grains_io/neighbour_distance.hpp).
+  void define_variables(Engine& engine) const;
 
  private:
+  std::string neighbour_distance_;
   int descriptor_ = -1;
 };
 

@@ -9,6 +9,7 @@
 #include "dem/cell/packed_grains.hpp"
 #include "dem/cell/state_bounds.hpp"
 #include "dem/discs/disc_state.hpp"
+#include "dem/sphere_loop/sphere_state.hpp"
 
 namespace polargrain::dem {
 
@@ -39,6 +40,16 @@ void check_grains(const Packing& packing, double area, const State& state) {
     throw RunError(fault);
 }
 
+void check_spheres(const Packing& packing, const State& state) {
+  const SphereSnapshot snapshot = decode_spheres(state);
+  if (snapshot.spheres.size() != packing.grains.size())
+    throw RunError(fmt::format("this state is of {} grains; the cell has {}", snapshot.spheres.size(),
+                               packing.grains.size()));
+  std::vector<double> radii;
+  for (const Grain& grain : packing.grains) radii.push_back(grain.radius);
+  if (const std::string fault = snapshot_fault(snapshot, radii, 0.0); !fault.empty()) throw RunError(fault);
+}
+
 }  // namespace
 
 std::string state_fault(const CellDefinition& definition, const State& state) {
@@ -49,14 +60,20 @@ std::string state_fault(const CellDefinition& definition, const State& state) {
                        least_state_bytes(grains), most_state_bytes(grains));
   if (!state.is_here()) return {};
   // Such a cell never makes one; its loop would take up, with other contacts, whatever stands in it.
-  if (definition.control.loop == CellLoop::engine && is_disc_state(state))
-    return "a state of the loop over discs, of a cell that runs in the engine's loop";
+  if (definition.control.loop == CellLoop::engine && (is_disc_state(state) || is_sphere_state(state)))
+    return fmt::format("a state of the loop over {}, of a cell that runs in the engine's loop",
+                       is_disc_state(state) ? "discs" : "spheres");
   double area = 0.0;
   for (const Grain& grain : packing.grains) area += std::numbers::pi * grain.radius * grain.radius;
   try {
     if (packing.dimension == 3 && is_disc_state(state))
       throw RunError("this state is of discs, and the cell is of spheres in space");
-    is_disc_state(state) ? check_discs(packing, area, state) : check_grains(packing, area, state);
+    if (packing.dimension == 2 && is_sphere_state(state))
+      throw RunError("this state is of spheres in space, and the cell is of discs");
+    if (is_sphere_state(state))
+      check_spheres(packing, state);
+    else
+      is_disc_state(state) ? check_discs(packing, area, state) : check_grains(packing, area, state);
   } catch (const RunError& error) {
     return error.what();
   }

@@ -18,6 +18,7 @@ struct SpokenSettings {
   bool symmetric = false;             ///< both li_chu
   bool rolling_damped = false;        ///< rolling li_chu
   bool mean_radius = false;           ///< rolling li_chu
+  bool torsion = false;               ///< rolling epsd2, li_chu
   /// Any of the settings that keep books (heat, energies) or switch forces off; some of them, a listener each.
   bool books[6] = {};
 
@@ -55,6 +56,8 @@ struct SpokenSettings {
       settings.registerOnOff("rollingFrictionForceDamping", rolling_force_damped, false);
       settings.registerOnOff("symmetricCoupling", symmetric, false);
     }
+    if (model(3) == ROLLING_EPSD2 || model(3) == ROLLING_LI_CHU)
+      settings.registerOnOff("torsionTorque", torsion, false);
     if (model(3) == ROLLING_LI_CHU) {
       settings.registerOnOff("rollingDamping", rolling_damped, false);
       settings.registerOnOff("meanRadius", mean_radius, false);

@@ -51,10 +51,10 @@ std::optional<RollingLaw> rolling_of(int number) {
   return std::nullopt;
 }
 
-/// The first fix of the scene that does more than the loop over discs does; empty when there is none.
+/// The first fix of the scene that does more than the loops over grains do; empty when there is none.
 std::string foreign_fix(const LAMMPS& lammps) {
-  constexpr std::array<std::string_view, 5> kKnown{"property/global", "nve/sphere", "enforce2d",
-                                                   "contacthistory", "cell/strain"};
+  constexpr std::array<std::string_view, 6> kKnown{"property/global", "nve/sphere",  "enforce2d",
+                                                   "contacthistory",  "cell/strain", "cell/space_strain"};
   int integrators = 0;
   for (int k = 0; k < lammps.modify->nfix; ++k) {
     const LAMMPS_NS::Fix& fix = *lammps.modify->fix[k];
@@ -68,9 +68,9 @@ std::string foreign_fix(const LAMMPS& lammps) {
   return integrators == 1 ? "" : "a fix nve/sphere that is missing or doubled";
 }
 
-/// Why a scene is none for the loop over discs, whatever its contacts; empty when it is one.
-std::string foreign_scene(const LAMMPS& lammps) {
-  if (lammps.domain->dimension != 2) return "dimension 3";
+/// Why a scene is none for the loop over discs, or spheres, whatever its contacts; empty when it is one.
+std::string foreign_scene(const LAMMPS& lammps, int dimension) {
+  if (lammps.domain->dimension != dimension) return fmt::format("dimension {}", lammps.domain->dimension);
   if (lammps.force->newton_pair) return "newton on";
   if (lammps.atom->rmass == nullptr || lammps.atom->radius == nullptr) return "an atom style without radii";
   return foreign_fix(lammps);
@@ -159,14 +159,27 @@ LawSettings law_settings(const SpokenSettings& spoken, const DiscCombination& ma
   on.symmetric = spoken.symmetric;
   on.rolling_damped = spoken.rolling_damped;
   on.mean_radius = spoken.mean_radius;
+  on.torsion = spoken.torsion;
   return on;
 }
 
 }  // namespace
 
 DiscSelection disc_combination(LAMMPS& lammps) {
-  if (std::string why = foreign_scene(lammps); !why.empty()) return {std::nullopt, std::move(why)};
+  if (std::string why = foreign_scene(lammps, 2); !why.empty()) return {std::nullopt, std::move(why)};
   return disc_models(lammps);
+}
+
+DiscSelection sphere_combination(LAMMPS& lammps) {
+  if (std::string why = foreign_scene(lammps, 3); !why.empty()) return {std::nullopt, std::move(why)};
+  // Spheres are counted as in the packing.
+  for (int k = 0; k < lammps.atom->nlocal; ++k)
+    if (lammps.atom->tag[k] != k + 1) return {std::nullopt, "grains that the engine has reordered"};
+  DiscSelection selection = disc_models(lammps);
+  // At the limit of its spring this dashpot jumps, and there the loop differs from LIGGGHTS's by more than rounding.
+  if (selection.combination && selection.combination->settings.rolling_damped)
+    return {std::nullopt, "rollingDamping on"};
+  return selection;
 }
 
 DiscSelection disc_models(LAMMPS& lammps) {

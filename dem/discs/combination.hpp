@@ -25,6 +25,7 @@ struct LawSettings {
   bool symmetric = false;             ///< li_chu: the pair of laws has an elastic energy
   bool rolling_damped = false;        ///< rolling li_chu: dashpot
   bool mean_radius = false;           ///< rolling li_chu: r_c is the mean radius
+  bool torsion = false;               ///< rolling laws of spheres resist twisting too
 };
 
 /// Parameters of the contacts between two types of grains, made ready for the loop.
@@ -46,7 +47,7 @@ struct PairParameters {
   double rolling_force_damping = 0.0;    ///< li_chu: zeta_r
 };
 
-/// What a script says of its contacts, where the loop over discs can take it.
+/// What a script says of its contacts, where the loops over discs and over spheres can take it.
 struct DiscCombination {
   NormalLaw normal = NormalLaw::hooke_radii;
   TangentialLaw tangential = TangentialLaw::history;
@@ -71,5 +72,8 @@ DiscSelection disc_models(LAMMPS_NS::LAMMPS& lammps);
 /// Whether the scene of an initialised engine can be stepped by the loop over discs: a plane scene of one of
 /// the combinations above that does nothing but integrate its grains.
 DiscSelection disc_combination(LAMMPS_NS::LAMMPS& lammps);
+
+/// The same for the loop over spheres: a scene in space.
+DiscSelection sphere_combination(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace polargrain::dem

@@ -183,13 +183,24 @@ class Compression {
         "(asked {:.6g}), "
         "anisotropy {:.1e}, shear {:.1e} (each within {:.1e}), unbalanced force ratio {:.1e}, "
         "moment ratio {:.1e} "
-        "(at most {:.1e}), coordination number {:.2f}; raise pressure_tolerance, "
-        "unbalanced_force_ratio, damping or "
-        "most_steps",
+        "(at most {:.1e}), coordination number {:.2f}; {}",
         specification_.most_steps, 1e-3 * reached_.pressure, 1e-3 * aim_.pressure, reached_.anisotropy,
         reached_.shear, specification_.pressure_tolerance, reached_.unbalanced_force_ratio,
-        reached_.unbalanced_moment_ratio, specification_.unbalanced_force_ratio,
-        reached_.coordination_number));
+        reached_.unbalanced_moment_ratio, specification_.unbalanced_force_ratio, reached_.coordination_number,
+        remedy()));
+  }
+
+  /// Below this the grains are hard for their stress as sand is under the weight of a millimetre of it: a contact opens
+  /// and closes over less than rounding leaves of its overlap.
+  static constexpr double kLowPressure = 1e3;  // Pa
+
+  [[nodiscard]] std::string remedy() const {
+    const std::string keys = "raise pressure_tolerance, damping or most_steps";
+    if (aim_.pressure >= kLowPressure) return keys;
+    return fmt::format(
+        "{:.3g} Pa is very little for contacts of this stiffness: ask for 1 kPa or more, lower the stiffness of the contacts in "
+        "the script with the pressure, or {}",
+        aim_.pressure, keys);
   }
 
   const PackingSpecification& specification_;

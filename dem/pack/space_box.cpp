@@ -45,7 +45,7 @@ class PressedSpheres final : public PressedBox {
     }
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
     const PackingDataFile data(packing);
-    engine_.command(fmt::format("variable packing index {}", data.path()));
+    data.define_variables(engine_);
     engine_.script(specification.script, specification.script_file);
     if (friction) set_friction(engine_, *friction);
     script_time_step_.emplace(lammps);

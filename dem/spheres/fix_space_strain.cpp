@@ -66,13 +66,8 @@ void FixSpaceStrain::begin(const SpacePath& path, double damping_rate,
 }
 
 void FixSpaceStrain::lead(QuasiStatic& protocol, const CellIncrement& increment) {
-  const Eigen::Matrix3d& gradient = increment.displacement_gradient;
-  const SpaceRotation rotation{increment.rotation, increment.curvature};
-  const SpacePath whole({Eigen::Matrix3d::Identity()}, gradient, 1);
-  protocol.begin(largest_principal_strain(whole), rotation.against(whole).norm(), increment.curvature.norm(),
-                 update->dt);
-  begin(SpacePath(box(), gradient, protocol.loading()), protocol.damping_rate(),
-        protocol.controlled() ? std::optional(rotation) : std::nullopt);
+  const SpaceLead led = lead_along(protocol, box(), increment, update->dt);
+  begin(led.path, protocol.damping_rate(), led.rotation);
 }
 
 void FixSpaceStrain::fold() {
@@ -181,6 +176,17 @@ void FixSpaceStrain::damp() {
     Place(atom->f[k]) -= mass_rate * (velocity - flow);
     Place(atom->torque[k]) -= inertia_rate * (Place(atom->omega[k]) - spin);
   }
+}
+
+SpaceLead lead_along(QuasiStatic& protocol, const SpaceBox& box, const CellIncrement& increment,
+                     double time_step) {
+  const Eigen::Matrix3d& gradient = increment.displacement_gradient;
+  const SpaceRotation rotation{increment.rotation, increment.curvature};
+  const SpacePath whole({Eigen::Matrix3d::Identity()}, gradient, 1);
+  protocol.begin(largest_principal_strain(whole), rotation.against(whole).norm(), increment.curvature.norm(),
+                 time_step);
+  return {SpacePath(box, gradient, protocol.loading()),
+          protocol.controlled() ? std::optional(rotation) : std::nullopt};
 }
 
 namespace {

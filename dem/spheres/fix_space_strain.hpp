@@ -13,6 +13,16 @@
 
 namespace polargrain::dem {
 
+/// What is prescribed of an increment: a path, and rotations where they are controlled.
+struct SpaceLead {
+  SpacePath path;
+  std::optional<SpaceRotation> rotation;
+};
+/// Begins an increment of a box, of as many steps as the protocol says.
+/// @throws RunError when the box would lose its volume, or the protocol takes no increment of that size
+SpaceLead lead_along(QuasiStatic& protocol, const SpaceBox& box, const CellIncrement& increment,
+                     double time_step);
+
 /// fix ID all cell/space_strain
 ///
 /// Carries the periodic box of a cell of spheres along a SpacePath, one DEM step at a time: what fix cell/strain does in
@@ -39,8 +49,7 @@ class FixSpaceStrain : public LAMMPS_NS::Fix {
   /// @param damping_rate 1/s @param rotation prescribed mean rotation; nothing leaves the rotations free (mode 1)
   void begin(const SpacePath& path, double damping_rate,
              const std::optional<SpaceRotation>& rotation = std::nullopt);
-  /// Begins an increment from the box as it is, of as many steps as the protocol says.
-  /// @throws RunError when the box would lose its volume, or the protocol takes no increment of that size
+  /// Begins an increment from the box as it is (lead_along).
   void lead(QuasiStatic& protocol, const CellIncrement& increment);
   /// Folds grains that have left the box back into its reduced description, and puts that in its place. Only at rest:
   /// velocities are not changed. Neighbours are to be set up anew.

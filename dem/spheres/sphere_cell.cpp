@@ -10,17 +10,16 @@
 #include "common/seconds.hpp"
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_answers.hpp"
-#include "dem/cell/cell_state.hpp"
-#include "dem/cell/grain_engine.hpp"
 #include "dem/cell/grains_in_laboratory.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/engine/liggghts.hpp"
-#include "dem/spheres/fix_space_strain.hpp"
+#include "dem/sphere_loop/engine_sphere_box.hpp"
+#include "dem/sphere_loop/sphere_box.hpp"
 #include "dem/spheres/increment_slip.hpp"
 #include "dem/spheres/space_contact.hpp"
 #include "dem/spheres/space_tangents.hpp"
-#include "grains_io/packing_data.hpp"
+#include "dem/spheres/sphere_engine.hpp"
 
 namespace polargrain::dem {
 
@@ -36,43 +35,12 @@ const CellDefinition& sound(const CellDefinition& definition) {
   return definition;
 }
 
-class SphereEngine : public GrainEngine {
- public:
-  explicit SphereEngine(const CellDefinition& definition)
-      : GrainEngine(definition.packing, definition.script, definition.script_file, definition.contact_library,
-                    {}, "cell/space_strain"),
-        strain_(dynamic_cast<FixSpaceStrain*>(strain_fix())) {
-    // The engine's own box, to the bit: who starts from its data file starts from the same.
-    SpaceBox box = strain_->engine_box();
-    box.frame = frame_of_packing_data(definition.packing);
-    strain_->begin(SpacePath(box, Eigen::Matrix3d::Zero(), 0), 0.0);
-    start();
-    if (definition.packing.state) restore_packing([&] { restore(*definition.packing.state); });
-  }
-  FixSpaceStrain& strain() { return *strain_; }
-  [[nodiscard]] const FixSpaceStrain& strain() const { return *strain_; }
-
-  void restore(const State& state) {
-    lammps().update->ntimestep = 0;  // nothing of an earlier path may show in this one
-    const RestoredState restored = restore_state(lammps(), state);
-    strain_->begin(SpacePath(restored.space.value(), Eigen::Matrix3d::Zero(), 0), 0.0);
-    strain_->set_rotations(restored.rotations);
-  }
-  StatePointer save() {
-    strain_->fold();
-    return save_state(lammps(), strain_->box(), strain_->rotations());
-  }
-
- private:
-  FixSpaceStrain* strain_;
-};
-
 class SphereCell final : public CellOfGrains {
  public:
   explicit SphereCell(const CellDefinition& definition);
   CellReply initial() override { return initial_; }
   CellReply evaluate(const CellRequest& request) override;
-  [[nodiscard]] std::span<const Contact> contacts() const override { return engine_.contacts(); }
+  [[nodiscard]] std::span<const Contact> contacts() const override { return grains_->contacts(); }
   [[nodiscard]] GrainView view() override;
 
  private:
@@ -82,14 +50,16 @@ class SphereCell final : public CellOfGrains {
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
   [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
+  /// The loop over spheres where it knows the scene, else the engine's own.
+  std::unique_ptr<SpaceGrainBox> choose_box();
   /// Neighbours and forces at the positions as they are; no step.
   void set_up();
   void run();
   /// Weights of the grains in the mean rotation from the recorded contacts; none when no grain could be turned.
   [[nodiscard]] std::vector<double> weights() const {
-    return rotation_weights(engine_.contacts(), engine_.grains(), space_normal_force);
+    return rotation_weights(grains_->contacts(), engine_.grains(), space_normal_force);
   }
-  [[nodiscard]] const SpaceBox& box() const { return engine_.strain().box(); }
+  [[nodiscard]] const SpaceBox& box() const { return grains_->box(); }
   [[nodiscard]] Equilibrium equilibrium() const;
   [[nodiscard]] CellDiagnostics measure() const;
   /// Stress and, with controlled rotations, couple stress of the recorded contacts, in the laboratory.
@@ -105,6 +75,7 @@ class SphereCell final : public CellOfGrains {
   double grain_volume_ = 0.0;  // m^3
   SphereEngine engine_;
   Inertia inertia_;
+  std::unique_ptr<SpaceGrainBox> grains_;
   double time_step_ = 0.0;        // s, for the packing at rest
   double frequency_bound_ = 0.0;  // rad/s, of the packing at rest
   IncrementSlip increment_slip_;
@@ -120,20 +91,39 @@ SphereCell::SphereCell(const CellDefinition& definition)
   engine_.progress = [this] {
     if (progress) progress();
   };
-  if (controlled()) check_rolling_model(engine_.lammps());
+  if (controlled() && is_bent(control_)) check_rolling_model(engine_.lammps());
   engine_.set_up();
   const std::string remark = engine_.settle_time_step(control_.damping);
   inertia_ = inertia_of(engine_.lammps());
   time_step_ = engine_.strain().time_step();
-  frequency_bound_ = frequency_bound(engine_.contacts(), inertia_);
+  grains_ = choose_box();
+  grains_->progress = [this] {
+    if (progress) progress();
+  };
+  frequency_bound_ = frequency_bound(grains_->contacts(), inertia_);
   initial_.response = respond(tangent());
-  initial_.response.message = remark;
+  initial_.response.message =
+      remarks_at_rest(remark, control_, "the loop over spheres", sphere_combination(engine_.lammps()),
+                      name_of(best_instruction_set()));
   initial_.diagnostics = measure();
   const double pressure = -initial_.response.stress.trace() / 3.0;
   check(definition.packing, pressure, definition.script_file);
   const double density = engine_.grains() * engine_.mean_mass() / grain_volume_;
-  protocol_.take_scales({engine_.mean_mass(), engine_.mean_radius(), density}, engine_.contacts(), pressure);
-  initial_.state = engine_.save();
+  protocol_.take_scales({engine_.mean_mass(), engine_.mean_radius(), density}, grains_->contacts(), pressure);
+  initial_.state = grains_->save();
+}
+
+std::unique_ptr<SpaceGrainBox> SphereCell::choose_box() {
+  LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
+  const DiscSelection selection = sphere_combination(lammps);
+  if (control_.loop == CellLoop::engine || !selection.combination)
+    return std::make_unique<EngineSphereBox>(engine_);
+  const SphereKernels& kernels = sphere_kernels(best_instruction_set(), control_.loop == CellLoop::plain);
+  auto box = std::make_unique<SphereBox>(spheres_of(lammps, *selection.combination), kernels);
+  const FixSpaceStrain& strain = engine_.strain();
+  box->restore(sphere_snapshot(lammps, *selection.combination, strain.box(), strain.rotations()));
+  box->set_up();
+  return box;
 }
 
 void SphereCell::check(const Packing& packing, double pressure, const std::string& script_file) {
@@ -141,12 +131,12 @@ void SphereCell::check(const Packing& packing, double pressure, const std::strin
                       packing.pressure,
                       0.0,
                       equilibrium(),
-                      overlaps_of(engine_.contacts(), inertia_.radii),
+                      overlaps_of(grains_->contacts(), inertia_.radii),
                       !controlled() || !weights().empty(),
                       true};
   if (pressure > 0.0)
     found.stiffness_level =
-        mean_normal_stiffness(engine_.contacts()) / (pressure * 2.0 * engine_.mean_radius());
+        mean_normal_stiffness(grains_->contacts()) / (pressure * 2.0 * engine_.mean_radius());
   const double unrest = std::max(control_.unbalanced_force_ratio, control_.unbalanced_moment_ratio);
   if (const std::string fault = packing_fault(found, unrest, script_file); !fault.empty())
     engine_.lammps().error->all(FLERR, fault.c_str());
@@ -175,14 +165,17 @@ CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& inc
 }
 
 std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const CellIncrement& increment) {
-  engine_.restore(start ? *start : *initial_.state);
-  engine_.strain().lead(protocol_, increment);
+  grains_->restore(start ? *start : *initial_.state);
+  const double time_step = engine_.strain().time_step();
+  const SpaceLead lead = lead_along(protocol_, box(), increment, time_step);
+  grains_->begin(lead.path, protocol_.damping_rate(), lead.rotation, time_step);
   set_up();
   if (wants_slips())
-    increment_slip_.start(engine_.contacts(), engine_.lammps().atom->x[0], engine_.strain().rotations(),
-                          box(), engine_.grains());
-  const bool stiffer = frequency_bound(engine_.contacts(), inertia_) > kStiffer * frequency_bound_;
-  if (stiffer && engine_.shorten_time_step(inertia_, protocol_.damping_rate())) return {};
+    increment_slip_.start(grains_->contacts(), grains_->places().data(), grains_->rotations(), box(),
+                          engine_.grains());
+  const bool stiffer = frequency_bound(grains_->contacts(), inertia_) > kStiffer * frequency_bound_;
+  if (stiffer && engine_.shorten_time_step(grains_->contacts(), inertia_, protocol_.damping_rate()))
+    return {};
 
   while (!protocol_.loaded()) run();
   // Taken while the box still moves: see the cell of discs.
@@ -195,62 +188,64 @@ std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const Ce
   CellReply reply;
   reply.diagnostics = measure();
   reply.response = respond(loading_tangent);
-  judge(reply.response, reply.diagnostics, protocol_, control_, rest, engine_.contacts(), inertia_,
+  judge(reply.response, reply.diagnostics, protocol_, control_, rest, grains_->contacts(), inertia_,
         engine_.strain().time_step(), kMostVoidRatioInSpace);
   if (reply.response.quality == Quality::unreliable &&
-      engine_.shorten_time_step(inertia_, protocol_.damping_rate()))
+      engine_.shorten_time_step(grains_->contacts(), inertia_, protocol_.damping_rate()))
     return {};
   reply.diagnostics.dem_steps = protocol_.done();
-  reply.state = engine_.save();
+  reply.state = grains_->save();
   return reply;
 }
 
 GrainView SphereCell::view() {
   std::vector<GrainView::Grain> grains(inertia_.radii.size());
   const LAMMPS_NS::Atom& atom = *engine_.lammps().atom;
-  const std::span<const double> rotations = engine_.strain().rotations();
+  const std::span<const double> rotations = grains_->rotations();
   for (std::size_t k = 0; k < grains.size(); ++k) {
     GrainView::Grain& grain = grains[k];
     grain.id = atom.tag[k] - 1;
     grain.radius = inertia_.radii[k];
-    grain.position = Eigen::Map<const Eigen::Vector3d>(atom.x[k]);
-    grain.velocity = Eigen::Map<const Eigen::Vector3d>(atom.v[k]);
-    grain.spin = Eigen::Map<const Eigen::Vector3d>(atom.omega[k]);
+    const SpaceMotionOfGrain motion = grains_->motion(static_cast<int>(k));
+    grain.position = motion.place;
+    grain.velocity = motion.velocity;
+    grain.spin = motion.spin;
     if (!rotations.empty()) grain.rotation = Eigen::Map<const Eigen::Vector3d>(&rotations[3 * k]);
   }
-  GrainView view = grains_in_laboratory(std::move(grains), engine_.contacts(), box().base, box().frame);
+  GrainView view =
+      grains_in_laboratory(std::move(grains), grains_->contacts(), box().reduced().base, box().frame);
   view.dimension = 3;
   return view;
 }
 
 void SphereCell::set_up() {
-  engine_.set_up();
+  grains_->set_up();
   if (!controlled()) return;
   // As with discs: weights of these contacts, and torques that hold the mean rotation with the first forces.
-  engine_.strain().set_rotation_weights(weights());
-  engine_.strain().setup(0);
+  grains_->set_rotation_weights(weights());
+  grains_->hold_rotation();
 }
 
 void SphereCell::run() {
   const int steps = protocol_.steps_to_next_look();
-  engine_.run(steps);
+  grains_->run(steps);
   protocol_.advance(steps);
-  if (controlled()) engine_.strain().set_rotation_weights(weights());
+  if (controlled()) grains_->set_rotation_weights(weights());
 }
 
 Equilibrium SphereCell::equilibrium() const {
-  return equilibrium_of(engine_.contacts(), engine_.strain().imbalance(), engine_.mean_radius(),
+  return equilibrium_of(grains_->contacts(), grains_->imbalance(), engine_.mean_radius(),
                         protocol_.least_force(), box().volume(), grain_volume_);
 }
 
 CellDiagnostics SphereCell::measure() const {
-  const std::span<const Contact> contacts = engine_.contacts();
+  const std::span<const Contact> contacts = grains_->contacts();
   CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, inertia_.radii, slides_in_space);
   const Eigen::Matrix3d fabric = box().frame * space_fabric(contacts) * box().frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
-  diagnostics.multiplier = engine_.strain().multiplier().z();
+  diagnostics.multiplier = grains_->multiplier().z();
 
-  const std::span<const double> rotations = engine_.strain().rotations();
+  const std::span<const double> rotations = grains_->rotations();
   if (rotations.empty()) return diagnostics;
   const auto grains = static_cast<Eigen::Index>(rotations.size() / 3);
   const Eigen::Map<const Eigen::Matrix3Xd> turned(rotations.data(), 3, grains);
@@ -264,10 +259,10 @@ CellResponse SphereCell::respond(const Matrix18& tangent) const {
   CellResponse response;
   response.known = KnownComponents::all;
   const Eigen::Matrix3d& frame = box().frame;
-  response.stress = frame * space_stress(engine_.contacts(), box().volume()) * frame.transpose();
+  response.stress = frame * space_stress(grains_->contacts(), box().volume()) * frame.transpose();
   if (controlled())
     response.couple_stress =
-        frame * space_couple_stress(engine_.contacts(), box().volume()) * frame.transpose();
+        frame * space_couple_stress(grains_->contacts(), box().volume()) * frame.transpose();
   response.tangent = tangent;
   return response;
 }
@@ -276,12 +271,13 @@ std::vector<SpaceSlip> SphereCell::slips(const CellIncrement& increment) const {
   if (!wants_slips()) return {};
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
   if (controlled()) curvature = increment.curvature;
-  return increment_slip_.until(engine_.contacts(), engine_.strain().rotations(), box(), curvature);
+  return increment_slip_.until(grains_->contacts(), grains_->rotations(), box(), curvature);
 }
 
 Matrix18 SphereCell::tangent(std::span<const SpaceSlip> slips) {
   if (control_.tangent == CellTangent::none) return Matrix18::Zero();
-  const SpaceNetwork network{engine_.contacts(), engine_.grains(), box().frame, box().volume(), kHold, slips};
+  const SpaceNetwork network{
+      grains_->contacts(), engine_.grains(), box().frame, box().volume(), kHold, slips};
   if (control_.tangent == CellTangent::voigt)
     return controlled() ? voigt_cosserat_space_tangent(network) : voigt_space_tangent(network);
   if (control_.tangent == CellTangent::condensed && !controlled())

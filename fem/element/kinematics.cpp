@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "fem/material/rotation.hpp"
+
 namespace polargrain::fem {
 
 Eigen::Matrix2d jacobian(const Eigen::MatrixX2d& nodes, const ShapeFunctions& shape) {
@@ -50,6 +52,23 @@ Increment increment_at(const PointGeometry& point, Continuum continuum, const Ei
     increment.curvature = (values.row(2) * point.gradient).transpose();
   } else {
     increment.micro_rotation = 0.5 * (h(1, 0) - h(0, 1));
+  }
+  return increment;
+}
+
+Increment large_increment_at(const PointGeometry& start, Continuum continuum, const Eigen::VectorXd& dofs,
+                             double dilatation) {
+  Increment increment;
+  increment.configuration = Configuration::start;
+  const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> values(dofs.data(), 3, start.shape.size());
+  Eigen::Matrix2d& h = increment.displacement_gradient;
+  h = values.topRows<2>() * start.gradient;
+  if (dilatation != 1.0) h = dilatation * h + (dilatation - 1.0) * Eigen::Matrix2d::Identity();
+  if (continuum == Continuum::cosserat) {
+    increment.micro_rotation = values.row(2).dot(start.shape);
+    increment.curvature = (values.row(2) * start.gradient).transpose();
+  } else {
+    increment.micro_rotation = rotation_angle(increment);
   }
   return increment;
 }

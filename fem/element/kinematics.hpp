@@ -34,6 +34,13 @@ std::vector<PointGeometry> point_geometries(const ElementType& type, const Eigen
 /// What the point feels (docs/theory.md, A.1). @param dofs u1, u2, w of each node in turn.
 Increment increment_at(const PointGeometry& point, Continuum continuum, const Eigen::VectorXd& dofs);
 
+/// The same in large deformation: gradients about the start of the step (Configuration::start).
+/// @param start the geometry at the start of the step @param dofs their changes over the step
+/// @param dilatation by which lengths are multiplied so that the volume ratio is that of the element: 1 but for
+/// elements with mean dilatation (F-bar: de Souza Neto and others 1996)
+Increment large_increment_at(const PointGeometry& start, Continuum continuum, const Eigen::VectorXd& dofs,
+                             double dilatation);
+
 /// B with strain = B dofs (docs/theory.md, A.6), 7 rows in the order of common/increment.hpp; unscaled.
 Eigen::Matrix<double, 7, Eigen::Dynamic> strain_matrix(const PointGeometry& point, Continuum continuum);
 

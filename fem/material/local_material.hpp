@@ -95,7 +95,13 @@ class LocalMaterial final : public Material, public StrainDriven {
 
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
     for (std::size_t point = 0; point < committed_.size(); ++point) {
-      responses[point] = law_.integrate(start_of(point, increments[point]), increments[point], trial_[point]);
+      const StretchAndTurn step = stretch_and_turn(increments[point]);
+      responses[point] = law_.integrate(committed_[point], step.stretch, trial_[point]);
+      if constexpr (LawWithRotation<Law>) {
+        if (increments[point].configuration == Configuration::fixed) continue;
+        trial_[point] = law_.rotated(trial_[point], step.angle);
+        responses[point] = rotated(responses[point], step.angle);
+      }
     }
   }
 
@@ -160,16 +166,6 @@ class LocalMaterial final : public Material, public StrainDriven {
   [[nodiscard]] const std::vector<typename Law::State>& states() const { return committed_; }
 
  private:
-  /// The stress turns first, the strain adds to it in the frame at the end of the step.
-  [[nodiscard]] typename Law::State start_of(std::size_t point, const Increment& increment) const {
-    if constexpr (LawWithRotation<Law>) {
-      if (increment.configuration != Configuration::fixed)
-        return law_.rotated(committed_[point], rotation_angle(increment));
-    }
-    (void)increment;
-    return committed_[point];
-  }
-
   Law law_;
   std::vector<typename Law::State> committed_;
   std::vector<typename Law::State> trial_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fem/material/cone_matching.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -69,6 +70,12 @@ Mobilisation initial_mobilisation(const MobilisationOptions& options) {
   Mobilisation start;
   start.cone = cone_from_plane_strain({options.initial_friction * kDegrees, 0.0, options.cohesion});
   return start;
+}
+
+Mobilisation rotated(Mobilisation mobilisation, double angle) {
+  for (Mobilisation::Sample& sample : mobilisation.samples)
+    sample.plastic_strain = rotated(sample.plastic_strain, angle);
+  return mobilisation;
 }
 
 Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,

@@ -22,7 +22,7 @@ struct MobilisationOptions {
 };
 
 /// One increment of the micro scale. Stresses have all of s11, s22, s33 (docs/theory/plasticity.md, B.9 on
-/// discs) and are turned with the material where it rotates.
+/// discs) and are in the axes of the start of the step where the material rotates (rotation.hpp).
 struct MicroStep {
   ScaledVector<double> strain;         ///< scaled
   ScaledVector<double> stress_before;  ///< scaled, Pa
@@ -52,6 +52,9 @@ struct Mobilisation {
 /// Before anything has been read: the cone of the initial friction without dilatancy.
 /// @throws InputError when the angle or the cohesion is outside its range.
 Mobilisation initial_mobilisation(const MobilisationOptions& options);
+
+/// What the point knows, turned with the material: the plastic strains of the window.
+Mobilisation rotated(Mobilisation mobilisation, double angle);
 
 /// What a point knows after one more increment of its micro scale.
 ///

@@ -7,37 +7,81 @@
 #include "common/elementary_functions.hpp"
 
 namespace polargrain::fem {
+namespace {
 
-double rotation_angle(const Increment& increment) {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
-  return 2.0 * arc_tangent(0.25 * (h(1, 0) - h(0, 1)));
+Eigen::Matrix2d rotation(double angle) {
+  const auto [sine, cosine] = sine_and_cosine(angle);
+  Eigen::Matrix2d r;
+  r << cosine, -sine, sine, cosine;
+  return r;
 }
 
-Increment about_start(const Increment& about_middle) {
-  const Eigen::Matrix2d half = 0.5 * about_middle.displacement_gradient;
-  Increment increment = about_middle;
-  increment.displacement_gradient =
-      (Eigen::Matrix2d::Identity() - half).inverse() * about_middle.displacement_gradient;
-  // x_middle = x_start + u / 2
-  increment.configuration = Configuration::start;
-  increment.curvature += 0.5 * increment.displacement_gradient.transpose() * about_middle.curvature;
-  return increment;
+/// The matrix that turns a Vector7.
+Matrix7 rotation_of_components(double angle) {
+  const Eigen::Matrix2d r = rotation(angle);
+  constexpr int kPlace[2][2] = {{k11, k12}, {k21, k22}};
+  Matrix7 turn = Matrix7::Zero();
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (int k = 0; k < 2; ++k)
+        for (int l = 0; l < 2; ++l) turn(kPlace[i][j], kPlace[k][l]) = r(i, k) * r(j, l);
+  turn(k33, k33) = 1.0;
+  turn.bottomRightCorner<2, 2>() = r;
+  return turn;
+}
+
+}  // namespace
+
+double rotation_angle(const Increment& increment) {
+  // The closed form of the plane: tan of the angle is (F21 - F12) / (F11 + F22).
+  const Eigen::Matrix2d& h = increment.displacement_gradient;
+  return arc_tangent(h(1, 0) - h(0, 1), 2.0 + h(0, 0) + h(1, 1));
+}
+
+StretchAndTurn stretch_and_turn(const Increment& increment) {
+  if (increment.configuration == Configuration::fixed) return {increment, 0.0};
+  const Eigen::Matrix2d& h = increment.displacement_gradient;
+  const double sum = 2.0 + h(0, 0) + h(1, 1);
+  const double difference = h(1, 0) - h(0, 1);
+  const double trace = std::sqrt(sum * sum + difference * difference);  // of U
+  const double volume = (1.0 + h(0, 0)) * (1.0 + h(1, 1)) - h(0, 1) * h(1, 0);
+  // Twice the strain of Green, U^2 - I, of which small strains lose no digits; and (U + I) U = U^2 + U.
+  const Eigen::Matrix2d green = h + h.transpose() + h.transpose() * h;
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d stretch = (green + (1.0 + volume) * one) / trace;
+  const Eigen::Matrix2d inverse = (stretch + one).inverse();
+  StretchAndTurn step;
+  step.angle = rotation_angle(increment);
+  const Eigen::Matrix2d strain = 2.0 * green * inverse * inverse;
+  step.stretch.displacement_gradient = 0.5 * (strain + strain.transpose());
+  step.stretch.micro_rotation = increment.micro_rotation - step.angle;
+  step.stretch.curvature = 2.0 * inverse * increment.curvature;
+  return step;
 }
 
 Eigen::Vector2d rotated(const Eigen::Vector2d& vector, double angle) {
-  const auto [sine, cosine] = sine_and_cosine(angle);
-  return {cosine * vector.x() - sine * vector.y(), sine * vector.x() + cosine * vector.y()};
+  return rotation(angle) * vector;
 }
 
-Vector7 rotated(const Vector7& stress, double angle) {
-  const auto [sine, cosine] = sine_and_cosine(angle);
-  Eigen::Matrix2d r, s;
-  r << cosine, -sine, sine, cosine;
-  s << stress(k11), stress(k12), stress(k21), stress(k22);
+Vector7 rotated(const Vector7& components, double angle) {
+  const Eigen::Matrix2d r = rotation(angle);
+  Eigen::Matrix2d s;
+  s << components(k11), components(k12), components(k21), components(k22);
   s = r * s * r.transpose();
   Vector7 turned;
-  turned << s(0, 0), s(1, 1), stress(k33), s(0, 1), s(1, 0), r * stress.tail<2>();
+  turned << s(0, 0), s(1, 1), components(k33), s(0, 1), s(1, 0), r * components.tail<2>();
   return turned;
+}
+
+Matrix7 rotated(const Matrix7& tangent, double angle) {
+  const Matrix7 turn = rotation_of_components(angle);
+  return turn * tangent * turn.transpose();
+}
+
+Response rotated(Response response, double angle) {
+  response.stress = rotated(response.stress, angle);
+  response.tangent = rotated(response.tangent, angle);
+  return response;
 }
 
 }  // namespace polargrain::fem

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/regular_file.hpp"
 #include "common/trial.hpp"
 #include "fem/element/kinematics.hpp"
 #include "fem/mesh/gmsh_content.hpp"
@@ -159,7 +160,10 @@ class Reader {
         if (block.dimension == 2) add_entity(block.entity);
       }
     }
-    if (mesh_.elements.empty()) fail("it has no surface elements");
+    if (mesh_.elements.empty())
+      fail(
+          "it has no surface elements: where anything in the script for Gmsh has a physical name, Gmsh writes nothing else; "
+          "add Physical Surface(\"ground\") = {1}; with the number of the surface, and make the mesh again");
     std::vector<int>& all = mesh_.regions["all"];
     all.resize(mesh_.elements.size());
     std::iota(all.begin(), all.end(), 0);
@@ -271,7 +275,8 @@ std::vector<std::filesystem::path> gmsh_module_places() {
 
 Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8,
                const std::vector<std::filesystem::path>& module_places) {
-  if (!std::filesystem::exists(file)) throw InputError(Fault{file.string(), 0, "there is no such mesh file"});
+  if (const std::string reason = why_no_input(file); !reason.empty())
+    throw InputError(Fault{file.string(), 0, reason});
   // Gmsh takes a text of any other name for one of its scripts, and would run it.
   if (file.extension() != ".msh") throw InputError(Fault{file.string(), 0, "expected a mesh file, NAME.msh"});
   if (!begins_as_a_mesh(file))

@@ -13,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "common/plain_text.hpp"
+#include "common/regular_file.hpp"
 #include "fem/output/base64.hpp"
 
 namespace polargrain::fem {
@@ -31,6 +32,7 @@ std::map<int, const ElementType*> types_by_vtk() {
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : file_(file) {
+    if (const std::string reason = why_no_input(file); !reason.empty()) fail(reason);
     const pugi::xml_parse_result result = document_.load_file(file.c_str());
     if (!result) fail(result.description());
     piece_ = document_.child("VTKFile").child("UnstructuredGrid").child("Piece");

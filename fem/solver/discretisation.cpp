@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "fem/element/dofs.hpp"
 #include "fem/element/large_tangent.hpp"
 
@@ -63,6 +65,29 @@ std::vector<Increment> Discretisation::increments(const Eigen::VectorXd& nodal) 
   return all;
 }
 
+double Discretisation::volume_of(std::size_t e) const {
+  double volume = 0.0;
+  for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) volume += points_[i].volume;
+  return volume;
+}
+
+std::vector<Increment> Discretisation::increments_to(const Discretisation& end,
+                                                     const Eigen::VectorXd& nodal) const {
+  std::vector<Increment> all;
+  all.reserve(points_.size());
+  for (std::size_t e = 0; e < elements(); ++e) {
+    const Eigen::VectorXd local = gather(e, nodal);
+    const bool mean = mesh_.elements[e].type->mean_dilatation;
+    const double of_element = mean ? end.volume_of(e) / volume_of(e) : 1.0;
+    for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
+      const double own = end.points_[i].volume / points_[i].volume;
+      all.push_back(
+          large_increment_at(points_[i], continuum_, local, mean ? std::sqrt(of_element / own) : 1.0));
+    }
+  }
+  return all;
+}
+
 Eigen::VectorXd Discretisation::internal_forces(std::span<const Response> responses) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (std::size_t e = 0; e < elements(); ++e) {
@@ -92,13 +117,18 @@ Eigen::MatrixXd Discretisation::element_tangent(std::size_t e, const Linearisati
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
     if (const auto& moving = of.moving) {
-      tangent += large_tangent(points_[i], moving->middle.point(i), moving->increments[i], continuum_,
-                               of.answers[i], moving->start[i].stress);
+      tangent +=
+          large_tangent(points_[i], moving->start.point(i), moving->increments[i], continuum_, of.answers[i]);
       continue;
     }
     const auto b = strain_matrix(points_[i], continuum_);
     const Eigen::Matrix<double, 7, Eigen::Dynamic> db = (points_[i].volume * of.answers[i].tangent) * b;
     tangent.noalias() += b.transpose() * db;
+  }
+  if (of.moving && mesh_.elements[e].type->mean_dilatation) {
+    const std::size_t points = first_point_[e + 1] - first_point_[e];
+    tangent += mean_dilatation_stiffness(std::span(points_).subspan(first_point_[e], points),
+                                         std::span(of.answers).subspan(first_point_[e], points));
   }
   return tangent;
 }

@@ -19,9 +19,8 @@ class Discretisation;
 /// configurations they belong to.
 struct Linearisation {
   struct Moving {
-    const Discretisation& middle;              ///< the strains refer to it
+    const Discretisation& start;               ///< the increments refer to it
     const std::vector<Increment>& increments;  ///< that led to the answers
-    const std::vector<Response>& start;        ///< stresses at the start of the step
   };
   const std::vector<Response>& answers;
   std::optional<Moving> moving = {};  ///< nothing: small deformation
@@ -50,6 +49,10 @@ class Discretisation {
   [[nodiscard]] const std::vector<int>& element_dofs(std::size_t e) const { return dofs_[e]; }
 
   [[nodiscard]] std::vector<Increment> increments(const Eigen::VectorXd& nodal) const;
+  /// The same in large deformation, this discretisation being the start of the step.
+  /// @param end where the nodal values lead to
+  [[nodiscard]] std::vector<Increment> increments_to(const Discretisation& end,
+                                                     const Eigen::VectorXd& nodal) const;
   /// Nodal forces of the stresses: the sum of B^T s times volume.
   [[nodiscard]] Eigen::VectorXd internal_forces(std::span<const Response> responses) const;
   /// Tangent times nodal displacements, without forming the tangent.
@@ -60,6 +63,8 @@ class Discretisation {
   [[nodiscard]] Eigen::MatrixXd element_tangent(std::size_t e, const Linearisation& of) const;
 
  private:
+  /// Volume of element e.
+  [[nodiscard]] double volume_of(std::size_t e) const;
   [[nodiscard]] Eigen::VectorXd gather(std::size_t e, const Eigen::VectorXd& nodal) const;
 
   const Mesh& mesh_;

@@ -57,7 +57,7 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
                            : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints),
       anderson_(options.acceleration_depth, reference_length),
-      middle_(problem.mesh, problem.continuum),
+      start_(problem.mesh, problem.continuum),
       trial_(discretisation.points()) {
   state.displacement = Eigen::VectorXd::Zero(discretisation.nodal_size());
   state.strain.assign(discretisation.points(), Vector7::Zero());
@@ -113,7 +113,7 @@ Eigen::VectorXd Newton::loads_at(double time, double released, double jump_let_g
 
 Linearisation Newton::linearised(const std::vector<Response>& answers) const {
   if (problem.deformation == Deformation::small) return {answers};
-  return {answers, Linearisation::Moving{middle_, increments_, state.responses}};
+  return {answers, Linearisation::Moving{start_, increments_}};
 }
 
 Residual Newton::relative(const Eigen::VectorXd& forces) const {
@@ -138,7 +138,7 @@ void Newton::revert() {
 void Newton::move_to_committed() {
   if (problem.deformation == Deformation::small) return;
   (void)discretisation.move_to(state.displacement);  // it was committed, so no element is inside out
-  (void)middle_.move_to(state.displacement);
+  (void)start_.move_to(state.displacement);
   increments_.assign(discretisation.points(), Increment{});
   loads.move_to(state.displacement);
 }
@@ -148,19 +148,10 @@ void Newton::find_increments(const Eigen::VectorXd& displacement_increment) {
     increments_ = discretisation.increments(displacement_increment);
     return;
   }
-  // Gradients about the middle of the step see no strain in a rigid rotation (Hughes and Winget 1980).
-  inverted_ = middle_.move_to(state.displacement + 0.5 * displacement_increment);
-  if (inverted_.empty()) inverted_ = discretisation.move_to(state.displacement + displacement_increment);
+  inverted_ = discretisation.move_to(state.displacement + displacement_increment);
   if (!inverted_.empty()) return;
   loads.move_to(state.displacement + displacement_increment);
-  increments_ = middle_.increments(displacement_increment);
-  for (Increment& increment : increments_) {
-    increment.configuration = Configuration::middle;
-    if (problem.continuum == Continuum::cauchy) continue;
-    // The micro-rotation is compared with the angle turned, not with the tangent of its half.
-    const Eigen::Matrix2d& h = increment.displacement_gradient;
-    increment.micro_rotation += 0.5 * (h(1, 0) - h(0, 1)) - rotation_angle(increment);
-  }
+  increments_ = start_.increments_to(discretisation, displacement_increment);
 }
 
 void Newton::evaluate(Iterate& iterate, StepReport& report) {
@@ -407,10 +398,7 @@ void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report)
     state.external_work += (free ? loads_mean(entry) : internal_mean(entry)) * iterate.displacement(entry);
   }
   for (std::size_t i = 0; i < trial_.size(); ++i) {
-    const Vector7 strain = increments_[i].strain();
-    state.internal_work +=
-        discretisation.point(i).volume * 0.5 * (state.responses[i].stress + trial_[i].stress).dot(strain);
-    state.strain[i] += strain;
+    add_to_strain_and_work(i);
   }
   materials.commit();
   state.responses = trial_;
@@ -419,6 +407,25 @@ void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report)
   state.time = iterate.time;
   released_ = iterate.released;
   jump_let_go_ = iterate.jump_let_go;
+}
+
+void Newton::add_to_strain_and_work(std::size_t point) {
+  const Increment& increment = increments_[point];
+  const Vector7 before = state.responses[point].stress;
+  const Vector7 after = trial_[point].stress;
+  const double volume = discretisation.point(point).volume;
+  if (increment.configuration == Configuration::fixed) {
+    const Vector7 strain = increment.strain();
+    state.internal_work += volume * 0.5 * (before + after).dot(strain);
+    state.strain[point] += strain;
+    return;
+  }
+  // The strain turns with the material as the stress does; the work is that of the stretch, in the axes of the start.
+  const StretchAndTurn step = stretch_and_turn(increment);
+  const Vector7 strain = step.stretch.strain();
+  const double mean_volume = 0.5 * (start_.point(point).volume + volume);
+  state.internal_work += mean_volume * 0.5 * (before + rotated(after, -step.angle)).dot(strain);
+  state.strain[point] = rotated(Vector7(state.strain[point] + strain), step.angle);
 }
 
 }  // namespace polargrain::fem

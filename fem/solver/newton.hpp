@@ -123,12 +123,13 @@ class Newton {
   [[nodiscard]] Balance balance_of(const Iterate& iterate, bool last_chance) const;
   [[nodiscard]] const Response& worst_response() const;
   void commit(const Iterate& iterate, Balance balance, StepReport& report);
+  void add_to_strain_and_work(std::size_t point);
 
   TangentMatrix tangent_;
   LinearSolver linear_solver_;
   Anderson anderson_;
   bool converges_fast_ = false;      ///< the last iteration needs no acceleration
-  Discretisation middle_;            ///< large deformation: half way through the step
+  Discretisation start_;             ///< large deformation: at the start of the step
   std::string inverted_;             ///< names an element the last iterate turns inside out
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;

@@ -26,7 +26,8 @@ struct Solver::Implementation : Newton {
   /// lengths, are what is cut, so that a step under another control may follow.
   /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
   template <class GoalAt>
-  StepReport march(StepReport report, GoalAt goal_at);
+  /// @param most_iterations that it may take, lost ones too; 0: as many as it needs
+  StepReport march(StepReport report, GoalAt goal_at, int most_iterations = 0);
 
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
   void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
@@ -95,7 +96,7 @@ Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, doub
 }
 
 template <class GoalAt>
-StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
+StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations) {
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
   Substeps way(1.5, state.next_step);
   JumpWatch jumps;
@@ -105,6 +106,9 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at) {
     return report;
   };
   while (!way.arrived()) {
+    if (most_iterations > 0 && report.iterations >= most_iterations)
+      return given_up(fmt::format("{} iterations have brought it {:.0f} % of its way, and that is its bound",
+                                  report.iterations, 100.0 * way.done()));
     const StepGoal goal = goal_at(way.end(), way.share());
     const Attempt result = attempt(goal, way.cuts_in_a_row(), report);
     bool committed = result.converged;
@@ -164,9 +168,15 @@ StepReport Solver::equilibrate() {
   report.converged = given == self.state.displacement && self.excess(residual) <= 1.0;
   if (report.converged) return report;
   self.withhold_imbalance();
-  report = self.march(std::move(report), [&](double end, double) {
-    return StepGoal{.time = self.state.time, .measure = {}, .released = end, .releases_displacements = true};
-  });
+  // What the stress at time zero and the loads leave out of balance is no step of the user's: no shorter one helps.
+  constexpr int kMostTries = 10;
+  report = self.march(
+      std::move(report),
+      [&](double end, double) {
+        return StepGoal{
+            .time = self.state.time, .measure = {}, .released = end, .releases_displacements = true};
+      },
+      kMostTries * self.options.most_iterations);
   self.state.next_step = 0.0;
   return report;
 }

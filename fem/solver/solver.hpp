@@ -148,8 +148,8 @@ class Solver {
 
   /// Brings the initial stresses into balance with the loads and supports at time 0. Zero iterations when
   /// they already are. Where one attempt does not get there, what is out of balance and the displacements
-  /// given at time 0 are let go in shares, cut like any step. Not converged too when nothing resists a
-  /// micro-rotation.
+  /// given at time 0 are let go in shares, cut like any step, in ten times SolverOptions::most_iterations at most. Not
+  /// converged too when nothing resists a micro-rotation.
   StepReport equilibrate();
   /// Goes on to `time`, in smaller steps where needed. When it fails, the last committed substep stands.
   StepReport advance(double time);

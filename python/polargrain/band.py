@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import _cells
+from .arrays import real_array
 
 
 def find_band(positions, shear, areas=None, *, contrast=2.0):
@@ -15,9 +16,9 @@ def find_band(positions, shear, areas=None, *, contrast=2.0):
     Returns a dict: found; and either reason, or inclination_degrees (from the x1 axis, in (-90, 90]), thickness (full width at
     half maximum, m), resolution (m; a band about as thick is not resolved), centre (m), peak_shear, background_shear.
     """
-    positions = np.asarray(positions, dtype=float)[:, :2]
-    shear = np.asarray(shear, dtype=float)
-    areas = np.full(len(shear), np.prod(np.ptp(positions, axis=0)) / len(shear)) if areas is None else np.asarray(areas, dtype=float)
+    positions = real_array(positions, "positions")[:, :2]
+    shear = real_array(shear, "shear")
+    areas = np.full(len(shear), np.prod(np.ptp(positions, axis=0)) / len(shear)) if areas is None else real_array(areas, "areas")
     if not len(positions) == len(shear) == len(areas):
         raise ValueError(f"positions, shear and areas: as many of each are expected, not {len(positions)}, {len(shear)} "
                          f"and {len(areas)}")
@@ -34,8 +35,8 @@ def displacement_gradients(positions, displacements, radius):
     Returns h_ij = d u_i / d x_j, shape (n, 2, 2); not a number where a point has less than three neighbours, or they stand in
     a line. An affine field is reproduced exactly; what varies is smoothed over a width of 0.74 radius.
     """
-    positions = np.asarray(positions, dtype=float)[:, :2]
-    displacements = np.asarray(displacements, dtype=float)[:, :2]
+    positions = real_array(positions, "positions")[:, :2]
+    displacements = real_array(displacements, "displacements")[:, :2]
     if positions.shape != displacements.shape:
         raise ValueError("positions and displacements: as many of each are expected")
     return _cells.displacement_gradients(positions, displacements, float(radius)).reshape(-1, 2, 2)

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A box of grains as a material point."""
+import contextlib
 import pathlib
+import threading
 
 import numpy as np
 
 from . import _cells
+from .arrays import real_array
 from .engines import shared_engines
 from .errors import InputError, StepFailed
 from .program import data_file
@@ -79,7 +82,8 @@ class Cell:
                  (docs/user_guide.md): inertial_number, unbalanced_force_ratio, unbalanced_moment_ratio, damping,
                  least_steps, most_relaxation_steps, tangent, loop, contact_library
 
-    The packing is brought to rest with the first question. Raises InputError with all faults of what was given. Cells can
+    The packing is brought to rest with the first question. Any threads may ask one cell: its steps are taken one after the
+    other, each from where the one before it ended. Raises InputError with all faults of what was given. Cells can
     be pickled, with their states.
 
     dimension  -- 2: discs; 3: spheres
@@ -99,6 +103,7 @@ class Cell:
 
     def _prepare(self, engines):
         self._engines = engines
+        self._lock = threading.RLock()  # held from reading where the cell is to being elsewhere
         self.dimension = self._definition.packing.dimension
         self.components = [_NAMES[place] for place in (_PLANE if self.dimension == 2 else range(18))]
         self._state = None
@@ -137,20 +142,23 @@ class Cell:
     def state(self, state):
         if not isinstance(state, _cells.State):
             raise TypeError(f"a State is expected, such as Cell.state gives; this is {state!r}")
-        self._state = state
-        self._answer = None
+        with self._lock:
+            self._state = state
+            self._answer = None
 
     @property
     def answer(self):
         """The Answer of the last step; that of the packing at rest before the first; None once a state was given."""
-        if self._answer is None and self._state is None:
-            return self.at_rest
-        return self._answer
+        with self._lock:
+            if self._answer is None and self._state is None:
+                return self.at_rest
+            return self._answer
 
     def reset(self):
         """Back to the packing at rest."""
-        self._state = None
-        self._answer = None
+        with self._lock:
+            self._state = None
+            self._answer = None
 
     def evaluate(self, F=None, rotation=None, curvature=None, *, displacement_gradient=None, state=None):
         """What it would answer to an increment; it stays where it is. Returns an Answer of any quality.
@@ -174,7 +182,8 @@ class Cell:
         Raises StepFailed, the cell staying where it was, when the answer is not good; its `step_factor` says how much of
         the increment to try instead.
         """
-        return self._take(self.evaluate(F, rotation, curvature, displacement_gradient=displacement_gradient))
+        with self._lock:
+            return self._take(self.evaluate(F, rotation, curvature, displacement_gradient=displacement_gradient))
 
     def _take(self, answer):
         _checked(answer)
@@ -191,7 +200,7 @@ class Cell:
         if (F is None) == (displacement_gradient is None):
             raise TypeError("give one of F and displacement_gradient")
         h = np.zeros((3, 3))
-        given = np.asarray(F if F is not None else displacement_gradient, dtype=float)
+        given = real_array(F if F is not None else displacement_gradient, "F or displacement_gradient")
         if given.shape not in ((2, 2), (3, 3)):
             raise ValueError(f"F or displacement_gradient: a matrix of 2 x 2 or 3 x 3 is expected, not of shape {given.shape}")
         if F is not None:
@@ -238,14 +247,17 @@ def step_together(cells, gradients, rotations=None, curvatures=None):
         raise ValueError("cells that step together must share their engines: Cell(..., engines=engines)")
     if len({id(cell) for cell in cells}) < len(cells):
         raise ValueError("one cell cannot take two steps at once; make two of it")
-    questions = [cell._question(F, w, k, None) for cell, F, w, k in
-                 zip(cells, gradients, rotations or nothing, curvatures or nothing, strict=True)]
-    if not questions:
-        return []
-    answers = [Answer(reply, cell.dimension) for cell, reply in zip(cells, cells[0]._engines._cells.evaluate(questions))]
-    for answer in answers:
-        _checked(answer)
-    return [cell._take(answer) for cell, answer in zip(cells, answers)]
+    rotations, curvatures = (nothing if given is None else given for given in (rotations, curvatures))
+    with contextlib.ExitStack() as locks:
+        for cell in sorted(cells, key=id):  # in one order, or two threads would wait for each other
+            locks.enter_context(cell._lock)
+        questions = [cell._question(F, w, k, None) for cell, F, w, k in
+                     zip(cells, gradients, rotations, curvatures, strict=True)]
+        if not questions:
+            return []
+        replies = cells[0]._engines._cells.evaluate(questions)
+        answers = [_checked(Answer(reply, cell.dimension)) for cell, reply in zip(cells, replies)]
+        return [cell._take(answer) for cell, answer in zip(cells, answers)]
 
 
 def _checked(answer):
@@ -255,7 +267,7 @@ def _checked(answer):
 
 
 def _put(values, given, places, expected):
-    given = np.asarray(given, dtype=float)
+    given = real_array(given, expected.split(":")[0])
     if given.shape not in places:
         raise ValueError(f"{expected} are expected, not an array of shape {given.shape}")
     values[places[given.shape]] = given

@@ -8,6 +8,7 @@ import zlib
 import numpy as np
 
 from .errors import InputError
+from .files import input_file, no_input
 
 _TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt8": "<u1"}
 _OUTLINES = {22: [0, 3, 1, 4, 2, 5], 23: [0, 4, 1, 5, 2, 6, 3, 7]}  # quadratic triangle, quadratic quadrilateral
@@ -28,13 +29,19 @@ class Fields:
     def __init__(self, file):
         self.file = pathlib.Path(file)
         try:
-            root = ElementTree.parse(self.file).getroot()
+            root = ElementTree.parse(input_file(self.file)).getroot()
         except (OSError, ElementTree.ParseError) as error:
             raise InputError(f"{file}: {error}", [(str(file), 0, str(error))]) from error
         piece = root.find("UnstructuredGrid/Piece")
         if piece is None:
             message = "is no VTU file of an unstructured grid"
             raise InputError(f"{file}: {message}", [(str(file), 0, message)])
+        try:
+            self._read(root, piece)
+        except (KeyError, TypeError, AttributeError, ValueError, zlib.error) as error:
+            raise no_input(file, f"holds what no run writes ({error!r}); it was cut or changed") from error
+
+    def _read(self, root, piece):
         self._compressed = root.get("compressor") is not None
         self.components = {}
         self.units = {}

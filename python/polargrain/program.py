@@ -13,6 +13,7 @@ import threading
 
 from . import _cells
 from .errors import InputError, RunError
+from .files import no_input
 
 _PACKAGE = pathlib.Path(__file__).resolve().parent
 _PLACES = (_PACKAGE.parents[3] / "bin" / "polargrain",  # installed: PREFIX/lib/python3/dist-packages/polargrain
@@ -33,6 +34,8 @@ def data_file(name):
     A file of that name here, from the current folder, comes first; what is found nowhere is returned as it was given, for
     the program to say so.
     """
+    if "\0" in str(name):  # the system would read it to there, and find another file
+        raise no_input(repr(str(name)), "cannot be the name of a file: there is a NUL in it")
     here = pathlib.Path(name)
     if here.exists():
         return here.resolve()
@@ -57,6 +60,9 @@ def call(*words, on_wait=None, hidden=None):
     something, the program ends in order before that goes on.
     """
     command = [program(), *(str(word) for word in words)]
+    for word in command:
+        if "\0" in word:
+            raise no_input(repr(word), "there is a NUL in it, where the system would end it")
     # A group of its own: Ctrl-C reaches it through us, once.
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True)

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ElementTree
 
 from .errors import InputError
 from .fields import Fields
+from .files import input_file, no_input
 from .program import call
 from .table import read_table
 
@@ -35,8 +36,12 @@ class Result:
     @property
     def summary(self):
         """summary.json as a dict: status, errors, costs, what materials say of themselves, proof."""
-        with open(self.directory / "summary.json", encoding="utf-8") as text:
-            return json.load(text)
+        file = input_file(self.directory / "summary.json")
+        try:
+            with open(file, encoding="utf-8") as text:
+                return json.load(text)
+        except (OSError, ValueError) as error:
+            raise no_input(file, str(error)) from error
 
     @property
     def times(self):
@@ -44,12 +49,13 @@ class Result:
         return [time for time, _ in self._files("fields.pvd")]
 
     def fields(self, number=-1):
-        """The Fields of the mesh: of the last of `times`, or of any, counted as a list is."""
-        return Fields(self._files("fields.pvd")[number][1])
+        """The Fields of the mesh: of the last of `times`, or of any, counted as a list is. InputError where there are not so
+        many."""
+        return Fields(self._file_at("fields.pvd", number))
 
     def integration_points(self, number=-1):
         """The Fields at the integration points; InputError where the case has `output: {points: no}`."""
-        return Fields(self._files("points.pvd")[number][1])
+        return Fields(self._file_at("points.pvd", number))
 
     def band(self, begin=None, end=None, *, window=None, contrast=None, strain=None, current=False):
         """Measures the shear band, by the ruler that grains and finite elements share (`polargrain band`).
@@ -95,13 +101,20 @@ class Result:
         call("report", self.directory)
         return self.directory / "report.html"
 
+    def _file_at(self, collection, number):
+        files = self._files(collection)
+        if not -len(files) <= number < len(files):
+            raise no_input(self.directory / collection, f"names fields at {len(files)} times, the first being number 0; there "
+                                                        f"is no number {number}")
+        return files[number][1]
+
     def _files(self, collection):
-        file = self.directory / collection
+        file = input_file(self.directory / collection)
         try:
             sets = ElementTree.parse(file).getroot().iter("DataSet")
-        except (OSError, ElementTree.ParseError) as error:
-            raise InputError(f"{file}: {error}", [(str(file), 0, str(error))]) from error
-        return [(float(one.get("timestep")), file.parent / one.get("file")) for one in sets]
+            return [(float(one.get("timestep")), file.parent / one.get("file")) for one in sets]
+        except (OSError, ElementTree.ParseError, TypeError, ValueError) as error:
+            raise no_input(file, f"is no list of fields ({error})") from error
 
     def __repr__(self):
         return f"<polargrain.Result {self.directory}>"

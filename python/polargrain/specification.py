@@ -2,14 +2,19 @@
 """What a command is asked for, as a file of the user's or as a dict with the keys of that file."""
 import collections.abc
 import pathlib
+import re
 
 from .program import data_file
+
+
+_PLAIN = re.compile(r"[\w./+@-]*")  # what no reader of YAML takes for anything but a text
 
 
 def yaml_of(value):
     """A value of Python in the words of a case or a specification. A path (pathlib) is meant from the current folder."""
     if isinstance(value, pathlib.PurePath):
-        return str(pathlib.Path(value).absolute())
+        path = str(pathlib.Path(value).absolute())
+        return path if _PLAIN.fullmatch(path) else "'" + path.replace("'", "''") + "'"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, collections.abc.Mapping):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """States of cells as values."""
 from . import _cells
-from .errors import InputError
+from .files import input_file, no_input, write_whole
 
 State = _cells.State
 
@@ -9,33 +9,24 @@ _MARK = b"polargrain state 1\n"
 
 
 def save(state, file):
-    """Writes a state to a file, whole or not at all."""
-    import os
-    import pathlib
-    file = pathlib.Path(file)
-    part = file.with_name(file.name + ".part")
-    part.write_bytes(_MARK + state.name.encode() + b"\n" + state.bytes)
-    os.replace(part, file)
+    """Writes a state to a file, whole or not at all. What is no file (/dev/null, a pipe) takes the bytes and stays what it is."""
+    write_whole(file, _MARK + state.name.encode() + b"\n" + state.bytes)
 
 
 def load(file):
     """The state in a file that `save` wrote. Raises InputError when it is missing, no state, or damaged."""
     try:
-        with open(file, "rb") as stream:
+        with open(input_file(file), "rb") as stream:
             text = stream.read()
     except OSError as error:
-        raise InputError(f"{file}: {error.strerror}", [(str(file), 0, error.strerror)]) from error
+        raise no_input(file, error.strerror) from error
     head = len(_MARK)
     if not text.startswith(_MARK) or text[head + 32:head + 33] != b"\n":
-        raise _no_state(file, "holds no state of a cell; name a file that State.save wrote")
+        raise no_input(file, "holds no state of a cell; name a file that State.save wrote")
     state = State.of_bytes(text[head + 33:])
     if state.name.encode() != text[head:head + 32]:
-        raise _no_state(file, "is damaged: its content is not what was written; take another copy")
+        raise no_input(file, "is damaged: its content is not what was written; take another copy")
     return state
-
-
-def _no_state(file, message):
-    return InputError(f"{file}: {message}", [(str(file), 0, message)])
 
 
 State.save = save

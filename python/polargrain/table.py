@@ -4,6 +4,8 @@ import csv
 
 import numpy as np
 
+from .files import input_file
+
 
 class Table(dict):
     """Columns by their names, NumPy arrays of one length: numbers, or texts where a cell is none.
@@ -24,7 +26,7 @@ class Table(dict):
 
 def read_table(file):
     """The Table in a CSV file that the program wrote. A cell with nothing in it is not a number (nan)."""
-    with open(file, newline="", encoding="utf-8") as text:
+    with open(input_file(file), newline="", encoding="utf-8") as text:
         lines = csv.reader(line for line in text if not line.startswith("#"))
         names = next(lines, [])
         cells = [row for row in lines if len(row) == len(names)]

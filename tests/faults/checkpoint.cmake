@@ -12,9 +12,10 @@ if(TARGET polargrain)
   add_dependencies(checkpoint_grains_test polargrain)
 endif()
 
+find_package(nlohmann_json REQUIRED)
 # Streams, directories and signals; whom to trust with what; results that carry their proof.
-foreach(topic process script_trust library_trust verify)
-  polargrain_test(faults_${topic}_test faults faults/${topic}_test.cpp LIBS polargrain_options)
+foreach(topic process script_trust library_trust verify doors)
+  polargrain_test(faults_${topic}_test faults faults/${topic}_test.cpp LIBS polargrain_options nlohmann_json::nlohmann_json)
   target_compile_definitions(faults_${topic}_test PRIVATE POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
   add_dependencies(faults_${topic}_test fake_polargrain)
 endforeach()

@@ -2,8 +2,6 @@
 // Runs that are stopped in good order and go on; checkpoints that must not be used.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/faults/checkpoint_runs.hpp"
 
 namespace polargrain::testing {
@@ -22,16 +20,12 @@ class StoppedRun : public ::testing::Test {
   }
   [[nodiscard]] std::string result(const std::string& file) const { return content(scratch_.path() / file); }
   /// Rows of out/history.csv, that of the names included.
-  [[nodiscard]] long rows() const {
-    const std::string text = result("out/history.csv");
-    return std::count(text.begin(), text.end(), '\n');
-  }
-  /// Starts a run into out/, waits for `steps` committed steps, sends a signal. @returns the exit status
-  int stop_behind(int steps, int signal, const std::string& options = "-w 2") {
-    std::filesystem::remove(scratch_.path() / "program.out");
-    RunningProgram program(scratch_.path(), "run case.yaml -o out --quiet " + options);
-    while (rows() < steps + 2) sleep_for(0.002);
-    return program.end(signal);
+  [[nodiscard]] long rows() const { return rows_of(scratch_.path() / "out/history.csv"); }
+  /// Starts a run into out/, and sends a signal behind `steps` committed steps. @returns the exit status
+  int stop_behind(int steps, int signal) const {
+    const auto program = frozen_behind(scratch_.path(), steps, "-w 2");
+    kill(program->id(), signal);
+    return program->end(SIGCONT);
   }
 
   Scratch scratch_;
@@ -159,8 +153,7 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
 }
 
 TEST_F(StoppedRun, AnotherRunInTheSameDirectoryIsRefused) {
-  RunningProgram first(scratch_.path(), "run case.yaml -o out --quiet -w 1");
-  while (rows() < 2) sleep_for(0.002);
+  const auto first = frozen_behind(scratch_.path(), 0, "-w 1");
   for (const char* options : {"", " --resume"}) {
     const Outcome second = polargrain(std::string("run case.yaml -o out --quiet -w 1") + options);
     EXPECT_EQ(second.status, 2);
@@ -168,7 +161,7 @@ TEST_F(StoppedRun, AnotherRunInTheSameDirectoryIsRefused) {
         second.errors,
         "out: another run is at work in this directory; wait for its end, or give another with -o DIR\n");
   }
-  EXPECT_EQ(first.wait(), 0);
+  EXPECT_EQ(first->end(SIGCONT), 0);
 }
 
 TEST_F(StoppedRun, ANewRunKeepsTheCheckpointOfAnUnfinishedOne) {
@@ -237,8 +230,7 @@ TEST_F(StoppedRun, OfAnyKindGoesOnToTheSameBytes) {
     const Outcome whole = polargrain("run case.yaml -o whole --quiet --checkpoint-minutes 0");
     ASSERT_EQ(whole.status, 0) << whole.errors;
     const std::string expected = results_of(scratch_.path() / "whole");
-    // These take milliseconds a step: the kills fall where they fall.
-    const Kills done = kill_again_and_again(scratch_.path(), "run case.yaml --quiet", 10, 7, 0.15,
+    const Kills done = kill_again_and_again(scratch_.path(), "run case.yaml --quiet", 10, 7,
                                             [&](int status, const std::filesystem::path& directory) {
                                               EXPECT_EQ(status, 0) << result("program.out");
                                               EXPECT_TRUE(results_of(directory) == expected);

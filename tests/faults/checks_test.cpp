@@ -12,10 +12,12 @@
 #include "tests/faults/fake_case.hpp"
 #include "tests/integration/fake_engine.hpp"
 #include "tests/integration/random_requests.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
+using testing::eventually;
 using testing::random_requests;
 using testing::Scratch;
 using testing::step;
@@ -65,6 +67,12 @@ bool are_true(const std::vector<CellReply>& replies) {
   return true;
 }
 
+/// Steps until somebody has been found out, with answers that are true.
+template <class Found>
+void step_until(Pool& pool, Found found) {
+  EXPECT_TRUE(eventually(found, [&] { EXPECT_TRUE(are_true(step(pool, kCells, {}))); }));
+}
+
 TEST_F(ChecksTest, OneForgerOfThreeIsFoundAndItsAnswersAreMadeAgain) {
   let_one_forge();
   Pool pool(options(3, 1.0));
@@ -88,15 +96,10 @@ TEST_F(ChecksTest, ASampleFindsTheForgerOrNothingFalseIsReturnedInSilence) {
     told_.clear();
     Pool pool(options(3, share));
     pool.define(testing::fake_definition(kScript));
-    bool is_known = false;
     bool was_false = false;
     try {
-      for (int s = 0; s < 40 && !is_known; ++s) {
-        const std::vector<CellReply> replies = step(pool, kCells, {});
-        is_known = pool.counts().workers_lost > 0;
-        was_false = was_false || !are_true(replies);
-      }
-      EXPECT_TRUE(is_known) << share << '\n' << told_;
+      const auto is_known = [&] { return pool.counts().workers_lost > 0; };
+      EXPECT_TRUE(eventually(is_known, [&] { was_false |= !are_true(step(pool, kCells, {})); })) << told_;
       EXPECT_FALSE(was_false) << share << '\n' << told_;
       EXPECT_TRUE(are_true(step(pool, kCells, {}))) << share;
       ++mended;
@@ -117,7 +120,7 @@ TEST_F(ChecksTest, FalseAnswersThatWereUsedEndTheRun) {
   pool.define(testing::fake_definition("sleep_milliseconds 1"));
   int steps = 0;
   try {
-    for (; steps < 300; ++steps) step(pool, kCells, {});
+    eventually([] { return false; }, [&] { step(pool, kCells, {}), ++steps; });
     FAIL() << told_;
   } catch (const FalseResults& error) {
     const std::string words = error.what();
@@ -148,7 +151,7 @@ TEST_F(ChecksTest, AGuestIsCheckedByAProcessOfOurOwn) {
   pool.define(testing::fake_definition(kScript));
   Process liar(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
   Process honest(guest(pool.listening_url(), false), scratch_.path() / "honest.log");
-  for (int s = 0; s < 20 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
+  step_until(pool, [&] { return liar.end().has_value(); });
   EXPECT_EQ(liar.end().value_or("still there"), "exit status 1") << told_;
   EXPECT_NE(testing::content(scratch_.path() / "guest.log").find("it has sent what is false"),
             std::string::npos)
@@ -165,9 +168,7 @@ TEST_F(ChecksTest, GuestsThatAgreeOnWhatIsFalseDoNotOutvoteOneOfOurOwn) {
     pool.define(testing::fake_definition(kScript));
     Process one(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
     Process two(guest(pool.listening_url(), true, "second.key"), scratch_.path() / "guest.log");
-    for (int s = 0; s < 40 && !(one.end() && two.end()); ++s)
-      EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
-    EXPECT_TRUE(one.end() && two.end()) << told_;
+    step_until(pool, [&] { return one.end().has_value() && two.end().has_value(); });
     EXPECT_EQ(pool.counts().workers_lost, 2) << told_;
   }
 }
@@ -177,7 +178,7 @@ TEST_F(ChecksTest, AGuestAgainstOneOfOurOwnIsNotBelieved) {
   Pool pool(options(1, 1.0));
   pool.define(testing::fake_definition(kScript));
   Process liar(guest(pool.listening_url(), true), scratch_.path() / "guest.log");
-  for (int s = 0; s < 40 && !liar.end(); ++s) EXPECT_TRUE(are_true(step(pool, kCells, {}))) << s;
+  step_until(pool, [&] { return liar.end().has_value(); });
   EXPECT_EQ(liar.end().value_or("still there"), "exit status 1") << told_;
   EXPECT_NE(told_.find("otherwise than worker 1, a process of this machine"), std::string::npos) << told_;
 }

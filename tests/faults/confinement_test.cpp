@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What an engine that somebody has got the better of can still do: nothing but compute.
-#include <unistd.h>
-
 #include "tests/faults/fake_case.hpp"
 
 namespace polargrain::testing {
@@ -59,13 +57,14 @@ TEST_F(ConfinementTest, AGuestLeavesNoDirectoryBehind) {
   write(scratch_.path() / "fake.in", "\n");
   const std::filesystem::path place = scratch_.path() / "tmp";
   std::filesystem::create_directories(place);
-  const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
   ASSERT_EQ(run_in(scratch_.path(), FAKE_POLARGRAIN " keys keys").status, 0);
   const Outcome outcome =
-      run_in(scratch_.path(), "{ TMPDIR='" + place.string() +
-                                  "' " FAKE_POLARGRAIN " worker --key keys/worker.key --connect " + url +
-                                  " >/dev/null 2>&1 & " + command(2) + " -o out -w 0 --keys keys --listen " +
-                                  url + "; status=$?; wait; exit $status; }");
+      run_in(scratch_.path(), "{ " + command(2) +
+                                  " -o out -w 0 --keys keys --listen 'tcp://127.0.0.1:*' & run=$!; " +
+                                  await_url("out") + "TMPDIR='" + place.string() +
+                                  "' " FAKE_POLARGRAIN
+                                  " worker --key keys/worker.key --connect $url >/dev/null 2>&1 & "
+                                  "wait $run; status=$?; wait; exit $status; }");
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_TRUE(std::filesystem::is_empty(place));
 }

@@ -41,6 +41,7 @@ class FakeCaseTest : public ::testing::Test {
     write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be disturbed in
     return "env -C '" + scratch_.path().string() + "' " + command(steps, settings) + " -o disturbed -w 3";
   }
+  [[nodiscard]] std::filesystem::path disturbed() const { return scratch_.path() / "disturbed"; }
   [[nodiscard]] std::string result(const std::string& file) const { return content(scratch_.path() / file); }
 
   Scratch scratch_;

@@ -34,7 +34,7 @@ endif()
 if(TARGET polargrain)
   add_test(NAME slurm COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/faults/slurm.sh $<TARGET_FILE:polargrain>
            ${PROJECT_SOURCE_DIR}/cases/biaxial/case.yaml --set steps.count=1 --set mesh.rectangle.elements=[1,2])
-  set_tests_properties(slurm PROPERTIES LABELS faults SKIP_RETURN_CODE 77 TIMEOUT 300)
+  set_tests_properties(slurm PROPERTIES COST 300 LABELS faults SKIP_RETURN_CODE 77 TIMEOUT ${polargrain_patience})
 endif()
 
 polargrain_test(faults_checks_test faults faults/checks_test.cpp LIBS polargrain_pool polargrain_fake_engine)
@@ -57,8 +57,8 @@ foreach(size "" _reduced)
            $<TARGET_FILE:strange_worker> $<TARGET_FILE:rename_killer>
            $<TARGET_FILE:clock_steps> ${argument})
 endforeach()
-set_tests_properties(fault_bed PROPERTIES LABELS long TIMEOUT 600)
-set_tests_properties(fault_bed_reduced PROPERTIES LABELS faults TIMEOUT 300)
+set_tests_properties(fault_bed PROPERTIES LABELS long TIMEOUT ${polargrain_patience})
+set_tests_properties(fault_bed_reduced PROPERTIES COST 300 LABELS faults TIMEOUT ${polargrain_patience})
 
 polargrain_test(faults_soak_test long faults/soak_test.cpp LIBS polargrain_options Threads::Threads)
 target_compile_definitions(faults_soak_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"

@@ -5,10 +5,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/support/processes.hpp"
@@ -48,18 +54,66 @@ class Beside {
   int status_ = 0;
 };
 
-/// Sends a signal to children of a command, picked at random, at random intervals, until it has sent so many
-/// or the command has ended. @returns how many it has sent
-inline int kill_workers(Beside& coordinator, int kills, double mean_seconds, std::uint64_t seed,
-                        int signal = SIGKILL) {
+/// Waits until the condition holds or the command has ended. @returns whether the condition holds
+template <class Condition>
+bool await(Beside& command, Condition condition) {
+  while (!condition()) {
+    if (!command.running()) return condition();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+/// Rows of a table that a run writes, that of the names included; 0 when there is none yet.
+inline long rows_of(const std::filesystem::path& table) {
+  std::ifstream in(table, std::ios::binary);
+  return std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+}
+
+/// Follows a run by its history.csv, so that faults come at its own pace and not at that of a clock: a run that others slow down
+/// meets as many in a step as one that is alone.
+class Pace {
+ public:
+  Pace(Beside& run, std::filesystem::path history) : run_(run), history_(std::move(history)) {}
+  /// Waits until the table has so many rows more than when the run began, or the run has ended.
+  /// @returns whether it goes on
+  bool await(long rows) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    const long before = rows_of(history_);
+    testing::await(run_, [&] { return rows_of(history_) >= rows; });
+    if (const long more = rows_of(history_) - before; more > 0)
+      row_ = std::chrono::duration<double>(Clock::now() - begin).count() / static_cast<double>(more);
+    return run_.running();
+  }
+  /// Waits for a share of the time that a row took at last.
+  void sleep_for_rows(double share) const {
+    std::this_thread::sleep_for(std::chrono::duration<double>(share * row_));
+  }
+
+ private:
+  Beside& run_;
+  std::filesystem::path history_;
+  double row_ = 0.01;  ///< s
+};
+
+/// Kills children of a run, picked at random, each but once, at random moments behind every so many of its steps, until it has killed
+/// so many or the run has ended. @returns how many
+inline int kill_workers(Beside& run, const std::filesystem::path& history, int kills, double steps_between,
+                        std::uint64_t seed) {
   std::mt19937_64 generator(seed);
-  std::exponential_distribution<double> wait(1.0 / mean_seconds);
+  std::uniform_real_distribution<double> share(0.0, std::min(1.0, steps_between));
+  Pace pace(run, history);
+  std::set<pid_t> hit;  // one that is dead stays in the list until its parent has noticed
   int sent = 0;
-  while (sent < kills && coordinator.running()) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(wait(generator)));
-    const std::vector<pid_t> workers = children_of(coordinator.id());
+  while (sent < kills && pace.await(2 + static_cast<long>(steps_between * sent))) {
+    pace.sleep_for_rows(share(generator));
+    std::vector<pid_t> workers = children_of(run.id());
+    std::erase_if(workers, [&](pid_t worker) { return hit.contains(worker); });
     if (workers.empty()) continue;
-    sent += kill(workers[generator() % workers.size()], signal) == 0;
+    const pid_t worker = workers[generator() % workers.size()];
+    hit.insert(worker);
+    sent += kill(worker, SIGKILL) == 0;
   }
   return sent;
 }

@@ -24,12 +24,14 @@ class MessageFaultsTest : public ::testing::Test {
  protected:
   MessageFaultsTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {}
 
-  [[nodiscard]] PoolOptions options(int workers, const std::vector<std::string>& command) {
+  /// @param silence_seconds what is lost on the line is asked for again in a tenth of it
+  [[nodiscard]] PoolOptions options(int workers, const std::vector<std::string>& command,
+                                    double silence_seconds = 30.0) {
     PoolOptions options;
     options.workers = workers;
     options.directory = scratch_.path();
     options.worker_command = command;
-    options.patience.silence_seconds = 1.0;
+    options.patience.silence_seconds = silence_seconds;
     options.tell = [this](const std::string& text) { told_ += text + '\n'; };
     return options;
   }
@@ -58,7 +60,7 @@ std::vector<CellReply> chain(Pool& pool, std::size_t cells) {
 TEST_F(MessageFaultsTest, LostDoubledDelayedAndCutMessagesChangeNothing) {
   Pool undisturbed(options(1, {FAKE_WORKER}));
   const std::vector<CellReply> expected = chain(undisturbed, 20);
-  Pool pool(options(4, {FAULTY_LINE, "11", "4", FAKE_WORKER}));
+  Pool pool(options(4, {FAULTY_LINE, "11", "4", FAKE_WORKER}, 4.0));
   const std::vector<CellReply> replies = chain(pool, 20);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     EXPECT_EQ(replies[r].response.quality, Quality::good);
@@ -121,7 +123,7 @@ TEST_F(MessageFaultsTest, AWorkerThatSendsOtherStatesIsGivenUp) {
 }
 
 TEST_F(MessageFaultsTest, AWorkerThatNeverAnswersIsGivenUp) {
-  Pool pool(options(1, {STRANGE_WORKER, "nothing"}));
+  Pool pool(options(1, {STRANGE_WORKER, "nothing"}, 0.5));
   pool.define(testing::fake_definition(""));
   const std::vector<CellReply> replies = pool.evaluate(random_requests(1));
   EXPECT_EQ(replies[0].response.quality, Quality::failed);

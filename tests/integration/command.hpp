@@ -65,4 +65,11 @@ inline Outcome run_in(const std::filesystem::path& directory, const std::string&
   return outcome;
 }
 
+/// Commands of the shell that wait for the run whose process is $run, and set $url to where it lets workers join: it listens at a
+/// port that was free.
+inline std::string await_url(const std::string& result) {
+  return "until url=$(sed -n 's/.*workers may join at //p' '" + result +
+         "/run.log' 2>/dev/null) && [ -n \"$url\" ]; do kill -0 $run || exit 1; sleep 0.05; done; ";
+}
+
 }  // namespace polargrain::testing

@@ -10,11 +10,13 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 
 #include "coupler/pool/private_directory.hpp"
 #include "tests/integration/fake_engine.hpp"
 #include "tests/integration/pool_fixture.hpp"
 #include "tests/integration/random_requests.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/processes.hpp"
 
 namespace polargrain::coupler {
@@ -218,22 +220,28 @@ TEST_F(PoolTest, AWorkerThatCrashesAtItsStartLeavesTheOthersAtWork) {
             std::string::npos)
       << told;
   // It is tried again some times, then no more.
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (told.find("it is not started again") == std::string::npos && std::chrono::steady_clock::now() < end)
-    pool.evaluate(random_requests(40));
-  EXPECT_NE(told.find("no room\nit is not started again"), std::string::npos) << told;
+  const auto is_given_up = [&] { return told.find("no room\nit is not started again") != std::string::npos; };
+  EXPECT_TRUE(testing::eventually(is_given_up, [&] { pool.evaluate(random_requests(40)); })) << told;
 }
 
 TEST_F(PoolTest, AWorkerThatNeverReportsLeavesTheOthersAtWork) {
   PoolOptions partly = options(2);
   partly.worker_command = fails_as("worker-1.log", "echo thinking; exec sleep 60");
-  partly.startup_seconds = 1.0;
   std::string told;
   partly.tell = [&](const std::string& text) { told += text + '\n'; };
-  Pool pool(partly);
-  pool.define(testing::fake_definition(""));
-  EXPECT_EQ(pool.evaluate(random_requests(1))[0].response.quality, Quality::good);
-  EXPECT_NE(told.find("worker 1 did not report within 1 s of its start"), std::string::npos) << told;
+  // The other one must report in that time: a busy machine needs more of it.
+  std::unique_ptr<Pool> pool;
+  for (partly.startup_seconds = 0.5; !pool; partly.startup_seconds *= 4.0) {
+    try {
+      pool = std::make_unique<Pool>(partly);
+    } catch (const RunError&) {
+      if (partly.startup_seconds > 100.0) throw;
+    }
+  }
+  pool->define(testing::fake_definition(""));
+  EXPECT_EQ(pool->evaluate(random_requests(1))[0].response.quality, Quality::good);
+  EXPECT_NE(told.find("worker 1 did not report within "), std::string::npos) << told;
+  EXPECT_EQ(told.find("worker 2"), std::string::npos) << told;
 }
 
 TEST_F(PoolTest, TheSocketsOfAKilledCoordinatorAreRemovedByTheNext) {

@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +15,7 @@
 #include "tests/integration/fake_engine.hpp"
 #include "tests/integration/pool_fixture.hpp"
 #include "tests/integration/random_requests.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/processes.hpp"
 
 namespace polargrain::coupler {
@@ -187,11 +188,17 @@ TEST_F(PoolTest, OneStateAStepTravels) {
 }
 
 TEST_F(PoolTest, CellsStayWithTheirWorkers) {
-  Pool pool(options(3));
-  const double bytes = bytes_an_evaluation(pool, "sleep_milliseconds 2");
-  std::cout << "[figure] bytes an evaluation, three workers: " << bytes << ", states sent "
-            << pool.counts().states_sent << '\n';
-  EXPECT_LT(bytes, 25000.0);
+  // A worker that gets no processor loses its cells to the others: on a busy machine the least of several tries is that of
+  // workers that were equally fast. At random two of three cells would change their worker: 33,000 bytes in every try.
+  double least = 1e9;
+  const auto attempt = [&] {
+    Pool pool(options(3));
+    const double bytes = bytes_an_evaluation(pool, "sleep_milliseconds 2");
+    std::cout << "[figure] bytes an evaluation, three workers: " << bytes << ", states sent "
+              << pool.counts().states_sent << '\n';
+    least = std::min(least, bytes);
+  };
+  EXPECT_TRUE(testing::eventually([&] { return least < 25000.0; }, attempt)) << least;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "common/csv_table.hpp"
 #include "tests/integration/command.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -296,12 +297,11 @@ TEST_F(RunTest, WorkersDieWithTheirCoordinator) {
     // A dead process may stay in the list as a zombie until its new parent asks for it. On a busy machine the
     // coordinator itself takes a while to go.
     std::string state;
-    for (int wait = 0; wait < 200; ++wait) {
+    const bool is_gone = eventually([&] {
       state = content("/proc/" + std::to_string(worker) + "/stat");
-      if (state.empty() || state.find(") Z ") != std::string::npos) break;
-      usleep(50000);
-    }
-    EXPECT_TRUE(state.empty() || state.find(") Z ") != std::string::npos) << state;
+      return state.empty() || state.find(") Z ") != std::string::npos;
+    });
+    EXPECT_TRUE(is_gone) << state;
   }
   EXPECT_EQ(count, 2);
 }

@@ -258,8 +258,7 @@ TEST_F(GrainsCommand, ARunThatWasKilledKeepsTheSameBytes) {
   std::filesystem::rename(folder() / "out", folder() / "whole");
   {
     RunningProgram program(folder(), "run case.yaml -o out -w 1 --quiet --checkpoint-minutes 0");
-    for (int wait = 0; wait < 3000 && !std::filesystem::exists(folder() / "out/checkpoint.h5"); ++wait)
-      sleep_for(0.01);
+    await(program, [&] { return std::filesystem::exists(folder() / "out/checkpoint.h5"); });
     program.end(SIGKILL);
   }
   const Outcome resumed = run_in(folder(), kProgram + " run case.yaml -o out -w 2 --quiet --resume");

@@ -8,6 +8,10 @@ if(TARGET polargrain)
   target_compile_definitions(informed_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                           POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(informed_engine_test polargrain)
+  polargrain_test(large_engine_test integration integration/large_engine_test.cpp LIBS polargrain_coupler)
+  target_compile_definitions(large_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                       POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  add_dependencies(large_engine_test polargrain)
 endif()
 if(TARGET polargrain AND TARGET polargrain-liggghts)
   polargrain_test(informed_studies_test integration integration/informed_studies_test.cpp LIBS polargrain_options)
@@ -26,5 +30,5 @@ if(TARGET polargrain AND TARGET polargrain-liggghts)
            ${PROJECT_SOURCE_DIR}/cases/studies/toyoura/preparation.py --check --ways fell pressed --grains 80 --packings 2
            --frictions 0.1 0.5 --strain 3 -o ${CMAKE_CURRENT_BINARY_DIR}/toyoura_preparation --program $<TARGET_FILE:polargrain>)
   set_tests_properties(ToyouraPreparation.Anew PROPERTIES LABELS long FIXTURES_SETUP toyoura_preparation)
-  set_tests_properties(ToyouraPreparation.LooserPackingsAreWeaker PROPERTIES LABELS long TIMEOUT 600 FIXTURES_REQUIRED toyoura_preparation)
+  set_tests_properties(ToyouraPreparation.LooserPackingsAreWeaker PROPERTIES LABELS long TIMEOUT ${polargrain_patience} FIXTURES_REQUIRED toyoura_preparation)
 endif()

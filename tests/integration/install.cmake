@@ -3,5 +3,5 @@
 if(TARGET polargrain)
   add_test(NAME install COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/install.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
   add_test(NAME package COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/integration/package.sh ${PROJECT_BINARY_DIR})
-  set_tests_properties(install package PROPERTIES LABELS integration TIMEOUT 600 PROCESSORS 2)
+  set_tests_properties(install package PROPERTIES COST 1000 LABELS integration TIMEOUT ${polargrain_patience} PROCESSORS 2)
 endif()

@@ -85,7 +85,7 @@ TEST_P(OddPackings, AreRefusedOrAnsweredInTime) {
             (rotations == "controlled" ? "rotations: controlled" : "G: 16 MPa, Gc: 14 MPa, lc: 20 mm") +
             "}\nregions: {all: sand}\nboundary:\n  - {on: bottom, fix: [u1, u2]}\n"
             "  - {on: top, move: {u2: -1 mm}}\nsteps: {count: 1}\n");
-  const Outcome outcome = run_in(scratch.path(), "timeout 100 " POLARGRAIN " point case.yaml sand path.csv");
+  const Outcome outcome = run_in(scratch.path(), "timeout 1000 " POLARGRAIN " point case.yaml sand path.csv");
   // Status 2: the case is refused; 1: in words of the engine or of the cell; 124 is that of timeout.
   EXPECT_TRUE(outcome.status == 0 || outcome.status == 1 || outcome.status == 2) << outcome.status << '\n'
                                                                                  << outcome.errors;

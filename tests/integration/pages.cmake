@@ -8,6 +8,6 @@ if(TARGET polargrain AND TARGET polargrain_gmsh AND TARGET polargrain-liggghts A
     add_test(NAME page_${name}
              COMMAND ${Python_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/integration/run_page.py $<TARGET_FILE:polargrain>
                      $<TARGET_FILE:polargrain-liggghts> ${PROJECT_BINARY_DIR}/python ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${page})
-    set_tests_properties(page_${name} PROPERTIES LABELS integration TIMEOUT 600)
+    set_tests_properties(page_${name} PROPERTIES LABELS integration TIMEOUT ${polargrain_patience})
   endforeach()
 endif()

@@ -3,7 +3,6 @@
 // played by the switches of the system's libraries: OpenBLAS takes the kernels of a named core, the C library
 // leaves its versions of the elementary functions with fused multiply-add aside.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <map>
 
@@ -107,16 +106,15 @@ TEST_F(ProcessorsTest, workers_of_three_kinds_agree_on_every_bit) {
   write(scratch_.path() / "case.yaml", cell_case());
   const std::string here = history("", 2);
   ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " keys keys").status, 0);
-  const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
   std::string guests;
   for (const char* kind : {"Haswell", "Nehalem", "Prescott"})
     guests += "env " + kProcessors.at(kind) +
-              " " POLARGRAIN " worker --patience 5 --key keys/worker.key --connect " + url + " & ";
-  const Outcome outcome = run_in(scratch_.path(), "{ " + guests +
-                                                      POLARGRAIN
-                                                      " run case.yaml --quiet -o result -w 0 --keys keys "
-                                                      "--set workers.check=1 --listen " +
-                                                      url + "; status=$?; wait; exit $status; }");
+              " " POLARGRAIN " worker --patience 20 --key keys/worker.key --connect $url & ";
+  const Outcome outcome = run_in(
+      scratch_.path(), "{ " POLARGRAIN
+                       " run case.yaml --quiet -o result -w 0 --keys keys --set workers.check=1 "
+                       "--listen 'tcp://127.0.0.1:*' & run=$!; " +
+                           await_url("result") + guests + "wait $run; status=$?; wait; exit $status; }");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_EQ(content(scratch_.path() / "result/history.csv"), here);
   const std::string summary = content(scratch_.path() / "result/summary.json");

@@ -6,7 +6,7 @@ if(TARGET polargrain AND TARGET polargrain_python)
     get_filename_component(name ${file} NAME_WE)
     add_test(NAME python_${name} COMMAND ${Python_EXECUTABLE} -B -W error ${file}
              WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
-    set_tests_properties(python_${name} PROPERTIES LABELS integration TIMEOUT 300
+    set_tests_properties(python_${name} PROPERTIES LABELS integration TIMEOUT ${polargrain_patience}
                          ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python;POLARGRAIN_SOURCE=${PROJECT_SOURCE_DIR};POLARGRAIN_BEHAVIOUR=$<TARGET_FILE:polargrain_behaviour>")
   endforeach()
   set_tests_properties(python_run_test python_laboratory_test python_notebook_test PROPERTIES PROCESSORS 2)  # two workers

@@ -3,8 +3,13 @@
 // bit.
 #include "coupler/replay/replay.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include "common/plane_in_space.hpp"
@@ -187,6 +192,92 @@ TEST(Replay, IsWrittenByPolargrainPoint) {
   std::string stress_11;
   words >> word >> word >> word >> word >> stress_11;
   EXPECT_NE(answers.find("\n2," + stress_11 + ","), std::string::npos) << stress_11 << "\n" << answers;
+}
+
+/// Rows of a point that is strained while it turns by 9 degrees a row, about the start of each row.
+std::string turning_rows(int rows, double turn) {
+  const auto place = [turn](int row) {
+    Eigen::Matrix2d stretch;
+    stretch << 3e-4, 2e-4, 2e-4, -8e-4;
+    return Eigen::Matrix2d(Eigen::Rotation2Dd(row * turn) * (Eigen::Matrix2d::Identity() + row * stretch));
+  };
+  std::string text = "h11,h12,h21,h22,w\n";
+  for (int row = 0; row < rows; ++row) {
+    const Eigen::Matrix2d h = place(row + 1) * place(row).inverse() - Eigen::Matrix2d::Identity();
+    text +=
+        fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", h(0, 0), h(0, 1), h(1, 0), h(1, 1), turn);
+  }
+  return text;
+}
+
+/// Stress of the last row of a table of answers.
+Eigen::Matrix2d last_stress(const std::filesystem::path& table) {
+  std::string last;
+  std::istringstream lines(polargrain::testing::content(table));
+  for (std::string line; std::getline(lines, line);) last = line;
+  std::vector<double> n;
+  std::istringstream words(last);
+  for (std::string word; n.size() < 6 && std::getline(words, word, ',');) n.push_back(std::stod(word));
+  Eigen::Matrix2d s;
+  s << n.at(1), n.at(4), n.at(5), n.at(2);
+  return s;
+}
+
+constexpr double kNineDegrees = M_PI / 20.0;
+
+// The table, the README of the replay and the replay are one path, and the stress turns with the material.
+TEST(Replay, OfAPointInLargeDeformationIsThePathOfItsTable) {
+  const Scratch scratch("replay_large");
+  polargrain::testing::write(scratch.path() / "turned.csv", turning_rows(5, kNineDegrees));
+  polargrain::testing::write(scratch.path() / "straight.csv", turning_rows(5, 0.0));
+  const std::string root = std::filesystem::current_path().string();
+  for (const char* path : {"turned", "straight"}) {
+    const Outcome point = run_in(
+        scratch.path(), std::string(POLARGRAIN) + " point " + root + "/cases/biaxial/case.yaml sand " + path +
+                            ".csv --set deformation=large --replay " + path + " -o " + path + "_answers.csv");
+    ASSERT_EQ(point.status, 0) << point.errors;
+  }
+  const Outcome outcome =
+      run_in(scratch.path() / "turned", std::string(POLARGRAIN_LIGGGHTS) + " -in in.replay -log none");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  const auto printed = replay_reports(outcome.out);
+  ASSERT_EQ(printed.size(), 5u);
+  EXPECT_EQ(printed, replay_reports(polargrain::testing::content(scratch.path() / "turned" / "README.md")));
+  const Eigen::Matrix2d turned = last_stress(scratch.path() / "turned_answers.csv");
+  const Eigen::Matrix2d straight = last_stress(scratch.path() / "straight_answers.csv");
+  const std::vector<double> last = numbers(printed.back());  // increment, s11, s22, s33, s12, s21
+  EXPECT_EQ(last.at(1), turned(0, 0));
+  EXPECT_EQ(last.at(2), turned(1, 1));
+  EXPECT_NEAR(0.5 * (last.at(4) + last.at(5)), turned(0, 1), 1e-9);
+  const Eigen::Matrix2d r = Eigen::Rotation2Dd(5 * kNineDegrees).toRotationMatrix();
+  const double error = (turned - r * straight * r.transpose()).norm() / straight.norm();
+  std::cout << "[figure] point turned by 45 degrees in 5 rows: stress off by " << error << '\n';
+  EXPECT_LT(error, 1e-6);
+  EXPECT_GT((turned - straight).norm(), 0.1 * straight.norm()) << "the test would see nothing";
+}
+
+TEST(Replay, APointOfALawTurnsItsStressInLargeDeformation) {
+  const Scratch scratch("point_large");
+  polargrain::testing::write(
+      scratch.path() / "case.yaml",
+      "title: a law\ndeformation: large\n"
+      "mesh: {rectangle: {size: [1, 1], elements: [1, 1]}}\n"
+      "materials: {soil: {model: elastic, E: 50 MPa, nu: 0.3, Gc: 10 MPa, lc: 10 mm}}\n"
+      "regions: {all: soil}\nboundary: [{on: bottom, fix: [u1, u2]}]\n"
+      "steps: {count: 1}\n");
+  polargrain::testing::write(scratch.path() / "turned.csv", turning_rows(5, kNineDegrees));
+  polargrain::testing::write(scratch.path() / "straight.csv", turning_rows(5, 0.0));
+  for (const char* path : {"turned", "straight"}) {
+    const Outcome point = run_in(scratch.path(), std::string(POLARGRAIN) + " point case.yaml soil " + path +
+                                                     ".csv -o " + path + "_answers.csv");
+    ASSERT_EQ(point.status, 0) << point.errors;
+  }
+  const Eigen::Matrix2d straight = last_stress(scratch.path() / "straight_answers.csv");
+  const Eigen::Matrix2d r = Eigen::Rotation2Dd(5 * kNineDegrees).toRotationMatrix();
+  const Eigen::Matrix2d expected = r * straight * r.transpose();
+  EXPECT_LT((last_stress(scratch.path() / "turned_answers.csv") - expected).norm(), 1e-12 * straight.norm());
+  // Hooke's law over 4e-3 of vertical strain: 5 rows of -8e-4, of 3e-4 across.
+  EXPECT_NEAR(straight(1, 1), 50e6 / (1.3 * 0.4) * (0.7 * -4e-3 + 0.3 * 1.5e-3), 1e3);
 }
 
 struct BadFix {

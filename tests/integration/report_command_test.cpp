@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/faults/killer.hpp"
 #include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
@@ -120,6 +121,64 @@ TEST_F(ReportTest, ShowsTheNumbersOfTheRun) {
   EXPECT_FALSE(std::filesystem::exists(directory() / "out/report.html"));
 }
 
+// What names would do in an element, in an attribute of either quotation mark, in a script and in its JSON. The page is taken
+// apart by a reader of HTML: it has the elements of the same page with plain names, and no attribute that runs anything.
+TEST_F(ReportTest, NamesAreNamesWhereverTheyStand) {
+  const auto shape_of = [&](const std::string& file) {
+    return run_in(directory(), "/usr/bin/python3 " HTML_CHECK " '" + (directory() / file).string() + "'").out;
+  };
+  const std::string plain = content(directory() / "case.yaml");
+  ASSERT_EQ(polargrain("report out -o plain.html").status, 0);
+  const std::string shape = shape_of("plain.html");
+  for (const std::string name :
+       {"f' autofocus onfocus=alert(4) x='", "<script>alert(1)</script>",
+        "</script><script>alert(2)</script>", "<!--<script>", "]]>", "&lt;b&gt;",
+        "<img src=x onerror=alert(3)>", "</canvas></figure>", "`${alert(5)}`", "\\u003c/script>",
+        "&#39;onclick&#39;", "x' onmouseover='alert(6)", "</title><h1>", "</pre><b>"}) {
+    std::string quoted;
+    for (const char c : name) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+    std::string text = plain;
+    text.replace(text.find("Compression of <rock>"), 21, "'" + quoted + "'");
+    text.replace(text.find("  top_force:"), 12, "  'n" + quoted + "':");
+    write(directory() / "case.yaml", text);
+    const Outcome ran = polargrain("run case.yaml -o out --quiet");
+    ASSERT_EQ(ran.status, 0) << ran.errors;
+    ASSERT_EQ(polargrain("report out").status, 0);
+    const std::string html = page();
+    EXPECT_EQ(shape_of("out/report.html"), shape) << name;
+    // What the browser shows is the name itself.
+    EXPECT_EQ(chart_of(html, "axial_strain", "n" + name)["series"][0]["points"].size(), 6U) << name;
+  }
+}
+
+TEST_F(ReportTest, NamesAreNoCommandsOfLatex) {
+  std::string text = content(directory() / "case.yaml");
+  text.replace(text.find("  top_force:"), 12, "  'n\\input{secret}^~#':");
+  write(directory() / "case.yaml", text);
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  ASSERT_EQ(polargrain("report out").status, 0);
+  EXPECT_NE(page().find("n\\textbackslash{}input\\{secret\\}\\^{}\\~{}\\#, N/m"), std::string::npos);
+}
+
+// A summary of which somebody has made something else.
+TEST_F(ReportTest, NamesASummaryThatNoRunWrites) {
+  const std::string good = content(directory() / "out/summary.json");
+  for (const auto& [what, with] :
+       {std::pair<std::string, std::string>{"\"title\": \"Compression of <rock>\"", "\"title\": [1]"},
+        {"\"proof\": {", "\"proof\": 3, \"former\": {"},
+        {"\"total\": ", "\"total\": \"long\", \"former\": "},
+        {"\"settings\": []", "\"settings\": 7"},
+        {"\"materials\": {}", "\"materials\": {\"all\": 1}"}}) {
+    std::string bad = good;
+    ASSERT_NE(bad.find(what), std::string::npos) << what << good;
+    write(directory() / "out/summary.json", bad.replace(bad.find(what), what.size(), with));
+    const Outcome outcome = polargrain("report out");
+    EXPECT_EQ(outcome.errors.find("terminate"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("error: [json"), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(outcome.status == 0 || outcome.status == 2) << with << outcome.errors;
+  }
+}
+
 // The table of the case says which curves come first. Over time nothing was moved; the shortening tells it.
 TEST_F(ReportTest, DrawsOverTheValueThatWasMovedAndFoldsAwayTheOthers) {
   std::string text = content(directory() / "case.yaml");
@@ -191,8 +250,13 @@ TEST_F(ReportTest, FollowsARunAtWork) {
   // A run holds its directory.
   const int lock = open((directory() / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   ASSERT_EQ(flock(lock, LOCK_EX), 0);
-  // It would go on as long as the run does: two seconds are enough to see the page.
-  EXPECT_NE(run_in(directory(), "timeout -s INT 2 " FAKE_POLARGRAIN " report out --live").status, 0);
+  std::filesystem::remove(directory() / "out/report.html");
+  Beside live("env -C '" + directory().string() + "' " FAKE_POLARGRAIN " report out --live >/dev/null");
+  // It would go on as long as the run does.
+  const auto page_is_whole = [this] { return page().find("</html>") != std::string::npos; };
+  EXPECT_TRUE(await(live, page_is_whole));
+  kill(live.id(), SIGINT);
+  EXPECT_NE(live.wait(), 0);
   const std::string text = page();
   EXPECT_NE(text.find("<meta http-equiv='refresh' content='5'>"), std::string::npos);
   EXPECT_NE(text.find("at work, step 5 committed (time 1)"), std::string::npos);

@@ -19,6 +19,8 @@ class Check(html.parser.HTMLParser):
     def handle_starttag(self, tag, attributes):
         self.counts[tag] += 1
         for name, value in attributes:
+            if name.startswith("on") or name in ("autofocus", "srcdoc", "formaction"):
+                self.faults.append(f"line {self.getpos()[0]}: {tag} has the attribute {name}, which runs what it holds")
             if name in ("src", "href") and not value.startswith("#"):
                 self.faults.append(f"line {self.getpos()[0]}: {tag} loads {value}")
         if tag not in VOID:

@@ -2,4 +2,5 @@
 polargrain_test(adaptive_material_test unit unit/adaptive_material_test.cpp LIBS polargrain_coupler)
 polargrain_test(adaptive_cosserat_test unit unit/adaptive_cosserat_test.cpp LIBS polargrain_coupler)
 polargrain_test(couple_limit_test unit unit/couple_limit_test.cpp LIBS polargrain_coupler)
+polargrain_test(skew_limit_test unit unit/skew_limit_test.cpp LIBS polargrain_coupler)
 polargrain_test(adaptive_parts_test unit unit/adaptive_parts_test.cpp LIBS polargrain_coupler)

@@ -160,18 +160,20 @@ TEST_F(AdaptiveCosseratTest, BoxAndGrainsTurnedAlikeAreNoStrainAndTurnAllOfTheSt
   AdaptiveMaterial sand = material(1, 0.02);
   Increment bend;
   bend.curvature << 0.1, 0.0;
-  bend.configuration = Configuration::middle;
+  bend.configuration = Configuration::start;
   const Response bent = step(sand, {bend}).front();
   Increment turn;
-  const double angle = 1e-3;
-  turn.displacement_gradient << 0.0, -2.0 * std::tan(0.5 * angle), 2.0 * std::tan(0.5 * angle), 0.0;
-  turn.micro_rotation = turn.displacement_gradient(1, 0);
-  turn.configuration = Configuration::middle;
+  const double angle = 0.5;
+  turn.displacement_gradient = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
+  turn.micro_rotation = angle;
+  turn.configuration = Configuration::start;
   cells_.runs = 0;
   const Response turned = step(sand, {turn}).front();
   EXPECT_EQ(cells_.runs, 0);
-  // m turns as a vector; of second order, angle^2 m, is left out.
-  EXPECT_NEAR(turned.stress[kCurvature2], angle * bent.stress[kCurvature1], 1e-6 * bent.stress[kCurvature1]);
+  EXPECT_NEAR(turned.stress[kCurvature2], std::sin(angle) * bent.stress[kCurvature1],
+              1e-12 * bent.stress[kCurvature1]);
+  EXPECT_NEAR(turned.stress[kCurvature1], std::cos(angle) * bent.stress[kCurvature1],
+              1e-12 * bent.stress[kCurvature1]);
 }
 
 TEST_F(AdaptiveCosseratTest, AuditsSeeCoupleStressesAndAllGoesOnFromACheckpointBitForBit) {

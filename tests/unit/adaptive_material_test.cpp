@@ -136,12 +136,10 @@ TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
 
 // What a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
 TEST_F(AdaptiveMaterialTest, GrainsAreTurnedByAllOfALargeRotation) {
-  // About the middle of the step a rotation by 0.6 has the gradient 2 tan 0.3: exact, with sines and cosines.
   AdaptiveMaterial sand = material(2, 0.0);
   const double angle = 0.6;
-  Eigen::Matrix2d about_middle;
-  about_middle << 0.0, -2.0 * std::tan(angle / 2.0), 2.0 * std::tan(angle / 2.0), 0.0;
-  step(sand, {Eigen::Matrix2d::Zero(), about_middle}, Configuration::middle);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
+  step(sand, {Eigen::Matrix2d::Zero(), turn}, Configuration::start);
   const Eigen::Matrix2d& told = cells_.last_request.increment.displacement_gradient;
   EXPECT_LT((Eigen::Matrix2d::Identity() + told - Eigen::Rotation2Dd(angle).toRotationMatrix()).norm(),
             1e-15);
@@ -262,6 +260,9 @@ TEST_F(AdaptiveMaterialTest, AStepBeyondTheToleranceIsAnsweredAnewAndWhatCannotB
   const std::vector<std::string> notes = sand.take_notes();
   ASSERT_FALSE(notes.empty());
   EXPECT_NE(notes.front().find("more than the tolerance of 0.02"), std::string::npos) << notes.front();
+  // The material knows increments; which step of a run they belong to is for the run to say.
+  EXPECT_EQ(notes.front().find("step"), std::string::npos) << notes.front();
+  EXPECT_NE(sand.doubt().find(" of 12 increments"), std::string::npos) << sand.doubt();
   EXPECT_TRUE(sand.take_notes().empty());
   EXPECT_NE(sand.doubt().find("cannot be vouched for"), std::string::npos) << sand.doubt();
 }

@@ -13,6 +13,7 @@
 #include "coupler/adaptivity/leaders.hpp"
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/cells/cell_increment.hpp"
+#include "coupler/cells/successive.hpp"
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {

@@ -19,13 +19,12 @@ Increment some_increment() {
   return increment;
 }
 
-/// About the middle of the step a rotation by `angle` has this gradient; elements count w against its half tangent.
-Increment turn_about_middle(double angle) {
+/// A rigid rotation of box and grains.
+Increment turn_by(double angle) {
   Increment turn;
-  const double slope = 2.0 * std::tan(0.5 * angle);
-  turn.displacement_gradient << 0.0, -slope, slope, 0.0;
-  turn.micro_rotation = slope;
-  turn.configuration = Configuration::middle;
+  turn.displacement_gradient = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
+  turn.micro_rotation = angle;
+  turn.configuration = Configuration::start;
   return turn;
 }
 
@@ -44,7 +43,7 @@ TEST(CellIncrement, InSmallDeformationTheCellFeelsTheSameStrainAndDoesNotTurn) {
 
 TEST(CellIncrement, InLargeDeformationTheBoxTurnsByAllOfARotation) {
   for (const double angle : {0.01, 0.6, 2.0}) {
-    const Increment told = increment_for_cell(turn_about_middle(angle));
+    const Increment told = increment_for_cell(turn_by(angle));
     const Eigen::Matrix2d turned = Eigen::Matrix2d::Identity() + told.displacement_gradient;
     EXPECT_LT((turned - Eigen::Rotation2Dd(angle).toRotationMatrix()).norm(), 1e-14) << angle;
     EXPECT_NEAR(told.micro_rotation, angle, 1e-15 + 1e-15 * angle) << angle;
@@ -54,17 +53,17 @@ TEST(CellIncrement, InLargeDeformationTheBoxTurnsByAllOfARotation) {
 TEST(CosseratPart, CoupleStressTurnsInLargeDeformationAndTheSkewStressStays) {
   const CosseratParameters cosserat{40e6, 10e6, 0.02};
   CosseratPart part;
-  part.follow(some_increment(), Response{}, cosserat);
+  part.follow(some_increment(), Response{}, cosserat, 1.0);
   const Eigen::Vector2d before = part.couple_stress;
   const double skew = part.skew_stress;
-  Increment turn = turn_about_middle(0.5 * M_PI);
-  part.follow(turn, Response{}, cosserat);
+  Increment turn = turn_by(0.5 * M_PI);
+  part.follow(turn, Response{}, cosserat, 1.0);
   EXPECT_NEAR(part.couple_stress.x(), -before.y(), 1e-12 * before.norm());
   EXPECT_NEAR(part.couple_stress.y(), before.x(), 1e-12 * before.norm());
   EXPECT_EQ(part.skew_stress, skew);
   turn.configuration = Configuration::fixed;
   const Eigen::Vector2d turned = part.couple_stress;
-  part.follow(turn, Response{}, cosserat);
+  part.follow(turn, Response{}, cosserat, 1.0);
   EXPECT_EQ(part.couple_stress, turned);
 }
 

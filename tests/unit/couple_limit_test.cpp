@@ -39,7 +39,7 @@ TEST(CoupleLimit, BendingYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
   for (int step = 0; step < 120; ++step) {
     const double turn = step < 40 || step >= 100 ? kStep : -kStep;
     expected = std::clamp(expected + kCouple * turn, -kLimit, kLimit);
-    const Response response = part.follow(bending(0.6 * turn, -0.8 * turn), cell, kLimited);
+    const Response response = part.follow(bending(0.6 * turn, -0.8 * turn), cell, kLimited, 1.0);
     // Sums of 120 doubles of some hundred N/m.
     ASSERT_NEAR(response.stress[kCurvature1], 0.6 * expected, 1e-10) << step;
     ASSERT_NEAR(response.stress[kCurvature2], -0.8 * expected, 1e-10) << step;
@@ -51,15 +51,15 @@ TEST(CoupleLimit, BendingYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
 
 TEST(CoupleLimit, FallsWithThePressureAndIsNothingInTension) {
   CosseratPart part;
-  part.follow(bending(10.0, 0.0), cell_under(kPressure), kLimited);
+  part.follow(bending(10.0, 0.0), cell_under(kPressure), kLimited, 1.0);
   EXPECT_DOUBLE_EQ(part.couple_stress.x(), kLimit);
   EXPECT_DOUBLE_EQ(
-      part.follow(bending(1e-9, 0.0), cell_under(0.25 * kPressure), kLimited).stress[kCurvature1],
+      part.follow(bending(1e-9, 0.0), cell_under(0.25 * kPressure), kLimited, 1.0).stress[kCurvature1],
       0.25 * kLimit);
   // Pressure that returns brings no couple stress back by itself.
-  EXPECT_NEAR(part.follow(bending(1e-9, 0.0), cell_under(kPressure), kLimited).stress[kCurvature1],
+  EXPECT_NEAR(part.follow(bending(1e-9, 0.0), cell_under(kPressure), kLimited, 1.0).stress[kCurvature1],
               0.25 * kLimit, 1e-6);
-  const Response pulled = part.follow(bending(1.0, 1.0), cell_under(-1.0), kLimited);
+  const Response pulled = part.follow(bending(1.0, 1.0), cell_under(-1.0), kLimited, 1.0);
   EXPECT_EQ(pulled.stress.tail<2>().norm(), 0.0);
   EXPECT_EQ(pulled.tangent.bottomRows<2>().norm(), 0.0);
 }
@@ -68,7 +68,7 @@ TEST(CoupleLimit, WithoutOneNothingChanges) {
   CosseratParameters elastic = kLimited;
   elastic.plastic_length.reset();
   CosseratPart part;
-  const Response response = part.follow(bending(100.0, -50.0), cell_under(kPressure), elastic);
+  const Response response = part.follow(bending(100.0, -50.0), cell_under(kPressure), elastic, 1.0);
   EXPECT_EQ(response.stress[kCurvature1], kCouple * 100.0);
   EXPECT_EQ(response.tangent(kCurvature2, kCurvature2), kCouple);
 }
@@ -77,7 +77,7 @@ TEST(CoupleLimit, AFailedAnswerHasNone) {
   CosseratPart part;
   Response failed = cell_under(kPressure);
   failed.quality = Quality::failed;
-  EXPECT_EQ(part.follow(bending(100.0, 0.0), failed, kLimited).quality, Quality::failed);
+  EXPECT_EQ(part.follow(bending(100.0, 0.0), failed, kLimited, 1.0).quality, Quality::failed);
 }
 
 /// A linear cell, so that only the couple stress is not.
@@ -94,13 +94,13 @@ Response linear_cell(const Increment& increment) {
 
 TEST(CoupleLimit, TangentIsTheDerivativeOfTheStress) {
   CosseratPart start;
-  start.follow(bending(1.5, -1.0), cell_under(kPressure), kLimited);
+  start.follow(bending(1.5, -1.0), cell_under(kPressure), kLimited, 1.0);
   Increment base = bending(1.0, 2.5);
   base.displacement_gradient << -1e-3, 4e-4, 7e-4, -5e-4;
   base.micro_rotation = 2e-4;
   const auto answer = [&](const Increment& increment) {
     CosseratPart part = start;
-    return part.follow(increment, linear_cell(increment), kLimited);
+    return part.follow(increment, linear_cell(increment), kLimited, 1.0);
   };
   const Response here = answer(base);
   ASSERT_NEAR(here.stress.tail<2>().norm(), 4e-3 * -0.5 * (here.stress[k11] + here.stress[k22]), 1e-9);
@@ -152,7 +152,7 @@ TEST_F(LimitedAdaptiveTest, AdaptiveHasTheSameCoupleStressAndKeepsItsHistory) {
       resumed.restore(archive);
     }
     strain += compression(1e-4);
-    const Vector7 expected = part.follow(increment, cells_.at(strain).response, kSand).stress;
+    const Vector7 expected = part.follow(increment, cells_.at(strain).response, kSand, 1.0).stress;
     Response response;
     sand.evaluate({&increment, 1}, {&response, 1});
     ASSERT_TRUE(sand.confirm());

@@ -10,4 +10,5 @@ polargrain_test(coupler_noise_test unit unit/coupler_noise_test.cpp LIBS polargr
 polargrain_test(script_test unit unit/script_test.cpp LIBS polargrain_grains_io)
 target_compile_definitions(script_test PRIVATE CELL_SCRIPTS="${PROJECT_SOURCE_DIR}/liggghts_inputs/cells")
 polargrain_test(pool_parts_test unit unit/pool_parts_test.cpp LIBS polargrain_pool)
+polargrain_test(processor_share_test unit unit/processor_share_test.cpp LIBS polargrain_pool)
 polargrain_test(plane_in_space_test unit unit/plane_in_space_test.cpp LIBS polargrain_common)

@@ -4,6 +4,7 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_averages_test unit unit/dem_averages_test.cpp LIBS polargrain_dem)
   polargrain_test(dem_condensed_tangent_test unit unit/dem_condensed_tangent_test.cpp LIBS polargrain_dem)
 endif()
+polargrain_test(sphere_kernels_test unit unit/sphere_kernels_test.cpp LIBS polargrain_discs)
 polargrain_test(packing_test unit unit/packing_test.cpp LIBS polargrain_common)
 # Spoiled states, also where there is no engine; the long test is that of a million.
 polargrain_test(fuzz_states_test unit fuzz/states_test.cpp LIBS polargrain_discs)

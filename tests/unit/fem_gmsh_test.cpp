@@ -72,7 +72,8 @@ TEST(gmsh, both_versions_of_the_format_give_the_same_mesh) {
 
 /// The message of the InputError that reading the text gives.
 std::string fault_of(const std::string& content) {
-  const auto file = std::filesystem::temp_directory_path() / "fem_gmsh_test.msh";
+  const auto file =
+      std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "_fem_gmsh_test.msh");
   std::ofstream(file) << content;
   try {
     (void)read_gmsh(file);

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/eventually.hpp"
+
 namespace {
 
 using namespace polargrain;
@@ -66,12 +68,14 @@ TEST(LinearSolver, ASignalDuringTheAnalysisIsNeitherLostNorChangesABit) {
     }
   });
   while (sent == 0) std::this_thread::yield();
-  for (int trial = 0; trial < 3; ++trial) {
+  // On a busy machine the sender may get no processor during one of them.
+  int solved_under_signals = 0;
+  const auto solve = [&] {
     const int arrived = terminations;
-    const Eigen::VectorXd disturbed = solution(matrix);
-    EXPECT_EQ(disturbed, undisturbed);
-    EXPECT_GT(terminations, arrived);
-  }
+    EXPECT_EQ(solution(matrix), undisturbed);
+    if (terminations > arrived) ++solved_under_signals;
+  };
+  EXPECT_TRUE(polargrain::testing::eventually([&] { return solved_under_signals >= 3; }, solve));
   done = true;
   sender.join();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -21,6 +22,11 @@ using namespace polargrain;
 using namespace polargrain::fem;
 
 namespace {
+
+/// A file of this process: tests of several builds may run side by side.
+std::filesystem::path own_file(const std::string& name) {
+  return std::filesystem::temp_directory_path() / (std::to_string(getpid()) + '_' + name);
+}
 
 std::string base64_of(const std::string& text) {
   return base64(std::as_bytes(std::span(text)));
@@ -62,7 +68,8 @@ struct ShowingLaw : ElasticLaw {
 class Output : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("fem_output_test_" + GetParam());
+    folder_ =
+        std::filesystem::temp_directory_path() / ("fem_output_test_" + GetParam() + std::to_string(getpid()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directory(folder_);
   }
@@ -174,7 +181,7 @@ TEST(fields, engineers_read_are_exact_at_points_and_at_nodes) {
   EXPECT_NEAR(area, 2.0, 1e-14);
 
   // VTK finds names of components and units in both files.
-  const auto file = std::filesystem::temp_directory_path() / "fem_output_places.vtu";
+  const auto file = own_file("fem_output_places.vtu");
   write_vtu(file, points);
   auto lines = run("/usr/bin/python3 " VTK_READER " " + file.string());
   EXPECT_EQ(lines["grid"][2], "1");  // VTK_VERTEX
@@ -219,7 +226,7 @@ TEST(stress_measures, are_those_of_the_circle_by_hand) {
 INSTANTIATE_TEST_SUITE_P(Elements, Output, testing::Values("Q8R", "Q4", "T6"));
 
 TEST(pvd, lists_its_files) {
-  const auto file = std::filesystem::temp_directory_path() / "fem_output_test.pvd";
+  const auto file = own_file("fem_output_test.pvd");
   PvdCollection collection(file);
   collection.add(0.0, "fields_0000.vtu");
   collection.add(0.5, "fields_0001.vtu");
@@ -231,7 +238,7 @@ TEST(pvd, lists_its_files) {
 }
 
 TEST(read_vtu, refuses_what_does_not_fit_together) {
-  const auto file = std::filesystem::temp_directory_path() / "fem_output_refused.vtu";
+  const auto file = own_file("fem_output_refused.vtu");
   const Mesh mesh = rectangle({{1.0, 1.0}, {1, 1}});
   write_vtu(file, mesh, {{{"displacement", 3, std::vector<double>(3 * mesh.nodes.size(), 0.0)}}, {}});
   std::ifstream stream(file);

@@ -12,7 +12,7 @@ function(polargrain_fuzz_corpus target mutations)
   target_link_libraries(fuzz_${target} PRIVATE fuzz_main ${arg_LIBS})
   add_test(NAME fuzz_${target}
            COMMAND fuzz_${target} ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${target}.inputs ${mutations})
-  set_tests_properties(fuzz_${target} PROPERTIES LABELS unit TIMEOUT 300)
+  set_tests_properties(fuzz_${target} PROPERTIES LABELS unit TIMEOUT ${polargrain_patience})
 endfunction()
 
 polargrain_fuzz_corpus(messages 50000 LIBS polargrain_pool)

@@ -43,6 +43,12 @@ Response cell_after(const Increment& increment, bool controlled) {
   return cell;
 }
 
+PlaneReply reply(const Response& cell) {
+  PlaneReply reply;
+  reply.response = cell;
+  return reply;
+}
+
 Increment increment_of(const Vector7& strain) {
   // Without micro-rotation: eps_12 = d u2 / d x1 (Increment::strain).
   Increment increment;
@@ -61,15 +67,15 @@ TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
   for (const bool controlled : {false, true}) {
     const OwnAnswerRules by = rules(controlled);
     const Response before = cell_after(Increment{}, controlled);
-    const OwnAnswer start = left_law(by, stress_of_law(), before);
+    const OwnAnswer start = left_law(by, stress_of_law(), reply(before));
     OwnAnswer end;
-    const Response nothing = own_answer(by, start, Increment{}, before, end);
+    const Response nothing = own_answer(by, start, Increment{}, reply(before), end);
     EXPECT_LT((nothing.stress - stress_of_law()).norm(), 1e-9) << controlled;
     EXPECT_EQ(end.strained, 0.0);
 
     const Increment increment = some_increment(2.0 * kWorkOff);
     const Response cell = cell_after(increment, controlled);
-    const Response there = own_answer(by, start, increment, cell, end);
+    const Response there = own_answer(by, start, increment, reply(cell), end);
     if (controlled) {
       EXPECT_EQ(there.stress, cell.stress);
       EXPECT_EQ(there.tangent, cell.tangent);
@@ -89,16 +95,17 @@ TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
 TEST(OwnAnswer, StepsOfAnySizeLetGoOfTheSame) {
   // A strain in one direction, in one step or in five: the same share is left.
   const OwnAnswerRules by = rules(false);
-  const OwnAnswer start = left_law(by, stress_of_law(), cell_after(Increment{}, false));
+  const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment{}, false)));
   const Increment whole = some_increment(0.5 * kWorkOff);
   OwnAnswer at_once;
-  const Vector7 expected = own_answer(by, start, whole, cell_after(whole, false), at_once).stress;
+  const Vector7 expected = own_answer(by, start, whole, reply(cell_after(whole, false)), at_once).stress;
   OwnAnswer point = start;
   Vector7 stress;
   for (int part = 1; part <= 5; ++part) {
     OwnAnswer next;
     const Increment so_far = some_increment(0.1 * part * kWorkOff);
-    stress = own_answer(by, point, some_increment(0.1 * kWorkOff), cell_after(so_far, false), next).stress;
+    stress =
+        own_answer(by, point, some_increment(0.1 * kWorkOff), reply(cell_after(so_far, false)), next).stress;
     point = next;
   }
   EXPECT_LT((stress - expected).norm(), 1e-8 * expected.norm());
@@ -109,12 +116,12 @@ TEST(OwnAnswer, StepsOfAnySizeLetGoOfTheSame) {
 TEST(OwnAnswer, TheTangentSeesWhatIsWorkedOff) {
   for (const bool controlled : {false, true}) {
     const OwnAnswerRules by = rules(controlled);
-    const OwnAnswer start = left_law(by, stress_of_law(), cell_after(Increment{}, controlled));
+    const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment{}, controlled)));
     const Vector7 strain = some_increment(0.3 * kWorkOff).strain();
     const auto answer = [&](const Vector7& at) {
       OwnAnswer end;
       const Increment increment = increment_of(at);
-      return own_answer(by, start, increment, cell_after(increment, controlled), end);
+      return own_answer(by, start, increment, reply(cell_after(increment, controlled)), end);
     };
     const Matrix7 tangent = answer(strain).tangent;
     for (int j = 0; j < 7; ++j) {
@@ -133,15 +140,15 @@ TEST(OwnAnswer, TheTangentSeesWhatIsWorkedOff) {
 TEST(OwnAnswer, WhatIsCarriedTurnsWithTheMaterial) {
   const OwnAnswerRules by = rules(false);
   Response cell = cell_after(Increment{}, false);
-  const OwnAnswer start = left_law(by, stress_of_law(), cell);
-  Increment turn;  // by a quarter about the middle of the step: the gradient is 2 tan(angle / 2)
-  turn.displacement_gradient << 0.0, -2.0, 2.0, 0.0;
-  turn.micro_rotation = 2.0;
-  turn.configuration = Configuration::middle;
+  const OwnAnswer start = left_law(by, stress_of_law(), reply(cell));
+  Increment turn;  // by a quarter: R - I
+  turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
+  turn.micro_rotation = 0.5 * M_PI;
+  turn.configuration = Configuration::start;
   std::swap(cell.stress(k11), cell.stress(k22));
   cell.stress(k12) = cell.stress(k21) = -cell.stress(k12);
   OwnAnswer end;
-  const Vector7 turned = own_answer(by, start, turn, cell, end).stress;
+  const Vector7 turned = own_answer(by, start, turn, reply(cell), end).stress;
   EXPECT_NEAR(turned(k11), stress_of_law()(k22), 1e-6);
   EXPECT_NEAR(turned(k22), stress_of_law()(k11), 1e-6);
   EXPECT_NEAR(turned(k12), -stress_of_law()(k21), 1e-6);

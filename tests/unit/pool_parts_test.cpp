@@ -24,6 +24,35 @@ TEST(PlainText, TakesControlOutOfWords) {
   EXPECT_EQ(plain_text("\xff\xc3(\xe2\x82"), std::string("?") + "?(" + "??");  // no UTF-8, or cut short
 }
 
+TEST(PlainText, LeavesLinesToTerminalsAndNothingThatSteersThem) {
+  const std::string plain = "a line\n\tanother: \xe2\x82\xac, \xc3\xa9\n";
+  EXPECT_EQ(without_control_characters(plain), plain);
+  EXPECT_EQ(without_control_characters(std::string_view("a\x1b[2J\r\0\x07\x7f", 9)), "a?[2J????");
+  // ESC [ in one character, in UTF-8 and as a byte alone; bytes of names in Latin-1 stay.
+  EXPECT_EQ(without_control_characters("\xc2\x9b"
+                                       "2J \x9b"
+                                       "2J \xe9"
+                                       "t\xe9"),
+            "??2J ?2J \xe9"
+            "t\xe9");
+  for (int byte = 0; byte < 256; ++byte) {
+    const std::string text = without_control_characters("x" + std::string(1, static_cast<char>(byte)) + "y");
+    EXPECT_EQ(text.size(), 3U) << byte;
+    const bool steers = (byte < 0x20 && byte != '\n' && byte != '\t') || (byte >= 0x7f && byte < 0xa0);
+    EXPECT_EQ(text[1] == '?' && byte != '?', steers) << byte;
+  }
+}
+
+TEST(PlainText, NamesTheFirstControlCharacter) {
+  EXPECT_EQ(control_character_in("caf\xc3\xa9 \xe2\x82\xac"), "");
+  EXPECT_EQ(control_character_in(std::string_view("a\0b\x1b", 4)), "U+0000");
+  EXPECT_EQ(control_character_in("a\x1b"), "U+001B");
+  EXPECT_EQ(control_character_in("a\nb"), "U+000A");
+  EXPECT_EQ(control_character_in("a\x7f"), "U+007F");
+  EXPECT_EQ(control_character_in("a\xc2\x85"), "U+0085");
+  EXPECT_EQ(control_character_in("\xc2\xa0"), "");
+}
+
 TEST(PlainText, CutsAndSaysSo) {
   const std::string text = plain_text(std::string(5'000'000, 'x'));
   EXPECT_EQ(text.size(), kLongestWords);

@@ -17,6 +17,7 @@ if(TARGET polargrain_dem)
   polargrain_test(sphere_rowe_test verification verification/sphere_rowe_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(sphere_lattice_test verification verification/sphere_lattice_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(disc_loop_test verification verification/disc_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
+  polargrain_test(sphere_loop_test verification verification/sphere_loop_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(spoiled_states_test verification verification/spoiled_states_test.cpp support/engine_main.cpp
                   LIBS polargrain_dem)
   foreach(kind OfTheGeneralLoopInTheGeneralLoop OfDiscsInTheGeneralLoop OfDiscsInTheirLoop)

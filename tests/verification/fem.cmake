@@ -10,3 +10,5 @@ polargrain_test(fem_cauchy_test verification verification/fem_cauchy_test.cpp LI
 polargrain_test(fem_large_test verification verification/fem_large_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_hard_cases_test verification verification/fem_hard_cases_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_many_elements_test long verification/fem_many_elements_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_large_tangent_test verification verification/fem_large_tangent_test.cpp LIBS polargrain_fem)
+polargrain_test(objectivity_test verification verification/objectivity_test.cpp LIBS polargrain_coupler)

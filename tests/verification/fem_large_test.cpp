@@ -30,10 +30,10 @@ Problem elastic_block(const RectangleSpecification& size, const ElasticParameter
 TEST(large_deformation, stress_turns_with_the_material) {
   LocalMaterial<ElasticLaw> material(ElasticLaw({1e6, 0.3, 1e5, 0.01, Vector7{10, 20, 5, 3, 4, 1, 2}}));
   material.allocate(1);
-  Increment increment;  // rigid rotation by 90 degrees about the middle of the step: 2 tan(45 deg)
-  increment.displacement_gradient << 0.0, -2.0, 2.0, 0.0;
-  increment.micro_rotation = 2.0;
-  increment.configuration = Configuration::middle;
+  Increment increment;  // rigid rotation by 90 degrees: R - I
+  increment.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
+  increment.micro_rotation = 0.5 * M_PI;
+  increment.configuration = Configuration::start;
   std::vector<Response> responses(1);
   material.evaluate(std::vector<Increment>{increment}, responses);
   // s'_ij = R s R^T with R e_1 = e_2, R e_2 = -e_1.

@@ -10,6 +10,7 @@
 #include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/measured_length.hpp"
+#include "coupler/case/script_dimension.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -94,12 +95,21 @@ void take_measured_length(Section& section, const CellDefinition& definition, co
                                 "measure with this script, or give a length",
                                 file.filename().string(), definition.script_file));
     choice.internal_length = measured.internal_length;
-    choice.plastic_length = measured.plastic_length;
+    // Lengths that were measured without a limit go without one.
+    choice.plastic_length = {measured.plastic_length, !measured.plastic_length};
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults())
       section.fault(
           "lc", fmt::format("lc: measured: {}:{}: {}", file.filename().string(), fault.line, fault.message));
   }
+}
+
+/// A limit: a value, `none`, or what the packing has, which is the default.
+LimitChoice read_limit(Section& section, const char* key, Dimension dimension, Limit limit) {
+  const Entry* const entry = section.find(key);
+  if (entry == nullptr) return {};
+  if (entry->kind == Entry::Kind::scalar && entry->text == "none") return {.none = true};
+  return {section.quantity_or_word(key, dimension, limit, "from packing")};
 }
 
 CosseratChoice read_cosserat_choice(Section& section, const CellDefinition& definition,
@@ -117,14 +127,17 @@ CosseratChoice read_cosserat_choice(Section& section, const CellDefinition& defi
   else if (files.cosserat || length != nullptr)
     choice.internal_length = value("lc", Dimension::length);
   if (section.find("lp") != nullptr)
-    choice.plastic_length = section.quantity("lp", Dimension::length, Limit::positive);
+    choice.plastic_length = read_limit(section, "lp", Dimension::length, Limit::positive);
+  choice.skew_limit = read_limit(section, "skew_limit", Dimension::number, Limit::not_negative);
+  // Nor has it skew stress: nothing is worth finding out.
+  if (!files.cosserat) choice.skew_limit.none = choice.plastic_length.none = true;
   return choice;
 }
 
 /// Two answers to one question would be one too many: a cell that controls its rotations has a skew
 /// stiffness, a couple modulus and limits of both.
 void refuse_cosserat_parameters(Section& section) {
-  for (const char* const key : {"G", "Gc", "lc", "lp"}) {
+  for (const char* const key : {"G", "Gc", "lc", "lp", "skew_limit"}) {
     if (section.find(key) == nullptr) continue;
     section.fault(
         key, fmt::format("{0}: with 'rotations: controlled' the grains give the skew stress and the couple "
@@ -141,6 +154,9 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   const auto packing = packing_file(section, files.directory);
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
+      const Faults other =
+          dimension_faults(definition.script, definition.script_file, definition.packing.dimension);
+      faults.insert(faults.end(), other.begin(), other.end());
     } catch (const InputError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }

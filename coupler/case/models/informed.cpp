@@ -21,14 +21,16 @@ class InformedRecipe : public MaterialRecipe {
       : definition_(std::move(definition)),
         tangent_(definition_.control.tangent),
         parameters_(parameters),
-        cosserat_(cosserat) {
+        cosserat_(cosserat.value_or(CosseratChoice{})) {
+    // Where the case gives no plastic length the law's own weights limit the couple stress.
+    if (cosserat_.plastic_length.is_open()) cosserat_.plastic_length.none = true;
     definition_.control.tangent = CellTangent::none;  // the law has one of its own
   }
   [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
     InformedParameters parameters = parameters_;
     std::string note;
     // Controlled rotations leave nothing to the case: stiffness and strength are the cell's.
-    parameters.set_moduli(resolved(cosserat_.value_or(CosseratChoice{}), *pool, definition_, note));
+    parameters.set_moduli(resolved(cosserat_, *pool, definition_, note));
     CellCalls with_tangent;
     if (parameters.beyond_mismatch == BeyondMismatch::cell) {
       CellDefinition definition = definition_;
@@ -45,7 +47,7 @@ class InformedRecipe : public MaterialRecipe {
   CellDefinition definition_;
   CellTangent tangent_;  ///< of the case: for points that go by their cells
   InformedParameters parameters_;
-  std::optional<CosseratChoice> cosserat_;
+  CosseratChoice cosserat_;
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
@@ -54,7 +56,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   InformedParameters parameters = read_informed_parameters(section);
-  if (cosserat && cosserat->plastic_length && parameters.weights) {
+  if (cosserat && cosserat->plastic_length.value && parameters.weights) {
     // Given, or what `lc: measured` comes with.
     section.fault(
         "invariants",

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A cell driven from Python: the answers of the program, to the bit; states as values."""
+import concurrent.futures
 import multiprocessing
+import os
 import pickle
 import threading
 import unittest
@@ -128,6 +130,26 @@ class States(InFolder):
         with self.assertRaisesRegex(polargrain.InputError, "is damaged"):
             polargrain.State.load(self.folder / "state")
 
+    def test_are_written_through_links_and_into_streams_and_take_nothings_place(self):
+        (self.folder / "far").mkdir()
+        link = self.folder / "link"
+        link.symlink_to("far/state")
+        for _ in range(2):  # where nothing is yet, and where something is
+            self.state.save(link)
+            self.assertTrue(link.is_symlink())
+            self.assertEqual(polargrain.State.load(self.folder / "far" / "state"), self.state)
+        # By links: should this fail, no device of the machine is lost.
+        (self.folder / "null").symlink_to("/dev/null")
+        self.state.save(self.folder / "null")
+        self.assertTrue((self.folder / "null").is_char_device())
+        (self.folder / "full").symlink_to("/dev/full")
+        with self.assertRaises(OSError):
+            self.state.save(self.folder / "full")
+        os.mkfifo(self.folder / "pipe")
+        with self.assertRaises(OSError):  # nobody reads
+            self.state.save(self.folder / "pipe")
+        self.assertTrue((self.folder / "pipe").is_fifo())
+
     def test_are_pickled_with_their_cells_into_other_processes(self):
         self.assertEqual(pickle.loads(pickle.dumps(self.state)), self.state)
         self.cell.state = self.state
@@ -135,7 +157,7 @@ class States(InFolder):
         answers = processes.Queue()
         other = processes.Process(target=go_on, args=(self.cell, answers))
         other.start()
-        self.assertEqual(answers.get(timeout=60), self.next.tobytes())
+        self.assertEqual(answers.get(timeout=600), self.next.tobytes())
         other.join()
 
     def test_of_other_cells_are_refused(self):
@@ -143,6 +165,30 @@ class States(InFolder):
         other.state = self.state
         with self.assertRaises(polargrain.RunError):
             other.step(shear(1e-3))
+
+
+class Threads(InFolder):
+    def test_of_one_cell_take_its_steps_one_after_the_other(self):
+        alone = controlled()
+        for _ in range(8):
+            alone.step(shear(1e-4))
+        shared = controlled()
+        with concurrent.futures.ThreadPoolExecutor(4) as threads:
+            answers = list(threads.map(shared.step, [shear(1e-4)] * 8))
+        self.assertEqual(shared.state, alone.state)
+        self.assertEqual(len({answer.state for answer in answers}), 8)  # no two steps from one place
+
+    def test_of_cells_together_wait_for_each_other(self):
+        with polargrain.Engines(workers=2) as engines:
+            cells = [controlled(engines=engines) for _ in range(2)]
+            orders = [cells, cells[::-1], cells, cells[::-1]]
+            with concurrent.futures.ThreadPoolExecutor(4) as threads:
+                list(threads.map(lambda order: polargrain.step_together(order, [shear(1e-4)] * 2), orders))
+            alone = controlled(engines=engines)
+            for _ in orders:
+                alone.step(shear(1e-4))
+            for cell in cells:
+                self.assertEqual(cell.state, alone.state)
 
 
 class Workers(InFolder):
@@ -168,7 +214,7 @@ class Workers(InFolder):
 
         child = multiprocessing.get_context("fork").Process(target=ask)
         child.start()
-        self.assertIn("forked", answers.get(timeout=60))
+        self.assertIn("forked", answers.get(timeout=600))
         child.join()
         cell.step(shear(1e-4))  # the parent's go on
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What goes wrong becomes an exception with the words of the program, and leaves everything as it was."""
 import os
+import pathlib
 import pickle
 import signal
 import subprocess
@@ -84,6 +85,45 @@ class Errors(InFolder):
         with self.assertRaisesRegex(polargrain.InputError, "rotations of this cell are free"):
             polargrain.Cell(PACKING, SCRIPT).step(np.eye(2), 1e-3)
 
+    def test_of_numbers_that_are_none_are_found_before_anything_is_asked(self):
+        cell = controlled()
+        good = np.eye(2)
+        hidden = np.ma.masked_array(good, mask=[[True, False], [False, False]])
+        for F in (good.astype(complex), good + 1e-3j, [[1 + 0j, 0], [0, 1]], [["1", "0"], ["0", "1"]], good.astype(str),
+                  good.astype(bool), [[1, None], [0, 1]], hidden, np.array(good, dtype="M8[s]")):
+            for question in ({"F": F}, {"displacement_gradient": F}, {"F": good, "curvature": F[0]}):
+                with self.subTest(question), self.assertRaises(ValueError):
+                    cell.step(**question)
+        for rotation in (1e-3j, "0.1", True, None.__class__):
+            with self.subTest(rotation), self.assertRaises((ValueError, TypeError)):
+                cell.step(good, rotation)
+        with self.assertRaises(ValueError):
+            polargrain.find_band(np.zeros((30, 2)) + 1j, np.ones(30))
+        self.assertFalse(hasattr(cell, "_initial"))  # nothing was asked
+        cell.step(np.ones((2, 2), dtype=np.float32) * np.eye(2, dtype=np.int8))  # numbers of any size are numbers
+
+    def test_of_names_with_a_nul_read_no_other_file(self):
+        real = str(polargrain.program.data_file(PACKING))
+        for ask in (lambda: polargrain.Cell(real + "\0x", SCRIPT), lambda: polargrain.Cell(real, SCRIPT + "\0x"),
+                    lambda: polargrain.Cell(real, SCRIPT, rotations="free\0"), lambda: polargrain.read_packing(real + "\0"),
+                    lambda: polargrain.Case("cases/biaxial/case.yaml\0"), lambda: polargrain.Result(str(self.folder) + "\0"),
+                    lambda: polargrain.Case("cases/biaxial/case.yaml", {"title": "a\0b"}).check(),
+                    lambda: polargrain.State.load(str(self.folder / "state") + "\0"), lambda: polargrain.Fields("a\0.vtu"),
+                    lambda: polargrain.Cell(real, SCRIPT, dampin="\x1b")):
+            with self.assertRaises(polargrain.InputError):
+                ask()
+
+    def test_of_files_wait_for_no_pipe(self):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        (self.folder / "circle").symlink_to("circle")
+        for file in (pipe, self.folder / "circle", self.folder, pathlib.Path("/dev/zero")):
+            for ask in (polargrain.State.load, polargrain.Fields, polargrain.read_packing,
+                        lambda file: polargrain.Cell(file, SCRIPT), lambda file: polargrain.Cell(PACKING, file),
+                        lambda file: polargrain.Case(file).check()):
+                with self.subTest(file), self.assertRaises(polargrain.InputError):
+                    ask(file)
+
     def test_ctrl_c_ends_a_question_and_not_the_cells(self):
         code = INTERRUPTED.format(packing=PACKING, script=SCRIPT)
         process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=os.environ)
@@ -93,7 +133,7 @@ class Errors(InFolder):
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.stdout.readline(), "interrupted\n")
         self.assertEqual(process.stdout.readline(), "good\n")
-        self.assertEqual(process.wait(60), 0)
+        self.assertEqual(process.wait(600), 0)
         process.stdout.close()
 
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -53,6 +54,34 @@ class Runs(InFolder):
                     np.testing.assert_array_equal(values, vtk_to_numpy(data.GetArray(name)))
         self.assertEqual(self.result.fields().components["stress"], ["11", "22", "33", "12", "21"])
         self.assertEqual(self.result.fields().units["stress"], "Pa")
+
+    def test_say_what_is_not_there(self):
+        for ask in (lambda: self.result.fields(10), lambda: self.result.integration_points(10),
+                    lambda: self.result.integration_points(-3)):
+            with self.assertRaisesRegex(polargrain.InputError, r"names fields at 2 times.*there is no number"):
+                ask()
+        copy = self.folder / "copy"
+        shutil.copytree(self.result.directory, copy)
+        old = polargrain.Result(copy)  # any that lies there is opened by its directory
+        np.testing.assert_array_equal(old.history["time"], self.result.history["time"])
+        for name, ask in (("summary.json", lambda: old.summary), ("fields.pvd", old.fields), ("costs.csv", lambda: old.costs),
+                          ("points.pvd", old.integration_points), ("history.csv", lambda: old.history)):
+            good = (copy / name).read_bytes()
+            for bad in (None, b"", good[:len(good) // 2] if name.endswith(("json", "pvd")) else None):
+                (copy / name).unlink(missing_ok=True)
+                if bad is not None:
+                    (copy / name).write_bytes(bad)
+                if bad == b"" and name.endswith("csv"):
+                    continue  # an empty table
+                with self.subTest(name), self.assertRaises(polargrain.InputError):
+                    ask()
+            (copy / name).write_bytes(good)
+        good = old.fields().file.read_text()
+        for cut in (good[:len(good) // 2], good.replace("Float64", "Float128"), good.replace("connectivity", "conn")):
+            old.fields().file.write_text(cut)
+            with self.subTest(cut[:20]), self.assertRaises(polargrain.InputError):
+                polargrain.Fields(sorted(copy.glob("fields/step-*"))[-1])
+            sorted(copy.glob("fields/step-*"))[-1].write_text(good)
 
     def test_show_the_grains_of_a_point(self):
         grains = self.result.grains(3, "last")

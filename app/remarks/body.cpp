@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/remarks/body.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace polargrain::app {
+namespace {
+
+OutlineEdge outline_edge(const fem::Mesh& mesh, const fem::Edge& edge) {
+  OutlineEdge out{edge.element, mesh.edge_nodes(edge), {}, {}, 0.0};
+  const Eigen::Vector2d& from = mesh.nodes[static_cast<std::size_t>(out.nodes[0])];
+  const Eigen::Vector2d& to = mesh.nodes[static_cast<std::size_t>(out.nodes[1])];
+  const Eigen::Vector2d way = to - from;
+  out.length = way.norm();
+  out.centre = 0.5 * (from + to);
+  out.normal = Eigen::Vector2d(way.y(), -way.x()) / std::max(out.length, 1e-300);
+  return out;
+}
+
+/// All edges of the mesh that belong to one element only.
+std::vector<fem::Edge> outline(const fem::Mesh& mesh) {
+  std::map<std::pair<int, int>, std::vector<fem::Edge>> edges;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    const int sides = mesh.elements[static_cast<std::size_t>(e)].type->corners;
+    for (int side = 0; side < sides; ++side) {
+      const std::vector<int> nodes = mesh.edge_nodes({e, side});
+      edges[std::minmax(nodes[0], nodes[1])].push_back({e, side});
+    }
+  }
+  std::vector<fem::Edge> alone;
+  for (const auto& [nodes, of] : edges)
+    if (of.size() == 1) alone.push_back(of.front());
+  return alone;
+}
+
+double area_of(const fem::Mesh& mesh, int element) {
+  const fem::Element& e = mesh.elements[static_cast<std::size_t>(element)];
+  double twice = 0.0;
+  for (int k = 0; k < e.type->corners; ++k) {
+    const Eigen::Vector2d& a = mesh.nodes[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])];
+    const Eigen::Vector2d& b =
+        mesh.nodes[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>((k + 1) % e.type->corners)])];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * std::abs(twice);
+}
+
+}  // namespace
+
+Body body_of(const fem::Mesh& mesh) {
+  Body body{mesh.nodes.front(), mesh.nodes.front(), {}};
+  for (const Eigen::Vector2d& node : mesh.nodes) {
+    body.least = body.least.cwiseMin(node);
+    body.largest = body.largest.cwiseMax(node);
+  }
+  double area = 0.0;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    const double of = area_of(mesh, e);
+    area += of;
+    body.elements.push_back(std::sqrt(of));
+  }
+  body.mean_element = std::sqrt(area / static_cast<double>(body.elements.size()));
+  return body;
+}
+
+std::vector<OutlineEdge> edges_of(const fem::Mesh& mesh, const std::string& boundary) {
+  std::vector<OutlineEdge> edges;
+  if (!boundary.empty()) {
+    for (const fem::Edge& edge : mesh.boundaries.at(boundary)) edges.push_back(outline_edge(mesh, edge));
+    return edges;
+  }
+  std::set<std::pair<int, int>> named;
+  for (const auto& [name, of] : mesh.boundaries)
+    for (const fem::Edge& edge : of) named.insert({edge.element, edge.side});
+  for (const fem::Edge& edge : outline(mesh))
+    if (!named.contains({edge.element, edge.side})) edges.push_back(outline_edge(mesh, edge));
+  return edges;
+}
+
+std::vector<std::array<bool, 2>> held_nodes(const fem::Problem& problem) {
+  std::vector<std::array<bool, 2>> held(problem.mesh.nodes.size(), {false, false});
+  for (const fem::PrescribedDof& item : problem.prescribed) {
+    if (item.dof == fem::Dof::w || !problem.mesh.has_nodes_on(item.on)) continue;
+    for (const int node : problem.mesh.nodes_on(item.on))
+      held[static_cast<std::size_t>(node)][item.dof == fem::Dof::u1 ? 0 : 1] = true;
+  }
+  return held;
+}
+
+Held held_along(const std::vector<OutlineEdge>& edges, const std::vector<std::array<bool, 2>>& held) {
+  constexpr double kAlong = 1e-6;
+  Held result;
+  for (const OutlineEdge& edge : edges) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool here =
+          std::ranges::all_of(edge.nodes, [&](int node) { return held[static_cast<std::size_t>(node)][i]; });
+      result.all[i] = result.all[i] && here;
+      if (std::abs(edge.normal(static_cast<Eigen::Index>(i))) > kAlong) result.normal = result.normal && here;
+    }
+  }
+  return result;
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::app {
+
+/// Sizes of a mesh, m.
+struct Body {
+  Eigen::Vector2d least, largest;  ///< corners of the box around it
+  std::vector<double> elements;    ///< square root of the area of each
+  double mean_element = 0.0;       ///< square root of the mean area
+
+  [[nodiscard]] Eigen::Vector2d size() const { return largest - least; }
+  [[nodiscard]] double smaller_side() const { return size().minCoeff(); }
+};
+
+Body body_of(const fem::Mesh& mesh);
+
+/// An edge of the outline.
+struct OutlineEdge {
+  int element;
+  std::vector<int> nodes;
+  Eigen::Vector2d centre;
+  Eigen::Vector2d normal;  ///< outward, of length one
+  double length;           ///< m
+};
+
+/// The edges of a boundary; of the parts of the outline that are in no boundary where the name is empty.
+std::vector<OutlineEdge> edges_of(const fem::Mesh& mesh, const std::string& boundary);
+
+/// By node: whether u1 and u2 are prescribed there, by a support or a movement.
+std::vector<std::array<bool, 2>> held_nodes(const fem::Problem& problem);
+
+/// Which of the normal and the two displacements no edge leaves free: u1, u2 of every node of all edges, and the
+/// displacement along the normal of each edge.
+struct Held {
+  std::array<bool, 2> all{true, true};
+  bool normal = true;
+};
+Held held_along(const std::vector<OutlineEdge>& edges, const std::vector<std::array<bool, 2>>& held);
+
+}  // namespace polargrain::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "app/remarks/scene.hpp"
+
+// The kinds of remarks: each looks at a scene and adds what it has to say. What each looks at stands at the head of its file
+// in kinds/.
+namespace polargrain::app {
+
+void loads_at_start(const Scene& scene, Remarks& remarks);
+void weight_in_boxes(const Scene& scene, Remarks& remarks);
+void load_on_held(const Scene& scene, Remarks& remarks);
+void plain_loads(const Scene& scene, Remarks& remarks);
+void tension(const Scene& scene, Remarks& remarks);
+void ground_stress(const Scene& scene, Remarks& remarks);
+void weight(const Scene& scene, Remarks& remarks);
+void free_sides(const Scene& scene, Remarks& remarks);
+void movement(const Scene& scene, Remarks& remarks);
+void times_of_loads(const Scene& scene, Remarks& remarks);
+void idle_steps(const Scene& scene, Remarks& remarks);
+void steps_of_strain(const Scene& scene, Remarks& remarks);
+void internal_length(const Scene& scene, Remarks& remarks);
+void plastic_length(const Scene& scene, Remarks& remarks);
+void few_grains(const Scene& scene, Remarks& remarks);
+void softness(const Scene& scene, Remarks& remarks);
+void size_of_grains(const Scene& scene, Remarks& remarks);
+void unread_properties(const Scene& scene, Remarks& remarks);
+void contact_numbers(const Scene& scene, Remarks& remarks);
+void neighbours(const Scene& scene, Remarks& remarks);
+void tolerances(const Scene& scene, Remarks& remarks);
+void softening_cauchy(const Scene& scene, Remarks& remarks);
+void stiffness_of_laws(const Scene& scene, Remarks& remarks);
+void strength_of_laws(const Scene& scene, Remarks& remarks);
+void monitors(const Scene& scene, Remarks& remarks);
+void measures(const Scene& scene, Remarks& remarks);
+void formulas(const Scene& scene, Remarks& remarks);
+void output(const Scene& scene, Remarks& remarks);
+void cost(const Scene& scene, Remarks& remarks);
+/// Of what the others have not found: only where they have said nothing about time zero.
+void balance_at_start(const Scene& scene, Remarks& remarks);
+
+}  // namespace polargrain::app

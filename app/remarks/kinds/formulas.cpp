@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Units inside the formulas of monitors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/remarks/formula_units.hpp"
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+Powers powers_of_monitor(const coupler::Monitor& monitor) {
+  const bool angle = monitor.dof == fem::Dof::w;
+  if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
+  return angle ? Powers{1, 0, 0} : Powers{1, -1, 0};  // of a metre of thickness
+}
+
+/// Numbers that formulas hold without a unit for reasons of their own: counts, halves, conversions.
+bool is_innocent(double value) {
+  for (const double known : {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 3.14159265358979, 57.2957795130823})
+    if (std::abs(value - known) <= 1e-3 * known) return true;
+  for (double power = 1e-9; power < 2e9; power *= 1e3)
+    if (std::abs(value / power - 1.0) < 1e-9) return true;
+  return false;
+}
+
+/// How many times a pressure is off the nearest one of the case; 1 where none is known.
+double off_pressures(const Scene& scene, double value) {
+  double nearest = 1e300;
+  const auto compare = [&](double other) {
+    if (other != 0.0 && value != 0.0)
+      nearest = std::min(nearest, std::max(std::abs(value / other), std::abs(other / value)));
+  };
+  for (const SceneRegion& region : scene.regions()) {
+    compare(Scene::pressure_of(region));
+    if (const auto confining =
+            scene.quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure))
+      compare(*confining);
+    if (const auto cohesion =
+            scene.quantity({"materials", region.material, "cohesion"}, coupler::Dimension::pressure))
+      compare(*cohesion);
+  }
+  for (const fem::EdgeLoad& load : scene.problem().edge_loads)
+    for (const fem::TimeTable* const table : {&load.pressure, &load.traction1, &load.traction2})
+      compare(table->largest_magnitude());
+  for (const fem::BodyLoad& load : scene.problem().body_loads)
+    compare(load.density(scene.body().least).norm() * scene.body().size().y());
+  return nearest == 1e300 ? 1.0 : nearest;
+}
+
+void look_at_numbers(const Scene& scene, const coupler::Entry& place, const std::string& name,
+                     const FormulaUnits& units, Remarks& remarks) {
+  constexpr double kFarPressure = 30.0;
+  for (const FormulaNumber& number : units.numbers) {
+    if (!number.has_unit || number.is_one) continue;
+    if (number.dimension == coupler::Dimension::length) {
+      const double small = 0.02 * scene.body().smaller_side() / number.value;
+      const double large = number.value / (20.0 * scene.body().size().maxCoeff());
+      if (std::max(small, large) > 1.0)
+        remarks.push_back(
+            {Rank::wrong, std::max(small, large),
+             place.fault(
+                 fmt::format("monitor '{}': '{}' is far from every length of the body ({:.3g} m by {:.3g} m)",
+                             name, number.text, scene.body().size().x(), scene.body().size().y())),
+             "check its unit"});
+    }
+    if (number.dimension == coupler::Dimension::pressure)
+      if (const double off = off_pressures(scene, number.value); off > kFarPressure)
+        remarks.push_back(
+            {Rank::wrong, off,
+             place.fault(fmt::format("monitor '{}': '{}' is {:.3g} times off every pressure of the case",
+                                     name, number.text, off)),
+             "check its unit"});
+  }
+}
+
+}  // namespace
+
+void formulas(const Scene& scene, Remarks& remarks) {
+  std::map<std::string, Powers> known{{"external_work", {1, 0, 0}}, {"internal_work", {1, 0, 0}}};
+  for (const coupler::Monitor& monitor : scene.the_case().monitors) {
+    if (monitor.kind != coupler::Monitor::Kind::formula) {
+      known[monitor.name] = powers_of_monitor(monitor);
+      continue;
+    }
+    const coupler::Entry& place = scene.place({"monitors", monitor.name});
+    const FormulaUnits units =
+        units_of_formula(place.text, [&](const std::string& name) { return known[name]; });
+    known[monitor.name] = units.result;
+    if (!units.clash.empty())
+      remarks.push_back(
+          {Rank::wrong, 10.0,
+           place.fault(fmt::format("monitor '{}': '{}' adds {}", monitor.name, place.text, units.clash)),
+           "forces are of a metre of thickness, N/m: give each summand the same dimension"});
+    look_at_numbers(scene, place, monitor.name, units, remarks);
+    const bool any_unit =
+        std::ranges::any_of(units.numbers, [](const FormulaNumber& number) { return number.has_unit; });
+    const auto plain = std::ranges::find_if(units.numbers, [](const FormulaNumber& number) {
+      return !number.has_unit && !is_innocent(number.value);
+    });
+    if (any_unit && plain != units.numbers.end() && units.result != Powers{})
+      remarks.push_back(
+          {Rank::wrong, 10.0,
+           place.fault(fmt::format(
+               "monitor '{}': '{}' in '{}' has no unit, and another number has: the value is in {}",
+               monitor.name, plain->text, place.text, text_of(units.result))),
+           fmt::format("write its unit: '{} kPa', for example", plain->text)});
+  }
+}
+
+}  // namespace polargrain::app

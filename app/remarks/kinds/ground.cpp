@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Ground: its stress at time zero, its weight, its sides.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using coupler::Dimension;
+using coupler::Entry;
+
+/// Vertical weight at full value, N/m^3, downwards positive, of a load; and along 1.
+Eigen::Vector2d weight_of(const Scene& scene, const fem::BodyLoad& load) {
+  const Eigen::Vector3d density = load.density(scene.body().least);
+  const double factor = load.factor.largest_magnitude();
+  return {factor * density.x(), -factor * density.y()};
+}
+
+std::optional<double> number(const Entry& item, const char* key, Dimension dimension) {
+  const Entry* const entry = item.find(key);
+  return entry == nullptr ? std::nullopt : coupler::parse_quantity(entry->text, dimension);
+}
+
+/// K0 against the ratios that a cone of this friction and cohesion can carry at the mean depth of the item.
+void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
+  const auto k0 = number(item, "K0", Dimension::number);
+  const auto surface = number(item, "surface", Dimension::length);
+  const auto weight = number(item, "unit_weight", Dimension::unit_weight);
+  if (!k0 || !surface || !weight) return;
+  const double depth = *surface - scene.body().least.y();
+  const double vertical =
+      *weight * std::max(depth, 0.0) + number(item, "surcharge", Dimension::pressure).value_or(0.0);
+  for (const SceneRegion& region : scene.regions()) {
+    const Entry* const angle = scene.find({"materials", region.material, "friction_angle"});
+    if (region.cell != nullptr || angle == nullptr) continue;
+    const auto friction = coupler::parse_quantity(
+        angle->kind == Entry::Kind::sequence && !angle->items.empty() ? angle->items[0].text : angle->text,
+        Dimension::angle);
+    const double cohesion =
+        scene.quantity({"materials", region.material, "cohesion"}, Dimension::pressure).value_or(0.0);
+    if (!friction || vertical <= 0.0) continue;
+    const double sine = std::sin(*friction);
+    const double root = std::sqrt((1.0 - sine) / (1.0 + sine));
+    const double active = std::max(0.0, root * root - 2.0 * root * cohesion / vertical);
+    const double passive = 1.0 / (root * root) + 2.0 / root * cohesion / vertical;
+    if (*k0 >= active && *k0 <= passive) continue;
+    remarks.push_back(
+        {Rank::wrong, std::max(active / std::max(*k0, 1e-3), *k0 / passive),
+         item.find("K0")->fault(fmt::format(
+             "initial_stress: K0 of {:.3g} is beyond {:.3g} and {:.3g}, the ratios that material '{}' can carry at the "
+             "lowest point: it yields before the first step",
+             *k0, active, passive, region.material)),
+         "K0 is horizontal over vertical stress: 0.4 to 0.6 for most ground, 1 - sin of the friction angle for sand"});
+    return;
+  }
+}
+
+void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
+  const auto surface = number(item, "surface", Dimension::length);
+  if (!surface) return;
+  const double height = scene.body().size().y();
+  const double over = *surface - scene.body().largest.y();
+  const bool surcharged = item.find("surcharge") != nullptr;
+  if (std::abs(over) <= 0.02 * height || (over > 0.0 && surcharged)) return;
+  if (item.find("region") != nullptr) return;  // a layer of the ground
+  remarks.push_back(
+      {std::abs(over) > 0.2 * height ? Rank::wrong : Rank::doubtful, 1.0 + std::abs(over) / height,
+       item.find("surface")->fault(fmt::format(
+           "initial_stress: the surface is at {:.4g} m, and the highest point of the mesh at {:.4g} m: {}",
+           *surface, scene.body().largest.y(),
+           over > 0.0 ? "the mesh begins under ground that nothing stands for"
+                      : "what lies above it is in tension")),
+       "give the height of the mesh's surface; for ground above it a surcharge"});
+}
+
+void look_at_components(const Entry& item, Remarks& remarks) {
+  const Entry* const stress = item.find("stress");
+  if (stress == nullptr || stress->items.size() != 4) return;
+  double s[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < 3; ++i)
+    s[i] = coupler::parse_quantity(stress->items[static_cast<std::size_t>(i)].text, Dimension::pressure)
+               .value_or(0.0);
+  if (s[0] > 0.0 && s[1] > 0.0)
+    remarks.push_back(
+        {Rank::wrong, 100.0,
+         stress->fault(fmt::format(
+             "initial_stress: s11 and s22 are {:.4g} and {:.4g} kPa, tension: stresses are positive in tension",
+             1e-3 * s[0], 1e-3 * s[1])),
+         "write pressures with a minus: stress: [-100 kPa, -100 kPa, -100 kPa, 0]"});
+  else if (s[2] == 0.0 && (s[0] != 0.0 || s[1] != 0.0))
+    remarks.push_back(
+        {Rank::wrong, 10.0,
+         stress->fault(
+             "initial_stress: s33 is zero: the body is in plane strain, and a stress normal to the plane belongs to it; a law with friction yields without it"),
+         fmt::format("give s33, for example {:.4g} kPa", 0.5e-3 * (s[0] + s[1]))});
+}
+
+}  // namespace
+
+void ground_stress(const Scene& scene, Remarks& remarks) {
+  const Entry* const list = scene.find({"initial_stress"});
+  if (list == nullptr) return;
+  for (const Entry& item : list->items) {
+    look_at_ratio(scene, item, remarks);
+    look_at_surface(scene, item, remarks);
+    look_at_components(item, remarks);
+  }
+}
+
+void weight(const Scene& scene, Remarks& remarks) {
+  constexpr double kLight = 1e3;    // N/m^3
+  constexpr double kHeavy = 2.5e6;  // a hundred times gravity in a centrifuge
+  const auto& loads = scene.problem().body_loads;
+  const Entry* const list = scene.find({"body"});
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const Eigen::Vector2d of = weight_of(scene, loads[k]);
+    const Entry& place = list != nullptr && k < list->items.size() ? list->items[k] : scene.place({"body"});
+    if (of.y() < 0.0 || (of.y() == 0.0 && of.x() != 0.0 && loads.size() == 1))
+      remarks.push_back(
+          {Rank::wrong, 100.0,
+           place.fault(fmt::format(
+               "body: the force is {:.3g} kN/m3 along 1 and {:.3g} kN/m3 along 2, and 2 points up: {}",
+               1e-3 * of.x(), -1e-3 * of.y(),
+               of.y() < 0.0 ? "it lifts the body" : "nothing pulls the body down")),
+           "write unit_weight: 18 kN/m3, or force: [0, -18 kN/m3]"});
+    const double size = of.norm();
+    if (size > 0.0 && (size < kLight || size > kHeavy))
+      remarks.push_back(
+          {Rank::wrong, size < kLight ? kLight / size : size / kHeavy,
+           place.fault(fmt::format("body: a weight of {:.3g} kN/m3 (ground 10 to 25)", 1e-3 * size)),
+           "check the unit: unit_weight is a force per volume, 18 kN/m3; a density of 1800 kg/m3 weighs 17.7 kN/m3"});
+  }
+}
+
+void free_sides(const Scene& scene, Remarks& remarks) {
+  double down = 0.0;
+  for (const fem::BodyLoad& load : scene.problem().body_loads) down += weight_of(scene, load).y();
+  if (down <= 0.0) return;
+  const auto held = held_nodes(scene.problem());
+  const Body& body = scene.body();
+  // Vertical parts of the outline at the left and right end of the mesh: held, loaded, or free.
+  struct Side {
+    double free = 0.0;
+    double all = 0.0;
+  } sides[2];
+  std::vector<std::string> names{""};
+  for (const auto& [name, edges] : scene.mesh().boundaries) names.push_back(name);
+  for (const std::string& name : names) {
+    const bool loaded = std::ranges::any_of(scene.problem().edge_loads,
+                                            [&](const fem::EdgeLoad& load) { return load.on == name; });
+    const bool tied = std::ranges::any_of(
+        scene.problem().ties, [&](const fem::Tie& tie) { return tie.on == name || tie.to == name; });
+    for (const OutlineEdge& edge : edges_of(scene.mesh(), name)) {
+      if (std::abs(edge.normal.x()) < 0.99) continue;
+      const double slack = 1e-6 * body.size().x();
+      const bool left = edge.centre.x() < body.least.x() + slack;
+      if (!left && edge.centre.x() < body.largest.x() - slack) continue;
+      Side& side = sides[left ? 0 : 1];
+      side.all += edge.length;
+      if (!loaded && !tied && !held_along({edge}, held).all[0]) side.free += edge.length;
+    }
+  }
+  const auto is_free = [&](const Side& side) {
+    return side.all > 0.9 * body.size().y() && side.free > 0.9 * side.all;
+  };
+  const bool wide = body.size().x() > 2.0 * body.size().y();
+  if (!(is_free(sides[0]) != is_free(sides[1]) || (is_free(sides[0]) && wide))) return;
+  const char* const which = is_free(sides[0]) ? is_free(sides[1]) ? "both vertical sides of the mesh are"
+                                                                  : "the left side of the mesh is"
+                                              : "the right side of the mesh is";
+  remarks.push_back(
+      {Rank::wrong, 5.0,
+       scene.place({"boundary"})
+           .fault(fmt::format(
+               "boundary: {} free over the whole height ({:.3g} m) under weight: the ground flows out there",
+               which, body.size().y())),
+       "hold the sides against moving along 1, as rollers: {on: SIDE, fix: [u1]}; or load them"});
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The internal length lc against elements, grains and body.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
+
+namespace polargrain::app {
+namespace {
+
+void against_elements(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
+  const double element = usual_element(scene, region);
+  const double ratio = element / length;
+  if (ratio <= kMostElementOverLength) return;
+  remarks.push_back(
+      {Rank::doubtful, ratio / kMostElementOverLength,
+       scene.place({"materials", region.material, "lc"})
+           .fault(fmt::format(
+               "material '{}': the elements of region '{}' measure {:.3g} mm, {:.3g} times lc (at most {:g}): "
+               "bands of shear are as wide as the elements, and what follows a peak is the mesh's",
+               region.material, region.name, 1e3 * element, ratio, kMostElementOverLength)),
+       fmt::format("elements of {:.2g} mm where bands are expected, or 'lc: {:.2g} mm' and more",
+                   1e3 * kMostElementOverLength * length, 1e3 * element / kMostElementOverLength)});
+}
+
+void against_body(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
+  const double body = scene.body().smaller_side();
+  const double share = length / body;
+  if (share <= kMostLengthOverBody) return;
+  remarks.push_back(
+      {share > 1.0 ? Rank::wrong : Rank::doubtful, share / kMostLengthOverBody,
+       scene.place({"materials", region.material, "lc"})
+           .fault(fmt::format(
+               "material '{}': lc is {:.3g} mm, {:.3g} times the smaller side of the body ({:.3g} mm): couple "
+               "stresses stiffen all of it, and no band of shear has room",
+               region.material, 1e3 * length, share, 1e3 * body)),
+       "give lc a few tenths to a few times the mean diameter of the grains; check its unit"});
+}
+
+void against_grains(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
+  if (region.cell == nullptr) return;
+  const double diameter = 2.0 * region.cell->packing.mean_radius();
+  const double ratio = length / diameter;
+  if (ratio >= kLeastLengthOverGrain && ratio <= kMostLengthOverGrain) return;
+  remarks.push_back(
+      {Rank::doubtful, ratio > 1.0 ? ratio / kMostLengthOverGrain : kLeastLengthOverGrain / ratio,
+       scene.place({"materials", region.material, "lc"})
+           .fault(
+               fmt::format("material '{}': lc is {:.3g} mm, {:.3g} mean diameters of the grains ({:.3g} mm)",
+                           region.material, 1e3 * length, ratio, 1e3 * diameter)),
+       fmt::format(
+           "measured are 0.3 to 1 diameters; more, up to {:g}, is for meshes that cannot resolve a band; check its unit",
+           kMostLengthOverGrain)});
+}
+
+}  // namespace
+
+void internal_length(const Scene& scene, Remarks& remarks) {
+  if (scene.problem().continuum == fem::Continuum::cauchy) return;
+  for (const SceneRegion& region : scene.regions()) {
+    const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);
+    if (!length || *length <= 0.0) continue;
+    if (is_strong(scene, region)) against_elements(scene, region, *length, remarks);
+    against_body(scene, region, *length, remarks);
+    against_grains(scene, region, *length, remarks);
+  }
+}
+
+void plastic_length(const Scene& scene, Remarks& remarks) {
+  for (const SceneRegion& region : scene.regions()) {
+    const auto plastic = scene.quantity({"materials", region.material, "lp"}, coupler::Dimension::length);
+    const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);
+    if (!plastic || !length || *length <= 0.0) continue;
+    const double ratio = *plastic / *length;
+    const double body = *plastic / scene.body().smaller_side();
+    if (ratio <= kMostPlasticOverLength && ratio >= 1.0 / kMostPlasticOverLength &&
+        body <= kMostLengthOverBody)
+      continue;
+    remarks.push_back(
+        {Rank::doubtful, std::max({1.0, ratio / kMostPlasticOverLength, body / kMostLengthOverBody}),
+         scene.place({"materials", region.material, "lp"})
+             .fault(fmt::format(
+                 "material '{}': lp is {:.3g} mm, {:.3g} times lc and {:.3g} of the smaller side of the body: {}",
+                 region.material, 1e3 * *plastic, ratio, body,
+                 ratio > 1.0 ? "couple stresses have next to no limit"
+                             : "couple stresses have next to no strength")),
+         "give lp about a mean diameter of the grains, near lc; check its unit"});
+  }
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Loads on displacements that supports or movements prescribe: they do nothing.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+void add(const Scene& scene, const std::string& on, const char* key, const std::string& what,
+         Remarks& remarks) {
+  const coupler::Entry* const value = scene.boundary_value(on, key);
+  remarks.push_back(
+      {Rank::wrong, 10.0,
+       (value != nullptr ? *value : scene.place({"boundary"}))
+           .fault(fmt::format(
+               "boundary: {} on '{}' has no effect: the displacement along it is prescribed at all of its "
+               "nodes, and a support takes the load",
+               what, on)),
+       "remove the load, or the 'fix' or 'move' of that displacement"});
+}
+
+bool is_zero(const fem::TimeTable& table) {
+  return table.largest_magnitude() == 0.0;
+}
+
+}  // namespace
+
+void load_on_held(const Scene& scene, Remarks& remarks) {
+  const fem::Problem& problem = scene.problem();
+  const auto held = held_nodes(problem);
+  for (const fem::EdgeLoad& load : problem.edge_loads) {
+    const Held here = held_along(edges_of(problem.mesh, load.on), held);
+    if (!is_zero(load.pressure) && here.normal) add(scene, load.on, "pressure", "the pressure", remarks);
+    const bool first = !is_zero(load.traction1) && here.all[0];
+    if (first || (!is_zero(load.traction2) && here.all[1]))
+      add(scene, load.on, "traction", fmt::format("the traction along {}", first ? 1 : 2), remarks);
+  }
+  for (const fem::NodeLoad& load : problem.node_loads) {
+    if (load.dof == fem::Dof::w || is_zero(load.value)) continue;
+    const std::size_t i = load.dof == fem::Dof::u1 ? 0 : 1;
+    const std::vector<int> nodes = problem.mesh.nodes_on(load.on);
+    if (std::ranges::all_of(nodes, [&](int node) { return held[static_cast<std::size_t>(node)][i]; }))
+      add(scene, load.on, "node_force", fmt::format("the force along {}", i + 1), remarks);
+  }
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The load of each boundary at time zero against the stress behind it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+/// A packing is at rest under its pressure to a few per cent, and so is a body under loads that differ by less.
+constexpr double kSlack = 0.05;
+constexpr double kFar = 0.3;  // of the pressure: the grains rearrange before the first step
+
+std::string pascals(double pressure) {
+  if (std::abs(pressure) < 1e3 && pressure != 0.0) return fmt::format("{:.3g} Pa", pressure);
+  return std::abs(pressure) < 1e6 ? fmt::format("{:.4g} kPa", 1e-3 * pressure)
+                                  : fmt::format("{:.4g} MPa", 1e-6 * pressure);
+}
+
+/// Mean over a boundary at time zero, tension positive, Pa.
+struct Mismatch {
+  double carried = 0.0;  ///< pressure of the loads along the normal
+  double behind = 0.0;   ///< pressure of the stress behind it
+  double along = 0.0;    ///< shear traction that nothing carries, magnitude
+  double scale = 0.0;    ///< pressure there
+  bool has_cells = false;
+  const SceneRegion* region = nullptr;
+};
+
+Eigen::Vector2d traction(const fem::Problem& problem, const std::string& boundary, const OutlineEdge& edge) {
+  Eigen::Vector2d t = Eigen::Vector2d::Zero();
+  for (const fem::EdgeLoad& load : problem.edge_loads) {
+    if (load.on != boundary) continue;
+    t += -load.pressure.at(0.0) * edge.normal +
+         Eigen::Vector2d(load.traction1.at(0.0), load.traction2.at(0.0));
+  }
+  return t;
+}
+
+/// Loads may come on to the nodes of a boundary one by one, or it is tied: nothing is known of its traction.
+bool is_special(const fem::Problem& problem, const std::string& boundary,
+                const std::vector<OutlineEdge>& edges) {
+  for (const fem::Tie& tie : problem.ties)
+    if (tie.on == boundary || tie.to == boundary) return true;
+  for (const fem::NodeLoad& load : problem.node_loads) {
+    const std::vector<int> nodes = problem.mesh.nodes_on(load.on);
+    for (const OutlineEdge& edge : edges)
+      for (const int node : edge.nodes)
+        if (std::ranges::binary_search(nodes, node)) return true;
+  }
+  return false;
+}
+
+/// Over the edges that are free; nothing where there are none or no stress is known.
+std::optional<Mismatch> mismatch_of(const Scene& scene, const std::string& boundary,
+                                    const std::vector<OutlineEdge>& edges,
+                                    const std::vector<std::array<bool, 2>>& held) {
+  Mismatch sum;
+  double length = 0.0;
+  for (const OutlineEdge& edge : edges) {
+    const Held here = held_along({edge}, held);
+    const SceneRegion& region = scene.region_of(edge.element);
+    const std::optional<Vector7> stress = scene.initial_stress(region, edge.centre);
+    if (!stress || (here.all[0] && here.all[1])) continue;
+    const Eigen::Vector2d& n = edge.normal;
+    const Vector7& s = *stress;
+    const Eigen::Vector2d inside(s(k11) * n.x() + s(k21) * n.y(), s(k12) * n.x() + s(k22) * n.y());
+    Eigen::Vector2d out = traction(scene.problem(), boundary, edge) - inside;
+    for (std::size_t i = 0; i < 2; ++i)
+      if (here.all[i]) out(static_cast<Eigen::Index>(i)) = 0.0;
+    const double pushed = -inside.dot(n);
+    sum.behind += edge.length * pushed;
+    sum.carried += edge.length * (pushed - out.dot(n));
+    sum.along += edge.length * std::abs(out.x() * n.y() - out.y() * n.x());
+    sum.scale += edge.length * std::max(-0.5 * (s(k11) + s(k22)), 0.0);
+    sum.has_cells = sum.has_cells || region.cell != nullptr;
+    sum.region = &region;
+    length += edge.length;
+  }
+  if (length == 0.0) return {};
+  for (double* const value : {&sum.carried, &sum.behind, &sum.along, &sum.scale}) *value /= length;
+  return sum;
+}
+
+std::string remedy_of(const Mismatch& m, const std::string& boundary, bool loaded) {
+  if (!loaded && boundary.empty())
+    return fmt::format(
+        "give that part of the outline a name in the mesh and 'pressure: {}' below boundary, or hold it",
+        pascals(m.behind));
+  if (!loaded)
+    return fmt::format("give it 'pressure: {}', or hold it: {{on: {}, fix: [...]}}", pascals(m.behind),
+                       boundary);
+  if (!m.has_cells) return "let the load at time zero, the weight and initial_stress (surcharge) agree";
+  if (m.carried <= 0.0)
+    return fmt::format("a pressure pushes into the body where it is positive: write 'pressure: {}'",
+                       pascals(m.behind));
+  return fmt::format(
+      "settle the packing to {0} (polargrain pack --settle PACKING SCRIPT -o NEW.h5 --set pressure='{0}'), or begin where the "
+      "packing is: pressure: [[0, {1}], [1, {0}]]",
+      pascals(m.carried), pascals(m.behind));
+}
+
+void look_at(const Scene& scene, const std::string& boundary, const std::vector<std::array<bool, 2>>& held,
+             Remarks& remarks) {
+  const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), boundary);
+  if (edges.empty() || is_special(scene.problem(), boundary, edges)) return;
+  const std::optional<Mismatch> m = mismatch_of(scene, boundary, edges, held);
+  if (!m) return;
+  const double scale = std::max({m->scale, std::abs(m->carried), std::abs(m->behind)});
+  if (scale <= 0.0) return;
+  const double off = std::max(std::abs(m->carried - m->behind), m->along) / scale;
+  if (off <= kSlack) return;
+  const coupler::Entry* value = nullptr;
+  for (const char* const key : {"pressure", "traction"})
+    if (value == nullptr) value = scene.boundary_value(boundary, key);
+  const std::string name = boundary.empty() ? "a part of the outline that has no name" : "'" + boundary + "'";
+  const std::string who = m->has_cells ? "its grains" : "the initial stress behind it";
+  const coupler::Entry& place = value != nullptr ? *value : scene.place({"boundary"});
+  const std::string seen =
+      m->along > std::abs(m->carried - m->behind)
+          ? fmt::format("boundary: along {} nothing carries {} of shear of {} at time zero", name,
+                        pascals(m->along), who)
+          : fmt::format("boundary: {} carries {} at time zero, {} {}", name,
+                        value == nullptr ? "nothing" : pascals(m->carried), who, pascals(m->behind));
+  const double ratio =
+      m->carried > 0.0 && m->behind > 0.0 ? std::max(m->carried / m->behind, m->behind / m->carried) : 1e3;
+  remarks.push_back(
+      {off > kFar ? Rank::wrong : Rank::doubtful, std::max(1.0, ratio),
+       place.fault(
+           fmt::format("{}: the first step, 0, has to take up {:.0f} % of that pressure", seen, 100.0 * off)),
+       remedy_of(*m, boundary, value != nullptr)});
+}
+
+}  // namespace
+
+void loads_at_start(const Scene& scene, Remarks& remarks) {
+  const auto held = held_nodes(scene.problem());
+  for (const auto& [name, edges] : scene.mesh().boundaries) look_at(scene, name, held, remarks);
+  look_at(scene, "", held, remarks);
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Monitors and measures of places where nothing can be read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+const char* name_of(fem::Dof dof) {
+  return dof == fem::Dof::u1 ? "u1" : dof == fem::Dof::u2 ? "u2" : "w";
+}
+
+/// Nodes at which a degree of freedom is prescribed, and those where the value changes from zero.
+struct Given {
+  std::set<int> held;
+  std::set<int> moved;
+};
+
+Given given(const fem::Problem& problem, fem::Dof dof) {
+  Given nodes;
+  for (const fem::PrescribedDof& item : problem.prescribed) {
+    if (item.dof != dof) continue;
+    for (const int node : problem.mesh.nodes_on(item.on)) {
+      nodes.held.insert(node);
+      if (item.value.largest_magnitude() > 0.0) nodes.moved.insert(node);
+    }
+  }
+  return nodes;
+}
+
+void look_at_reaction(const Scene& scene, const coupler::Monitor& monitor, Remarks& remarks) {
+  const Given nodes = given(scene.problem(), monitor.dof);
+  const std::vector<int> on = scene.mesh().nodes_on(monitor.on);
+  const auto held = std::ranges::count_if(on, [&](int node) { return nodes.held.contains(node); });
+  // Ends of a boundary are held by its neighbours.
+  if (2 * held >= static_cast<std::ptrdiff_t>(on.size()) || !scene.problem().ties.empty()) return;
+  const coupler::Entry& place = scene.place({"monitors", monitor.name});
+  const std::string dof = name_of(monitor.dof);
+  const std::string seen =
+      held == 0
+          ? fmt::format(
+                "monitor '{}': {} is free at all of its nodes, and a reaction is what supports exert: it stays zero",
+                monitor.name, dof)
+          : fmt::format(
+                "monitor '{}': {} is prescribed at {} of its {} nodes only, ends that other boundaries hold: the reaction is theirs",
+                monitor.name, dof, held, on.size());
+  remarks.push_back({Rank::wrong, 10.0, place.fault(seen),
+                     "read the reaction on the boundary that is held or moved along it"});
+}
+
+void look_at_displacement(const Scene& scene, const coupler::Monitor& monitor, Remarks& remarks) {
+  const Given nodes = given(scene.problem(), monitor.dof);
+  const std::vector<int> on = scene.mesh().nodes_on(monitor.on);
+  const bool stays = std::ranges::all_of(
+      on, [&](int node) { return nodes.held.contains(node) && !nodes.moved.contains(node); });
+  if (!stays) return;
+  remarks.push_back(
+      {Rank::wrong, 10.0,
+       scene.place({"monitors", monitor.name})
+           .fault(fmt::format(
+               "monitor '{}': {} is fixed at all of its nodes: the displacement stays zero, and so does a strain "
+               "made of it",
+               monitor.name, name_of(monitor.dof))),
+       "read the displacement of the boundary that moves"});
+}
+
+}  // namespace
+
+void monitors(const Scene& scene, Remarks& remarks) {
+  for (const coupler::Monitor& monitor : scene.the_case().monitors) {
+    if (monitor.kind == coupler::Monitor::Kind::reaction) look_at_reaction(scene, monitor, remarks);
+    if (monitor.kind == coupler::Monitor::Kind::displacement) look_at_displacement(scene, monitor, remarks);
+  }
+}
+
+void measures(const Scene& scene, Remarks& remarks) {
+  for (const coupler::StepTarget& target : scene.the_case().plan) {
+    if (target.control != coupler::StepTarget::Control::measure || target.measure.terms.empty()) continue;
+    const Given nodes = given(scene.problem(), target.measure.terms.front().dof);
+    const bool free = std::ranges::any_of(target.measure.terms,
+                                          [&](const auto& term) { return !nodes.held.contains(term.node); });
+    const bool moved = std::ranges::any_of(target.measure.terms,
+                                           [&](const auto& term) { return nodes.moved.contains(term.node); });
+    if (free || moved) continue;
+    remarks.push_back(
+        {Rank::wrong, 10.0,
+         scene.place({"steps", "stages"})
+             .fault("steps: the measure of a stage is of places that are fixed: it cannot grow"),
+         "measure a boundary that moves"});
+    return;
+  }
+}
+
+void output(const Scene& scene, Remarks& remarks) {
+  const coupler::Case& the_case = scene.the_case();
+  if (the_case.output_every <= the_case.steps()) return;
+  remarks.push_back(
+      {Rank::costly, static_cast<double>(the_case.output_every) / the_case.steps(),
+       scene.place({"output", "every"})
+           .fault(fmt::format(
+               "output: fields are written every {} steps, and there are {}: of the way to the end none is shown",
+               the_case.output_every, the_case.steps())),
+       fmt::format("every: {} or less", std::max(1, the_case.steps() / 4))});
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The strain, or the load, of a step against what the material takes as elastic.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
+
+namespace polargrain::app {
+namespace {
+
+constexpr double kMostOfElastic = 3.0;  // elastic strains of the packing a step
+constexpr double kMostOfLaw = 0.02;     // strain a step, of laws with a strength
+constexpr double kMostOfLoad = 0.5;     // of the pressure of the grains
+
+/// Largest change of a pressure or traction in one step of a run under time, Pa.
+double largest_load_step(const Scene& scene) {
+  double largest = 0.0;
+  double before = 0.0;
+  for (const coupler::StepTarget& target : scene.the_case().plan) {
+    if (target.control != coupler::StepTarget::Control::time) break;
+    for (const fem::EdgeLoad& load : scene.problem().edge_loads)
+      for (const fem::TimeTable* const table : {&load.pressure, &load.traction1, &load.traction2})
+        largest = std::max(largest, std::abs(table->at(target.amount) - table->at(before)));
+    before = target.amount;
+  }
+  return largest;
+}
+
+void of_cells(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
+  const double strain = scene.strain_of_step();
+  const double elastic = region.packing != nullptr ? region.packing->elastic_strain() : 0.0;
+  if (elastic > 0.0 && strain > kMostOfElastic * elastic)
+    remarks.push_back(
+        {Rank::doubtful, strain / elastic / kMostOfElastic,
+         scene.place({"steps", "count"})
+             .fault(fmt::format(
+                 "steps: a step strains the body by {:.2g}, {:.3g} elastic strains of the packing of '{}' ({:.2g}): a peak lies "
+                 "between two rows, and iterations fail",
+                 strain, strain / elastic, region.material, elastic)),
+         fmt::format("count: {:.0f} or more", std::ceil(scene.the_case().steps() * strain / elastic))});
+  const double pressure = Scene::pressure_of(region);
+  const double load = largest_load_step(scene);
+  if (pressure > 0.0 && load > kMostOfLoad * pressure)
+    remarks.push_back(
+        {Rank::doubtful, load / pressure / kMostOfLoad,
+         scene.place({"steps", "count"})
+             .fault(fmt::format(
+                 "steps: one step changes a load by {:.4g} kPa, {:.0f} % of the pressure of the grains of '{}'",
+                 1e-3 * load, 100.0 * load / pressure, region.material)),
+         "more steps (count), so that a step changes a load by a tenth of that pressure"});
+}
+
+}  // namespace
+
+void steps_of_strain(const Scene& scene, Remarks& remarks) {
+  for (const SceneRegion& region : scene.regions()) {
+    if (region.cell != nullptr) {
+      of_cells(scene, region, remarks);
+    } else if (is_strong(scene, region) && scene.strain_of_step() > kMostOfLaw) {
+      remarks.push_back(
+          {Rank::doubtful, scene.strain_of_step() / kMostOfLaw,
+           scene.place({"steps", "count"})
+               .fault(fmt::format(
+                   "steps: {} of them, and each strains the body by {:.2g} %: a peak lies between two rows",
+                   scene.the_case().steps(), 100.0 * scene.strain_of_step())),
+           fmt::format("count: {:.0f} or more",
+                       std::ceil(scene.the_case().steps() * scene.strain_of_step() / 2e-3))});
+    }
+  }
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Times of loads against the times of the steps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+/// All tables of a problem.
+std::vector<const fem::TimeTable*> tables_of(const fem::Problem& problem) {
+  std::vector<const fem::TimeTable*> tables;
+  for (const fem::PrescribedDof& item : problem.prescribed) tables.push_back(&item.value);
+  for (const fem::EdgeLoad& load : problem.edge_loads)
+    tables.insert(tables.end(), {&load.pressure, &load.traction1, &load.traction2, &load.couple_traction});
+  for (const fem::NodeLoad& load : problem.node_loads) tables.push_back(&load.value);
+  for (const fem::BodyLoad& load : problem.body_loads) tables.push_back(&load.factor);
+  return tables;
+}
+
+bool changes(const Scene& scene, double from, double to) {
+  for (const fem::TimeTable* const table : tables_of(scene.problem()))
+    for (int k = 1; k <= 8; ++k)
+      if (table->at(from + (to - from) * k / 8.0) != table->at(from)) return true;
+  return false;
+}
+
+/// The last time at which a table of the case has a point, as it is written.
+void last_point(const coupler::Entry& entry, double& last, const coupler::Entry*& at) {
+  if (entry.kind == coupler::Entry::Kind::sequence && entry.items.size() > 1) {
+    const coupler::Entry& point = entry.items.back();
+    if (point.kind == coupler::Entry::Kind::sequence && point.items.size() == 2) {
+      const auto time = coupler::parse_quantity(point.items[0].text, coupler::Dimension::number);
+      const bool stays = entry.items[entry.items.size() - 2].items.size() == 2 &&
+                         entry.items[entry.items.size() - 2].items[1].text == point.items[1].text;
+      if (time && !stays && *time > last) {
+        last = *time;
+        at = &point;
+      }
+      return;
+    }
+  }
+  for (const coupler::Entry& item : entry.items) last_point(item, last, at);
+  for (const coupler::Entry::Member& member : entry.members) last_point(member.value, last, at);
+}
+
+}  // namespace
+
+void times_of_loads(const Scene& scene, Remarks& remarks) {
+  const auto end = scene.end_time();
+  if (!end) return;
+  double last = 0.0;
+  const coupler::Entry* at = nullptr;
+  for (const char* const key : {"boundary", "body"})
+    if (const coupler::Entry* const entry = scene.find({key})) last_point(*entry, last, at);
+  if (at != nullptr && last > *end * (1.0 + 1e-9))
+    remarks.push_back(
+        {Rank::doubtful, last / std::max(*end, 1e-9),
+         at->fault(fmt::format(
+             "a load reaches its last value at time {:g}, and the steps end at time {:g}: it is never reached",
+             last, *end)),
+         fmt::format("steps: {{stages: [..., {{until: {:g}, count: ...}}]}}, or give the load by time {:g}",
+                     last, *end)});
+}
+
+void idle_steps(const Scene& scene, Remarks& remarks) {
+  const auto end = scene.end_time();
+  if (!end) return;
+  if (!changes(scene, 0.0, *end)) {
+    remarks.push_back(
+        {Rank::wrong, 10.0,
+         scene.place({"steps"}).fault(
+             "steps: no load and no movement changes from time 0 to the end: all steps repeat step 0"),
+         "give a boundary 'move', or a load a table of times: [[0, FIRST], [1, LAST]]"});
+    return;
+  }
+  double from = 0.0;
+  int idle = 0;
+  for (const coupler::StepTarget& target : scene.the_case().plan) {
+    if (!changes(scene, from, target.amount)) ++idle;
+    from = target.amount;
+  }
+  if (idle > 0)
+    remarks.push_back(
+        {Rank::doubtful, 1.0 + static_cast<double>(idle) / scene.the_case().steps(),
+         scene.place({"steps"}).fault(fmt::format(
+             "steps: in {} of {} steps no load and no movement changes (a single value of 'move' is "
+             "reached at time 1)",
+             idle, scene.the_case().steps())),
+         "let the steps end where the loads do, or give the loads times up to the end: [[0, 0], [END, VALUE]]"});
+}
+
+}  // namespace polargrain::app

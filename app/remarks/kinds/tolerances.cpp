@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Keys of accuracy that no longer ask for an answer that can be used.
+#include <fmt/format.h>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+struct Bound {
+  const char* key;
+  double largest;
+  const char* what;
+  const char* remedy;
+};
+
+constexpr Bound kOfSteps[] = {
+    {"tolerance", 0.05,
+     "of the forces may be out of balance at the end of a step, and what a monitor reads is off by as much",
+     "1e-2 for cells, 1e-3 and less for laws; where a step fails, its advice says why"},
+    {"moment_tolerance", 0.1, "of the moments may be out of balance at the end of a step", "as 'tolerance'"},
+    {"jump_residual", 0.2, "of the forces may be out of balance where a jump is passed", "0.05"},
+    {"largest_strain", 2.0, "of strain may be asked for in one correction", "0.05 for cells, 1 for laws"}};
+
+constexpr Bound kOfMaterials[] = {
+    {"inertial_number", 5e-3,
+     "is the rate: grains no longer rest on each other, and the stress rises with the rate",
+     "6e-4, at most 2e-3; where a step fails, more steps help, not a higher rate"},
+    {"unbalanced_force_ratio", 0.05, "of a contact force may be out of balance at read-out", "5e-3"},
+    {"unbalanced_moment_ratio", 0.05, "of a contact force may be out of balance at read-out", "5e-3"},
+    {"tolerance", 0.2, "of the pressure may the stress of a point be off", "1 to 5 %"}};
+
+void look_at(const Scene& scene, const Scene::Path& section, const Bound& bound, Remarks& remarks) {
+  Scene::Path path = section;
+  path.emplace_back(bound.key);
+  const auto value = scene.quantity(path, coupler::Dimension::number);
+  if (!value || *value <= bound.largest) return;
+  const std::string name = section.size() > 1 ? fmt::format("material '{}'", section[1]) : section[0];
+  remarks.push_back(
+      {*value > 2.0 * bound.largest ? Rank::wrong : Rank::doubtful, *value / bound.largest,
+       scene.place(path).fault(fmt::format("{}: {}: {:.3g} {}", name, bound.key, *value, bound.what)),
+       bound.remedy});
+}
+
+}  // namespace
+
+void tolerances(const Scene& scene, Remarks& remarks) {
+  for (const Bound& bound : kOfSteps) look_at(scene, {"steps"}, bound, remarks);
+  for (const auto& [name, material] : scene.the_case().materials)
+    if (material->needs_workers())
+      for (const Bound& bound : kOfMaterials) look_at(scene, {"materials", name}, bound, remarks);
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "app/remarks/scene.hpp"
+
+namespace polargrain::app {
+
+/// An element may be so many internal lengths wide where a band is to be resolved (docs/settings.md).
+inline constexpr double kMostElementOverLength = 2.5;
+inline constexpr double kMostLengthOverBody = 0.25;
+inline constexpr double kMostPlasticOverLength = 10.0;
+/// Of the mean diameter of grains.
+inline constexpr double kLeastLengthOverGrain = 0.05;
+inline constexpr double kMostLengthOverGrain = 50.0;
+
+/// Square root of the area of an element of a region, m: the median, so that a mesh which is fine where most of its elements are
+/// counts as fine.
+double usual_element(const Scene& scene, const SceneRegion& region);
+
+/// Whether a material has a strength, so that bands may form in it.
+bool is_strong(const Scene& scene, const SceneRegion& region);
+
+}  // namespace polargrain::app

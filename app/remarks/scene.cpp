@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/remarks/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polargrain::app {
+
+Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings)
+    : case_(the_case), document_(document), body_(body_of(the_case.problem.mesh)) {
+  region_of_element_.resize(mesh().elements.size(), 0);
+  for (const auto& [name, material] : case_.regions) {
+    SceneRegion region{name, material};
+    region.cell = case_.materials.at(material)->grains();
+    if (const auto found = packings.find(material); found != packings.end()) region.packing = &found->second;
+    region.elements = mesh().regions.at(name);
+    for (const int element : region.elements)
+      region_of_element_[static_cast<std::size_t>(element)] = regions_.size();
+    regions_.push_back(std::move(region));
+  }
+}
+
+const coupler::Entry* Scene::find(const Path& path) const {
+  const coupler::Entry* entry = &document_;
+  for (const std::string& key : path) {
+    if (entry == nullptr) return nullptr;
+    entry = entry->find(key);
+  }
+  return entry;
+}
+
+std::optional<double> Scene::quantity(const Path& path, coupler::Dimension dimension) const {
+  const coupler::Entry* const entry = find(path);
+  if (entry == nullptr || entry->kind != coupler::Entry::Kind::scalar) return {};
+  return coupler::parse_quantity(entry->text, dimension);
+}
+
+const coupler::Entry& Scene::place(const Path& path) const {
+  const coupler::Entry* entry = &document_;
+  for (const std::string& key : path) {
+    const coupler::Entry* const next = entry->find(key);
+    if (next == nullptr) break;
+    entry = next;
+  }
+  return *entry;
+}
+
+const coupler::Entry* Scene::boundary_value(const std::string& name, const std::string& key) const {
+  const coupler::Entry* const boundary = document_.find("boundary");
+  if (boundary == nullptr) return nullptr;
+  for (const coupler::Entry& item : boundary->items) {
+    const coupler::Entry* const on = item.find("on");
+    const coupler::Entry* const value = item.find(key);
+    if (on == nullptr || value == nullptr) continue;
+    const auto is_name = [&](const coupler::Entry& word) { return word.text == name; };
+    if (is_name(*on) || std::ranges::any_of(on->items, is_name)) return value;
+  }
+  return nullptr;
+}
+
+bool Scene::has_cells() const {
+  return std::ranges::any_of(regions_, [](const SceneRegion& region) { return region.cell != nullptr; });
+}
+
+double Scene::pressure_of(const SceneRegion& region) {
+  if (region.packing != nullptr) return region.packing->pressure();
+  return region.cell != nullptr ? region.cell->packing.pressure : 0.0;
+}
+
+std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
+                                             const Eigen::Vector2d& position) const {
+  if (region.packing != nullptr) return region.packing->stress;
+  Vector7 stress = Vector7::Zero();
+  if (region.cell != nullptr) {
+    for (const int i : {k11, k22, k33}) stress(i) = -region.cell->packing.pressure;
+    return stress;
+  }
+  std::optional<Vector7> given;
+  for (const fem::InitialStress& item : problem().initial_stresses)
+    if (item.region.empty() || item.region == region.name) given = item.stress(position);
+  if (given) return given;
+  const auto confining = quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure);
+  if (!confining || *confining == 0.0) return {};
+  for (const int i : {k11, k22, k33}) stress(i) = -*confining;
+  return stress;
+}
+
+std::optional<double> Scene::end_time() const {
+  double end = 0.0;
+  for (const coupler::StepTarget& target : case_.plan) {
+    if (target.control != coupler::StepTarget::Control::time) return {};
+    end = target.amount;
+  }
+  return end;
+}
+
+double Scene::largest_movement() const {
+  double largest = 0.0;
+  for (const fem::PrescribedDof& item : problem().prescribed) {
+    if (item.dof == fem::Dof::w) continue;
+    const auto end = end_time();
+    largest = std::max(largest, end ? std::abs(item.value.at(*end)) : item.value.largest_magnitude());
+  }
+  double grown = 0.0;
+  for (const coupler::StepTarget& target : case_.plan)
+    if (target.control == coupler::StepTarget::Control::measure) grown += std::abs(target.amount);
+  return std::max(largest, grown);
+}
+
+double Scene::strain_of_step() const {
+  double largest = 0.0;
+  const auto end = end_time();
+  for (const fem::PrescribedDof& item : problem().prescribed) {
+    if (item.dof == fem::Dof::w) continue;
+    const double movement = end ? std::abs(item.value.at(*end)) : item.value.largest_magnitude();
+    // What moves along 1 shears the height or shortens the width.
+    const double side = item.dof == fem::Dof::u2 ? body_.size().y() : body_.smaller_side();
+    largest = std::max(largest, movement / side);
+  }
+  return largest / static_cast<double>(std::max(1, case_.steps()));
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/remarks/body.hpp"
+#include "app/remarks/packing_at_rest.hpp"
+#include "app/remarks/remark.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/case/document.hpp"
+#include "coupler/case/quantity.hpp"
+
+namespace polargrain::app {
+
+/// A region of the mesh and what it is made of.
+struct SceneRegion {
+  std::string name;
+  std::string material;
+  const CellDefinition* cell = nullptr;    ///< null: a law in closed form
+  const PackingAtRest* packing = nullptr;  ///< null: no cells, or nobody has asked the engine
+  std::vector<int> elements = {};
+};
+
+/// A case as remarks look at it: read, with the text it was read from, and the packings as the engine has found them.
+class Scene {
+ public:
+  using Path = std::vector<std::string>;
+
+  /// All must outlive the scene. @param document of the case, settings applied
+  Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings);
+
+  [[nodiscard]] const coupler::Case& the_case() const { return case_; }
+  [[nodiscard]] const fem::Problem& problem() const { return case_.problem; }
+  [[nodiscard]] const fem::Mesh& mesh() const { return case_.problem.mesh; }
+  [[nodiscard]] const coupler::Entry& document() const { return document_; }
+  [[nodiscard]] const Body& body() const { return body_; }
+  [[nodiscard]] const std::vector<SceneRegion>& regions() const { return regions_; }
+  [[nodiscard]] const SceneRegion& region_of(int element) const {
+    return regions_[region_of_element_[static_cast<std::size_t>(element)]];
+  }
+
+  /// The entry of keys, from the top; null when it is not there.
+  [[nodiscard]] const coupler::Entry* find(const Path& path) const;
+  /// A number that stands there; nothing where there is none.
+  [[nodiscard]] std::optional<double> quantity(const Path& path, coupler::Dimension dimension) const;
+  /// The entry, or the nearest above it that is there: where a remark points.
+  [[nodiscard]] const coupler::Entry& place(const Path& path) const;
+  /// The value of `key` in the first item of `boundary` that is on `name` and has it; null where there is none.
+  [[nodiscard]] const coupler::Entry* boundary_value(const std::string& name, const std::string& key) const;
+
+  [[nodiscard]] bool has_cells() const;
+  /// Pressure of the grains of a region, Pa: as the engine found it, else as the packing records it; 0 without cells.
+  [[nodiscard]] static double pressure_of(const SceneRegion& region);
+  /// Stress at time zero; nothing where neither grains nor the case give one.
+  [[nodiscard]] std::optional<Vector7> initial_stress(const SceneRegion& region,
+                                                      const Eigen::Vector2d& position) const;
+  /// Time at which the last step ends; nothing where that is not known before.
+  [[nodiscard]] std::optional<double> end_time() const;
+  /// Largest prescribed displacement of a run, m: its movements up to the end, and measures that are to grow.
+  [[nodiscard]] double largest_movement() const;
+  /// Mean strain of a step of the run as a whole: largest movement over the side of the body along it, over the steps.
+  [[nodiscard]] double strain_of_step() const;
+
+ private:
+  const coupler::Case& case_;
+  const coupler::Entry& document_;
+  Body body_;
+  std::vector<SceneRegion> regions_;
+  std::vector<std::size_t> region_of_element_;
+};
+
+}  // namespace polargrain::app

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/report/run_result.hpp"
+
+namespace polargrain::app {
+
+/// The remarks on the cases of runs as a table of a page, from their summaries; empty where there are none.
+std::string remarks_section(const std::vector<RunResult>& results);
+
+}  // namespace polargrain::app

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+namespace polargrain::coupler {
+
+/// The columns of history.csv that tell of a step, in their order; monitors follow them, and none may have their names.
+const std::vector<std::string>& columns_of_steps();
+
+}  // namespace polargrain::coupler

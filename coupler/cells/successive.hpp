@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "common/increment.hpp"
+
+namespace polargrain::coupler {
+
+/// Increments that follow each other are not added: of displacement gradients (I + second)(I + first) = I + both;
+/// a curvature counts per position at the start of its own increment, so that the second one is pulled back by
+/// I + first; micro-rotations about one axis are added. What comes of it is of large deformation where the last
+/// increment is.
+Increment followed_by(const Increment& first, const Increment& second);
+
+/// The increment that leads from where `from` leads to where `to` leads.
+Increment offset_between(const Increment& from, const Increment& to);
+
+/// Where the first part of an increment of large deformation leads to, in which its turn and its stretch grow alike.
+/// @param share 0 to 1
+Increment share_of(const Increment& increment, double share);
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "dem/cell/instruction_set.hpp"
+#include "dem/sphere_loop/space_grain_box.hpp"
+#include "dem/sphere_loop/sphere_constants.hpp"
+#include "dem/sphere_loop/sphere_state.hpp"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace polargrain::dem {
+
+/// Kernels compiled for an instruction set, or their plain twin, which gives the same bits one contact at a time.
+const SphereKernels& sphere_kernels(InstructionSet set, bool plain = false);
+
+/// A box of spheres that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet, the same
+/// box motion, damping and control of rotations as `fix cell/space_strain` with `fix nve/sphere`, in two passes a step:
+/// one over the contacts and one over the spheres. Tests hold it to the engine's own loop.
+class SphereBox final : public SpaceGrainBox {
+ public:
+  SphereBox(Spheres spheres, const SphereKernels& kernels);
+
+  void restore(const State& state) override;
+  /// The same from a snapshot. @throws RunError when it is none of these spheres and laws
+  void restore(const SphereSnapshot& snapshot);
+  [[nodiscard]] StatePointer save() override;
+  void begin(const SpacePath& path, double damping_rate, const std::optional<SpaceRotation>& rotation,
+             double time_step) override;
+  void set_up() override;
+  void run(int steps) override;
+
+  void set_rotation_weights(std::span<const double> weights) override;
+  void hold_rotation() override;
+  [[nodiscard]] Eigen::Vector3d multiplier() const override { return motion_.box().frame * multiplier_; }
+  [[nodiscard]] const SpaceBox& box() const override { return motion_.box(); }
+  [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
+  [[nodiscard]] const Imbalance& imbalance() const override { return imbalance_; }
+  [[nodiscard]] std::span<const double> rotations() const override;
+  [[nodiscard]] std::span<const double> places() const override;
+  [[nodiscard]] SpaceMotionOfGrain motion(int sphere) const override;
+
+ private:
+  [[nodiscard]] int count() const { return static_cast<int>(spheres_.radii.size()); }
+  [[nodiscard]] bool controlled() const { return motion_.rotation_is_prescribed() && !weights_.empty(); }
+  /// Makes the list anew; springs come from the former one.
+  void find_candidates();
+  /// Whether two spheres that are no candidates may have come to touch.
+  [[nodiscard]] bool outgrown();
+  void place_images();
+  void compute_forces(bool advance, bool record);
+  /// Contacts from what the last pass has taken down.
+  void read_records();
+  [[nodiscard]] Contact contact_of(int candidate, const double* record) const;
+  [[nodiscard]] SphereMotion motion_of_step();
+  /// The box goes on by a step, and the spheres do its first half. One pass over them does that and the second half of
+  /// the step before.
+  void begin_step(bool end_the_last);
+  /// Adds lambda V weight to the torques. @param damped the torques of the damping count too
+  void control_rotation(bool damped);
+  void sum_up();
+
+  Spheres spheres_;
+  const SphereKernels& kernels_;
+  SphereKernels::Pass pass_;
+  int springs_ = 0;              // of a contact in a state
+  double skin_ = 0.0;            // m
+  double largest_radius_ = 0.0;  // m
+  // Two spheres that are none stand behind the others: they fill up the blocks of candidates.
+  LineVector<double> grains_, forces_, accelerations_, turned_, inverse_mass_, inverse_inertia_;
+  SphereList list_;
+  SphereList former_;
+  LineVector<double> images_;
+  LineVector<double> records_;
+  Eigen::Matrix3d listed_inverse_ = Eigen::Matrix3d::Identity();  // H^-1 when the list was made, 1/m
+  std::vector<Eigen::Vector3d> listed_places_;
+  double wandered_ = 0.0;  // bound of how far a sphere has moved against the affine flow since then, m
+  double reach_ = 0.0;     // largest gap of candidates that may have closed since then, m
+  SpaceMotion motion_;
+  double time_step_ = 0.0;
+  double damping_rate_ = 0.0;
+  std::vector<double> weights_;
+  Eigen::Vector3d multiplier_ = Eigen::Vector3d::Zero();  // in the frame of the box, Pa
+  std::vector<Contact> contacts_;
+  Imbalance imbalance_;
+  mutable std::vector<double> rotations_, places_;
+};
+
+/// The spheres of an initialised engine as they stand there, with the springs of its contact histories.
+Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination);
+SphereSnapshot sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
+                               const SpaceBox& box, std::span<const double> rotations);
+
+/// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who go on in
+/// the engine's own loop. The box is the caller's business; lists are not set up.
+/// @throws RunError when the snapshot is none of these grains and models
+void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
+                 const SphereSnapshot& snapshot);
+
+}  // namespace polargrain::dem

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// States of a box of spheres: from a snapshot, and back.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "dem/sphere_loop/sphere_box.hpp"
+
+namespace polargrain::dem {
+
+namespace {
+using Place = Eigen::Map<Eigen::Vector3d>;
+using ConstPlace = Eigen::Map<const Eigen::Vector3d>;
+}  // namespace
+
+void SphereBox::restore(const State& state) {
+  restore(decode_spheres(state));
+}
+
+void SphereBox::restore(const SphereSnapshot& snapshot) {
+  if (snapshot.spheres.size() != spheres_.radii.size() || snapshot.code != spheres_.combination.code() ||
+      snapshot.springs != springs_)
+    throw RunError("this state belongs to a cell of another packing or another input script");
+  if (const std::string fault = snapshot_fault(snapshot, spheres_.radii, time_step_); !fault.empty())
+    throw RunError(fault);
+  for (std::size_t k = 0; k < snapshot.spheres.size(); ++k) {
+    const SphereSnapshot::Motion& from = snapshot.spheres[k];
+    double* const grain = &grains_[k * kGrainStride];
+    std::copy(from.place.begin(), from.place.end(), grain);
+    std::copy(from.velocity.begin(), from.velocity.end(), grain + 4);
+    std::copy(from.spin.begin(), from.spin.end(), grain + 8);
+    std::copy(from.turned.begin(), from.turned.end(), &turned_[k * 4]);
+  }
+  motion_ = SpaceMotion(SpacePath(snapshot.box, Eigen::Matrix3d::Zero(), 0), std::nullopt, 1.0);
+  // The springs wait in the form of a list for the one that is made next.
+  SphereList waiting;
+  waiting.grains = count();
+  waiting.images.assign(1, SpaceLattice{});
+  for (const SphereSnapshot::Springs& contact : snapshot.contacts)
+    waiting.add(contact.first, contact.second, {contact.image[0], contact.image[1], contact.image[2]});
+  for (int k = 0; k < list_.spring_count; ++k) {
+    waiting.springs[k].assign(snapshot.contacts.size(), 0.0);
+    if (k < springs_)
+      for (std::size_t c = 0; c < snapshot.contacts.size(); ++c)
+        waiting.springs[k][c] = snapshot.values[c * static_cast<std::size_t>(springs_) + k];
+  }
+  waiting.spring_count = list_.spring_count;
+  former_ = std::move(waiting);
+  find_candidates();
+}
+
+StatePointer SphereBox::save() {
+  const Eigen::Matrix3d& old_base = motion_.box().base;
+  SphereSnapshot snapshot;
+  snapshot.box = motion_.box().reduced();
+  snapshot.code = spheres_.combination.code();
+  snapshot.springs = springs_;
+  const Eigen::Matrix3d& base = snapshot.box.base;
+  const Eigen::Matrix3d inverse = snapshot.box.inverse();
+  // Base vectors of before in those of the reduced box: whole numbers.
+  Eigen::Matrix3i whole;
+  const Eigen::Matrix3d ratio = inverse * old_base;
+  for (int k = 0; k < 9; ++k) whole(k) = static_cast<int>(std::lround(ratio(k)));
+
+  std::vector<SpaceLattice> copies(spheres_.radii.size());
+  snapshot.spheres.resize(copies.size());
+  for (std::size_t k = 0; k < copies.size(); ++k) {
+    const double* const grain = &grains_[k * kGrainStride];
+    copies[k] = copy_at(inverse, ConstPlace(grain));
+    SphereSnapshot::Motion& to = snapshot.spheres[k];
+    Place(to.place.data()) = ConstPlace(grain) - copies[k].of(base);
+    std::copy_n(grain + 4, 3, to.velocity.data());
+    std::copy_n(grain + 8, 3, to.spin.data());
+    std::copy_n(&turned_[k * 4], 3, to.turned.data());
+  }
+  std::vector<int> order;  // candidates with springs, by their first sphere
+  for (int c = 0; c < list_.count; ++c) {
+    if (list_.first[c] >= count()) continue;
+    for (int k = 0; k < springs_; ++k)
+      if (list_.springs[k][c] != 0.0) {
+        order.push_back(c);
+        break;
+      }
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [this](int a, int b) { return list_.first[a] < list_.first[b]; });
+  for (const int c : order) {
+    const SpaceLattice& image = list_.images[list_.image[c]];
+    const SpaceLattice& home = copies[list_.first[c]];
+    const SpaceLattice& away = copies[list_.second[c]];
+    const Eigen::Vector3i seen = whole * Eigen::Vector3i(image.p, image.q, image.r) +
+                                 Eigen::Vector3i(away.p - home.p, away.q - home.q, away.r - home.r);
+    snapshot.contacts.push_back({list_.first[c], list_.second[c], {seen.x(), seen.y(), seen.z()}, 0});
+    for (int k = 0; k < springs_; ++k) snapshot.values.push_back(list_.springs[k][c]);
+  }
+  // A state that nobody could go on from is no answer.
+  if (const std::string fault = snapshot_fault(snapshot, spheres_.radii, time_step_); !fault.empty())
+    throw RunError(fault);
+  return encode(snapshot);
+}
+
+}  // namespace polargrain::dem

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#include "dem/sphere_loop/sphere_pass.hpp"
+
+namespace polargrain::dem {
+
+/// Memory that begins with a cache line, so that no vector of a block lies across two.
+template <typename Item>
+struct LineAllocator {
+  using value_type = Item;
+  static constexpr std::align_val_t kLine{64};
+  LineAllocator() = default;
+  template <typename Other>
+  LineAllocator(const LineAllocator<Other>&) {}  // NOLINT(google-explicit-constructor): as allocators are
+  Item* allocate(std::size_t count) {
+    return static_cast<Item*>(::operator new(count * sizeof(Item), kLine));
+  }
+  void deallocate(Item* place, std::size_t) { ::operator delete(place, kLine); }
+  template <typename Other>
+  bool operator==(const LineAllocator<Other>&) const {
+    return true;
+  }
+};
+template <typename Item>
+using LineVector = std::vector<Item, LineAllocator<Item>>;
+
+/// A lattice vector p b_1 + q b_2 + r b_3 of the periodic box.
+struct SpaceLattice {
+  std::int32_t p = 0, q = 0, r = 0;
+  bool operator==(const SpaceLattice&) const = default;
+  [[nodiscard]] bool is_home() const { return p == 0 && q == 0 && r == 0; }
+  [[nodiscard]] Eigen::Vector3d of(const Eigen::Matrix3d& base) const {
+    return base * Eigen::Vector3d(p, q, r);
+  }
+};
+
+/// Which copy of the box a place lies in. @param inverse of the base vectors, 1/m
+/// @throws RunError when it is so far away, or nowhere, that this cannot be told: the grains are lost
+SpaceLattice copy_at(const Eigen::Matrix3d& inverse, const Eigen::Vector3d& place);
+
+/// Pairs of spheres of a periodic box whose surfaces are nearer than a skin, each pair once, in the zones of
+/// SpherePass. The order depends on the positions alone.
+struct SphereList {
+  LineVector<int> first, second, image;  ///< of the candidates; grains from `grains` on are none
+  std::array<LineVector<double>, kSphereConstants> constants;  ///< empty where no law asks for them
+  std::array<LineVector<double>, kSphereSprings> springs;      ///< zero where there is none
+  std::vector<SpaceLattice> images;  ///< that occur; the first one is the box itself
+  std::vector<double> gaps;          ///< least of each block, m
+  std::vector<unsigned char> active;
+  int grains = 0;
+  int spring_count = 0;  ///< of them are in use
+  int touching = 0, interior = 0, touching_across = 0, count = 0;
+
+  /// Finds the pairs; springs are zero.
+  /// @param rows of the grains, places and radii (kGrainStride) @param base columns are the base vectors, m
+  /// @param skin largest gap taken, m @throws RunError as copy_at
+  void find(const double* rows, int grains, const Eigen::Matrix3d& base, double skin);
+  /// Takes over the springs of the pairs that touch and that another list has too.
+  void take_springs(const SphereList& other);
+  /// Appends one more pair, in no zone: for lists that only hand springs over.
+  void add(int first, int second, const SpaceLattice& image);
+};
+
+}  // namespace polargrain::dem

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where remarks on a case are told: check, run, its log, its summary, its page; and --strict.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kProgram = POLARGRAIN;
+const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
+
+// Elastic, so that it runs in no time; the reaction is read where nothing is held.
+const std::string kLaw = R"(title: A block under a load
+mesh:
+  rectangle: {size: [1 m, 1 m], elements: [2, 2]}
+materials:
+  soil: {model: elastic, E: 30 MPa, nu: 0.3, Gc: 10 MPa, lc: 10 cm}
+regions: {all: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0, 0], [1, 50 kPa]]}
+steps: {count: 2}
+monitors:
+  force: {on: top, reaction: u2}
+)";
+
+const std::string kGrains = R"(title: Boxes of grains under half their pressure
+mesh:
+  rectangle: {size: [0.1 m, 0.2 m], elements: [5, 10]}
+materials:
+  sand: {model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}
+regions: {all: sand}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, fix: [u1], move: {u2: -2 mm}}
+  - {on: [left, right], pressure: 50 kPa}
+steps: {count: 10, tolerance: 1e-2}
+monitors:
+  top_force: {on: top, reaction: u2}
+)";
+
+void put(const std::filesystem::path& at, const std::string& text) {
+  write(at / "case.yaml", text);
+  write(at / "cell.in", content(kSource + "/liggghts_inputs/cells/hooke_radii.in"));
+  std::filesystem::copy_file(kSource + "/cases/footing_cells/packing100.h5", at / "grains.h5");
+}
+
+TEST(Remarks, CheckTellsThemAndStrictRefuses) {
+  const Scratch scratch("remarks_check");
+  put(scratch.path(), kGrains);
+  const Outcome told = run_in(scratch.path(), kProgram + " check case.yaml");
+  EXPECT_EQ(told.status, 0) << told.errors;
+  EXPECT_NE(told.out.find("case.yaml:10: boundary: 'left' carries 50 kPa at time zero, its grains "),
+            std::string::npos)
+      << told.out;
+  EXPECT_NE(told.out.find("-> settle the packing to 50 kPa"), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find("100 grains a cell; a step strains the body by 0.001, "), std::string::npos)
+      << told.out;
+  EXPECT_NE(told.out.find("to be expected: some 1e+04 evaluations of cells at most"), std::string::npos)
+      << told.out;
+  const Outcome refused = run_in(scratch.path(), kProgram + " check case.yaml --strict");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("case.yaml:10: boundary: 'left' carries 50 kPa"), std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(refused.out.find("no faults"), std::string::npos) << refused.out;
+}
+
+TEST(Remarks, ARunTellsThemAndKeepsThem) {
+  const Scratch scratch("remarks_run");
+  const std::filesystem::path& at = scratch.path();
+  put(at, kLaw);
+  const std::string seen = "monitor 'force': u2 is free at all of its nodes";
+  const Outcome refused = run_in(at, kProgram + " run case.yaml --strict -o strict");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find(seen), std::string::npos) << refused.errors;
+  EXPECT_FALSE(std::filesystem::exists(at / "strict"));
+
+  const Outcome run =
+      run_in(at, kProgram + " run case.yaml -o out && " + kProgram + " report out -o page.html");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find(seen), std::string::npos) << run.errors;
+  EXPECT_NE(content(at / "out/run.log").find("remark: wrong: case.yaml:12: " + seen), std::string::npos);
+  const auto summary = nlohmann::json::parse(content(at / "out/summary.json"));
+  ASSERT_EQ(summary["remarks"].size(), 1u) << summary["remarks"];
+  EXPECT_EQ(summary["remarks"][0]["rank"], "wrong");
+  EXPECT_EQ(summary["remarks"][0]["line"], 12);
+  EXPECT_NE(content(at / "page.html").find("Remarks on the case"), std::string::npos);
+}
+
+// 60 kPa of grains against nothing: step 0 ends in its own bound, and says what helps.
+TEST(Remarks, StepZeroHasAnAdviceOfItsOwn) {
+  const Scratch scratch("remarks_zero");
+  std::string text = kGrains;
+  text.replace(text.find("elements: [5, 10]"), 17, "elements: [1, 2]");
+  text.replace(text.find("pressure: 50 kPa"), 16, "pressure: 1 Pa");
+  text.replace(text.find("tolerance: 1e-2"), 15, "tolerance: 1e-2, iterations: 4, cut: 2");
+  put(scratch.path(), text);
+  const Outcome run = run_in(scratch.path(), kProgram + " run case.yaml -o out -w 1");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.errors.find("step 0 brings the stress at time zero"), std::string::npos) << run.errors;
+  EXPECT_EQ(run.errors.find("worth trying below 'steps'"), std::string::npos) << run.errors;
+}
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scenes that look odd and are right: nobody is to be stopped by a remark on them.
+#include "tests/support/careless_scenes.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+class OddButRightTest : public ::testing::TestWithParam<Careless> {};
+
+TEST_P(OddButRightTest, HasNoRemark) {
+  const app::Remarks remarks = remarks_of(GetParam());
+  EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
+}
+
+const std::string kSides = "pressure: 100 kPa}";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OddButRightTest,
+    ::testing::Values(
+        Careless{"GrainsAsTheyAre", kGrains, "", ""}, Careless{"GroundAsItIs", kGround, "", ""},
+        Careless{"UnloadedOverSteps", kGrains, kSides, "pressure: [[0, 100 kPa], [1, 60 kPa]]}"},
+        Careless{"AlmostThePressure", kGrains, kSides, "pressure: 98 kPa}"},
+        Careless{"PressureAsTraction", kGrains, "{on: [left, right], pressure: 100 kPa}",
+                 "{on: left, traction: {u1: 100 kPa}}\n  - {on: right, traction: {u1: -100 kPa}}"},
+        Careless{"InPascals", kGrains, kSides, "pressure: 100000}"},
+        Careless{"KilonewtonsASquareMetre", kGrains, kSides, "pressure: 100 kN/m2}"},
+        Careless{"HeldSides", kGrains, "{on: [left, right], pressure: 100 kPa}",
+                 "{on: [left, right], fix: [u1]}"},
+        Careless{"PerCentInAFormula", kGrains, "-shortening / 0.4 m", "-100 * shortening / 0.4 m"},
+        Careless{"KilopascalsByAFactor", kGrains, "-top_force / (0.2 m * 100 kPa)",
+                 "-1e-3 * top_force / 0.2 m"},
+        Careless{"HalfASpecimen", kGrains, "(0.2 m * 100 kPa)", "(2 * 0.1 m * 100 kPa)"},
+        Careless{"WeightOverSteps", kGrains,
+                 "steps:", "body: [{unit_weight: 18 kN/m3, factor: [[0, 0], [1, 1]]}]\nsteps:"},
+        Careless{"ClassicalGround", kGround, "materials:", "continuum: cauchy\nmaterials:"},
+        Careless{"Tied", kGrains, "{on: [left, right], pressure: 100 kPa}", "{on: left, tie: right}"},
+        Careless{
+            "EarthquakeSideways",
+            replaced(
+                kGround,
+                "initial_stress:\n  - {surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}\n",
+                ""),
+            "unit_weight: 18 kN/m3}", "force: [2 kN/m3, -18 kN/m3], factor: [[0, 0], [1, 1]]}"},
+        Careless{"PurelyCohesive", kGround,
+                 "friction_angle: 30 deg, dilatancy_angle: 5 deg, cohesion: 10 kPa",
+                 "friction_angle: 0, dilatancy_angle: 0, cohesion: 60 kPa"},
+        Careless{"Submerged", replaced(kGround, "18 kN/m3, K0", "9 kN/m3, K0"), "  - {unit_weight: 18",
+                 "  - {unit_weight: 9"},
+        Careless{"Overconsolidated", kGround, "K0: 0.5", "K0: 1.5"},
+        Careless{"LargeDeformation", kGrains, "continuum: cosserat", "deformation: large"},
+        Careless{"StrongGrains", kGrains, "", "", "", app::Rank::wrong, "0.5463024898437905", "1.2"},
+        Careless{
+            "RollingWithItsModel", kGrains, "", "", "", app::Rank::wrong,
+            "pair_style      gran model hooke/radii tangential history",
+            "fix rolling all property/global coefficientRollingFriction peratomtypepair 1 0.4\npair_style gran model hooke/radii tangential history rolling_friction epsd2"}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scenes with one thing wrong each, all of which run and give a plausible figure: every one must be remarked on, and the
+// remark must name it.
+#include "tests/support/careless_scenes.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+using app::Rank;
+
+class CarelessTest : public ::testing::TestWithParam<Careless> {};
+
+TEST_P(CarelessTest, IsTold) {
+  const app::Remarks remarks = remarks_of(GetParam());
+  bool told = false;
+  for (std::size_t k = 0; k < std::min(remarks.size(), app::kRemarksShown); ++k)
+    told = told || (app::line_of(remarks[k]).find(GetParam().message) != std::string::npos &&
+                    remarks[k].rank == GetParam().rank && !remarks[k].remedy.empty() &&
+                    (remarks[k].at.line > 0 || !GetParam().script_good.empty()));
+  EXPECT_TRUE(told) << GetParam().message << "\n" << app::text_of(remarks, true);
+}
+
+const std::string kSides = "  - {on: [left, right], pressure: 100 kPa}\n";
+const std::string kTop = "  - {on: top, fix: [u1], move: {u2: -8 mm}}\n";
+const std::string kCell = "lc: 8 mm}";
+const std::string kWeight = "  - {unit_weight: 18 kN/m3}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    StressOfThePacking, CarelessTest,
+    ::testing::Values(Careless{"HalfTheSurcharge", kGrains, "pressure: 100 kPa}", "pressure: 50 kPa}",
+                               "'left' carries 50 kPa at time zero, its grains 100 kPa"},
+                      Careless{"TwiceTheSurcharge", kGrains, "pressure: 100 kPa}", "pressure: 200 kPa}",
+                               "its grains 100 kPa"},
+                      Careless{"PressureThatPulls", kGrains, "pressure: 100 kPa}", "pressure: -100 kPa}",
+                               "pulls, and the material there has no such strength"},
+                      Careless{"PascalsForKilopascals", kGrains, "pressure: 100 kPa}", "pressure: 100}",
+                               "'100' has no unit and is 100 Pa"},
+                      Careless{"ForgottenSurcharge", kGrains, kSides, "",
+                               "'left' carries nothing at time zero, its grains 100 kPa"},
+                      Careless{"OneSideForgotten", kGrains, "[left, right], pressure", "right, pressure",
+                               "'left' carries nothing"},
+                      Careless{"BaseThatNobodyHolds", kGrains, "{on: bottom, fix: [u1, u2]}",
+                               "{on: [bottom_left, bottom_right], fix: [u1, u2]}",
+                               "'bottom' carries nothing"},
+                      Careless{"RampFromZero", kGrains, "pressure: 100 kPa}",
+                               "pressure: [[0, 0], [1, 100 kPa]]}", "carries 0 kPa at time zero"},
+                      Careless{"MegapascalsForKilopascals", kGrains, "pressure: 100 kPa}",
+                               "pressure: 100 MPa}", "carries 100 MPa at time zero"},
+                      Careless{"TractionInTheWrongPlace", kGrains, "pressure: 100 kPa}",
+                               "traction: {u1: 100 kPa}}", "at time zero, its grains 100 kPa"},
+                      Careless{"TopLoadedOtherThanTheSides", kGrains, kTop,
+                               "  - {on: top, pressure: 20 kPa}\n", "'top' carries 20 kPa"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, CarelessTest,
+    ::testing::Values(
+        Careless{"LengthOfMetres", kGrains, kCell, "lc: 5 m}", "lc is 5e+03 mm"},
+        Careless{"LengthOfAGrainOfDust", kGrains, kCell, "lc: 0.01 mm}", "2e+03 times lc (at most 2.5)",
+                 Rank::doubtful},
+        Careless{"MeshInMillimetres", kGrains, "[0.2 m, 0.4 m]", "[200 m, 400 m]",
+                 "the elements of region 'all' measure 2e+04 mm", Rank::doubtful},
+        Careless{"MovementInMetres", kGrains, "-8 mm", "-8", "'top' moves by 8000 mm, 2e+03 % of the body"},
+        Careless{"PlasticLengthInMetres", kGrains, kCell, "lc: 8 mm, lp: 0.5 m}", "lp is 500 mm",
+                 Rank::doubtful},
+        Careless{"CoarseElements", kGrains, "elements: [10, 20]", "elements: [2, 4]",
+                 "12.5 times lc (at most 2.5)", Rank::doubtful},
+        Careless{"OneStep", kGrains, "count: 20", "count: 1", "elastic strains of the packing",
+                 Rank::doubtful},
+        Careless{"ManyPerCentInSmallDeformation", kGrains, "-8 mm", "-80 mm", "in small deformation",
+                 Rank::doubtful},
+        Careless{"LongMonths", replaced(kGrains, "count: 20", "count: 5000"), "elements: [10, 20]",
+                 "elements: [200, 400]", "days of one core", Rank::costly},
+        Careless{"TinyBody", kGrains, "[0.2 m, 0.4 m]", "[0.2 mm, 0.4 mm]", "mean diameters wide",
+                 Rank::doubtful},
+        Careless{"LawMovedByAThird", kGround, "pressure: [[0, 10 kPa], [1, 60 kPa]]}",
+                 "pressure: 10 kPa}\n  - {on: top_left, move: {u2: -2}}",
+                 "'top_left' moves by 2000 mm, 40 % of the body", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Balance, CarelessTest,
+    ::testing::Values(
+        Careless{"PressureOnWhatMoves", kGrains, kTop, kTop + "  - {on: top, pressure: 100 kPa}\n",
+                 "the pressure on 'top' has no effect"},
+        Careless{"TractionOnARoller", kGround, "body:", "  - {on: left, traction: {u1: 5 kPa}}\nbody:",
+                 "the traction along 1 on 'left' has no effect"},
+        Careless{"WeightInBoxesOfOnePressure", kGrains, "steps:", "body: [{unit_weight: 900 kN/m3}]\nsteps:",
+                 "all its boxes of grains are packed under 100 kPa"},
+        Careless{"OtherWeightThanTheStress", kGround, kWeight, "  - {unit_weight: 28 kN/m3}\n",
+                 "step 0 moves the body by", Rank::doubtful},
+        Careless{"SurchargeThatIsNotThere", kGround, ", surcharge: 10 kPa", "",
+                 "'top' carries 10 kPa at time zero, the initial stress behind it 0 kPa"},
+        Careless{
+            "RollingWithoutAModel", kGrains, "", "",
+            "coefficientRollingFriction is given, and no model of pair_style", Rank::wrong, "pair_style ",
+            "fix rolling all property/global coefficientRollingFriction peratomtypepair 1 0.4\npair_style "},
+        Careless{"CohesionWithoutAModel", kGrains, "", "", "cohesionEnergyDensity is given", Rank::wrong,
+                 "pair_style ",
+                 "fix glue all property/global cohesionEnergyDensity peratomtypepair 1 1e4\npair_style "},
+        Careless{"ResidualOfHalf", kGrains, "tolerance: 1e-2", "tolerance: 0.4",
+                 "tolerance: 0.4 of the forces may be out of balance"},
+        Careless{"GrainsThatFly", kGrains, kCell, "lc: 8 mm, inertial_number: 0.09}",
+                 "inertial_number: 0.09 is the rate"},
+        Careless{"SofteningWithoutALength", kGrains, "continuum: cosserat", "continuum: cauchy",
+                 "'cauchy' has no length", Rank::doubtful},
+        Careless{"UnitLostInAFormula", kGrains, "(0.2 m * 100 kPa)", "(0.2 m * 100)",
+                 "'100' in '-top_force / (0.2 m * 100)' has no unit"},
+        Careless{"OtherUnitInAFormula", kGrains, "(0.2 m * 100 kPa)", "(0.2 m * 100 MPa)",
+                 "times off every pressure of the case"},
+        Careless{"MillimetresInAFormula", kGrains, "(0.2 m * 100 kPa)", "(0.2 mm * 100 kPa)",
+                 "'0.2 mm' is far from every length"},
+        Careless{"SumOfForceAndLength", kGrains, "-shortening / 0.4 m", "(shortening + top_force) / 0.4 m",
+                 "adds m and N m-1"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    OtherHabits, CarelessTest,
+    ::testing::Values(
+        Careless{"FrictionInPerCent", kGrains, "", "", "coefficientFriction is 50, beyond 0 to 2",
+                 Rank::wrong, "0.5463024898437905", "50"},
+        Careless{"NeighboursOfMetres", kGrains, "", "", "neighbours are listed up to", Rank::costly,
+                 "${neighbour_distance} bin", "0.1 bin"},
+        Careless{"WeightUpwards", kGround, "unit_weight: 18 kN/m3}\ninitial",
+                 "force: [0, 18 kN/m3]}\ninitial", "it lifts the body"},
+        Careless{"WeightInNewtons", kGround, "unit_weight: 18 kN/m3}\ninitial",
+                 "unit_weight: 18 N/m3}\ninitial", "a weight of 0.018 kN/m3"},
+        Careless{"StiffnessInKilopascals", kGround, "E: 30 MPa", "E: 30 kPa",
+                 "that alone is an elastic strain of"},
+        Careless{"StiffnessOfNeutronStars", kGround, "E: 30 MPa", "E: 30000 GPa", "an elastic strain of"},
+        Careless{"RollerForgotten", kGround, "[left, right], fix", "left, fix", "'right' carries nothing"},
+        Careless{
+            "RollerForgottenWithoutStress",
+            replaced(
+                kGround,
+                "initial_stress:\n  - {surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}\n",
+                ""),
+            "[left, right], fix", "left, fix", "the right side of the mesh is free"},
+        Careless{"RatioAtRestInPerCent", kGround, "K0: 0.5", "K0: 50",
+                 "the ratios that material 'soil' can carry"},
+        Careless{"RatioAtRestOfNothing", kGround, "K0: 0.5", "K0: 0.05",
+                 "the ratios that material 'soil' can carry"},
+        Careless{"PlaneStress", kGround, "{surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}",
+                 "{stress: [-10 kPa, -10 kPa, 0, 0]}", "s33 is zero"},
+        Careless{"TensionForCompression", kGround,
+                 "{surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}",
+                 "{stress: [10 kPa, 10 kPa, 10 kPa, 0]}", "stresses are positive in tension"},
+        Careless{"SurfaceElsewhere", kGround, "surface: 5 m", "surface: 50 m", "the surface is at 50 m"},
+        Careless{"AngleOfHalfADegree", kGround, "30 deg, dilatancy_angle: 5 deg",
+                 "0.5 deg, dilatancy_angle: 0.1 deg", "a friction angle of 0.5 deg"},
+        Careless{"CohesionInMegapascals", kGround, "cohesion: 10 kPa", "cohesion: 10 MPa",
+                 "the body stays elastic", Rank::doubtful},
+        Careless{"ReactionOfAFreeSide", kGrains, "{on: top, reaction: u2}", "{on: left, reaction: u2}",
+                 "prescribed at 2 of its 41 nodes only"},
+        Careless{"DisplacementOfTheBase", kGrains, "{on: top, displacement: u2}",
+                 "{on: bottom, displacement: u2}", "the displacement stays zero"},
+        Careless{
+            "MeasureOfWhatIsFixed", kGrains, "{count: 20, tolerance: 1e-2}",
+            "{tolerance: 1e-2, stages: [{measure: {on: bottom, displacement: u2}, grow: 1 mm, count: 5}]}",
+            "it cannot grow"},
+        Careless{"OutputBeyondTheEnd", kGrains, "every: 5", "every: 50", "fields are written every 50 steps",
+                 Rank::costly},
+        Careless{"LoadThatComesTooLate", kGround, "[1, 60 kPa]", "[2, 60 kPa]", "the steps end at time 1",
+                 Rank::doubtful},
+        Careless{"NothingChanges", kGround, "[[0, 10 kPa], [1, 60 kPa]]", "10 kPa",
+                 "no load and no movement changes"},
+        Careless{"StepsBehindTheMovement", kGrains, "{count: 20, tolerance: 1e-2}",
+                 "{tolerance: 1e-2, stages: [{until: 2, count: 40}]}",
+                 "in 20 of 40 steps no load and no movement changes", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The skew stress of a point whose cell has free rotations: elastic with the contacts that the cell has kept, at most a share
+// of the pressure of the cell, nothing where grains have parted; and the count of points that are at a limit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <iostream>
+#include <random>
+
+#include "coupler/cells/cosserat_part.hpp"
+#include "coupler/cells/packing_at_start.hpp"
+#include "coupler/cells/points_at_limits.hpp"
+#include "tests/unit/known_cells.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+constexpr double kPressure = 1e5;
+constexpr double kShare = 0.8;
+constexpr double kModulus = 5e6;  // Gc
+/// G, Gc, lc, lp, and the limit of the skew stress.
+constexpr CosseratParameters kLimited{10e6, kModulus, 3e-3, 4e-3, kShare};
+
+Response cell_under(double pressure) {
+  Response cell;
+  cell.stress << -pressure, -pressure, -pressure, 3e3, 3e3, 0.0, 0.0;
+  cell.tangent.setZero();
+  return cell;
+}
+
+/// Grains turned by w against the continuum: eps21 - eps12 = 2 w.
+Increment turned(double w) {
+  Increment increment;
+  increment.micro_rotation = w;
+  return increment;
+}
+
+double skew_of(const Response& response) {
+  return response.stress[k21] - response.stress[k12];
+}
+
+TEST(SkewLimit, TurningYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
+  CosseratPart part;
+  const Response cell = cell_under(kPressure);
+  constexpr double kStep = 5e-4;  // the limit is reached at 8e4 / (4 Gc) = 4e-3
+  double expected = 0.0;
+  for (int step = 0; step < 60; ++step) {
+    const double turn = step < 20 || step >= 50 ? kStep : -kStep;
+    expected = std::clamp(expected + 4.0 * kModulus * turn, -kShare * kPressure, kShare * kPressure);
+    const Response response = part.follow(turned(turn), cell, kLimited, 1.0);
+    ASSERT_NEAR(skew_of(response), expected, 1e-8) << step;
+    // The symmetric part is the cell's, whatever the skew one is.
+    ASSERT_NEAR(0.5 * (response.stress[k12] + response.stress[k21]), 3e3, 1e-9) << step;
+  }
+  // Twenty steps there, thirty back, ten there again: neither end nor unloading is the limit.
+  EXPECT_NEAR(expected, -kShare * kPressure + 10 * 4.0 * kModulus * kStep + 0.0, 1e-6);
+}
+
+TEST(SkewLimit, FallsWithThePressureAndIsNothingWhereGrainsHaveParted) {
+  CosseratPart part;
+  part.follow(turned(1.0), cell_under(kPressure), kLimited, 1.0);
+  EXPECT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
+  part.follow(turned(0.0), cell_under(0.25 * kPressure), kLimited, 1.0);
+  EXPECT_DOUBLE_EQ(part.skew_stress, 0.25 * kShare * kPressure);
+  // Pressure that returns brings no skew stress back by itself.
+  part.follow(turned(0.0), cell_under(kPressure), kLimited, 1.0);
+  EXPECT_DOUBLE_EQ(part.skew_stress, 0.25 * kShare * kPressure);
+  const Response parted = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
+  EXPECT_EQ(skew_of(parted), 0.0);
+  EXPECT_EQ(parted.stress.tail<2>().norm(), 0.0);
+  // Contacts that are gone answer nothing to the next turn either, and what the tangent has is numerical.
+  const Response next = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
+  EXPECT_EQ(skew_of(next), 0.0);
+  EXPECT_EQ(next.tangent.bottomRows<2>().norm(), 0.0);
+  EXPECT_DOUBLE_EQ(next.tangent(k21, k21), CosseratPart::kHold * kModulus);
+}
+
+TEST(SkewLimit, StiffnessFollowsTheContactsAndItsChangeAddsNoStress) {
+  CosseratPart part;
+  const Response cell = cell_under(kPressure);
+  part.follow(turned(1e-3), cell, kLimited, 0.4);
+  EXPECT_DOUBLE_EQ(part.skew_stress, 4.0 * kModulus * 1e-3);  // of the contacts at the start of the increment
+  const double before = part.skew_stress;
+  Increment bent;
+  bent.curvature << 0.5, 0.0;
+  part.follow(bent, cell, kLimited, 0.4);
+  EXPECT_EQ(part.skew_stress, before);
+  EXPECT_DOUBLE_EQ(part.couple_stress.x(), 0.4 * kLimited.couple_modulus() * 0.5);
+  const Response response = part.follow(turned(1e-3), cell, kLimited, 0.9);
+  EXPECT_DOUBLE_EQ(part.skew_stress, before + 0.4 * 4.0 * kModulus * 1e-3);
+  EXPECT_DOUBLE_EQ(response.tangent(k21, k21), 0.4 * kModulus);
+}
+
+TEST(SkewLimit, AnyPathStaysWithinBothLimits) {
+  std::mt19937_64 random(7);
+  const auto share = [&random] { return 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0; };
+  CosseratPart part;
+  double at_limit = 0.0;
+  for (int step = 0; step < 2000; ++step) {
+    Increment increment = turned(0.02 * share());
+    increment.displacement_gradient << 0.0, 0.01 * share(), 0.01 * share(), 0.0;
+    increment.curvature << 3.0 * share(), 3.0 * share();
+    increment.configuration = step % 2 == 0 ? Configuration::start : Configuration::fixed;
+    const double pressure = kPressure * (0.9 * share() + 0.6);  // in tension now and then
+    const Response response = part.follow(increment, cell_under(pressure), kLimited, 0.5 + 0.5 * share());
+    const double bears = std::max(0.0, pressure);
+    ASSERT_LE(std::abs(skew_of(response)), kShare * bears * (1.0 + 1e-12)) << step;
+    ASSERT_LE(response.stress.tail<2>().norm(), 4e-3 * bears * (1.0 + 1e-12)) << step;
+    if (std::abs(skew_of(response)) > 0.999 * kShare * bears) at_limit += 1.0;
+  }
+  EXPECT_GT(at_limit, 200.0) << "the limit was hardly met, the test shows nothing";
+}
+
+/// A linear cell, so that only the Cosserat part is not.
+Response linear_cell(const Increment& increment) {
+  Response cell = cell_under(kPressure);
+  cell.tangent.topLeftCorner<5, 5>() << 3e7, 1e7, 2e6, 4e6, 4e6,  //
+      9e6, 2.5e7, 1e6, -3e6, -3e6,                                //
+      1e6, 2e6, 2e7, 0.0, 0.0,                                    //
+      5e6, -2e6, 0.0, 8e6, 8e6,                                   //
+      5e6, -2e6, 0.0, 8e6, 8e6;
+  cell.stress += cell.tangent * increment.strain();
+  return cell;
+}
+
+TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
+  for (const double turn : {1e-3, 9e-3}) {
+    CosseratPart start;
+    start.follow(turned(1e-3), cell_under(kPressure), kLimited, 0.7);
+    Increment base = turned(turn);
+    base.displacement_gradient << -1e-3, 4e-4, 7e-4, -5e-4;
+    base.curvature << 0.1, 0.2;
+    const auto answer = [&](const Increment& increment) {
+      CosseratPart part = start;
+      return part.follow(increment, linear_cell(increment), kLimited, 0.5);
+    };
+    const Response here = answer(base);
+    const bool is_at_limit = turn > 5e-3;
+    const double limit = kShare * -0.5 * (here.stress[k11] + here.stress[k22]);
+    ASSERT_EQ(std::abs(skew_of(here)) > 0.999 * limit, is_at_limit);
+    Matrix7 expected = here.tangent;
+    if (is_at_limit) {
+      // What keeps the micro-rotation solvable is in the tangent alone.
+      const double hold = CosseratPart::kHold * kModulus;
+      expected(k12, k12) -= hold;
+      expected(k21, k21) -= hold;
+      expected(k12, k21) += hold;
+      expected(k21, k12) += hold;
+    }
+    double error = 0.0;
+    for (const int column : {k11, k22, k12, k21, kCurvature1, kCurvature2}) {
+      const double step = column < kCurvature1 ? 1e-6 : 1e-3;
+      Vector7 strain = Vector7::Zero();
+      strain[column] = step;
+      Increment ahead = base;
+      Increment behind = base;
+      Eigen::Matrix2d gradient;
+      gradient << strain[k11], strain[k21], strain[k12], strain[k22];
+      ahead.displacement_gradient += gradient;
+      behind.displacement_gradient -= gradient;
+      ahead.curvature += strain.tail<2>();
+      behind.curvature -= strain.tail<2>();
+      const Vector7 difference = (answer(ahead).stress - answer(behind).stress) / (2.0 * step);
+      const Vector7 wrong = difference - expected.col(column);
+      const double scale = column < kCurvature1 ? 1e7 : kLimited.couple_modulus() / 4e-3;
+      error = std::max({error, wrong.head<5>().norm() / scale, wrong.tail<2>().norm() / (4e-3 * scale)});
+    }
+    std::cout << "[figure] tangent " << (is_at_limit ? "at" : "below")
+              << " the limit of the skew stress against central differences: " << error << '\n';
+    // Rounding of 1e5 Pa over 1e-6, over 1e7.
+    EXPECT_LT(error, 1e-8);
+  }
+}
+
+TEST(SkewLimit, ALimitOfZeroLeavesNoStressAndASolvableTangent) {
+  CosseratParameters frictionless = kLimited;
+  frictionless.skew_limit = 0.0;
+  CosseratPart part;
+  part.pressure = kPressure;
+  const Response response = part.follow(turned(0.01), cell_under(kPressure), frictionless, 1.0);
+  EXPECT_EQ(skew_of(response), 0.0);
+  EXPECT_GT(response.tangent(k21, k21), 0.0);
+  EXPECT_TRUE(part.reached(frictionless, 1.0).skew);
+  EXPECT_EQ(part.skew_mobilisation(frictionless), 0.0);
+}
+
+TEST(SkewLimit, InLargeDeformationTheCoupleStressTurnsAtItsLimitAndTheSkewStressStays) {
+  CosseratPart part;
+  Increment bent = turned(0.1);
+  bent.curvature << 100.0, 0.0;
+  part.follow(bent, cell_under(kPressure), kLimited, 1.0);
+  ASSERT_DOUBLE_EQ(part.couple_stress.x(), 4e-3 * kPressure);
+  ASSERT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
+  Increment turn;  // body and grains, by a quarter: R - I
+  turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
+  turn.micro_rotation = 0.5 * M_PI;
+  turn.configuration = Configuration::start;
+  part.follow(turn, cell_under(kPressure), kLimited, 1.0);
+  EXPECT_NEAR(part.couple_stress.y(), 4e-3 * kPressure, 1e-9);
+  EXPECT_NEAR(part.couple_stress.x(), 0.0, 1e-9);
+  EXPECT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
+}
+
+TEST(SkewLimit, MobilisationAndCountsAreThoseOfThePoint) {
+  const PackingAtStart packing = [] {
+    PlaneReply reply;
+    reply.response = cell_under(kPressure);
+    reply.diagnostics.contacts = 200;
+    return PackingAtStart(reply);
+  }();
+  CellDiagnostics half;
+  half.contacts = 100;
+  EXPECT_DOUBLE_EQ(packing.kept(half), 0.5);
+  std::vector<CosseratPart> points(5, packing.part());
+  points[0].follow(turned(1e-3), cell_under(kPressure), kLimited, 1.0);  // 2e4 of 8e4
+  EXPECT_NEAR(points[0].skew_mobilisation(kLimited), 0.25, 1e-12);
+  points[1].follow(turned(1.0), cell_under(kPressure), kLimited, 1.0);
+  EXPECT_EQ(points[1].skew_mobilisation(kLimited), 1.0);
+  Increment bent;
+  bent.curvature << 100.0, 0.0;
+  points[2].follow(bent, cell_under(kPressure), kLimited, 1.0);
+  bent.micro_rotation = 1.0;
+  points[3].follow(bent, cell_under(kPressure), kLimited, 1.0);
+  points[4].follow(bent, cell_under(1e-4 * kPressure), kLimited, 0.0);
+  std::vector<LimitsReached> reached;
+  for (const CosseratPart& point : points)
+    reached.push_back(point.reached(kLimited, packing.least_pressure()));
+  PointsAtLimits counts(true);
+  counts.count(reached);
+  const auto figure = [&counts](const std::string& name) {
+    for (const fem::Figure& figure : counts.figures())
+      if (figure.name == name) return figure.value;
+    return -1.0;
+  };
+  EXPECT_EQ(figure("points_parted"), 1.0);
+  EXPECT_EQ(figure("at_skew_limit"), 2.0);
+  EXPECT_EQ(figure("at_couple_limit"), 2.0);
+  EXPECT_EQ(figure("rotation_held"), 2.0);
+  // A later step where nothing is at a limit keeps what has been.
+  MemoryArchive archive;
+  counts.save(archive);
+  PointsAtLimits resumed(true);
+  resumed.restore(archive);
+  for (PointsAtLimits* const both : {&counts, &resumed}) {
+    both->count(std::vector<LimitsReached>(5));
+    EXPECT_EQ(both->text(),
+              "of 5 points at the end (in any step): 0 have grains that have parted (at most 1); 0 carry the "
+              "largest skew stress that their grains bear (at most 2); 0 carry the largest couple stress (at "
+              "most 2); 0 have a micro-rotation that is held numerically (at most 2)");
+  }
+}
+
+class LimitedSkewAdaptiveTest : public AdaptiveMaterialTest {};
+
+TEST_F(LimitedSkewAdaptiveTest, AdaptiveHasTheSameSkewStressAsACellOfItsOwn) {
+  constexpr CosseratParameters kSand{16e6, 14e6, 0.02, 2e-3, 0.5};
+  AdaptiveMaterial sand(cells_.calls(), kSand, {0.0, 0.0, 1});
+  sand.allocate(1);
+  CosseratPart part;
+  Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
+  bool was_limited = false;
+  for (int step = 0; step < 6; ++step) {
+    Increment increment = increment_of(compression(1e-4));
+    increment.micro_rotation = step < 4 ? 4e-4 : -1e-4;
+    strain += compression(1e-4);
+    const Vector7 expected = part.follow(increment, cells_.at(strain).response, kSand, 1.0).stress;
+    was_limited = was_limited || part.reached(kSand, 1.0).skew;
+    Response response;
+    sand.evaluate({&increment, 1}, {&response, 1});
+    ASSERT_TRUE(sand.confirm());
+    sand.commit();
+    EXPECT_NEAR(skew_of(response), expected[k21] - expected[k12], 1e-6) << step;
+    std::vector<double> fields(sand.field_names().size());
+    sand.fields(0, fields);
+    EXPECT_NEAR(fields[fields.size() - 2], part.skew_mobilisation(kSand), 1e-9);
+  }
+  EXPECT_TRUE(was_limited);
+  EXPECT_EQ(figure(sand, "at_skew_limit_most"), 1.0);
+  EXPECT_EQ(figure(sand, "at_skew_limit"), 0.0);
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
