@@ -2,9 +2,11 @@
 #include <memory>
 
 #include "app/commands/command.hpp"
+#include "app/picture/case_picture.hpp"
 #include "app/remarks/remarks.hpp"
 #include "app/remarks/sizes.hpp"
 #include "common/standard_streams.hpp"
+#include "common/write_file.hpp"
 #include "coupler/case/document_kind.hpp"
 
 namespace polargrain::app {
@@ -12,6 +14,7 @@ namespace {
 
 struct CheckOptions {
   std::filesystem::path case_file;
+  std::filesystem::path picture;
   std::vector<std::string> settings;
   ScriptRules scripts;
   bool strict = false;
@@ -33,12 +36,15 @@ int check(const CheckOptions& options) {
   // Each script and packing in an engine, before anything is said to be well.
   const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
   const Remarks remarks = remarks_on(the_case, document, packings);
+  const Scene scene(the_case, document, packings);
+  // Also where remarks refuse the case: it is then that somebody looks.
+  if (!options.picture.empty()) write_file(options.picture, case_picture(scene, remarks));
   if (options.strict) refuse(remarks);
   tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", options.case_file.string(),
        the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
        the_case.needs_workers() ? "needs workers" : "needs no workers");
   tell_cells(the_case, packings);
-  tell(stdout, "{}{}", sizes_text(Scene(the_case, document, packings)), text_of(remarks, options.all));
+  tell(stdout, "{}{}", sizes_text(scene), text_of(remarks, options.all));
   return 0;
 }
 
@@ -51,6 +57,8 @@ Command add_check(CLI::App& program, const Grains& grains) {
   add_case(command, options->case_file);
   add_strict(command, options->strict);
   command.add_flag("--all", options->all, "Show all remarks, not the most serious alone");
+  command.add_option("--picture", options->picture,
+                     "Write a page with the mesh, supports, movements, loads and grains (FILE.html)");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);
   return {&command, [options] { return check(*options); }};

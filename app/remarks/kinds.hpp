@@ -8,7 +8,9 @@ namespace polargrain::app {
 
 void loads_at_start(const Scene& scene, Remarks& remarks);
 void weight_in_boxes(const Scene& scene, Remarks& remarks);
+void weight_at_once(const Scene& scene, Remarks& remarks);
 void load_on_held(const Scene& scene, Remarks& remarks);
+void node_forces(const Scene& scene, Remarks& remarks);
 void plain_loads(const Scene& scene, Remarks& remarks);
 void tension(const Scene& scene, Remarks& remarks);
 void ground_stress(const Scene& scene, Remarks& remarks);
@@ -30,6 +32,7 @@ void tolerances(const Scene& scene, Remarks& remarks);
 void softening_cauchy(const Scene& scene, Remarks& remarks);
 void stiffness_of_laws(const Scene& scene, Remarks& remarks);
 void strength_of_laws(const Scene& scene, Remarks& remarks);
+void moduli(const Scene& scene, Remarks& remarks);
 void monitors(const Scene& scene, Remarks& remarks);
 void measures(const Scene& scene, Remarks& remarks);
 void formulas(const Scene& scene, Remarks& remarks);

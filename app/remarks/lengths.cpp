@@ -19,4 +19,27 @@ bool is_strong(const Scene& scene, const SceneRegion& region) {
   return region.cell != nullptr || scene.find({"materials", region.material, "friction_angle"}) != nullptr;
 }
 
+namespace {
+
+/// Whether the last of a list of values, or of [plastic shear, value], is below the largest.
+bool falls(const coupler::Entry* entry, coupler::Dimension dimension) {
+  if (entry == nullptr || entry->kind != coupler::Entry::Kind::sequence) return false;
+  double largest = 0.0;
+  double last = 0.0;
+  for (const coupler::Entry& item : entry->items) {
+    const coupler::Entry& value = item.items.size() == 2 ? item.items[1] : item;
+    last = coupler::parse_quantity(value.text, dimension).value_or(0.0);
+    largest = std::max(largest, last);
+  }
+  return last < largest;
+}
+
+}  // namespace
+
+bool softens(const Scene& scene, const SceneRegion& region) {
+  return region.cell != nullptr ||
+         falls(scene.find({"materials", region.material, "friction_angle"}), coupler::Dimension::angle) ||
+         falls(scene.find({"materials", region.material, "cohesion"}), coupler::Dimension::pressure);
+}
+
 }  // namespace polargrain::app

@@ -19,4 +19,7 @@ double usual_element(const Scene& scene, const SceneRegion& region);
 /// Whether a material has a strength, so that bands may form in it.
 bool is_strong(const Scene& scene, const SceneRegion& region);
 
+/// Whether the strength of a region falls behind a peak: of grains, and of laws whose tables fall.
+bool softens(const Scene& scene, const SceneRegion& region);
+
 }  // namespace polargrain::app

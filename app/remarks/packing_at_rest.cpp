@@ -20,8 +20,8 @@ PackingAtRest ask(coupler::Pool& pool, CellDefinition definition) {
 }
 
 PackingsAtRest ask_for(const std::map<std::string, const CellDefinition*>& cells,
-                       const coupler::PatienceLimits& patience, bool trust_scripts,
-                       LogsOfFailure of_failure) {
+                       const coupler::PatienceLimits& patience, bool trust_scripts, LogsOfFailure of_failure,
+                       const std::function<void()>& heed) {
   PackingsAtRest found;
   if (cells.empty()) return found;
   coupler::PrivateDirectory logs;
@@ -32,6 +32,7 @@ PackingsAtRest ask_for(const std::map<std::string, const CellDefinition*>& cells
     options.directory = logs.path();
     options.trust_scripts = trust_scripts;
     options.patience = patience;
+    options.heed = heed;
     coupler::Pool pool(options);
     for (const auto& [name, cell] : cells) found[name] = ask(pool, *cell);
   }
@@ -41,15 +42,16 @@ PackingsAtRest ask_for(const std::map<std::string, const CellDefinition*>& cells
 
 }  // namespace
 
-PackingsAtRest packings_at_rest(const coupler::Case& the_case, bool trust_scripts, LogsOfFailure logs) {
+PackingsAtRest packings_at_rest(const coupler::Case& the_case, bool trust_scripts, LogsOfFailure logs,
+                                const std::function<void()>& heed) {
   std::map<std::string, const CellDefinition*> cells;
   for (const auto& [name, material] : the_case.materials)
     if (material->needs_workers()) cells[name] = material->grains();
-  return ask_for(cells, the_case.patience, trust_scripts, logs);
+  return ask_for(cells, the_case.patience, trust_scripts, logs, heed);
 }
 
 PackingAtRest packing_at_rest(const CellDefinition& cell, bool trust_scripts) {
-  return ask_for({{cell.name, &cell}}, {}, trust_scripts, LogsOfFailure::kept).at(cell.name);
+  return ask_for({{cell.name, &cell}}, {}, trust_scripts, LogsOfFailure::kept, {}).at(cell.name);
 }
 
 }  // namespace polargrain::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 
@@ -32,9 +33,11 @@ enum class LogsOfFailure {
 };
 
 /// Asks one worker, started for this, for the packings of a case. @param trust_scripts as the command was told
+/// @param heed called while it waits; may throw
 /// @throws RunError in the engine's words where a packing and its script do not fit
 PackingsAtRest packings_at_rest(const coupler::Case& the_case, bool trust_scripts,
-                                LogsOfFailure logs = LogsOfFailure::kept);
+                                LogsOfFailure logs = LogsOfFailure::kept,
+                                const std::function<void()>& heed = {});
 
 /// The same of one packing.
 PackingAtRest packing_at_rest(const CellDefinition& cell, bool trust_scripts);

@@ -21,7 +21,8 @@ constexpr RemarkKind kOthers[] = {movement,        times_of_loads,    idle_steps
                                   internal_length, plastic_length,    few_grains,       softness,
                                   size_of_grains,  unread_properties, contact_numbers,  neighbours,
                                   tolerances,      softening_cauchy,  strength_of_laws, monitors,
-                                  measures,        formulas,          output,           cost};
+                                  measures,        formulas,          output,           cost,
+                                  moduli,          node_forces,       weight_at_once};
 
 std::string with_number(std::size_t count) {
   return fmt::format("{} remark{}", count, count == 1 ? "" : "s");

@@ -107,17 +107,39 @@ double Scene::largest_movement() const {
   return std::max(largest, grown);
 }
 
-double Scene::strain_of_step() const {
+double Scene::strain_between(double before, double after) const {
   double largest = 0.0;
-  const auto end = end_time();
   for (const fem::PrescribedDof& item : problem().prescribed) {
     if (item.dof == fem::Dof::w) continue;
-    const double movement = end ? std::abs(item.value.at(*end)) : item.value.largest_magnitude();
-    // What moves along 1 shears the height or shortens the width.
+    // A movement along 1 shears the height or shortens the width.
     const double side = item.dof == fem::Dof::u2 ? body_.size().y() : body_.smaller_side();
+    const double movement =
+        end_time() ? std::abs(item.value.at(after) - item.value.at(before)) : item.value.largest_magnitude();
     largest = std::max(largest, movement / side);
   }
-  return largest / static_cast<double>(std::max(1, case_.steps()));
+  return largest;
+}
+
+double Scene::strain_of_step() const {
+  if (!end_time()) return strain_between(0.0, 0.0) / static_cast<double>(std::max(1, case_.steps()));
+  double largest = 0.0;
+  double before = 0.0;
+  for (const coupler::StepTarget& target : case_.plan) {
+    largest = std::max(largest, strain_between(before, target.amount));
+    before = target.amount;
+  }
+  return largest;
+}
+
+double Scene::strain_of_run() const {
+  if (!end_time()) return strain_between(0.0, 0.0);
+  double sum = 0.0;
+  double before = 0.0;
+  for (const coupler::StepTarget& target : case_.plan) {
+    sum += strain_between(before, target.amount);
+    before = target.amount;
+  }
+  return sum;
 }
 
 }  // namespace polargrain::app

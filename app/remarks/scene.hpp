@@ -59,10 +59,15 @@ class Scene {
   [[nodiscard]] std::optional<double> end_time() const;
   /// Largest prescribed displacement of a run, m: its movements up to the end, and measures that are to grow.
   [[nodiscard]] double largest_movement() const;
-  /// Mean strain of a step of the run as a whole: largest movement over the side of the body along it, over the steps.
+  /// Largest strain of a step: change of a movement over the side of the body along it. Steps whose times are not known before
+  /// share the whole evenly.
   [[nodiscard]] double strain_of_step() const;
+  /// Sum of these strains over the run, there and back counted both.
+  [[nodiscard]] double strain_of_run() const;
 
  private:
+  [[nodiscard]] double strain_between(double before, double after) const;
+
   const coupler::Case& case_;
   const coupler::Entry& document_;
   Body body_;

@@ -58,8 +58,8 @@ Expectation expectation_of(const Scene& scene) {
     const double evaluations = points * scene.the_case().steps() * (informed ? 1.0 : kIterations);
     const CellControl& control = region.cell->control;
     const double dem_steps =
-        std::max<double>(control.least_steps,
-                         scene.strain_of_step() * kStepsOfStrain * kDefaultRate / control.inertial_number);
+        std::max<double>(control.least_steps, scene.strain_of_run() / std::max(1, scene.the_case().steps()) *
+                                                  kStepsOfStrain * kDefaultRate / control.inertial_number);
     const double each = region.cell->packing.dimension == 3 ? kSecondsOfSphere : kSecondsOfDisc;
     sum.evaluations += evaluations;
     sum.core_seconds +=

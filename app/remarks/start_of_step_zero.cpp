@@ -108,6 +108,8 @@ std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
     return start;
   } catch (const RunError&) {
     return {};  // what is wrong with the problem is said elsewhere
+  } catch (const InputError&) {
+    return {};
   }
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "coupler/case/case.hpp"
+
 namespace polargrain::app {
 namespace {
 
@@ -28,9 +30,9 @@ bool is_in_table(const Json& note) {
   return found != note.end() && found->is_boolean() && found->get<bool>();
 }
 
-/// What every run has, whatever its case.
+/// A value that every run has, whatever its case.
 bool is_built_in(const std::string& name) {
-  return name == "volume_strain" || name == "external_work" || name == "internal_work";
+  return std::ranges::find(coupler::built_in_values(), name) != coupler::built_in_values().end();
 }
 
 void add_once(std::vector<std::string>& names, const std::string& name) {

@@ -458,6 +458,7 @@ int run(const RunOptions& options) {
   if (!options.listen.empty()) coupler::check_tcp_url("--listen", options.listen);
   if (!options.listen.empty())
     listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
+  stop_if_interrupted("before anything was written");
   Remarks remarks = remarks_before(options, the_case);
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;

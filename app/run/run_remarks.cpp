@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "app/run/run_remarks.hpp"
 
+#include "app/run/interrupt.hpp"
+
 #include "common/error.hpp"
 
 namespace polargrain::app {
@@ -10,7 +12,10 @@ Remarks remarks_before(const RunOptions& options, const coupler::Case& the_case)
   try {
     // Without workers of its own a run may be on a machine that is to run no engine.
     if (options.workers > 0)
-      packings = packings_at_rest(the_case, options.scripts.trusted, LogsOfFailure::lost);
+      packings = packings_at_rest(the_case, options.scripts.trusted, LogsOfFailure::lost,
+                                  [] { stop_if_interrupted("before anything was written"); });
+  } catch (const Interrupted&) {
+    throw;
   } catch (const RunError&) {
     packings.clear();
   }

@@ -65,6 +65,7 @@ constexpr std::size_t kWays = 3;
 /// What became of the packing on the way to each limit.
 struct Pushed {
   std::array<double, kWays> largest{};   ///< share of the limit
+  std::array<bool, kWays> is_known{};    ///< an answer on the way was at rest
   std::array<std::string, kWays> fault;  ///< why the path ended early; empty: it did not
 };
 
@@ -90,8 +91,9 @@ Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
         continue;
       }
       still.push_back(way);
-      if (response.quality == Quality::good)  // what is not at rest may be beyond a limit
-        found.largest[way] = std::max(found.largest[way], share(way, response.stress));
+      if (response.quality != Quality::good) continue;  // grains that still move may be beyond a limit
+      found.is_known[way] = true;
+      found.largest[way] = std::max(found.largest[way], share(way, response.stress));
     }
     going = std::move(still);
   }
@@ -110,7 +112,11 @@ std::array<Increment, kWays> increments_to_limits(double mean_diameter) {
 
 CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing) {
   const Pushed found = pushed(calls, packing, increments_to_limits(0.0), kBent);
-  return {found.largest[kSheared], found.largest[kTurned], 0.0};
+  const auto why_not = [&](std::size_t way) -> std::string {
+    if (found.is_known[way]) return {};
+    return found.fault[way].empty() ? "its grains do not come to rest" : found.fault[way];
+  };
+  return {found.largest[kSheared], found.largest[kTurned], 0.0, why_not(kSheared), why_not(kTurned)};
 }
 
 CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter) {
@@ -128,7 +134,7 @@ CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double m
                       "controlled' needs sliding friction, and rolling resistance or grains of unequal radii",
                       kNames[way]));
   }
-  return {found.largest[kSheared], found.largest[kTurned], found.largest[kBent]};
+  return {found.largest[kSheared], found.largest[kTurned], found.largest[kBent], {}, {}};
 }
 
 }  // namespace polargrain::coupler

@@ -14,6 +14,8 @@ struct CellLimits {
   double friction = 0.0;  ///< M of the cone that collapses in plane strain where the packing does (B.3)
   double skew = 0.0;      ///< |s21 - s12| / p; 2 mu for discs of one friction
   double couple = 0.0;    ///< |m| / p, m; (4/pi) mu_th r_c for discs with rolling resistance
+  std::string not_sheared = {};  ///< why friction was not found; empty: it was
+  std::string not_turned = {};   ///< why the limit of skew stress was not found; empty: it was
 
   /// The weights with which a cone of that friction also yields at these limits of skew stress and couple stress
   /// (C.6): p_2 = 4 M^2 / (3 skew^2), p_3 = 2 M^2 lc^2 / (3 couple^2).
@@ -29,7 +31,8 @@ struct CellLimits {
 [[nodiscard]] double couple_weight(double friction, double internal_length, double limit);
 
 /// Friction and the limit of skew stress alone, of grains whose rotations are controlled or turned: there is no bending, and
-/// `couple` is 0. Never throws for what the grains do: a path ends where it cannot be followed, and a limit may be 0.
+/// `couple` is 0. Never throws for what the grains do: a path ends where it cannot be followed. A path without one answer at
+/// rest has its reason in not_sheared or not_turned. A limit that was found may be 0.
 /// @param packing at rest
 CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing);
 

@@ -140,7 +140,10 @@ LimitsReached CosseratPart::reached(const CosseratParameters& cosserat, double l
   };
   reached.skew = is_at(skew_mobilisation(cosserat), cosserat.skew_limit);
   reached.couple = is_at(couple_mobilisation(cosserat), cosserat.plastic_length);
-  reached.held = reached.parted || (reached.skew && reached.couple);
+  const bool no_skew = !(contacts_kept > 0.0) || (cosserat.skew_limit && (reached.parted || reached.skew));
+  const bool no_couple =
+      !(contacts_kept > 0.0) || (cosserat.plastic_length && (reached.parted || reached.couple));
+  reached.held = cosserat.has_rotations && no_skew && no_couple;
   return reached;
 }
 

@@ -17,6 +17,7 @@ struct CosseratParameters {
   std::optional<double> plastic_length = {};
   /// The skew stress |s21 - s12| is at most so many times the pressure in the plane; nothing: it has no limit
   std::optional<double> skew_limit = {};
+  bool has_rotations = true;  ///< false: the continuum has no micro-rotation that could lose its hold
 
   [[nodiscard]] double couple_modulus() const {
     return 2.0 * shear_modulus * internal_length * internal_length;
@@ -39,7 +40,7 @@ struct LimitsReached {
 ///     m_i        +=  2 G lc^2 s kappa_i        |m| <= lp p
 ///
 /// s is the share of its contacts that the cell has kept, at the start of the increment. What would exceed a limit
-/// returns to it radially (backward Euler). Without pressure there is neither stress. In large deformation the
+/// returns to it radially (backward Euler). Without pressure a stress that has a limit is zero. In large deformation the
 /// curvature is that of the stretch of the step, and the couple stress then turns with the material
 /// (fem/material/rotation.hpp); the skew stress is the same in any frame.
 ///

@@ -2,7 +2,9 @@
 #include "coupler/cells/network_moduli.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -44,8 +46,13 @@ NetworkModuli network_moduli(Pool& pool, CellDefinition definition) {
 
 namespace {
 
+/// Damping of the copies that are taken to their limits. Where all contacts slide, grains that ring let go in turns:
+/// at half of this and less the skew stress is 0.5 to 0.97 of what contacts bear (dem_limits_test).
+constexpr double kDampingToLimits = 0.5;
+
 /// The packing is sheared and turned and never bent: any rolling model will do, which a cell with this tangent allows.
 CellLimits limits_of_free(Pool& pool, CellDefinition definition) {
+  definition.control.damping = std::max(definition.control.damping, kDampingToLimits);
   definition.control.rotations = CellRotations::controlled;
   definition.control.tangent = CellTangent::cosserat;
   const CellCalls calls = calls_of(pool, pool.define(std::move(definition)));
@@ -61,19 +68,29 @@ std::string resolve_limits(const CosseratChoice& choice, Pool& pool, const CellD
   if (definition.control.rotations != CellRotations::free) return {};
   if (!choice.skew_limit.is_open() && !choice.plastic_length.is_open()) return {};
   const CellLimits limits = limits_of_free(pool, definition);
-  std::string note = "limits of the packing:";
+  std::vector<std::string> found;
   if (choice.skew_limit.is_open()) {
-    parameters.skew_limit = limits.skew;
-    note += fmt::format(" skew stress {:.4g} times the pressure", limits.skew);
-    if (!(limits.skew > 0.0)) note += " (its grains bear none: the micro-rotation is held numerically)";
+    if (limits.not_turned.empty()) {
+      parameters.skew_limit = limits.skew;
+      found.push_back(fmt::format("skew stress {:.4g} times the pressure{}", limits.skew,
+                                  limits.skew > 0.0 ? "" : " (the micro-rotation is held numerically)"));
+    } else {
+      found.push_back(fmt::format("skew stress without a limit, as the packing cannot be turned ({})",
+                                  limits.not_turned));
+    }
   }
   if (choice.plastic_length.is_open()) {
-    parameters.plastic_length = std::sqrt(2.0 / 3.0) * limits.friction * parameters.internal_length;
-    note += fmt::format("{} couple stress {:.4g} mm times the pressure (lp = sqrt(2/3) M lc, M {:.4g})",
-                        choice.skew_limit.is_open() ? "," : "", 1e3 * *parameters.plastic_length,
-                        limits.friction);
+    if (limits.not_sheared.empty()) {
+      parameters.plastic_length = std::sqrt(2.0 / 3.0) * limits.friction * parameters.internal_length;
+      found.push_back(
+          fmt::format("couple stress {:.4g} mm times the pressure (lp = sqrt(2/3) M lc, M {:.4g})",
+                      1e3 * *parameters.plastic_length, limits.friction));
+    } else {
+      found.push_back(fmt::format("couple stress without a limit, as the packing cannot be sheared ({})",
+                                  limits.not_sheared));
+    }
   }
-  return note;
+  return fmt::format("limits of the packing: {}", fmt::join(found, ", "));
 }
 
 }  // namespace
@@ -95,12 +112,13 @@ CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const Cell
     };
     check("G", !choice.shear_modulus, packing.shear);
     check("Gc", !choice.cosserat_shear_modulus, packing.cosserat_shear);
-    check("lc", !choice.internal_length, packing.couple);
+    check("lc", choice.has_rotations && !choice.internal_length, packing.couple);
   }
   CosseratParameters parameters;
   parameters.shear_modulus = choice.shear_modulus.value_or(packing.shear);
   parameters.cosserat_shear_modulus = choice.cosserat_shear_modulus.value_or(packing.cosserat_shear);
   parameters.internal_length = choice.internal_length.value_or(packing.length());
+  parameters.has_rotations = choice.has_rotations;
   if (const std::string limits = resolve_limits(choice, pool, definition, parameters); !limits.empty())
     note += (note.empty() ? "" : "; ") + limits;
   return parameters;

@@ -42,6 +42,7 @@ struct CosseratChoice {
   std::optional<double> internal_length;         ///< m
   LimitChoice skew_limit;                        ///< of the pressure
   LimitChoice plastic_length;                    ///< m
+  bool has_rotations = true;  ///< of the continuum: a classical one has no use for a length or limits
 };
 
 /// Fills in what is left to the packing by asking a worker for its network, and by taking two copies of it to their limits

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "common/memory_archive.hpp"
 #include "coupler/cells/cell_increment.hpp"
@@ -163,6 +165,62 @@ TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
   const Vector7 again = stress_after(resumed, -0.002);
   EXPECT_EQ(std::memcmp(again.data(), unloaded.data(), sizeof(Vector7)), 0);
   EXPECT_EQ(evaluate(sand, Increment{}).stress, unloaded);  // nothing happens where nothing moves
+}
+
+TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKept) {
+  CosseratParameters limited = kCosserat;  // Gc 10 MPa
+  limited.skew_limit = 0.5;                // 50 kPa at the pressure of the packing
+  CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), limited);
+  CellMaterial resumed(pool_, pool_.define(testing::fake_definition("")), limited);
+  sand.allocate(3);
+  resumed.allocate(3);
+  const auto figure = [&sand](const std::string& name) {
+    for (const fem::Figure& each : sand.figures())
+      if (each.name == name) return each.value;
+    return -1.0;
+  };
+  const auto fields = [&sand](std::size_t point) {
+    std::vector<double> values(sand.field_names().size());
+    sand.fields(point, values);
+    return std::vector<double>(values.end() - 3, values.end());
+  };
+  std::vector<Increment> increments(3);
+  std::vector<Response> responses(3);
+  increments[1].micro_rotation = 0.01;  // 400 kPa without a limit
+  increments[2].displacement_gradient << 0.01, 0.0, 0.0, 0.01;
+  sand.evaluate(increments, responses);
+  sand.revert();  // an attempt that is given up
+  EXPECT_EQ(sand.at_limits(), "");
+  EXPECT_EQ(figure("at_skew_limit_most"), 0.0);
+  sand.evaluate(increments, responses);
+  sand.commit();
+  EXPECT_DOUBLE_EQ(responses[1].stress[k21] - responses[1].stress[k12], 50e3);
+  ASSERT_GT(responses[2].stress[k11], 0.0);
+  const std::string now =
+      "of 3 points at the end (in any step): 1 have grains that have parted (at most 1); 1 carry the largest "
+      "skew stress that their grains bear (at most 1); 1 have a micro-rotation that is held numerically (at "
+      "most 1)";
+  EXPECT_EQ(sand.at_limits(), now);
+  EXPECT_EQ(fields(0), (std::vector<double>{0.0, 0.0, 0.0}));
+  EXPECT_EQ(fields(1), (std::vector<double>{0.0, 1.0, 0.0}));
+  EXPECT_EQ(fields(2), (std::vector<double>{1.0, 0.0, 0.0}));
+  MemoryArchive archive;
+  sand.save(archive);
+  resumed.restore(archive);
+  EXPECT_EQ(resumed.at_limits(), now);
+  // Turned back a little: 10 kPa are left.
+  increments[1].micro_rotation = -0.001;
+  increments[2] = Increment{};
+  for (CellMaterial* const material : {&sand, &resumed}) {
+    material->evaluate(increments, responses);
+    material->commit();
+    EXPECT_NEAR(responses[1].stress[k21] - responses[1].stress[k12], 10e3, 1e-6);
+    EXPECT_NE(material->at_limits().find("; 0 carry the largest skew stress"), std::string::npos)
+        << material->at_limits();
+  }
+  EXPECT_EQ(figure("at_skew_limit"), 0.0);
+  EXPECT_EQ(figure("at_skew_limit_most"), 1.0);
+  EXPECT_EQ(figure("points_parted"), 1.0);
 }
 
 TEST_F(CellMaterialTest, WithoutACosseratPartTheCellAnswersWhole) {

@@ -2,6 +2,7 @@
 // Whole runs of the program, with the fake engine in its workers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -90,7 +91,7 @@ TEST_F(RunTest, SaysWhereSmallDeformationIsOutgrown) {
 TEST_F(RunTest, ModuliThatNobodyGivesComeFromThePacking) {
   write(directory() / "open.yaml",
         case_text("{model: cell, script: fake.in, packing: grains.csv, lc: 20 mm}"));
-  const Outcome open = polargrain("run open.yaml -o open -w 1 --quiet");
+  const Outcome open = polargrain("run open.yaml -o open -w 1");
   ASSERT_EQ(open.status, 0) << open.errors;
   // The fake is linear with E = 100 MPa, nu = 0.25: G = 40 MPa; Gc and couple modulus are fake_engine.cpp's.
   EXPECT_NE(open.errors.find(
@@ -100,7 +101,7 @@ TEST_F(RunTest, ModuliThatNobodyGivesComeFromThePacking) {
       << open.errors;
   write(directory() / "given.yaml",
         case_text("{model: cell, script: fake.in, packing: grains.csv, G: 40 MPa, Gc: 10 MPa, lc: 20 mm}"));
-  const Outcome given = polargrain("run given.yaml -o given -w 1 --quiet");
+  const Outcome given = polargrain("run given.yaml -o given -w 1");
   EXPECT_EQ(given.errors.find("moduli of the packing"), std::string::npos) << given.errors;
   EXPECT_EQ(result("open/history.csv"), result("given/history.csv"));
   write(directory() / "no_length.yaml", case_text("{model: cell, script: fake.in, packing: grains.csv}"));
@@ -231,6 +232,53 @@ TEST_F(RunTest, AStepThatCannotBeTakenEndsTheRunHonestly) {
   }
   EXPECT_NE(result("out/summary.json").find("\"status\": \"failed\""), std::string::npos);
   EXPECT_EQ(column("out/history.csv", "step").size(), 1u);
+}
+
+// Pulled until the whole body is in tension: all grains part, and every place that counts says the same.
+TEST_F(RunTest, PointsAtTheirLimitsAreToldInTheTableTheSummaryTheLogAndByVerify) {
+  const std::string pull = " -w 2 --set boundary.2.move.u2=8mm";
+  const auto sentence_of = [&](const std::string& directory_of_run) {
+    const std::string summary = result(directory_of_run + "/summary.json");
+    const std::string key = "\"all\": \"of ";
+    const std::size_t place = summary.find(key, std::min(summary.find("\"at_limits\""), summary.size()));
+    if (place == std::string::npos) return std::string();
+    const std::size_t begin = place + key.size() - 3;
+    return summary.substr(begin, summary.find('"', begin) - begin);
+  };
+  const Outcome whole = polargrain("run case.yaml -o whole" + pull);
+  ASSERT_EQ(whole.status, 0) << whole.errors;
+  const std::string sentence = sentence_of("whole");
+  ASSERT_NE(sentence, "") << result("whole/summary.json");
+  const std::string points = sentence.substr(3, sentence.find(' ', 3) - 3);
+  EXPECT_EQ(sentence, "of " + points + " points at the end (in any step): " + points +
+                          " have grains that have parted (at most " + points + "); " + points +
+                          " have a micro-rotation that is held numerically (at most " + points + ")");
+  EXPECT_NE(whole.out.find("region 'all': " + sentence), std::string::npos) << whole.out;
+  EXPECT_NE(result("whole/run.log").find("region 'all': " + sentence), std::string::npos);
+  for (const char* const name : {"points_parted", "points_parted_most", "rotation_held"}) {
+    EXPECT_NE(result("whole/summary.json").find(std::string("\"") + name + "\": " + points + ".0"),
+              std::string::npos)
+        << name << '\n'
+        << result("whole/summary.json");
+    EXPECT_NE(whole.out.find(std::string("  ") + name + " "), std::string::npos) << whole.out;
+  }
+  EXPECT_NE(result("whole/summary.json").find("\"at_skew_limit_most\": 0.0"), std::string::npos);
+  EXPECT_NE(result("whole/fields/points-00005.vtu").find("Name=\"parted\""), std::string::npos);
+  const Outcome verified = polargrain("verify whole -w 1");
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.errors;
+  EXPECT_NE(verified.out.find("region 'all': " + sentence), std::string::npos) << verified.out;
+  // Steps that are cut count no point twice.
+  set_script("fail_beyond 1.1e-3");
+  const Outcome cut = polargrain("run case.yaml -o cut" + pull);
+  ASSERT_EQ(cut.status, 0) << cut.errors;
+  ASSERT_GE(column("cut/history.csv", "cuts").at(1), 1.0);
+  EXPECT_EQ(sentence_of("cut"), sentence);
+  // Pressed together no point is at a limit, and nothing is said.
+  set_script("");
+  const Outcome pressed = polargrain("run case.yaml -o pressed -w 2");
+  ASSERT_EQ(pressed.status, 0) << pressed.errors;
+  EXPECT_EQ(sentence_of("pressed"), "");
+  EXPECT_EQ(pressed.out.find("have parted"), std::string::npos) << pressed.out;
 }
 
 TEST_F(RunTest, GrainsLostOnEveryTryEndTheRunInTheEnginesWords) {

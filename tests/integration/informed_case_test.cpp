@@ -103,7 +103,7 @@ TEST_F(InformedCaseTest, AnyNumberOfWorkersWritesTheSameHistory) {
 TEST_F(InformedCaseTest, PointsThatGoByTheirCellsWriteTheSameWithAnyNumberOfWorkers) {
   for (const char* update : {"frozen", "fixed_point"}) {
     const std::string options =
-        std::string("--quiet --set materials.sand.update=") + update +
+        std::string("--set materials.sand.update=") + update +
         // A law that does not yield, and softer than it is ever taken to be (unloading.hpp).
         " --set materials.sand.initial_friction='60 deg' --set materials.sand.G='4 MPa'"
         " --set materials.sand.beyond_mismatch=cell --set materials.sand.mismatch_limit='1 %'";

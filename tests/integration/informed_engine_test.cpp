@@ -194,6 +194,19 @@ TEST_F(ControlledInformedTest, LimitsAreThoseOfContactsThatSlideAndRoll) {
   EXPECT_LT(limits.couple / couple, 1.4);
 }
 
+TEST_F(ControlledInformedTest, FreeGrainsGetTheSkewStressThatTheirContactsBear) {
+  CellDefinition free = pool_.definition(sand_);
+  free.control.rotations = CellRotations::free;
+  std::string note;
+  const coupler::CosseratParameters found = coupler::resolved({}, pool_, free, note);
+  const double bound = 2.0 * std::tan(0.5);
+  ASSERT_TRUE(found.skew_limit && found.plastic_length) << note;
+  std::cout << "[figure] " << note << ": skew " << *found.skew_limit / bound << " of the closed form\n";
+  EXPECT_NEAR(*found.skew_limit / bound, 1.0, 0.03);
+  EXPECT_GT(*found.plastic_length, 0.5 * found.internal_length);
+  EXPECT_LT(*found.plastic_length, 1.5 * found.internal_length);
+}
+
 TEST_F(ControlledInformedTest, APointThatIsShearedBentAndTurnedStaysNearItsCell) {
   constexpr int kSteps = 40;
   const auto size = [](const Vector7& stress, double length) {

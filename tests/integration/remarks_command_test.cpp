@@ -68,6 +68,42 @@ TEST(Remarks, CheckTellsThemAndStrictRefuses) {
   EXPECT_EQ(refused.out.find("no faults"), std::string::npos) << refused.out;
 }
 
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Remarks, CheckDrawsMeshConditionsAndGrains) {
+  const Scratch scratch("remarks_picture");
+  put(scratch.path(), kGrains);
+  const Outcome told =
+      run_in(scratch.path(), kProgram + " check case.yaml --strict --picture case.html --set title='<i>'");
+  EXPECT_EQ(told.status, 2);  // it is drawn all the same
+  const std::string page = content(scratch.path() / "case.html");
+  EXPECT_EQ(page.find("<i>"), std::string::npos);
+  const std::string mesh =
+      page.substr(page.find("stroke='#777'"), page.find("</g>") - page.find("stroke='#777'"));
+  EXPECT_EQ(count_of(mesh, "<polygon"), 50U);  // 5 times 10 elements
+  for (const char* const words :
+       {"<td>u1 held; u2 held</td>", "<td>u1 held; u2 moved by -2 mm</td>", "<td>pressure 50 kPa</td>",
+        "sand: 100 discs, mean diameter ", "carries 50 kPa at time zero"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+TEST(Remarks, APictureShowsWhatIsFree) {
+  const Scratch scratch("remarks_free");
+  put(scratch.path(), kLaw);
+  const Outcome told = run_in(scratch.path(), kProgram + " check case.yaml --picture case.html");
+  EXPECT_EQ(told.status, 0) << told.errors;
+  const std::string page = content(scratch.path() / "case.html");
+  // Left and right have no condition; rows and edges of both are marked.
+  EXPECT_EQ(
+      count_of(page, "<tr class='front'><td>left</td>") + count_of(page, "<tr class='front'><td>right</td>"),
+      2U);
+  EXPECT_EQ(count_of(page, "stroke-dasharray"), 2U);
+}
+
 TEST(Remarks, ARunTellsThemAndKeepsThem) {
   const Scratch scratch("remarks_run");
   const std::filesystem::path& at = scratch.path();

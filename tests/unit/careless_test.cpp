@@ -169,5 +169,39 @@ INSTANTIATE_TEST_SUITE_P(
                  "in 20 of 40 steps no load and no movement changes", Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
+const std::string kInItsStress = "{surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}";
+const std::string kPressureOnTop = "pressure: [[0, 10 kPa], [1, 60 kPa]]";
+
+INSTANTIATE_TEST_SUITE_P(
+    InAHurry, CarelessTest,
+    ::testing::Values(
+        Careless{"HeightForWidth", kGrains, "(0.2 m * 100 kPa)", "(0.4 m * 100 kPa)",
+                 "'0.4 m' is the height of the body", Rank::doubtful},
+        Careless{"WidthForHeight", kGrains, "-shortening / 0.4 m", "-shortening / 0.2 m",
+                 "'0.2 m' is the width of the body", Rank::doubtful},
+        Careless{"TractionUpwards", kGround, kPressureOnTop, "traction: {u2: [[0, 10 kPa], [1, 60 kPa]]}",
+                 "a traction of 60 kPa on 'top' pulls"},
+        Careless{"PascalsInATable", kGround, "[[0, 10 kPa], [1, 60 kPa]]", "[[0, 10], [1, 60]]",
+                 "'60' has no unit and is 60 Pa"},
+        Careless{"WeightOnGroundWithoutStress", replaced(kGround, "initial_stress:\n  - " + kInItsStress + "\n", ""),
+                 "", "", "it has no stress then", Rank::doubtful},
+        Careless{"ForceOnEachNode", kGround, kPressureOnTop,
+                 "pressure: 10 kPa, node_force: {u2: [[0, 0], [1, -50 kN/m]]}", "each of the 41 nodes of 'top'",
+                 Rank::doubtful},
+        Careless{"CoupleModulusInKilopascals", kGround, "Gc: 12 MPa", "Gc: 12 kPa", "Gc is 0.012 MPa",
+                 Rank::doubtful},
+        Careless{"ElementsSmallerThanGrains", kGrains, "elements: [10, 20]", "elements: [150, 300]",
+                 "a grain is larger than the elements", Rank::doubtful},
+        Careless{"MovementInMicrometres", kGrains, "-8 mm", "-8 um",
+                 "its stress changes by less than grains answer to", Rank::doubtful},
+        Careless{"OneStepOfALaw", kGround, "count: 10", "count: 1", "the curve has one point", Rank::doubtful},
+        Careless{"NoiseThatCoversAll", kGrains, "tolerance: 1e-2", "tolerance: 1e-2, noise: 50",
+                 "times the noise of the stresses"},
+        Careless{"ToleranceOfALaw", kGround, "tolerance: 1e-6", "tolerance: 0.03",
+                 "of the forces may be out of balance", Rank::doubtful},
+        Careless{"TensionNormalToThePlane", kGround, kInItsStress, "{stress: [-10 kPa, -10 kPa, 10 kPa, 0]}",
+                 "ground carries next to none"}),
+    [](const auto& info) { return info.param.name; });
+
 }  // namespace
 }  // namespace polargrain::testing

@@ -3,10 +3,13 @@
 // whose law is a Cosserat cone of known weights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iostream>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "common/error.hpp"
 #include "common/memory_archive.hpp"
@@ -337,6 +340,136 @@ TEST(InformedPlasticLength, TheTangentIsThatOfTheStep) {
     const Vector7 slope = (more.stress - less.stress) / (2.0 * kShift);
     EXPECT_LT((slope - response.tangent.col(5 + axis)).norm(), 1e-5 * response.tangent.col(5 + axis).norm());
   }
+}
+
+/// The skew stress of such a law is at most this share of its pressure in the plane.
+constexpr double kSkewShare = 0.5;
+
+InformedParameters with_skew_limit(InformedUpdate update) {
+  InformedParameters made = parameters(update);
+  made.mean_diameter = 0.0;
+  // As a case hands it over.
+  made.set_moduli(
+      {13.4e6, made.elastic.cosserat_shear_modulus, made.elastic.internal_length, {}, kSkewShare});
+  return made;
+}
+
+/// Grains turned by w against the continuum: eps21 - eps12 = 2 w.
+Increment turned(double w) {
+  Increment increment;
+  increment.micro_rotation = w;
+  return increment;
+}
+
+double skew_of(const Response& response) {
+  return response.stress(k21) - response.stress(k12);
+}
+
+double figure(const InformedMaterial& law, const std::string& name) {
+  for (const fem::Figure& each : law.figures())
+    if (each.name == name) return each.value;
+  ADD_FAILURE() << "no figure " << name;
+  return -1.0;
+}
+
+TEST(InformedSkewLimit, TurningYieldsUnloadsElasticallyAndIsCountedAndKept) {
+  const ConeCells cells(fem::InvariantWeights{});
+  constexpr double kStep = 7e-4;  // 2.8e4 Pa; the limit is at 5e4 Pa
+  for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
+    InformedMaterial law(cells.calls(), with_skew_limit(update));
+    InformedMaterial resumed(cells.calls(), with_skew_limit(update));
+    law.allocate(1);
+    resumed.allocate(1);
+    std::vector<double> fields(law.field_names().size());
+    double expected = 0.0;
+    Response response;
+    Response again;
+    for (int step = 0; step < 20; ++step) {
+      const Increment increment = turned(step < 10 ? kStep : -kStep);
+      // An attempt that is given up counts for nothing.
+      const Increment too_far = turned(1.0);
+      law.evaluate({&too_far, 1}, {&response, 1});
+      law.revert();
+      law.evaluate({&increment, 1}, {&response, 1});
+      ASSERT_EQ(response.quality, Quality::good) << response.message;
+      const double limit = -0.5 * kSkewShare * (response.stress(k11) + response.stress(k22));
+      ASSERT_NEAR(limit, kSkewShare * kPressure, 1e-3) << step;
+      expected = std::clamp(expected + 4.0 * 10e6 * increment.micro_rotation, -limit, limit);
+      ASSERT_NEAR(skew_of(response), expected, 1e-6) << step;
+      if (step >= 10) {
+        resumed.evaluate({&increment, 1}, {&again, 1});
+        resumed.commit();
+        ASSERT_EQ(again.stress, response.stress) << step;
+      }
+      law.commit();
+      law.fields(0, fields);
+      EXPECT_NEAR(fields[fields.size() - 2], std::abs(expected) / limit, 1e-9) << step;
+      EXPECT_EQ(figure(law, "at_skew_limit"), std::abs(expected) == limit ? 1.0 : 0.0) << step;
+      EXPECT_EQ(figure(law, "at_skew_limit_most"), step < 1 ? 0.0 : 1.0) << step;
+      if (step == 9) {
+        EXPECT_EQ(law.at_limits(),
+                  "of 1 points at the end (in any step): 1 carry the largest skew stress that their grains "
+                  "bear (at most 1)");
+        MemoryArchive archive;
+        law.save(archive);
+        resumed.restore(archive);
+        EXPECT_EQ(resumed.at_limits(), law.at_limits());
+      }
+    }
+    EXPECT_NEAR(expected, -kSkewShare * kPressure, 1e-3) << "it has not been turned back to the other limit";
+    EXPECT_EQ(resumed.at_limits(), law.at_limits());
+  }
+}
+
+TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
+  const ConeCells cells(fem::InvariantWeights{});
+  InformedMaterial law(cells.calls(), with_skew_limit(InformedUpdate::frozen));
+  law.allocate(1);
+  Increment step = turned(2e-3);
+  step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
+  Response response;
+  for (int k = 0; k < 3; ++k) {
+    law.evaluate({&step, 1}, {&response, 1});
+    ASSERT_EQ(response.quality, Quality::good) << response.message;
+    if (k < 2) law.commit();
+    if (k == 1) step.displacement_gradient *= 0.7;  // away from the end of what a step takes up
+  }
+  ASSERT_NEAR(skew_of(response), -0.5 * kSkewShare * (response.stress(k11) + response.stress(k22)), 1e-6);
+  Matrix7 expected = response.tangent;
+  const double hold = CosseratPart::kHold * 10e6;
+  expected(k12, k12) -= hold;
+  expected(k21, k21) -= hold;
+  expected(k12, k21) += hold;
+  expected(k21, k12) += hold;
+  for (const int column : {k11, k22, k12, k21}) {
+    constexpr double kShift = 1e-8;
+    Vector7 strain = Vector7::Zero();
+    strain(column) = kShift;
+    Eigen::Matrix2d shift;
+    shift << strain(k11), strain(k21), strain(k12), strain(k22);
+    Response more, less;
+    Increment shifted = step;
+    shifted.displacement_gradient += shift;
+    law.evaluate({&shifted, 1}, {&more, 1});
+    shifted.displacement_gradient -= 2.0 * shift;
+    law.evaluate({&shifted, 1}, {&less, 1});
+    const Vector7 slope = (more.stress - less.stress) / (2.0 * kShift);
+    EXPECT_LT((slope - expected.col(column)).norm(), 1e-5 * 13.4e6) << column;
+  }
+}
+
+TEST(InformedSkewLimit, WithoutOneNothingChanges) {
+  const ConeCells cells(fem::InvariantWeights{});
+  InformedParameters given = with_skew_limit(InformedUpdate::frozen);
+  given.skew_limit.reset();
+  InformedMaterial law(cells.calls(), given);
+  law.allocate(1);
+  const Increment far = turned(0.01);
+  Response response;
+  law.evaluate({&far, 1}, {&response, 1});
+  law.commit();
+  EXPECT_NEAR(skew_of(response), 4.0 * 10e6 * 0.01, 1e-6);
+  EXPECT_EQ(law.at_limits(), "");
 }
 
 }  // namespace

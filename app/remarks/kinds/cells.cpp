@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -19,12 +20,21 @@ constexpr double kHard = 1e-8;
 constexpr double kLightGrain = 100.0;  // kg/m^3
 constexpr double kLargeGrain = 0.5;    // m, mean diameter
 constexpr double kSmallBody = 5.0;     // mean diameters
+constexpr double kSmallElement = 0.2;  // mean diameters
 
 /// The smallest distance between two opposite sides of the box, m.
 double width_of_box(const Packing& packing) {
   const double area = packing.box.determinant();
   const double plane = area / std::max(packing.box.col(0).norm(), packing.box.col(1).norm());
   return packing.dimension == 3 ? std::min(plane, packing.thickness) : plane;
+}
+
+/// Of the grains, kg/m^3. In a plane packing they may be spheres in a box that is higher: then only their mass says so.
+double density_of(const Packing& packing) {
+  double spheres = 0.0;
+  for (const Grain& grain : packing.grains)
+    spheres += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+  return packing.grain_mass() / std::min(packing.grain_volume(), spheres);
 }
 
 double largest_diameter(const Packing& packing) {
@@ -104,7 +114,15 @@ void size_of_grains(const Scene& scene, Remarks& remarks) {
                "be a continuum",
                region.material, ratio, 1e3 * scene.body().smaller_side(), 1e3 * diameter)),
            "check the units of the mesh and of the grains"});
-    const double density = packing.grain_mass() / packing.grain_volume();
+    else if (const double element = usual_element(scene, region) / diameter; element < kSmallElement)
+      remarks.push_back(
+          {Rank::doubtful, kSmallElement / element,
+           place.fault(fmt::format(
+               "material '{}': the elements of region '{}' measure {:.2g} mean diameters ({:.3g} mm of {:.3g} mm): a "
+               "grain is larger than the elements whose stress its box gives",
+               region.material, region.name, element, 1e3 * element * diameter, 1e3 * diameter)),
+           "fewer elements, or smaller grains; check the units of the mesh and of the grains"});
+    const double density = density_of(packing);
     if (density < kLightGrain)
       remarks.push_back(
           {Rank::doubtful, kLightGrain / density,

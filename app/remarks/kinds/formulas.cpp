@@ -20,8 +20,9 @@ Powers powers_of_monitor(const coupler::Monitor& monitor) {
 
 /// Numbers that formulas hold without a unit for reasons of their own: counts, halves, conversions.
 bool is_innocent(double value) {
-  for (const double known : {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 3.14159265358979, 57.2957795130823})
-    if (std::abs(value - known) <= 1e-3 * known) return true;
+  for (const double known : {0.0, 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 0.57735,
+                             0.70711, 1.41421, 1.73205, 3.14159265358979, 57.2957795130823})
+    if (std::abs(value - known) <= 2e-3 * known) return true;
   for (double power = 1e-9; power < 2e9; power *= 1e3)
     if (std::abs(value / power - 1.0) < 1e-9) return true;
   return false;
@@ -42,6 +43,11 @@ double off_pressures(const Scene& scene, double value) {
     if (const auto cohesion =
             scene.quantity({"materials", region.material, "cohesion"}, coupler::Dimension::pressure))
       compare(*cohesion);
+    // A stress over a modulus is meant where it is that modulus; others are far above all stresses.
+    for (const char* const key : {"E", "G", "Gc"})
+      if (const auto modulus =
+              scene.quantity({"materials", region.material, key}, coupler::Dimension::pressure))
+        if (std::abs(value - *modulus) <= 0.01 * *modulus) return 1.0;
   }
   for (const fem::EdgeLoad& load : scene.problem().edge_loads)
     for (const fem::TimeTable* const table : {&load.pressure, &load.traction1, &load.traction2})
@@ -55,9 +61,11 @@ void look_at_numbers(const Scene& scene, const coupler::Entry& place, const std:
                      const FormulaUnits& units, Remarks& remarks) {
   constexpr double kFarPressure = 30.0;
   for (const FormulaNumber& number : units.numbers) {
-    if (!number.has_unit || number.is_one) continue;
+    if (!number.has_unit || number.is_one || number.value == 0.0) continue;
     if (number.dimension == coupler::Dimension::length) {
-      const double small = 0.02 * scene.body().smaller_side() / number.value;
+      // A width of a part of the boundary is some elements at least.
+      const double least = std::min(0.02 * scene.body().smaller_side(), 0.2 * scene.body().mean_element);
+      const double small = least / number.value;
       const double large = number.value / (20.0 * scene.body().size().maxCoeff());
       if (std::max(small, large) > 1.0)
         remarks.push_back(
@@ -74,6 +82,57 @@ void look_at_numbers(const Scene& scene, const coupler::Entry& place, const std:
              place.fault(fmt::format("monitor '{}': '{}' is {:.3g} times off every pressure of the case",
                                      name, number.text, off)),
              "check its unit"});
+  }
+}
+
+/// How long the place of a monitor is, m: its extent along 1 where forces along 2 are read, and the other way round.
+double length_across(const Scene& scene, const coupler::Monitor& monitor) {
+  const Eigen::Index i = monitor.dof == fem::Dof::u2 ? 0 : 1;
+  double least = 1e300;
+  double largest = -1e300;
+  for (const int node : scene.mesh().nodes_on(monitor.on)) {
+    const double x = scene.mesh().nodes[static_cast<std::size_t>(node)](i);
+    least = std::min(least, x);
+    largest = std::max(largest, x);
+  }
+  return largest - least;
+}
+
+bool is_about(double value, double other) {
+  return std::abs(value - other) <= 0.005 * std::abs(other);
+}
+
+/// A reaction over the height in place of the width it acts on, a shortening over the width in place of the height.
+void look_at_side(const Scene& scene, const coupler::Entry& place, const coupler::Monitor& formula,
+                  const FormulaUnits& units, Remarks& remarks) {
+  const auto is_length = [](const FormulaNumber& n) { return n.dimension == coupler::Dimension::length; };
+  const Powers pressure{1, -2, 0};
+  if (std::ranges::count_if(units.numbers, is_length) != 1 || formula.formula->names().size() != 1 ||
+      (units.result != Powers{} && units.result != pressure))
+    return;
+  const FormulaNumber& number = *std::ranges::find_if(units.numbers, is_length);
+  for (const coupler::Monitor& monitor : scene.the_case().monitors) {
+    if (monitor.name != formula.formula->names().front() || monitor.kind == coupler::Monitor::Kind::formula ||
+        monitor.dof == fem::Dof::w)
+      continue;
+    const bool reaction = monitor.kind == coupler::Monitor::Kind::reaction;
+    if (!reaction && monitor.dof != fem::Dof::u2) continue;  // over the width or the height, as it is meant
+    const Eigen::Vector2d size = scene.body().size();
+    const double width = size.x();
+    const double height = size.y();
+    // Only what spans the whole body, so that no other length can be meant.
+    const double right = reaction ? length_across(scene, monitor) : height;
+    const double other = reaction && monitor.dof == fem::Dof::u1 ? width : reaction ? height : width;
+    const double spanned = reaction && monitor.dof == fem::Dof::u1 ? height : width;
+    if (is_about(right, other) || (reaction && !is_about(right, spanned)) || !is_about(number.value, other))
+      continue;
+    remarks.push_back(
+        {Rank::doubtful, std::max(right / other, other / right),
+         place.fault(fmt::format(
+             "monitor '{}': '{}' is the {} of the body, and {} is {:.4g} m", formula.name, number.text,
+             is_about(other, height) ? "height" : "width",
+             reaction ? fmt::format("what '{}' acts on", monitor.name) : std::string("its height"), right)),
+         fmt::format("divide by {:.4g} m, if {} is meant", right, reaction ? "a stress" : "a strain")});
   }
 }
 
@@ -96,6 +155,7 @@ void formulas(const Scene& scene, Remarks& remarks) {
            place.fault(fmt::format("monitor '{}': '{}' adds {}", monitor.name, place.text, units.clash)),
            "forces are of a metre of thickness, N/m: give each summand the same dimension"});
     look_at_numbers(scene, place, monitor.name, units, remarks);
+    look_at_side(scene, place, monitor, units, remarks);
     const bool any_unit =
         std::ranges::any_of(units.numbers, [](const FormulaNumber& number) { return number.has_unit; });
     const auto plain = std::ranges::find_if(units.numbers, [](const FormulaNumber& number) {

@@ -59,13 +59,29 @@ void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
   }
 }
 
+/// Whether loads on the highest edges stand, at time zero, for ground above the mesh of this weight.
+bool carries_ground_above(const Scene& scene, double weight) {
+  const double slack = 1e-6 * scene.body().size().y();
+  double load_there = 0.0;
+  for (const fem::EdgeLoad& load : scene.problem().edge_loads) {
+    const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), load.on);
+    if (std::ranges::any_of(edges, [&](const OutlineEdge& edge) {
+          return edge.centre.y() > scene.body().largest.y() - slack;
+        }))
+      load_there += load.pressure.at(0.0) - load.traction2.at(0.0);
+  }
+  return std::abs(load_there - weight) <= 0.3 * weight;
+}
+
 void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
   const auto surface = number(item, "surface", Dimension::length);
   if (!surface) return;
   const double height = scene.body().size().y();
   const double over = *surface - scene.body().largest.y();
-  const bool surcharged = item.find("surcharge") != nullptr;
-  if (std::abs(over) <= 0.02 * height || (over > 0.0 && surcharged)) return;
+  if (std::abs(over) <= 0.02 * height) return;
+  const double above = over * number(item, "unit_weight", Dimension::unit_weight).value_or(0.0) +
+                       number(item, "surcharge", Dimension::pressure).value_or(0.0);
+  if (over > 0.0 && carries_ground_above(scene, above)) return;
   if (item.find("region") != nullptr) return;  // a layer of the ground
   remarks.push_back(
       {std::abs(over) > 0.2 * height ? Rank::wrong : Rank::doubtful, 1.0 + std::abs(over) / height,
@@ -74,7 +90,7 @@ void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
            *surface, scene.body().largest.y(),
            over > 0.0 ? "the mesh begins under ground that nothing stands for"
                       : "what lies above it is in tension")),
-       "give the height of the mesh's surface; for ground above it a surcharge"});
+       "give the height of the mesh's surface; for ground above it a surcharge, and a pressure on the surface"});
 }
 
 void look_at_components(const Entry& item, Remarks& remarks) {
@@ -91,6 +107,14 @@ void look_at_components(const Entry& item, Remarks& remarks) {
              "initial_stress: s11 and s22 are {:.4g} and {:.4g} kPa, tension: stresses are positive in tension",
              1e-3 * s[0], 1e-3 * s[1])),
          "write pressures with a minus: stress: [-100 kPa, -100 kPa, -100 kPa, 0]"});
+  else if (std::max({s[0], s[1], s[2]}) > 0.0 && std::min({s[0], s[1], s[2]}) < 0.0)
+    remarks.push_back(
+        {Rank::wrong, 50.0,
+         stress->fault(fmt::format(
+             "initial_stress: s11, s22 and s33 are {:.4g}, {:.4g} and {:.4g} kPa: stresses are positive in tension, and "
+             "ground carries next to none",
+             1e-3 * s[0], 1e-3 * s[1], 1e-3 * s[2])),
+         "write all three with a minus: stress: [-100 kPa, -100 kPa, -100 kPa, 0]"});
   else if (s[2] == 0.0 && (s[0] != 0.0 || s[1] != 0.0))
     remarks.push_back(
         {Rank::wrong, 10.0,

@@ -13,7 +13,10 @@ namespace {
 void against_elements(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
   const double element = usual_element(scene, region);
   const double ratio = element / length;
-  if (ratio <= kMostElementOverLength) return;
+  constexpr double kRounding = 1.02;  // of a length written with two digits
+  // A single element has one strain throughout; where nothing softens a mesh sets no band.
+  if (region.elements.size() == 1 || !softens(scene, region)) return;
+  if (ratio <= kRounding * kMostElementOverLength) return;
   remarks.push_back(
       {Rank::doubtful, ratio / kMostElementOverLength,
        scene.place({"materials", region.material, "lc"})
@@ -21,7 +24,7 @@ void against_elements(const Scene& scene, const SceneRegion& region, double leng
                "material '{}': the elements of region '{}' measure {:.3g} mm, {:.3g} times lc (at most {:g}): "
                "bands of shear are as wide as the elements, and what follows a peak is the mesh's",
                region.material, region.name, 1e3 * element, ratio, kMostElementOverLength)),
-       fmt::format("elements of {:.2g} mm where bands are expected, or 'lc: {:.2g} mm' and more",
+       fmt::format("elements of {:.4g} mm where bands are expected, or 'lc: {:.3g} mm' and more",
                    1e3 * kMostElementOverLength * length, 1e3 * element / kMostElementOverLength)});
 }
 
@@ -55,11 +58,30 @@ void against_grains(const Scene& scene, const SceneRegion& region, double length
            kMostLengthOverGrain)});
 }
 
+/// Grains that carry the couple stresses themselves have a length of their own, about their mean diameter.
+void controlled_rotations(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
+  constexpr double kMostElementOverGrain = 5.0;
+  constexpr std::size_t kFewElements = 16;  // in so few no band is looked for
+  if (region.cell == nullptr || region.cell->control.rotations != CellRotations::controlled) return;
+  const double element = usual_element(scene, region);
+  const double ratio = element / (2.0 * region.cell->packing.mean_radius());
+  if (ratio <= kMostElementOverGrain || region.elements.size() <= kFewElements) return;
+  remarks.push_back(
+      {Rank::doubtful, ratio / kMostElementOverGrain,
+       scene.place({"materials", region.material, "rotations"})
+           .fault(fmt::format(
+               "material '{}': with controlled rotations bands are some grains wide, and the elements of region '{}' measure "
+               "{:.3g} mm, {:.3g} mean diameters (at most {:g})",
+               region.material, region.name, 1e3 * element, ratio, kMostElementOverGrain)),
+       "smaller elements where bands are expected, or 'rotations: free' with an lc that the mesh resolves"});
+}
+
 }  // namespace
 
 void internal_length(const Scene& scene, Remarks& remarks) {
   if (scene.problem().continuum == fem::Continuum::cauchy) return;
   for (const SceneRegion& region : scene.regions()) {
+    controlled_rotations(scene, region, remarks);
     const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);
     if (!length || *length <= 0.0) continue;
     if (is_strong(scene, region)) against_elements(scene, region, *length, remarks);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
@@ -54,7 +55,7 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
   constexpr double kMostStrain = 0.05;
   constexpr double kLeastStrain = 1e-7;
   const double scale = stress_scale(scene);
-  const double strain_of_run = scene.strain_of_step() * scene.the_case().steps();
+  const double strain_of_run = scene.strain_of_run();
   for (const SceneRegion& region : scene.regions()) {
     const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure);
     if (region.cell != nullptr || !young || scale <= 0.0) continue;
@@ -119,47 +120,117 @@ void strength_of_laws(const Scene& scene, Remarks& remarks) {
   }
 }
 
-void plain_loads(const Scene& scene, Remarks& remarks) {
+namespace {
+
+/// The text of the largest value of a load; empty where one of its values has a unit, or it was set by an option.
+std::string plain_text_of(const coupler::Entry& entry) {
+  if (entry.line == 0) return {};
+  if (entry.kind == coupler::Entry::Kind::scalar)
+    return coupler::is_plain_number(entry.text) ? entry.text : std::string();
+  std::string text;
+  double largest = 0.0;
+  for (const coupler::Entry& item : entry.items) {
+    if (item.items.size() != 2) return {};
+    const auto value = coupler::parse_quantity(item.items[1].text, coupler::Dimension::pressure);
+    if (!value || !coupler::is_plain_number(item.items[1].text)) return {};
+    if (std::abs(*value) <= largest) continue;
+    largest = std::abs(*value);
+    text = item.items[1].text;
+  }
+  return text;
+}
+
+void look_at_plain(const std::string& what, const coupler::Entry* entry, double value, double scale,
+                   Remarks& remarks) {
   constexpr double kTiny = 0.02;
+  if (value == 0.0 || entry == nullptr || value > kTiny * scale) return;
+  const std::string text = plain_text_of(*entry);
+  if (text.empty()) return;
+  remarks.push_back(
+      {Rank::wrong, scale / value,
+       entry->fault(fmt::format(
+           "{}: '{}' has no unit and is {:g} Pa, {:.2g} % of the stresses of this case ({:.4g} kPa)", what,
+           text, value, 100.0 * value / scale, 1e-3 * scale)),
+       fmt::format("write '{0} kPa', or '{0} Pa' if that is what it is", text)});
+}
+
+}  // namespace
+
+void plain_loads(const Scene& scene, Remarks& remarks) {
+  constexpr double kOfModulus = 1e-3;  // what strains ground by less than 2e-5 loads nothing
+  constexpr double kMost = 50e3;       // Pa: a kilopascal and more may be meant, however stiff the body
   double scale = stress_scale(scene);
-  for (const SceneRegion& region : scene.regions()) scale = std::max(scale, Scene::pressure_of(region));
+  for (const SceneRegion& region : scene.regions()) {
+    scale = std::max(scale, Scene::pressure_of(region));
+    if (const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure))
+      scale = std::max(scale, std::min(kOfModulus * *young, kMost));
+  }
   for (const fem::EdgeLoad& load : scene.problem().edge_loads) {
-    const double value = load.pressure.largest_magnitude();
-    const coupler::Entry* const entry = scene.boundary_value(load.on, "pressure");
-    if (value == 0.0 || entry == nullptr || entry->kind != coupler::Entry::Kind::scalar || entry->line == 0)
-      continue;
-    if (!coupler::is_plain_number(entry->text) || value > kTiny * scale) continue;
-    remarks.push_back(
-        {Rank::wrong, scale / value,
-         entry->fault(fmt::format(
-             "boundary: pressure on '{}': '{}' has no unit and is {:g} Pa, {:.2g} % of the stresses of this case ({:.4g} kPa)",
-             load.on, entry->text, value, 100.0 * value / scale, 1e-3 * scale)),
-         fmt::format("write '{0} kPa', or '{0} Pa' if that is what it is", entry->text)});
+    look_at_plain(fmt::format("boundary: pressure on '{}'", load.on),
+                  scene.boundary_value(load.on, "pressure"), load.pressure.largest_magnitude(), scale,
+                  remarks);
+    const coupler::Entry* const traction = scene.boundary_value(load.on, "traction");
+    if (traction == nullptr) continue;
+    look_at_plain(fmt::format("boundary: traction along 1 on '{}'", load.on), traction->find("u1"),
+                  load.traction1.largest_magnitude(), scale, remarks);
+    look_at_plain(fmt::format("boundary: traction along 2 on '{}'", load.on), traction->find("u2"),
+                  load.traction2.largest_magnitude(), scale, remarks);
   }
 }
 
+namespace {
+
+/// What pulls at a boundary along its normal, all its loads together, Pa; on a curved one along the mean normal.
+double pull_on(const Scene& scene, const std::string& on, const std::vector<OutlineEdge>& edges,
+               double time) {
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  double length = 0.0;
+  for (const OutlineEdge& edge : edges) {
+    normal += edge.length * edge.normal;
+    length += edge.length;
+  }
+  if (length > 0.0) normal /= length;
+  double pull = 0.0;
+  for (const fem::EdgeLoad& load : scene.problem().edge_loads)
+    if (load.on == on)
+      pull += load.traction1.at(time) * normal.x() + load.traction2.at(time) * normal.y() -
+              load.pressure.at(time);
+  return pull;
+}
+
+}  // namespace
+
 void tension(const Scene& scene, Remarks& remarks) {
+  constexpr double kRounding = 1e-6;
+  std::set<std::string> seen;
   for (const fem::EdgeLoad& load : scene.problem().edge_loads) {
-    const auto end = scene.end_time().value_or(1.0);
-    const double least =
-        std::min({load.pressure.at(0.0), load.pressure.at(0.5 * end), load.pressure.at(end)});
-    if (least >= 0.0) continue;
+    if (!seen.insert(load.on).second) continue;
+    const double end = scene.end_time().value_or(1.0);
     const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), load.on);
+    double pull = 0.0;
+    for (const double time : {0.0, 0.5 * end, end})
+      pull = std::max(pull, pull_on(scene, load.on, edges, time));
+    if (pull <= kRounding * stress_scale(scene)) continue;
     const bool grains = std::ranges::any_of(
         edges, [&](const OutlineEdge& edge) { return scene.region_of(edge.element).cell != nullptr; });
     double cohesion = 0.0;
     for (const SceneRegion& region : scene.regions())
       cohesion = std::max(cohesion, largest_value(scene, region, "cohesion", coupler::Dimension::pressure)
                                         .value_or(is_strong(scene, region) ? 0.0 : 1e300));
-    if (!grains && -least <= cohesion) continue;
-    const coupler::Entry* const entry = scene.boundary_value(load.on, "pressure");
+    if (!grains && pull <= cohesion) continue;
+    const coupler::Entry* const pressure = scene.boundary_value(load.on, "pressure");
+    const coupler::Entry* const entry =
+        pressure != nullptr ? pressure : scene.boundary_value(load.on, "traction");
     remarks.push_back(
         {Rank::wrong, 1e3,
          (entry != nullptr ? *entry : scene.place({"boundary"}))
              .fault(fmt::format(
-                 "boundary: a pressure of {:.4g} kPa on '{}' pulls, and the material there has no such strength in tension",
-                 1e-3 * least, load.on)),
-         "a pressure pushes into the body where it is positive: remove the sign"});
+                 "boundary: a {} of {:.4g} kPa on '{}' pulls, and the material there has no such strength in tension",
+                 pressure != nullptr ? "pressure" : "traction", (pressure != nullptr ? -1e-3 : 1e-3) * pull,
+                 load.on)),
+         pressure != nullptr
+             ? "a pressure pushes into the body where it is positive: remove the sign"
+             : "a traction acts along 1 and 2, whatever the boundary looks to: turn its sign, or give a pressure"});
   }
 }
 

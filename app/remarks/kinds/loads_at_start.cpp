@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "app/remarks/kinds.hpp"
 
@@ -31,15 +33,52 @@ struct Mismatch {
   const SceneRegion* region = nullptr;
 };
 
-Eigen::Vector2d traction(const fem::Problem& problem, const std::string& boundary, const OutlineEdge& edge) {
-  Eigen::Vector2d t = Eigen::Vector2d::Zero();
-  for (const fem::EdgeLoad& load : problem.edge_loads) {
-    if (load.on != boundary) continue;
-    t += -load.pressure.at(0.0) * edge.normal +
-         Eigen::Vector2d(load.traction1.at(0.0), load.traction2.at(0.0));
-  }
-  return t;
+using Corners = std::pair<int, int>;
+
+Corners corners_of(const std::vector<int>& nodes) {
+  return std::minmax(nodes[0], nodes[1]);
 }
+
+/// What bears on the edges of a mesh: one edge may lie on several boundaries, each with a load.
+class Edges {
+ public:
+  explicit Edges(const fem::Problem& problem) : problem_(problem) {
+    const fem::Mesh& mesh = problem.mesh;
+    for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+      for (int side = 0; side < mesh.elements[static_cast<std::size_t>(e)].type->corners; ++side)
+        ++elements_[corners_of(mesh.edge_nodes({e, side}))];
+    for (const fem::EdgeLoad& load : problem.edge_loads) {
+      std::set<Corners>& under = under_.emplace_back();
+      for (const fem::Edge& edge : mesh.boundaries.at(load.on))
+        under.insert(corners_of(mesh.edge_nodes(edge)));
+    }
+  }
+
+  /// A line inside the body may have a name too.
+  [[nodiscard]] bool is_outer(const OutlineEdge& edge) const {
+    return elements_.at(corners_of(edge.nodes)) == 1;
+  }
+  [[nodiscard]] bool is_loaded(const OutlineEdge& edge) const {
+    return std::ranges::any_of(under_,
+                               [&](const auto& under) { return under.contains(corners_of(edge.nodes)); });
+  }
+  /// At time zero.
+  [[nodiscard]] Eigen::Vector2d traction(const OutlineEdge& edge) const {
+    Eigen::Vector2d t = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < under_.size(); ++k) {
+      if (!under_[k].contains(corners_of(edge.nodes))) continue;
+      const fem::EdgeLoad& load = problem_.edge_loads[k];
+      t += -load.pressure.at(0.0) * edge.normal +
+           Eigen::Vector2d(load.traction1.at(0.0), load.traction2.at(0.0));
+    }
+    return t;
+  }
+
+ private:
+  const fem::Problem& problem_;
+  std::map<Corners, int> elements_;
+  std::vector<std::set<Corners>> under_;  ///< each load
+};
 
 /// Loads may come on to the nodes of a boundary one by one, or it is tied: nothing is known of its traction.
 bool is_special(const fem::Problem& problem, const std::string& boundary,
@@ -56,7 +95,7 @@ bool is_special(const fem::Problem& problem, const std::string& boundary,
 }
 
 /// Over the edges that are free; nothing where there are none or no stress is known.
-std::optional<Mismatch> mismatch_of(const Scene& scene, const std::string& boundary,
+std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
                                     const std::vector<OutlineEdge>& edges,
                                     const std::vector<std::array<bool, 2>>& held) {
   Mismatch sum;
@@ -69,7 +108,7 @@ std::optional<Mismatch> mismatch_of(const Scene& scene, const std::string& bound
     const Eigen::Vector2d& n = edge.normal;
     const Vector7& s = *stress;
     const Eigen::Vector2d inside(s(k11) * n.x() + s(k21) * n.y(), s(k12) * n.x() + s(k22) * n.y());
-    Eigen::Vector2d out = traction(scene.problem(), boundary, edge) - inside;
+    Eigen::Vector2d out = all.traction(edge) - inside;
     for (std::size_t i = 0; i < 2; ++i)
       if (here.all[i]) out(static_cast<Eigen::Index>(i)) = 0.0;
     const double pushed = -inside.dot(n);
@@ -104,11 +143,12 @@ std::string remedy_of(const Mismatch& m, const std::string& boundary, bool loade
       pascals(m.carried), pascals(m.behind));
 }
 
-void look_at(const Scene& scene, const std::string& boundary, const std::vector<std::array<bool, 2>>& held,
-             Remarks& remarks) {
-  const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), boundary);
+void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
+             const std::vector<std::array<bool, 2>>& held, Remarks& remarks) {
+  std::vector<OutlineEdge> edges = edges_of(scene.mesh(), boundary);
+  std::erase_if(edges, [&](const OutlineEdge& edge) { return !all.is_outer(edge); });
   if (edges.empty() || is_special(scene.problem(), boundary, edges)) return;
-  const std::optional<Mismatch> m = mismatch_of(scene, boundary, edges, held);
+  const std::optional<Mismatch> m = mismatch_of(scene, all, edges, held);
   if (!m) return;
   const double scale = std::max({m->scale, std::abs(m->carried), std::abs(m->behind)});
   if (scale <= 0.0) return;
@@ -117,6 +157,8 @@ void look_at(const Scene& scene, const std::string& boundary, const std::vector<
   const coupler::Entry* value = nullptr;
   for (const char* const key : {"pressure", "traction"})
     if (value == nullptr) value = scene.boundary_value(boundary, key);
+  const bool loaded =
+      std::ranges::any_of(edges, [&](const OutlineEdge& edge) { return all.is_loaded(edge); });
   const std::string name = boundary.empty() ? "a part of the outline that has no name" : "'" + boundary + "'";
   const std::string who = m->has_cells ? "its grains" : "the initial stress behind it";
   const coupler::Entry& place = value != nullptr ? *value : scene.place({"boundary"});
@@ -125,22 +167,23 @@ void look_at(const Scene& scene, const std::string& boundary, const std::vector<
           ? fmt::format("boundary: along {} nothing carries {} of shear of {} at time zero", name,
                         pascals(m->along), who)
           : fmt::format("boundary: {} carries {} at time zero, {} {}", name,
-                        value == nullptr ? "nothing" : pascals(m->carried), who, pascals(m->behind));
+                        !loaded ? "nothing" : pascals(m->carried), who, pascals(m->behind));
   const double ratio =
       m->carried > 0.0 && m->behind > 0.0 ? std::max(m->carried / m->behind, m->behind / m->carried) : 1e3;
   remarks.push_back(
       {off > kFar ? Rank::wrong : Rank::doubtful, std::max(1.0, ratio),
        place.fault(
            fmt::format("{}: the first step, 0, has to take up {:.0f} % of that pressure", seen, 100.0 * off)),
-       remedy_of(*m, boundary, value != nullptr)});
+       remedy_of(*m, boundary, loaded)});
 }
 
 }  // namespace
 
 void loads_at_start(const Scene& scene, Remarks& remarks) {
   const auto held = held_nodes(scene.problem());
-  for (const auto& [name, edges] : scene.mesh().boundaries) look_at(scene, name, held, remarks);
-  look_at(scene, "", held, remarks);
+  const Edges all(scene.problem());
+  for (const auto& [name, edges] : scene.mesh().boundaries) look_at(scene, name, all, held, remarks);
+  look_at(scene, "", all, held, remarks);
 }
 
 }  // namespace polargrain::app

@@ -29,6 +29,23 @@ double largest_load_step(const Scene& scene) {
   return largest;
 }
 
+/// Movements that leave the grains where they rest; loads would have to change for more.
+void of_nothing(const Scene& scene, const SceneRegion& region, double elastic, Remarks& remarks) {
+  constexpr double kLeastOfElastic = 0.01;  // elastic strains of the packing in the whole run
+  const double whole = scene.strain_of_run();
+  const bool only_moved = scene.end_time().has_value() && largest_load_step(scene) == 0.0 &&
+                          scene.problem().body_loads.empty() && scene.problem().node_loads.empty();
+  if (!only_moved || whole <= 0.0 || whole >= kLeastOfElastic * elastic) return;
+  remarks.push_back(
+      {Rank::doubtful, kLeastOfElastic * elastic / whole,
+       scene.place({"boundary"})
+           .fault(fmt::format(
+               "boundary: all movements strain the body by {:.2g}, {:.2g} elastic strains of the packing of '{}' ({:.2g}): its "
+               "stress changes by less than grains answer to",
+               whole, whole / elastic, region.material, elastic)),
+       "check the unit of the movement"});
+}
+
 void of_cells(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
   const double strain = scene.strain_of_step();
   const double elastic = region.packing != nullptr ? region.packing->elastic_strain() : 0.0;
@@ -41,6 +58,7 @@ void of_cells(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
                  "between two rows, and iterations fail",
                  strain, strain / elastic, region.material, elastic)),
          fmt::format("count: {:.0f} or more", std::ceil(scene.the_case().steps() * strain / elastic))});
+  if (elastic > 0.0) of_nothing(scene, region, elastic, remarks);
   const double pressure = Scene::pressure_of(region);
   const double load = largest_load_step(scene);
   if (pressure > 0.0 && load > kMostOfLoad * pressure)
@@ -53,9 +71,27 @@ void of_cells(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
          "more steps (count), so that a step changes a load by a tenth of that pressure"});
 }
 
+/// A law that yields is led along its way: the end alone is not the way.
+void of_one_step(const Scene& scene, Remarks& remarks) {
+  if (scene.the_case().steps() > 1) return;
+  for (const SceneRegion& region : scene.regions()) {
+    if (region.cell != nullptr || !is_strong(scene, region)) continue;
+    remarks.push_back(
+        {Rank::doubtful, 1.0,
+         scene.place({"steps", "count"})
+             .fault(
+                 fmt::format("steps: 1 for all loads, and material '{}' yields: the curve has one point, and "
+                             "what happens on the way to it is not seen",
+                             region.material)),
+         "count: 10 or more"});
+    return;
+  }
+}
+
 }  // namespace
 
 void steps_of_strain(const Scene& scene, Remarks& remarks) {
+  of_one_step(scene, remarks);
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell != nullptr) {
       of_cells(scene, region, remarks);

@@ -14,10 +14,16 @@ struct Bound {
   const char* remedy;
 };
 
+constexpr const char* kOutOfBalance =
+    "of the forces may be out of balance at the end of a step, and what a monitor reads is off by as much";
+constexpr const char* kBalanceOfSteps =
+    "1e-2 for cells, 1e-3 and less for laws; where a step fails, its advice says why";
+/// Grains answer with noise, laws do not.
+constexpr Bound kOfBoxes = {"tolerance", 0.05, kOutOfBalance, kBalanceOfSteps};
+constexpr Bound kOfLaws = {"tolerance", 0.02, kOutOfBalance, kBalanceOfSteps};
+
 constexpr Bound kOfSteps[] = {
-    {"tolerance", 0.05,
-     "of the forces may be out of balance at the end of a step, and what a monitor reads is off by as much",
-     "1e-2 for cells, 1e-3 and less for laws; where a step fails, its advice says why"},
+    {"noise", 10.0, "times the noise of the stresses may be out of balance at the end of a step", "2"},
     {"moment_tolerance", 0.1, "of the moments may be out of balance at the end of a step", "as 'tolerance'"},
     {"jump_residual", 0.2, "of the forces may be out of balance where a jump is passed", "0.05"},
     {"largest_strain", 2.0, "of strain may be asked for in one correction", "0.05 for cells, 1 for laws"}};
@@ -28,6 +34,7 @@ constexpr Bound kOfMaterials[] = {
      "6e-4, at most 2e-3; where a step fails, more steps help, not a higher rate"},
     {"unbalanced_force_ratio", 0.05, "of a contact force may be out of balance at read-out", "5e-3"},
     {"unbalanced_moment_ratio", 0.05, "of a contact force may be out of balance at read-out", "5e-3"},
+    {"damping", 0.5, "of the critical damping: grains creep to where they rest", "0.12"},
     {"tolerance", 0.2, "of the pressure may the stress of a point be off", "1 to 5 %"}};
 
 void look_at(const Scene& scene, const Scene::Path& section, const Bound& bound, Remarks& remarks) {
@@ -45,6 +52,7 @@ void look_at(const Scene& scene, const Scene::Path& section, const Bound& bound,
 }  // namespace
 
 void tolerances(const Scene& scene, Remarks& remarks) {
+  look_at(scene, {"steps"}, scene.has_cells() ? kOfBoxes : kOfLaws, remarks);
   for (const Bound& bound : kOfSteps) look_at(scene, {"steps"}, bound, remarks);
   for (const auto& [name, material] : scene.the_case().materials)
     if (material->needs_workers())

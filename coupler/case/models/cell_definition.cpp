@@ -130,7 +130,8 @@ CosseratChoice read_cosserat_choice(Section& section, const CellDefinition& defi
     choice.plastic_length = read_limit(section, "lp", Dimension::length, Limit::positive);
   choice.skew_limit = read_limit(section, "skew_limit", Dimension::number, Limit::not_negative);
   // Nor has it skew stress: nothing is worth finding out.
-  if (!files.cosserat) choice.skew_limit.none = choice.plastic_length.none = true;
+  choice.has_rotations = files.cosserat;
+  if (!files.cosserat) choice.skew_limit = choice.plastic_length = {.none = true};
   return choice;
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Weight from time zero on ground that has no stress to carry it: step 0 makes it, and movements count from before.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
+
+namespace polargrain::app {
+namespace {
+
+double weight_on(const Scene& scene, const SceneRegion& region) {
+  double weight = 0.0;
+  for (const fem::BodyLoad& load : scene.problem().body_loads)
+    if (load.region.empty() || load.region == region.name)
+      weight -= load.factor.at(0.0) * load.density(scene.body().least).y();
+  return weight;
+}
+
+}  // namespace
+
+void weight_at_once(const Scene& scene, Remarks& remarks) {
+  const auto& monitors = scene.the_case().monitors;
+  const auto reads =
+      std::ranges::find(monitors, coupler::Monitor::Kind::displacement, &coupler::Monitor::kind);
+  for (const SceneRegion& region : scene.regions()) {
+    if (region.cell != nullptr || region.elements.empty() || !is_strong(scene, region)) continue;
+    const double weight = weight_on(scene, region);
+    const int node = scene.mesh().elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
+    if (weight <= 0.0 ||
+        scene.initial_stress(region, scene.mesh().nodes[static_cast<std::size_t>(node)]).has_value())
+      continue;
+    remarks.push_back(
+        {Rank::doubtful, 1.0,
+         scene.place({"body"}).fault(fmt::format(
+             "body: {:.4g} kN/m3 act on region '{}' from time zero, and it has no stress then: step 0 takes up all of the "
+             "weight at once{}",
+             1e-3 * weight, region.name,
+             reads == monitors.end()
+                 ? std::string()
+                 : fmt::format(", and monitor '{}' counts what it moves by that", reads->name))),
+         "level ground: initial_stress: [{surface: HEIGHT, unit_weight: ..., K0: ...}]; else let the weight grow over "
+         "steps, factor: [[0, 0], [1, 1]]"});
+    return;
+  }
+}
+
+}  // namespace polargrain::app
