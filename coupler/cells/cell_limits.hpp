@@ -29,12 +29,12 @@ struct CellLimits {
 [[nodiscard]] double couple_weight(double friction, double internal_length, double limit);
 
 /// Friction and the limit of skew stress alone, of grains whose rotations are controlled or turned: there is no bending, and
-/// `couple` is 0. Never throws for what the grains do: a path ends where it cannot be followed, and a limit may be 0.
+/// `couple` is 0. Never throws for behaviour of the grains: a path ends where it cannot be followed, and a limit may be 0.
 /// @param packing at rest
 CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing);
 
 /// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
-/// @throws RunError where a path cannot be followed or a limit is none
+/// @throws RunError where a path cannot be followed or a limit cannot be found
 CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter);
 
 }  // namespace polargrain::coupler
