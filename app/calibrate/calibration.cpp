@@ -252,7 +252,7 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
                fmt::format("parameter '{}': {}: {}", member.key, test.cells.front().script_file, fault)});
     break;
   }
-  const Entry* const targets = top.require("targets", "a list of what the tests are to give");
+  const Entry* const targets = top.require("targets", "a list of target values of the tests");
   if (targets != nullptr && faults.empty())
     for (std::size_t k = 0; k < targets->items.size(); ++k)
       read_target(targets->items[k], k + 1, table, calibration, faults);

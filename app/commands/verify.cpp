@@ -80,7 +80,7 @@ bool check_summary(const Summary& summary, Findings& findings) {
   const std::string recorded = word_at(summary, "/proof/summary");
   if (recorded.empty()) {
     findings.note(
-        "summary.json is of an older version: what it says, and some of the files, are under no proof");
+        "summary.json is of an older version: its figures and some of the files are under no proof");
     return false;
   }
   recorded == name_of_summary(summary) ? findings.agrees("summary.json")

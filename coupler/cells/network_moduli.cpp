@@ -65,7 +65,8 @@ std::string resolve_limits(const CosseratChoice& choice, Pool& pool, const CellD
   if (choice.skew_limit.is_open()) {
     parameters.skew_limit = limits.skew;
     note += fmt::format(" skew stress {:.4g} times the pressure", limits.skew);
-    if (!(limits.skew > 0.0)) note += " (its grains bear none: the micro-rotation is held numerically)";
+    if (!(limits.skew > 0.0))
+      note += " (its grains bear no skew stress: the micro-rotation is held numerically)";
   }
   if (choice.plastic_length.is_open()) {
     parameters.plastic_length = std::sqrt(2.0 / 3.0) * limits.friction * parameters.internal_length;

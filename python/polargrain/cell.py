@@ -62,7 +62,7 @@ class Answer:
 
 
 def diagnostics():
-    """What `Answer.diagnostics` holds: {name: (unit, meaning)}."""
+    """The fields of `Answer.diagnostics`: {name: (unit, meaning)}."""
     return _cells.diagnostics_notes()
 
 
@@ -148,7 +148,7 @@ class Cell:
 
     @property
     def answer(self):
-        """The Answer of the last step; that of the packing at rest before the first; None once a state was given."""
+        """The Answer of the last step; before the first step, the one at rest; None once a state was given."""
         with self._lock:
             if self._answer is None and self._state is None:
                 return self.at_rest

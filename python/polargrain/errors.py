@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What goes wrong, as exceptions with the words of the program."""
+"""Errors, as exceptions with the words of the program."""
 
 
 class InputError(ValueError):

@@ -102,7 +102,7 @@ TEST_F(StoppedRun, ACheckpointOfAnotherCaseIsRefusedWithWhatDiffers) {
             "out/checkpoint.h5: this checkpoint is of another case than case.yaml:\n"
             "  materials.sand.Gc: was '10 MPa', is '11 MPa'\n"
             "  steps.count: was '10', is '20'\n"
-            "put back what differs, or run without --resume\n");
+            "undo these changes, or run without --resume\n");
   write(scratch_.path() / "fake.in", "sleep_milliseconds 5\n");
   const Outcome script = polargrain("run case.yaml -o out --resume --set continuum=cosserat");
   EXPECT_EQ(script.status, 2);
@@ -110,7 +110,7 @@ TEST_F(StoppedRun, ACheckpointOfAnotherCaseIsRefusedWithWhatDiffers) {
             "out/checkpoint.h5: this checkpoint is of another case than case.yaml:\n"
             "  continuum: was not given, is 'cosserat'\n"
             "  materials.sand.script: the file 'fake.in' has another content\n"
-            "put back what differs, or run without --resume\n");
+            "undo these changes, or run without --resume\n");
   // Nothing was touched by what was refused.
   EXPECT_EQ(result("out/history.csv"), history);
   write(scratch_.path() / "fake.in", "sleep_milliseconds 4\n");

@@ -84,7 +84,7 @@ TEST_F(Specification, TellsWhatEachAxisCarries) {
             ":9: packing: one_dimensional_from: must be less than the pressure");
   EXPECT_EQ(
       fault("pressure: 100 kPa", "pressure: [1 kPa, 2 kPa]\none_dimensional_from: 1 kPa"),
-      ":7: packing: one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the "
+      ":7: packing: one_dimensional_from: the lateral stresses follow from it; give one pressure, for the "
       "last axis");
 }
 

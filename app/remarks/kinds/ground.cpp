@@ -72,8 +72,8 @@ void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
        item.find("surface")->fault(fmt::format(
            "initial_stress: the surface is at {:.4g} m, and the highest point of the mesh at {:.4g} m: {}",
            *surface, scene.body().largest.y(),
-           over > 0.0 ? "the mesh begins under ground that nothing stands for"
-                      : "what lies above it is in tension")),
+           over > 0.0 ? "the mesh begins below ground that no surcharge replaces"
+                      : "the ground above it is in tension")),
        "give the height of the mesh's surface; for ground above it a surcharge"});
 }
 

@@ -134,7 +134,7 @@ void plain_loads(const Scene& scene, Remarks& remarks) {
          entry->fault(fmt::format(
              "boundary: pressure on '{}': '{}' has no unit and is {:g} Pa, {:.2g} % of the stresses of this case ({:.4g} kPa)",
              load.on, entry->text, value, 100.0 * value / scale, 1e-3 * scale)),
-         fmt::format("write '{0} kPa', or '{0} Pa' if that is what it is", entry->text)});
+         fmt::format("write '{0} kPa', or '{0} Pa' if it is in Pa", entry->text)});
   }
 }
 

@@ -16,7 +16,7 @@ struct Bound {
 
 constexpr Bound kOfSteps[] = {
     {"tolerance", 0.05,
-     "of the forces may be out of balance at the end of a step, and what a monitor reads is off by as much",
+     "of the forces may be out of balance at the end of a step, and a monitor is off by as much",
      "1e-2 for cells, 1e-3 and less for laws; where a step fails, its advice says why"},
     {"moment_tolerance", 0.1, "of the moments may be out of balance at the end of a step", "as 'tolerance'"},
     {"jump_residual", 0.2, "of the forces may be out of balance where a jump is passed", "0.05"},
