@@ -33,7 +33,7 @@ constexpr int kSpace = 2;  // with the heights of the grains
 /// Values of PackingReached in files of before stress and fabric were among them.
 constexpr std::size_t kReachedBefore = 10;
 
-/// What a file consists of: named arrays of bytes or doubles, and their hash.
+/// The content of a file: named arrays of bytes or doubles, and their hash.
 struct Content {
   std::string specification;
   /// Columns are base vectors, one after the other; then the thickness and, in space, the lean (files of

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::set<std::string>;
 
-/// What a cell needs and what can do nothing else. Those whose words decide what happens are looked at below.
+/// The commands that a cell needs and that can do nothing else. Those whose words decide what happens are looked at below.
 const Words kAllowed{
     "atom_modify",    "atom_style",     "boundary",   "communicate",   "dimension",    "echo",     "fix",
     "group",          "hard_particles", "if",         "mass",          "neigh_modify", "neighbor", "newton",
@@ -83,7 +83,7 @@ const Words kRegions{"block",  "cone",  "cylinder", "plane",     "prism",
                      "sphere", "wedge", "union",    "intersect", "delete"};
 const Words kVariables{"index", "loop", "string", "equal", "atom", "delete"};
 
-/// What makes loops and jumps.
+/// The commands that make loops and jumps.
 const Words kFlow{"jump", "label", "next"};
 
 constexpr const char* kAdvice = "; remove it, or say --trust-scripts when you know what this script does";

@@ -24,7 +24,7 @@
 namespace polargrain::app {
 namespace {
 
-/// What is said, and whether all of it is good.
+/// The findings, and whether all of them are good.
 class Findings {
  public:
   void agrees(const std::string& what) { tell(stdout, "  agrees    {}\n", what); }

@@ -113,7 +113,7 @@ double Scene::strain_of_step() const {
   for (const fem::PrescribedDof& item : problem().prescribed) {
     if (item.dof == fem::Dof::w) continue;
     const double movement = end ? std::abs(item.value.at(*end)) : item.value.largest_magnitude();
-    // What moves along 1 shears the height or shortens the width.
+    // A movement along 1 shears the height or shortens the width.
     const double side = item.dof == fem::Dof::u2 ? body_.size().y() : body_.smaller_side();
     largest = std::max(largest, movement / side);
   }

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the summary says of its monitors; empty where it is not there or of another form.
+/// The monitors as the summary has them; empty where it is not there or of another form.
 Json monitors_of(const RunResult& result) {
   if (!result.summary.is_object()) return Json::object();
   const auto found = result.summary.find("monitors");
@@ -28,7 +28,7 @@ bool is_in_table(const Json& note) {
   return found != note.end() && found->is_boolean() && found->get<bool>();
 }
 
-/// What every run has, whatever its case.
+/// The values that every run has, whatever its case.
 bool is_built_in(const std::string& name) {
   return name == "volume_strain" || name == "external_work" || name == "internal_work";
 }

@@ -12,7 +12,7 @@ struct Kind {
   const char* meaning;
 };
 
-/// What is said where: run.cpp, run_observer.cpp, and what materials and workers tell.
+/// The notes come from run.cpp, run_observer.cpp, materials and workers.
 constexpr Kind kKinds[] = {
     {"within the noise of the stresses", NoteWeight::look,
      "The step is as well balanced as the noise of the cells' stresses lets it be, but not to the tolerance asked for. Results "

@@ -54,7 +54,7 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh& mesh) {
                      fmt::join(nodes, "; "));
 }
 
-/// What a cell, or a law, says of a point, in the words of the fields of the result.
+/// The values of a cell or a law at a point, in the words of the fields of the result.
 std::string words_of(const fem::Solver& solver, fem::MaterialValues& values, std::size_t point) {
   const Vector7& stress = solver.state().responses[point].stress;
   Lines words{fmt::format("p {:.3g} kPa", -0.5e-3 * (stress(k11) + stress(k22)))};

@@ -146,7 +146,7 @@ class Builder : public YAML::EventHandler {
   std::size_t entries_ = 0;
 };
 
-/// What people write by habit and YAML does not take.
+/// Advice on habits of writing that YAML does not take.
 std::string advice_on_line(const std::string& text, int line) {
   std::istringstream in(text);
   std::string found;

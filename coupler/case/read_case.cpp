@@ -290,7 +290,7 @@ class CaseReader {
                                   "set 'continuum: cauchy', give Gc, or fix w"));
   }
 
-  /// What the finite elements have to say about the whole.
+  /// The faults that the finite elements find in the whole.
   void check_whole() {
     for (const std::string& message : fem::faults(case_.problem)) {
       faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));

@@ -59,7 +59,7 @@ bool has_decimal_comma(const std::string& text) {
 
 namespace {
 
-/// What others call keys of a case: nearer by meaning than any other key is by its letters.
+/// Names that others use for keys of a case: nearer by meaning than any other key is by its letters.
 struct OtherName {
   const char* word;
   const char* key;

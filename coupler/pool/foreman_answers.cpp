@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the foreman does with answers, and who is to blame for what does not come to one.
+// The foreman's treatment of answers, and who is to blame for a task without one.
 #include <fmt/format.h>
 
 #include <algorithm>

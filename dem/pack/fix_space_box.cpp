@@ -34,7 +34,7 @@ int FixSpaceBox::setmask() {
 }
 
 void FixSpaceBox::init() {
-  // What the engine does for fix deform with `remap v`, which it knows by name only.
+  // As the engine does for fix deform with `remap v`, which it knows by name only.
   domain->deform_vremap = 1;
   domain->deform_groupbit = groupbit;
   atom->avec->init();

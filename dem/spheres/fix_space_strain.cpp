@@ -38,7 +38,7 @@ int FixSpaceStrain::setmask() {
 }
 
 void FixSpaceStrain::init() {
-  // What Domain::init does for fix deform with `remap v`, which it knows by name only.
+  // As Domain::init does for fix deform with `remap v`, which it knows by name only.
   domain->deform_vremap = 1;
   domain->deform_groupbit = groupbit;
   atom->avec->init();

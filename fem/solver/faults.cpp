@@ -127,7 +127,7 @@ GivenValues check_prescribed_once(const Problem& problem, Messages& messages) {
   return first;
 }
 
-/// What holds one side of a tie has to hold the other alike.
+/// A support of one side of a tie must hold the other alike.
 void check_ties(const Problem& problem, const GivenValues& given, Messages& messages) {
   const Mesh& mesh = problem.mesh;
   const auto item_at = [&](int node, Dof dof) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is out of balance at time zero, and the displacement that step 0 makes of it.
+// The imbalance at time zero, and the displacement that step 0 makes of it.
 #include <fmt/format.h>
 
 #include <algorithm>
