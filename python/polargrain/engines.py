@@ -33,7 +33,7 @@ class Engines:
         self._cells.close()
 
     def counts(self):
-        """What cells have cost since the workers were started last: evaluations, dem_steps, workers_lost, engine_seconds
+        """The costs of cells since the workers were started last: evaluations, dem_steps, workers_lost, engine_seconds
         (s, summed over the workers), as a dict."""
         return self._cells.counts()
 

@@ -3,7 +3,7 @@
 
 
 class InputError(ValueError):
-    """What was given is wrong; no grain has moved and nothing was written.
+    """The input is wrong; no grain has moved and nothing was written.
 
     faults -- all of them, each as (file, line, message); the line is 0 where the whole file, or no file, is meant
     """

@@ -93,7 +93,7 @@ TEST_F(StoppedRun, ACheckpointOfAnotherCaseIsRefusedWithWhatDiffers) {
   EXPECT_EQ(stop_behind(1, SIGTERM), 3);
   const std::string history = result("out/history.csv");
   const std::string case_text = result("case.yaml");
-  // What does not matter may change: title, comments.
+  // Title and comments may change.
   write(scratch_.path() / "case.yaml", "# a comment\n" + case_text);
   const Outcome settings =
       polargrain("run case.yaml -o out --resume --set steps.count=20 --set materials.sand.Gc='11 MPa'");
@@ -144,7 +144,7 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
   write(before, "damaged too");
   advice = "run without --resume\n";
   expect_refused("", cut);
-  // What the advice says brings the whole run.
+  // The command of the advice brings the whole run.
   write(before, good_before);
   std::filesystem::rename(before, file);
   EXPECT_EQ(polargrain("run case.yaml -o out --resume --quiet").status, 0);

@@ -50,7 +50,7 @@ class LiarsTest : public ::testing::TestWithParam<const char*> {
   std::string told_;
 };
 
-/// What the guest is told and the user reads.
+/// The messages to the guest and to the user.
 const std::map<std::string, std::string>& causes() {
   static const std::map<std::string, std::string> kCauses{
       {"short", "a state has 100 bytes instead of 48"},

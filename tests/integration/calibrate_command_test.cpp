@@ -239,7 +239,7 @@ TEST_F(Calibrate, PackingsAreBroughtToTheirVoidRatio) {
   const std::string packing = "packing: {specification: loose.yaml, seeds: [3, 4]}\nvoid_ratio: ";
   const std::string rest =
       "\nscript: cell.in\ntest: biaxial\npressure: 100 kPa\naxial_strain: 1 %\nrows: 5\n";
-  // What is wrong with the rest of it is found before a packing is made.
+  // A fault in the rest of it is found before a packing is made.
   write(scratch.path() / "test.yaml", packing + "0.62" + rest + "drained: yes\n");
   EXPECT_EQ(run("element test.yaml -o made").status, 2);
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "packings"));

@@ -222,7 +222,7 @@ TEST(QuestionsAndAnswers, TellWhatTheProgramSays) {
         << "no mistake is told of like this: " << cells[row];
 }
 
-/// What was refused once, or looks like a mistake, and is none.
+/// Input that was refused once, or looks like a mistake, and is right.
 class NoMistakeTest : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(NoMistakeTest, IsTaken) {

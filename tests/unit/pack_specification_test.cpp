@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `polargrain pack` says about wrong specifications: file, line, what was expected.
+// Messages of `polargrain pack` on wrong specifications: file, line, the value expected.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
