@@ -232,9 +232,10 @@ TEST_F(Calibrate, TheBestMayBeOneOfTheDerivatives) {
 
 TEST_F(Calibrate, PackingsAreBroughtToTheirVoidRatio) {
   make_laboratory();
-  write(scratch.path() / "loose.yaml",
-        "grains: 9\nsizes: {law: uniform, radius: [1 m, 2 m]}\ndensity: 1000\nthickness: 1 m\nscript: loose.in\n"
-        "pressure: 10 kPa\nfriction: 0.5\nseed: 1\n");
+  write(
+      scratch.path() / "loose.yaml",
+      "grains: 9\nsizes: {law: uniform, radius: [1 m, 2 m]}\ndensity: 1000\nthickness: 1 m\nscript: loose.in\n"
+      "pressure: 10 kPa\nfriction: 0.5\nseed: 1\n");
   write(scratch.path() / "loose.in", "variable friction index 0.5\nyoung ${friction}\n");
   const std::string packing = "packing: {specification: loose.yaml, seeds: [3, 4]}\nvoid_ratio: ";
   const std::string rest =
