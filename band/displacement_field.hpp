@@ -18,7 +18,7 @@ struct FieldUnits {
 /// Displacements of the places of a body, as image correlation gives them.
 struct DisplacementField {
   std::vector<Eigen::Vector2d> positions;      ///< in the reference image, m, each once
-  std::vector<Eigen::Vector2d> displacements;  ///< m; both not-a-number where the correlation found none
+  std::vector<Eigen::Vector2d> displacements;  ///< m; both NaN where the correlation found no displacement
   std::size_t missing = 0;                     ///< places without a displacement
 };
 
@@ -27,7 +27,7 @@ struct DisplacementField {
 /// @throws InputError naming file and line: of a column or number that is not there, of a place that stands there twice
 DisplacementField read_displacement_field(const std::filesystem::path& file, const FieldUnits& units);
 
-/// What happened between two fields over the same reference image, whose rows may be in any order.
+/// The change between two fields over the same reference image, whose rows may be in any order.
 struct FieldIncrement {
   std::vector<Eigen::Vector2d> positions;      ///< m, of the places that have both displacements
   std::vector<Eigen::Vector2d> before;         ///< displacements at the beginning, m

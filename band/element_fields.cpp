@@ -11,7 +11,7 @@
 namespace polargrain::band {
 namespace {
 
-/// What is known of the nodes of an element, a row a node.
+/// The values at the nodes of an element, a row a node.
 struct Nodes {
   Eigen::MatrixX2d places;
   Eigen::MatrixX2d displacements;

@@ -10,7 +10,7 @@
 
 namespace polargrain::band {
 
-/// What is known of every place of a body at one time.
+/// All places of a body at one time.
 struct Frame {
   std::vector<Eigen::Vector2d>
       positions;  ///< of grains: where they are; of elements: of their points, undeformed, m
@@ -20,7 +20,7 @@ struct Frame {
   std::vector<double> rotations;         ///< since the start, rad
 };
 
-/// step -> file, of the files step-NUMBER with an extension; none where there is no such folder.
+/// step -> file, of the files step-NUMBER with an extension; empty where there is no such folder.
 std::map<long, std::filesystem::path> frame_files(const std::filesystem::path& folder,
                                                   const std::string& extension);
 
@@ -54,7 +54,7 @@ class Frames {
   [[nodiscard]] const std::vector<double>& axial_strains() const { return axial_strains_; }
   /// The frame nearest to an axial strain.
   [[nodiscard]] std::size_t nearest(double axial_strain) const;
-  /// What happened between two frames. Places stand where they were at the start of the test.
+  /// The change between two frames. Places stand where they were at the start of the test.
   /// @param current stand where they are at frame `from` instead
   [[nodiscard]] Samples increment(std::size_t from, std::size_t to, bool current) const;
   [[nodiscard]] FrameKind kind() const { return kind_; }

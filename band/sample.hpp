@@ -6,7 +6,7 @@
 
 namespace polargrain::band {
 
-/// What one place of a body did in an increment: a grain, or a finite element.
+/// The change at one place of a body in an increment: a grain, or a finite element.
 struct Sample {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
   double area = 0.0;                                   ///< that the place stands for, m^2, > 0

@@ -27,7 +27,7 @@ struct BandOptions {
   double contrast = 2.0;
 };
 
-/// A band, or the reason why there is none.
+/// A band, or the reason why there is no band.
 struct BandSearch {
   std::optional<Band> band;
   std::string reason;  ///< empty when there is a band

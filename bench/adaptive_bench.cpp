@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the decisions of an adaptive material cost: microseconds a point and evaluation, over cells that
+// The cost of the decisions of an adaptive material: microseconds a point and evaluation, over cells that
 // answer at once.
 //
 //   build/release/bench/adaptive_bench        seconds

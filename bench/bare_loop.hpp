@@ -53,7 +53,7 @@ class BareLoop {
     double x, y, vx, vy;
   };
 
-  /// @param gxx, gyy what the step adds to the strain rate; @param rate_x, rate_y of the lengths, m/s
+  /// @param gxx, gyy added to the strain rate by the step; @param rate_x, rate_y of the lengths, m/s
   void begin_step(double gxx, double gyy, double rate_x, double rate_y);
   template <bool Advance, bool Record>
   void forces();

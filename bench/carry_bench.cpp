@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What carrying an answer of a cell along its tangent misses (docs/adaptivity.md, 2): the demonstration's
+// The error of carrying an answer of a cell along its tangent (docs/adaptivity.md, 2): the demonstration's
 // packing along a biaxial path in increments of 1e-3, and from several places on it the cell run over an
 // offset against the answer that is carried there; how the settings of the cell change that; and the scatter
 // of its answers. Shares of the confining pressure.

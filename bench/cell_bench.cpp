@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What an evaluation of a cell costs and what error it makes, over eight packings of 400 discs: accuracy over cost
-// on an isochoric path before the peak, the bias of rate and tolerance at the peak and in softening, and what an
-// evaluation costs besides its steps. Processor time.
+// Cost and error of an evaluation of a cell, over eight packings of 400 discs: accuracy over cost
+// on an isochoric path before the peak, the bias of rate and tolerance at the peak and in softening, and the cost of an
+// evaluation besides its steps. Processor time.
 //
 //   build/release/bench/cell_bench > cell.log      from the root of the project; the tables go to standard error
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ Settings settings(double inertial_number, double damping, double tolerance, cons
   return made;
 }
 
-/// What was usual when discs weighed 142 times too much, in today's units: LIGGGHTS's own loop at a tenth of the
+/// The usual settings when discs weighed 142 times too much, in today's units: LIGGGHTS's own loop at a tenth of the
 /// stable time step.
 Settings yardstick() {
   Settings made = settings(2.4e-3, 0.24, 5e-3, "yardstick");

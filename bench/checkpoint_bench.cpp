@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a checkpoint costs: seconds and bytes for many cells, and the memory of the coordinator for each.
+// The cost of a checkpoint: seconds and bytes for many cells, and the memory of the coordinator for each.
 //
 //     checkpoint_bench [CELLS [BYTES_OF_A_STATE [DIRECTORY]]]      512 cells of 104064 bytes (400 discs)
 #include <fmt/format.h>

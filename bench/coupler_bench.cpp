@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a cell evaluation costs outside the engine: packing and unpacking its messages.
+// The cost of a cell evaluation outside the engine: packing and unpacking its messages.
 #include <benchmark/benchmark.h>
 
 #include "coupler/protocol/messages.hpp"

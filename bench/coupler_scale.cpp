@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the coordinator costs when there are many cells and many workers: simulated workers answer with a
+// The cost of the coordinator with many cells and many workers: simulated workers answer with a
 // state of the size asked for after they have slept for a while, so that everything measured is messages,
 // states and bookkeeping. A step is as Newton's method makes it: every cell is evaluated some times, then the
 // last states are collected.

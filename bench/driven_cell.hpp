@@ -47,7 +47,7 @@ class DrivenCell {
     return (Eigen::Matrix2d() << strain(0), strain(2), strain(2), strain(1)).finished();
   }
 
-  /// What the cell answers to a strain from where it is; it stays there.
+  /// The answer of the cell to a strain from where it is; it stays there.
   coupler::PlaneReply answer(const Vector& strain) {
     coupler::PlaneRequest request;
     request.state = at_.state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a cell of spheres costs: the packing of cases/spheres (1,000 spheres) along triaxial compression at constant
+// The cost of a cell of spheres: the packing of cases/spheres (1,000 spheres) along triaxial compression at constant
 // volume, in increments of 1e-3, with several contact models, in processor time; and its condensed tangent.
 //
 //   build/release/bench/sphere_bench        2> figures, from the root of the project; a minute

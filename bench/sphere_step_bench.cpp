@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a step of one sphere costs, side by side in one run: a clean scalar loop of the same physics
+// The cost of a step of one sphere, side by side in one run: a clean scalar loop of the same physics
 // (clean_sphere_loop.hpp), the loop over spheres that cells run with each instruction set of this processor, its plain
 // twin, and the engine's general loop. Processor time, best of several rounds, the variants taking turns, because the
 // machine is not alone.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a step of one disc costs, side by side in one run: a bare loop of the same physics (bare_loop.hpp),
+// The cost of a step of one disc, side by side in one run: a bare loop of the same physics (bare_loop.hpp),
 // the loop over discs that cells run, its plain twin, the engine's general loop, and the stock programs
 // `liggghts` and `lmp` where they are installed. Processor time, best of several rounds, the variants taking
 // turns, because the machine is not alone.

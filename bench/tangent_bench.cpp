@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the condensed tangent of 400 and 1600 grains costs (the packing of cases/biaxial and four copies of
+// The cost of the condensed tangent of 400 and 1600 grains (the packing of cases/biaxial and four copies of
 // it, a tenth of the contacts sliding, a tenth at the rolling limit), in processor time: by fronts with each
 // instruction set, the plain way, and two yardsticks that solve the same equations: UMFPACK, and Eigen's LDLT
 // of a network without sliding.

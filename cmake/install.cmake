@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What `cmake --install` adds to the programs: documentation, and the CMake package with which a contact law of the
+# Files that `cmake --install` adds to the programs: documentation, and the CMake package with which a contact law of the
 # user's own is built (docs/own_contact_law). Such a law needs headers only: the program that loads it has the rest.
 include(CMakePackageConfigHelpers)
 

@@ -11,7 +11,7 @@ version=$("$program" --version | sed 's/^[^ ]* //')
 rm -rf "$folder"
 mkdir -p "$folder"
 
-# What groff would take for a request or a hyphen stands for itself.
+# Text that groff would take for a request or a hyphen stands for itself.
 safe() { sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; }
 heading() { echo ".SH $1"; }
 as_it_stands() { echo .nf; safe; echo .fi; }

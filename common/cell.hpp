@@ -18,11 +18,11 @@ namespace polargrain {
 /// Which tangent a cell returns with its stress: affine motion of the grains (cheap, far too stiff once
 /// contacts slide), or the contact network condensed onto its own equilibrium (one sparse factorisation).
 /// `cosserat`: the condensed one with the mean rotation of the grains prescribed, also where their rotations are
-/// free: what the network would answer to a skew strain and a curvature.
+/// free: the answer of the network to a skew strain and a curvature.
 enum class CellTangent { none, voigt, condensed, cosserat };
 
-/// What is prescribed of the rotations of the grains (docs/theory.md, C.6): nothing, so that the stress is
-/// symmetric (mode 1), or their mean, so that the cell also answers to the micro-rotation with a skew stress
+/// The condition on the rotations of the grains (docs/theory.md, C.6): free, so that the stress is
+/// symmetric (mode 1), or their mean prescribed, so that the cell also answers to the micro-rotation with a skew stress
 /// (mode 2).
 enum class CellRotations { free, controlled };
 
@@ -86,7 +86,7 @@ struct CellDefinition {
   Packing packing;
   CellControl control;
   ContactLibraryFile contact_library =
-      {};  ///< on every worker's machine; none: the laws of this project are enough
+      {};  ///< on every worker's machine; empty: the laws of this project are enough
 };
 
 template <RecordOf<CellDefinition> Record, class Visit>
@@ -107,10 +107,10 @@ struct CellRequest {
 };
 
 /// Version of the folders that write_replay makes; `fix cell/load` reads it and 1, whose increments are those of the
-/// plane. Raised with every change of what stands in them.
+/// plane. Raised with every change of their content.
 inline constexpr int kReplayVersion = 2;
 
-/// Diagnostics of a cell at read-out: what each field means is said in its description below, once.
+/// Diagnostics of a cell at read-out: the meaning of each field is given in its description below, once.
 struct CellDiagnostics {
   double unbalanced_force_ratio = 0.0;
   double unbalanced_moment_ratio = 0.0;
@@ -175,7 +175,7 @@ void describe(Record& reply, Visit&& visit) {
   visit(FieldNotes{"state", "", "state after the increment"}, reply.state);
 }
 
-/// One engine that stands in for the cells of one definition. What it answers depends on its arguments alone,
+/// One engine that stands in for the cells of one definition. Its answer depends on its arguments alone,
 /// to the bit, so any engine made from an equal definition may take any request.
 class CellService {
  public:

@@ -6,8 +6,8 @@
 
 namespace polargrain {
 
-/// What a cell of grains is led along, in space: the change over a load step of what its point feels, about the
-/// start of the step (docs/theory/continuum.md, A.7). What finite elements of the plane know of it is put here in
+/// The increment of a cell of grains in space: the change over a load step at its point, about the
+/// start of the step (docs/theory/continuum.md, A.7). The components known to finite elements of the plane are put here in
 /// one place (common/plane_in_space.hpp).
 struct CellIncrement {
   /// h(i,j) = d u_i / d x_j, dimensionless.

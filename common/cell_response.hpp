@@ -26,15 +26,15 @@ constexpr Choices choices_of(KnownComponents) {
 /// Places of the components KnownComponents::plane among the eighteen.
 inline constexpr std::array<int, 6> kPlanePlaces{0, 1, 3, 4, 11, 14};
 
-/// What a cell answers, in space and in the laboratory (docs/theory/continuum.md, A.7). What it cannot tell is zero,
-/// and does not travel.
+/// The answer of a cell, in space and in the laboratory (docs/theory/continuum.md, A.7). Components it cannot tell are zero,
+/// and do not travel.
 struct CellResponse : Trust {
   /// stress(i,j), Pa: i the normal of the face, j the direction of the force, tension positive.
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   /// couple_stress(i,j), N/m: i the normal of the face, j the axis of the moment.
   Eigen::Matrix3d couple_stress = Eigen::Matrix3d::Zero();
-  /// d stress / d strain. Rows: s11 s12 s13 s21 s22 s23 s31 s32 s33, then m11 to m33 the same. Columns: what each of
-  /// them does work on, eps_ij = d u_j / d x_i - e_ijk w_k, then d w_j / d x_i.
+  /// d stress / d strain. Rows: s11 s12 s13 s21 s22 s23 s31 s32 s33, then m11 to m33 the same. Columns: the strains conjugate
+  /// to them, eps_ij = d u_j / d x_i - e_ijk w_k, then d w_j / d x_i.
   Matrix18 tangent = Matrix18::Zero();
   KnownComponents known = KnownComponents::all;
 

@@ -9,7 +9,7 @@ namespace polargrain {
 /// A library of contact laws of the user's own that a script needs (docs/own_contact_law). Not sent with the cells: it
 /// is a program, and lies on every machine that computes.
 struct ContactLibraryFile {
-  std::string path;  ///< absolute, the same on every machine; empty: none
+  std::string path;  ///< absolute, the same on every machine; empty: no library
   std::string
       content;  ///< name of the bytes that the coordinator found there (common/state.hpp); empty: whatever is there
 };

@@ -7,7 +7,7 @@
 namespace polargrain {
 
 /// The name (XXH3, 128 bits) of a file's content, however large: it is read piece by piece.
-/// @throws RunError saying what is wrong when it cannot be read
+/// @throws RunError with the reason when it cannot be read
 ContentName content_hash(const std::filesystem::path& file);
 
 }  // namespace polargrain

@@ -69,7 +69,7 @@ std::vector<std::string> CsvTable::cells_of(const std::string& line, int number)
     if (is_quoted) {
       rest.remove_prefix(1);
       for (;; rest.remove_prefix(1)) {
-        if (rest.empty()) fail(number, "a quotation mark opens a value and none closes it");
+        if (rest.empty()) fail(number, "a quotation mark opens a value and no mark closes it");
         if (rest.front() == '"') {
           rest.remove_prefix(1);
           if (rest.empty() || rest.front() != '"') break;  // two stand for one

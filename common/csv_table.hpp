@@ -26,7 +26,7 @@ class CsvTable {
   [[nodiscard]] int line_of(std::size_t row) const { return rows_[row].line; }
   /// The line of the names of the columns.
   [[nodiscard]] int line_of_names() const { return line_of_names_; }
-  /// @throws InputError naming the columns there are when this is none
+  /// @throws InputError naming the columns of the table when it has no such column
   [[nodiscard]] std::size_t column(const std::string& name) const;
   [[nodiscard]] const std::string& cell(std::size_t row, std::size_t column) const;
   [[nodiscard]] const std::string& cell(std::size_t row, const std::string& name) const {
@@ -34,8 +34,8 @@ class CsvTable {
   }
   /// @throws InputError naming file and line when the cell is no (finite) number
   [[nodiscard]] double number(std::size_t row, std::size_t column) const;
-  /// The same of a table that this program wrote: where there was nothing to say, as of the quotient 0/0, stands 'nan', and
-  /// that is what comes back. @throws InputError when the cell is something else
+  /// The same of a table that this program wrote: an undefined value, as of the quotient 0/0, stands as 'nan', and
+  /// comes back as NaN. @throws InputError when the cell is something else
   [[nodiscard]] double figure(std::size_t row, std::size_t column) const;
   /// A whole column. @throws InputError as above
   [[nodiscard]] std::vector<double> numbers(const std::string& name) const;

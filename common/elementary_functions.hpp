@@ -7,8 +7,8 @@
 /// which the standard of arithmetic lays down to the last bit; their error is less than 0.51 units in the
 /// last place of a double, unless said otherwise. They take 20 to 80 ns.
 ///
-/// What decides a result (stress, fields, packings) must use these; sqrt, abs, floor, fmod and hypot of the
-/// system are the same everywhere. Arguments that are not finite give what the system's functions give.
+/// Every value that decides a result (stress, fields, packings) must use these; sqrt, abs, floor, fmod and hypot of the
+/// system are the same everywhere. For arguments that are not finite they agree with the system's functions.
 namespace polargrain {
 
 struct SineAndCosine {

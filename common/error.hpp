@@ -10,7 +10,7 @@ namespace polargrain {
 struct Fault {
   std::string file;     ///< the user's file as they named it; empty when the fault is on the command line
   int line = 0;         ///< first line is 1; 0 when the whole file is meant
-  std::string message;  ///< what is wrong, what was expected and what to do about it
+  std::string message;  ///< the fault, the value expected and the remedy
 
   /// "file:line: message", the form that editors and terminals understand.
   [[nodiscard]] std::string text() const;
@@ -33,7 +33,7 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a run has used of a worker's answers may be false: there is nothing to go on from.
+/// Answers of a worker that a run has used may be false: there is nothing to go on from.
 class FalseResults : public RunError {
  public:
   using RunError::RunError;

@@ -7,7 +7,7 @@
 namespace polargrain {
 
 /// The grains of a cell at its read-out and how they hold each other, in the laboratory frame. Places count from a corner
-/// of the box. Of discs what leaves the plane is zero.
+/// of the box. Components of discs out of the plane are zero.
 struct GrainView {
   struct Grain {
     std::int64_t id = 0;                                 ///< as in the packing

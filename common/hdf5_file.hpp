@@ -11,8 +11,8 @@
 
 namespace polargrain::hdf5 {
 
-/// What packings and checkpoints share: one-dimensional arrays by name. Every function @throws RunError with
-/// the name of what failed; who calls says which file.
+/// The common format of packings and checkpoints: one-dimensional arrays by name. Every function @throws RunError with
+/// the name of the array that failed; the caller says which file.
 
 /// A handle of the library, closed when it goes.
 class Handle {

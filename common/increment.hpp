@@ -13,14 +13,14 @@ using Matrix7 = Eigen::Matrix<double, 7, 7>;
 /// couple stresses in N/m). First index of a stress: normal of the face; second: direction of the force.
 enum Component : int { k11 = 0, k22 = 1, k33 = 2, k12 = 3, k21 = 4, kCurvature1 = 5, kCurvature2 = 6 };
 
-/// Which shape of the body the gradients of an increment refer to, and with it who turns the stress
+/// The shape of the body that the gradients of an increment refer to, and with it who turns the stress
 /// (docs/theory/solver.md, small and large deformation).
 enum class Configuration {
   fixed,  ///< small deformation: the shape at the start of the run; no stress turns with the continuum
   start   ///< large deformation: the shape at the start of the step; stresses turn
 };
 
-/// The change over a load step of what a material point feels, counted from the start of the step.
+/// The change over a load step that a material point feels, counted from the start of the step.
 struct Increment {
   /// h(i,j) = d u_i / d x_j, dimensionless.
   Eigen::Matrix2d displacement_gradient = Eigen::Matrix2d::Zero();
@@ -28,7 +28,7 @@ struct Increment {
   double micro_rotation = 0.0;
   /// kappa_i = d w / d x_i, in rad/m.
   Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
-  /// Not in the description below: what travels to cells has been referred to what they take.
+  /// Not in the description below: increments that travel to cells are already referred to their shape.
   Configuration configuration = Configuration::fixed;
 
   /// Cosserat strain (mechanics A.1): eps_12 = h21 - w, eps_21 = h12 + w, eps_33 = 0 (plane strain). Of large

@@ -8,7 +8,7 @@
 
 namespace polargrain {
 
-/// An archive in memory: what a run was at its last step, cheap because states are shared, not copied.
+/// An archive in memory: a run at its last step, cheap because states are shared, not copied.
 class MemoryArchive : public ArchiveWriter, public ArchiveReader {
  public:
   /// @throws RunError when the name is taken

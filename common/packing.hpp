@@ -45,8 +45,8 @@ struct Packing {
   std::vector<Grain> grains;
   /// Mean normal stress at rest when it was made, compression positive, Pa; 0: not recorded.
   double pressure = 0.0;
-  /// Velocities and contact histories of a packing made with friction, as dem/ keeps them: what lies ready in
-  /// its tangential springs belongs to its equilibrium. Null: grains at rest, no tangential forces.
+  /// Velocities and contact histories of a packing made with friction, as dem/ keeps them: the forces of
+  /// its tangential springs belong to its equilibrium. Null: grains at rest, no tangential forces.
   StatePointer state;
 
   [[nodiscard]] double volume() const { return box.determinant() * thickness; }

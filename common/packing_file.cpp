@@ -33,7 +33,7 @@ constexpr int kSpace = 2;  // with the heights of the grains
 /// Values of PackingReached in files of before stress and fabric were among them.
 constexpr std::size_t kReachedBefore = 10;
 
-/// What a file consists of: named arrays of bytes or doubles, and their hash.
+/// The content of a file: named arrays of bytes or doubles, and their hash.
 struct Content {
   std::string specification;
   /// Columns are base vectors, one after the other; then the thickness and, in space, the lean (files of
@@ -106,7 +106,7 @@ PreparedPacking packing_of(const Content& content) {
   if (values_reached.size() == kReachedBefore)
     values_reached.resize(names_of_columns<PackingReached>().size());
   require(values_reached.size() == names_of_columns<PackingReached>().size(),
-          "what was reached is incomplete");
+          "the record of the values reached is incomplete");
   require(content.heights.size() == (content.version == kSpace ? content.id.size() : 0),
           "the heights of the grains are incomplete");
   for (const auto* array : {&content.box, &content.grains, &content.reached, &content.heights})
@@ -130,7 +130,7 @@ PreparedPacking packing_of(const Content& content) {
     packing.grains.push_back(grain);
   }
   const RecordValues reached{values_reached, {}, {}, {}};
-  prepared.reached = RecordReader(reached, "what was reached", true).read<PackingReached>();
+  prepared.reached = RecordReader(reached, "the record of the values reached", true).read<PackingReached>();
   packing.pressure = std::max(0.0, prepared.reached.pressure);
   if (!content.state.empty()) {
     std::vector<std::byte> bytes(content.state.size());

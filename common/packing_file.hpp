@@ -10,8 +10,8 @@ namespace polargrain {
 /// @throws RunError when the file cannot be written.
 void write_packing_file(const std::filesystem::path& file, const PreparedPacking& packing);
 
-/// Reads what write_packing_file wrote. A hash over the content finds damage.
-/// @throws InputError naming the file when it is missing, no packing, of a version not known, or damaged.
+/// Reads a file of write_packing_file. A hash over the content finds damage.
+/// @throws InputError naming the file when it is missing, not a packing, of an unknown version, or damaged.
 PreparedPacking read_packing_file(const std::filesystem::path& file);
 
 }  // namespace polargrain

@@ -139,13 +139,13 @@ struct PreparedPacking {
   std::string specification;  ///< text of the user's specification
 };
 
-/// Brings a packing to rest under a script and a pressure. @param specification script, pressure and what
-/// rest is; the rest of it counts for nothing
+/// Brings a packing to rest under a script and a pressure. @param specification script, pressure and definition of
+/// rest; its other members are not used
 using PackingSettler =
     std::function<PreparedPacking(const PackingSpecification& specification, const PreparedPacking& packing,
                                   const std::function<void(const PackingReached&)>& progress)>;
 
-/// Makes a packing. @param progress called now and then with what is reached so far; may be empty
+/// Makes a packing. @param progress called now and then with the values reached so far; may be empty
 using PackingMaker = std::function<PreparedPacking(
     const PackingSpecification& specification, const std::function<void(const PackingReached&)>& progress)>;
 

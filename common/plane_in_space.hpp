@@ -12,7 +12,7 @@ namespace polargrain {
 // that knows where the seven components of Component stand among the eighteen. e_3 is normal to the plane; nothing
 // moves along it, and rotations are about it.
 
-/// What a point of the plane asks of its cell. The increment is about the start of the step already.
+/// The increment of a point of the plane as its cell takes it. The increment is about the start of the step already.
 CellIncrement in_space(const Increment& increment);
 
 /// The part of an increment that lies in the plane.
@@ -21,7 +21,7 @@ Increment in_plane(const CellIncrement& increment);
 /// Why discs cannot follow an increment; nothing when it lies in their plane.
 std::string out_of_plane_fault(const CellIncrement& increment);
 
-/// @param known what the components outside of the plane are worth: all, when they are zero or s33; plane, when nothing
+/// @param known the worth of the components outside of the plane: all, when they are zero or s33; plane, when nothing
 /// is known of them
 CellResponse in_space(const Response& response, KnownComponents known);
 

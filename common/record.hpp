@@ -14,16 +14,16 @@
 
 namespace polargrain {
 
-/// What a value of a field is good for.
+/// The use of a value of a field.
 enum class FieldUse {
   result,  ///< part of a result: kept, compared, shown
   cost     ///< of this one computation (seconds): travels once with the answer and is not kept
 };
 
-/// What is said of a field, once, where its record is defined.
+/// The notes on a field, given once, where its record is defined.
 struct FieldNotes {
   std::string_view name;     ///< as columns, fields of VTU files and tables of the documentation name it
-  std::string_view unit;     ///< "1" for a pure number, "" for what is no number
+  std::string_view unit;     ///< "1" for a pure number, "" for values that are not numbers
   std::string_view meaning;  ///< of one line, for tables; also sign and reference where they matter
   /// Endings of the names of the columns of a matrix or a list, separated by spaces: "_11 _22 _12".
   std::string_view components = {};

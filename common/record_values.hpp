@@ -12,8 +12,8 @@
 
 namespace polargrain {
 
-/// The values of records, sorted by kind, each kind in the order of the descriptions: what messages and
-/// archives carry. Matrices row by row; before the members of a list, how many there are (a whole number).
+/// The values of records, sorted by kind, each kind in the order of the descriptions: the content of messages and
+/// archives. Matrices row by row; before the members of a list, how many there are (a whole number).
 struct RecordValues {
   std::vector<double> numbers;
   std::vector<std::int64_t> integers;  ///< whole numbers, truths, enumerations
@@ -25,7 +25,7 @@ struct RecordValues {
 template <Described Record>
 void append(RecordValues& values, const Record& record, bool with_costs);
 
-/// Whether no number of a record is infinite or none at all.
+/// Whether every number of a record is finite.
 template <Described Record>
 bool is_finite(const Record& record) {
   RecordValues values;
@@ -36,11 +36,11 @@ bool is_finite(const Record& record) {
 /// Takes records out of values, in the order in which they were appended.
 class RecordReader {
  public:
-  /// @param values must outlive the reader @param what they are, for messages
+  /// @param values must outlive the reader @param what the values are, for messages
   RecordReader(const RecordValues& values, std::string what, bool with_costs)
       : values_(values), what_(std::move(what)), with_costs_(with_costs) {}
 
-  /// @throws RunError when values are missing, or one is none that its field can have
+  /// @throws RunError when values are missing, or a field cannot have its value
   template <Described Record>
   Record read();
   /// @throws RunError when values are left

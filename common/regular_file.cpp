@@ -21,7 +21,7 @@ std::string why_no_input(const std::filesystem::path& file) {
   }
   if (S_ISDIR(status.st_mode)) return "is a directory; give the name of a file in it";
   if (!S_ISREG(status.st_mode))
-    return "is a pipe or a device; write what it gives into a file, and name that";
+    return "is a pipe or a device; write its output into a file, and name that file";
   if (access(file.c_str(), R_OK) != 0) return fmt::format("cannot be read: {}", std::strerror(errno));
   return {};
 }

@@ -5,7 +5,7 @@
 
 namespace polargrain {
 
-/// Why an input file cannot be opened and read, in words that follow its name; empty when it can. A pipe or a device is none:
+/// Why an input file cannot be opened and read, in words that follow its name; empty when it can. Pipes and devices are refused:
 /// who opens a pipe that nobody writes to waits for ever. Links are followed.
 std::string why_no_input(const std::filesystem::path& file);
 

@@ -5,14 +5,14 @@
 
 namespace polargrain {
 
-/// A file that ends with a mark and the hash (XXH3, 128 bits) of all that stands before: what a crash, a full
-/// disk or a bad sector left of it is known before anybody tries to read it. Libraries that read the file do
+/// A file that ends with a mark and the hash (XXH3, 128 bits) of all that stands before: damage by a crash, a full
+/// disk or a bad sector is known before anybody tries to read it. Libraries that read the file do
 /// not mind the 32 bytes behind its end.
 
 /// Appends mark and hash.
 void seal(std::string& bytes);
 
-/// @throws RunError saying what is wrong when the file has no mark at its end or does not match its hash
+/// @throws RunError with the reason when the file has no mark at its end or does not match its hash
 void check_seal(const std::filesystem::path& file);
 
 }  // namespace polargrain

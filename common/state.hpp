@@ -26,7 +26,7 @@ struct ContentNameHash {
 
 ContentName name_of(std::span<const std::byte> bytes);
 
-/// Everything a cell needs to go on, as one immutable value. What the bytes mean is the business of whoever
+/// Everything a cell needs to go on, as one immutable value. The meaning of the bytes is the business of whoever
 /// made them (dem/); everybody else passes them on, keeps them, or compares names.
 ///
 /// A state may also be known by its name alone while its bytes are somewhere else, with the worker that made

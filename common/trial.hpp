@@ -4,8 +4,8 @@
 
 namespace polargrain {
 
-/// Does a piece of work in a process of its own first, and nothing with what comes out: libraries that read files of
-/// others (HDF5, Gmsh) end by a signal on many a broken one. What has gone well there goes well here, for a process and
+/// Does a piece of work in a process of its own first, and drops its result: libraries that read files of
+/// others (HDF5, Gmsh) end by a signal on many a broken one. Work that went well there goes well here, for a process and
 /// its child begin with the same memory.
 /// An exception is no failure: the work will throw it here too.
 /// @throws RunError when a signal ended the process, ten minutes of processor time among them

@@ -61,7 +61,7 @@ int write_into_stream(const fs::path& stream, const std::string& content) {
 
 /// @returns 0, or why the file cannot be written (errno)
 int try_to_write(const std::filesystem::path& file, const std::string& content, Durability durability) {
-  // What lies there under that name is ours, or it is an error: no link is followed, no pipe waited for.
+  // A file of that name is ours, or it is an error: no link is followed, no pipe waited for.
   const int descriptor =
       open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor < 0) return errno;

@@ -11,9 +11,9 @@ enum class Durability {
 };
 
 /// Writes a file beside its final place and renames it, so that readers see it complete or not at all, and
-/// whatever happens it is the former one or the new one. Through a link the file is written that it leads to. Into what is no
-/// file (/dev/stdout, a pipe) the bytes are written as they are: nothing takes its place.
-/// @param keep where the former one goes when the new one is there; empty: nowhere
+/// whatever happens it is the former one or the new one. A link is followed. Into a target that is
+/// not a file (/dev/stdout, a pipe) the bytes are written as they are: nothing takes its place.
+/// @param keep where the former file goes when the new one is there; empty: it is not kept
 /// @throws RunError with the reason when it cannot be written; a former one is then untouched
 void write_file(const std::filesystem::path& file, const std::string& content,
                 Durability durability = Durability::system, const std::filesystem::path& keep = {});

@@ -12,7 +12,7 @@ namespace polargrain::element {
 
 /// How exactly a test is followed.
 struct Accuracy {
-  double pressure = 0.0;    ///< what tolerances refer to, Pa: the confining pressure
+  double pressure = 0.0;    ///< the reference of tolerances, Pa: the confining pressure
   double tolerance = 1e-3;  ///< of prescribed stresses, over that pressure, at every recorded row
   /// The largest component of a displacement gradient of one step; a row may take several steps.
   double largest_increment = 1e-3;
@@ -30,7 +30,7 @@ struct Row {
   Vector6 strain = Vector6::Zero();  ///< in the order of Place, from the last zero (Constraint)
   double volume = 1.0;               ///< over that at the last zero
   double total_volume = 1.0;         ///< over that at the start of the test
-  Vector6 stress = Vector6::Zero();  ///< effective, Pa; zero where the material tells none
+  Vector6 stress = Vector6::Zero();  ///< effective, Pa; zero where the material does not tell
   double pore_pressure = 0.0;        ///< Pa, counted from the start of the test
   double residual = 0.0;             ///< largest error of a prescribed stress, over the confining pressure
   int steps = 0;                     ///< that the row took
@@ -39,7 +39,7 @@ struct Row {
   std::vector<double> fields;
 };
 
-/// What became of a test.
+/// The outcome of a test.
 struct Outcome {
   std::vector<Row> rows;
   std::string failure;  ///< why it ended before its end, and where; empty: it did not

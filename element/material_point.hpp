@@ -42,7 +42,7 @@ constexpr bool tells_stress(Room room, int place) {
          (room != Room::discs && place == k33);
 }
 
-/// One material point: what a test of one element drives. It keeps a committed state; evaluate answers from there and
+/// One material point, as a test of one element drives it. It keeps a committed state; evaluate answers from there and
 /// leaves a trial one, commit takes that.
 class MaterialPoint {
  public:
@@ -53,10 +53,10 @@ class MaterialPoint {
   [[nodiscard]] virtual bool is_large() const = 0;
   /// Stress and tangent before anything has moved.
   virtual CellResponse initial() = 0;
-  /// The answer to an increment from the committed state; what cannot be answered is Quality::failed.
+  /// The answer to an increment from the committed state; Quality::failed where it cannot answer.
   virtual CellResponse evaluate(const CellIncrement& increment) = 0;
   virtual void commit() = 0;
-  /// Names of what else the material tells of its committed state, and the values.
+  /// Names of further fields of the committed state of the material, and the values.
   [[nodiscard]] virtual std::vector<std::string> field_names() const { return {}; }
   [[nodiscard]] virtual std::vector<double> fields() const { return {}; }
 };

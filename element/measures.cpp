@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// What depends on the largest and the least principal stress alone.
+/// The measures that depend on the largest and the least principal stress alone.
 void take_extremes(StressMeasures& measures, double largest, double least) {
   const bool compressed = least > 0.0;
   measures.ratio = compressed ? largest / least : std::numeric_limits<double>::infinity();

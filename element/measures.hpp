@@ -4,7 +4,7 @@
 
 namespace polargrain::element {
 
-/// What soil mechanics reads off a stress. Compression is positive. Of discs, which have no third stress, those of the
+/// The measures of soil mechanics for a stress. Compression is positive. Of discs, which have no third stress, those of the
 /// plane: p = (s1 + s2) / 2, q = s1 - s2, b is NaN.
 struct StressMeasures {
   double p = 0.0;      ///< mean stress, Pa

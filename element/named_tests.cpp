@@ -143,7 +143,7 @@ const std::vector<Test>& tests() {
         Driven::shear, true},
        false,
        simple_shear},
-      {{"radial_unloading", "all stresses fall to the share `to` of what they are", Driven::share, false},
+      {{"radial_unloading", "all stresses fall to the share `to` of their values", Driven::share, false},
        false,
        radial_unloading}};
   return all;

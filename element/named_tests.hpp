@@ -8,7 +8,7 @@
 
 namespace polargrain::element {
 
-/// What drives a test: a strain or a stress, to a value or to and fro.
+/// The drive of a test: a strain or a stress, to a value or to and fro.
 struct Drive {
   bool is_stress = false;
   double amount = 0.0;  ///< where it goes, or how far to each side; strain 1, stress Pa, compression positive
@@ -26,7 +26,7 @@ struct NamedTest {
   int rows = 100;
 };
 
-/// What a named test is driven by, for those who read parameters.
+/// The driven quantity of a named test, for those who read parameters.
 enum class Driven { axial, shear, pressure, share };
 
 /// A test as its name says it.

@@ -11,7 +11,7 @@ namespace polargrain::element {
 /// as everywhere; strains are those of the stage's zero: e_ii the lengthening over the length, e_12 = d u_1 / d x_2.
 struct Constraint {
   enum class Kind { stress, strain, volume };
-  /// What becomes of it over the stage, from the value that it has at the start.
+  /// The course of it over the stage, from the value that it has at the start.
   enum class Way {
     hold,   ///< it stays
     reach,  ///< it goes straight to `amount`
@@ -39,7 +39,7 @@ struct Stage {
   std::string name;
   std::vector<Constraint> constraints;
   int rows = 100;     ///< recorded, equally spaced over the stage
-  int cycles = 0;     ///< of what is cycled; 0: nothing is
+  int cycles = 0;     ///< of the cycled conditions; 0: nothing is cycled
   bool zero = false;  ///< strains are counted anew from its start
   /// Where the volume is kept: the normal component whose total stress stays, so that the water carries its change; -1:
   /// the pore pressure stays as it is.
@@ -51,15 +51,15 @@ Vector6 weights_of_pressure(Room room);
 /// Axial stress less the mean of the lateral ones, compression positive.
 Vector6 weights_of_deviator(Room room);
 
-/// What is wrong with a stage for a material: a component given twice, one that the material does not have, more or fewer
-/// conditions than there are components. Empty: nothing.
+/// The faults of a stage for a material: a component given twice, one that the material does not have, more or fewer
+/// conditions than there are components. Empty: no fault.
 std::vector<std::string> faults(const Stage& stage, Room room);
 
-/// The stage with a condition for each strain that the material has: what nobody prescribes keeps its strain.
+/// The stage with a condition for each strain that the material has: a component without one keeps its strain.
 /// faults() must be empty.
 Stage completed(Stage stage, Room room);
 
-/// What a constraint asks for at stage time t in [0, 1]. @param start its value at the start of the stage
+/// The value that a constraint asks for at stage time t in [0, 1]. @param start its value at the start of the stage
 double target(const Constraint& constraint, int cycles, double start, double t);
 
 }  // namespace polargrain::element

@@ -10,8 +10,8 @@ namespace polargrain {
 /// first base vector along x, one atom type, and for each grain the density that gives it its own mass in the
 /// engine: mass over area in a plane packing, to be read with `dimension 2` (the engine's discs have unit
 /// thickness there), mass over volume in space. Grain ids are counted from 1, as the engine wants them. A
-/// packing in space has a right box from 0 on, periodic in all directions. What lies ready in contacts
-/// (Packing::state) is not part of it.
+/// packing in space has a right box from 0 on, periodic in all directions. Springs of contacts
+/// (Packing::state) are not part of it.
 std::string packing_data(const Packing& packing);
 
 /// The rotation that turns the box of that file, whose first base vector is along x, into the laboratory.

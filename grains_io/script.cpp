@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::set<std::string>;
 
-/// What a cell needs and what can do nothing else. Those whose words decide what happens are looked at below.
+/// The commands that a cell needs and that can do nothing else. Those whose words decide what happens are looked at below.
 const Words kAllowed{
     "atom_modify",    "atom_style",     "boundary",   "communicate",   "dimension",    "echo",     "fix",
     "group",          "hard_particles", "if",         "mass",          "neigh_modify", "neighbor", "newton",
@@ -83,7 +83,7 @@ const Words kRegions{"block",  "cone",  "cylinder", "plane",     "prism",
                      "sphere", "wedge", "union",    "intersect", "delete"};
 const Words kVariables{"index", "loop", "string", "equal", "atom", "delete"};
 
-/// What makes loops and jumps.
+/// The commands that make loops and jumps.
 const Words kFlow{"jump", "label", "next"};
 
 constexpr const char* kAdvice = "; remove it, or say --trust-scripts when you know what this script does";
@@ -164,7 +164,7 @@ class Judge {
       return fmt::format("the command '{}' is not among those that set up a cell{}", command, kAdvice);
     }
     if (!kAllowed.contains(command)) {
-      return "expected a command that sets up a cell (docs/user_guide.md); LIGGGHTS has none of this name";
+      return "expected a command that sets up a cell (docs/user_guide.md); LIGGGHTS has no command of this name";
     }
     return fault_of_words(command, *words);
   }
@@ -218,7 +218,7 @@ class Judge {
   std::string branches(const std::vector<Word>& words) const {
     for (std::size_t k = 1; k < words.size(); ++k) {
       if (!words[k].quoted && words[k].varies()) {
-        return fmt::format("if: put what contains a variable into quotation marks{}", kAdvice);
+        return fmt::format("if: put words with a variable into quotation marks{}", kAdvice);
       }
     }
     for (std::size_t k = 3; k < words.size(); ++k) {
@@ -276,7 +276,7 @@ std::vector<Fault> script_faults(const std::string& text, const std::string& fil
       (commands.empty() || std::any_of(commands.begin(), commands.end(), [&](const ScriptCommand& command) {
          return is_command_of_the_engine(command.text, rules);
        }));
-  if (!is_script) return {{file, 0, "this is no LIGGGHTS input script: it holds none of its commands"}};
+  if (!is_script) return {{file, 0, "this is not a LIGGGHTS input script: it holds no command of LIGGGHTS"}};
   if (rules.trusted) return faults;
   const Judge judge(rules);
   for (const ScriptCommand& command : commands) {

@@ -25,14 +25,14 @@ std::vector<ScriptCommand> commands_of_script(const std::string& text, const std
 /// any file.
 struct ScriptRules {
   bool trusted = false;  ///< any script (--trust-scripts)
-  /// What the engine at hand understands beside LIGGGHTS's commands and what can do no harm.
+  /// The commands and styles that the engine at hand has beside those of LIGGGHTS and that can do no harm.
   std::set<std::string> more_commands = {};
 };
 
-/// What in a script goes beyond setting up a cell: a contact law, its parameters, neighbours, groups, variables. Whatever
+/// Commands of a script beyond setting up a cell (a contact law, its parameters, neighbours, groups, variables). Whatever
 /// starts programs, reads or writes files, jumps about, or cannot be judged before it runs (a variable in the place of a
-/// command) is found, also inside `if`. Texts that are no script are not repeated. With trusted scripts: only that it is
-/// no script at all.
+/// command) is found, also inside `if`. Texts that are not a script are not repeated. With trusted scripts: only that it is
+/// not a script at all.
 /// @param text with all that it includes in it (coupler/case/cell_script.hpp) @param file the user's name of it
 /// @returns one fault a command, with file and line
 std::vector<Fault> script_faults(const std::string& text, const std::string& file, const ScriptRules& rules);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What tools say of the code and of the pages. Ends with status 77 (skipped) where the tool is not installed.
+# Checks of the code and of the pages by tools. Ends with status 77 (skipped) where the tool is not installed.
 #
 #   tests/style.sh format [--fix]     clang-format, all files
 #   tests/style.sh tidy BUILD [FOLDER...]  clang-tidy with the compile commands of a build: all but the grains, or these

@@ -104,7 +104,7 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
   return result;
 }
 
-/// What is read before anything runs, so that a typing error costs no hour.
+/// The input read before anything runs, so that a typing error costs no hour.
 struct Checked {
   std::string title;
   BenchAxes axes;

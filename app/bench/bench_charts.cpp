@@ -10,7 +10,7 @@
 namespace polargrain::app {
 namespace {
 
-/// What has no place on a logarithmic axis.
+/// The least values that a logarithmic axis shows.
 constexpr double kLeastError = 1e-6;
 constexpr double kLeastSeconds = 1e-3;
 

@@ -25,7 +25,7 @@ double peak_of(const BenchCurve& curve);
 /// side are compared. @param curve not empty
 double peak_like(const BenchCurve& curve, double peak);
 
-/// What of a curve lies in the range of x of a reference, up to the edge itself.
+/// The part of a curve within the range of x of a reference, up to the edge itself.
 BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference);
 
 /// How far a curve is from a reference: at the curve's own places, as far as both go, and where that ends.
@@ -38,13 +38,13 @@ BenchError error_of(const BenchCurve& curve, const BenchCurve& reference);
 
 /// The shear band of a run, as `polargrain band` measures it.
 struct BenchBand {
-  std::string none;                   ///< why there is none; empty with a band, and when none was looked for
+  std::string none;                   ///< why there is no band; empty with one, and without a search
   std::optional<double> inclination;  ///< magnitude, against the x axis: mirror images are alike; degrees
   std::optional<double> thickness;    ///< m
   std::optional<double> onset;        ///< axial strain
 };
 
-/// What one run gave.
+/// The outcome of one run.
 struct BenchResult {
   BenchSetting setting;
   std::string status;  ///< "done", or why it stopped

@@ -11,7 +11,7 @@ namespace polargrain::app {
 /// One run of a bench.
 struct BenchSetting {
   std::filesystem::path case_file;
-  std::string group;                   ///< what is varied: "reference", "as given", "equilibrium", ...
+  std::string group;                   ///< the quantity varied: "reference", "as given", "equilibrium", ...
   std::string label;                   ///< its value, for people
   std::vector<std::string> overrides;  ///< as --set takes them
   int grains = 0;                      ///< of the packing that bench makes for this run; 0: it makes none
@@ -28,7 +28,7 @@ struct MaterialWithCells {
 /// @throws InputError when the case cannot be read
 std::vector<MaterialWithCells> materials_with_cells(const BenchOptions& options);
 
-/// All runs of a bench in their order, the reference first. What is varied depends on what the first case
+/// All runs of a bench in their order, the reference first. The quantities varied depend on what the first case
 /// has: equilibrium, loading rate, tangent and adaptivity where it has cells, the step size where it counts
 /// steps, packings and keys as the options say.
 /// @throws InputError when the case cannot be read or `vary` is no KEY=VALUES

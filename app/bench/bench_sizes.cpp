@@ -41,7 +41,7 @@ Spread peaks_of(const Runs& runs, std::size_t y) {
   return spread_over(runs, [y](const BenchResult& r) { return std::optional(peak_of(r.curves[y])); });
 }
 
-/// What the packings with the most grains have in common.
+/// The common results of the packings with the most grains.
 struct SizeReference {
   std::vector<BenchCurve> curves;
   std::vector<double> peaks;

@@ -30,7 +30,7 @@ std::vector<BenchColumn> columns_of(const BenchAxes& axes) {
   return columns;
 }
 
-/// What bands are compared with, as runs and sizes give it.
+/// The measures that bands are compared by, of runs and of sizes.
 struct BandValues {
   std::optional<double> inclination;
   std::optional<double> thickness;

@@ -9,7 +9,7 @@
 
 namespace polargrain::app {
 
-/// What was compared in a bench.
+/// The settings compared in a bench.
 struct BenchAxes {
   std::string x;               ///< monitor along the curves
   std::vector<std::string> y;  ///< monitors whose error counts
@@ -59,7 +59,7 @@ std::string markdown(const BenchTable& table);
 /// Writes it as CSV (docs/file_formats.md). @throws RunError when it cannot be written
 void write_csv(const std::filesystem::path& file, const BenchTable& table);
 
-/// What the sizes are compared with; empty where there are none.
+/// The result that the sizes are compared with; empty where there are no sizes.
 std::string reference_of_sizes(const std::vector<SizeScatter>& sizes);
 
 }  // namespace polargrain::app

@@ -127,7 +127,7 @@ Eigen::MatrixXd slopes(Search& search, const std::vector<double>& places, double
   return result;
 }
 
-/// What the data tell of the parameters, from the slopes at the best ones.
+/// Judges how well the data fix the parameters, from the slopes at the best ones.
 void judge(CalibrationResult& result, const Eigen::MatrixXd& slopes) {
   const Eigen::Index count = slopes.cols();
   const auto freedom = static_cast<int>(slopes.rows() - count);

@@ -11,7 +11,7 @@
 
 namespace polargrain::app {
 
-/// What the curves are at some values of the parameters.
+/// The curves at some values of the parameters.
 struct Evaluation {
   std::vector<double> values;       ///< of the parameters
   double misfit = 0.0;              ///< mean square of the differences
@@ -19,7 +19,7 @@ struct Evaluation {
   std::string left_out;  ///< why the tests could not be run: all points count as missed; mostly empty
 };
 
-/// What the tests give for values of the parameters.
+/// The answer of the tests for values of the parameters.
 struct Answer {
   std::vector<double> differences;
   std::string left_out = {};
@@ -32,7 +32,7 @@ struct ProfilePoint {
   double misfit = 0.0;
 };
 
-/// What a calibration found.
+/// The result of a calibration.
 struct CalibrationResult {
   std::vector<Evaluation> record;  ///< in their order
   Evaluation best;
@@ -54,7 +54,7 @@ struct CalibrationResult {
 /// linearises around them; where an evaluation for that is better than the best so far, around that one anew, twice at most.
 /// The best is that of all evaluations but those of a profile. Where a profile is asked for, each parameter is then held at places around its best one, as far
 /// as twice its interval, and the others are sought anew.
-/// @param evaluate what the tests give for values of the parameters: their differences
+/// @param evaluate gives the differences of the tests for values of the parameters
 /// @param known evaluations made before: taken instead of being made again
 /// @param on_new called with each one that was made
 CalibrationResult calibrate(const Calibration& calibration,

@@ -27,7 +27,7 @@ using coupler::Faults;
 using coupler::Limit;
 using coupler::Section;
 
-/// What a specification says once for all tests.
+/// The keys that a specification gives once for all tests.
 constexpr const char* kShared[] = {"packing",
                                    "script",
                                    "contact_library",
@@ -185,7 +185,7 @@ std::optional<double> value_of(const TargetPoint& point, const std::vector<std::
   const auto column = [&](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
   };
-  // What the consolidation did is none of the test's; its rows are those of stage 0.
+  // The consolidation is no part of the test; its rows are those of stage 0.
   std::vector<std::vector<double>> rows;
   for (const auto& row : all_rows)
     if (row[column("stage")] > 0.0) rows.push_back(row);
@@ -252,7 +252,7 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
                fmt::format("parameter '{}': {}: {}", member.key, test.cells.front().script_file, fault)});
     break;
   }
-  const Entry* const targets = top.require("targets", "a list of what the tests are to give");
+  const Entry* const targets = top.require("targets", "a list of target values of the tests");
   if (targets != nullptr && faults.empty())
     for (std::size_t k = 0; k < targets->items.size(); ++k)
       read_target(targets->items[k], k + 1, table, calibration, faults);
@@ -262,7 +262,7 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
                                      calibration.points.size(), calibration.parameters.size()));
   std::ranges::stable_sort(faults, {}, [](const Fault& fault) { return std::pair(fault.file, fault.line); });
   if (!faults.empty()) throw InputError(faults);
-  // What packings that are made become follows from these texts, and from their specification below.
+  // The packings to be made follow from these texts, and from their specification below.
   std::string all = coupler::content_of(file) + coupler::content_of(laboratory);
   for (const std::string& setting : settings) all += setting + '\n';
   for (const ElementSpecification& test : calibration.tests)

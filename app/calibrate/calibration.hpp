@@ -9,7 +9,7 @@
 
 namespace polargrain::app {
 
-/// What is sought: a variable of the script. The search works on its logarithm, unless it is linear.
+/// An unknown: a variable of the script. The search works on its logarithm, unless it is linear.
 struct Parameter {
   std::string name;
   double low = 0.0;

@@ -69,7 +69,7 @@ void write_samples(const std::filesystem::path& file, const Samples& samples) {
   fem::write_file(file, text);
 }
 
-/// What there is in an increment without a word of its frames.
+/// The measures of an increment, without those of its frames.
 BandMeasurement measured_in(const Samples& samples, const BandCommandOptions& options) {
   if (!options.fields.empty()) write_samples(options.fields, samples);
   BandMeasurement measured;

@@ -25,16 +25,16 @@ struct BandCommandOptions {
   std::filesystem::path fields = {};  ///< CSV of the samples of the increment; empty: none
 };
 
-/// What there is to say of a band.
+/// The measures of a band.
 struct BandMeasurement {
-  std::optional<double> begin;  ///< axial strain of the frame the increment begins with; none: of fields
+  std::optional<double> begin;  ///< axial strain of the frame the increment begins with; empty for fields
   std::optional<double> end;    ///< and ends with
   std::size_t places = 0;
   std::size_t missing = 0;  ///< places of images without a displacement
   polargrain::band::FrameKind kind = polargrain::band::FrameKind::elements;
   polargrain::band::BandSearch search = {};
   std::optional<double>
-      onset;  ///< axial strain; none without a band, of fields, or where the last increment is none
+      onset;  ///< axial strain; empty without a band, for fields, or where the last increment has no band
   polargrain::band::InsideOutside rotation = {};       ///< with a band
   polargrain::band::InsideOutside volume_strain = {};  ///< with a band
 };

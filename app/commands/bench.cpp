@@ -8,7 +8,7 @@
 namespace polargrain::app {
 namespace {
 
-/// What bench does when no case is named: the demo with its packings; quickly, on a coarser mesh.
+/// The default of bench when no case is named: the demo with its packings; quickly, on a coarser mesh.
 void take_demo(BenchOptions& options) {
   options.cases.emplace_back(brought_along("cases/biaxial/case.yaml"));
   if (options.quick) options.settings.insert(options.settings.begin(), "mesh.rectangle.elements=[2, 4]");

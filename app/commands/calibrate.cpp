@@ -42,7 +42,7 @@ std::vector<ElementSpecification> tests_with(const Calibration& calibration,
   return tests;
 }
 
-/// What a point is, for messages.
+/// The name of a point, for messages.
 std::string name_of_point(const Calibration& calibration, const TargetPoint& point) {
   const std::string of = fmt::format("{} of test '{}'", point.column, calibration.test_names[point.test]);
   return point.where == TargetPoint::Where::along ? fmt::format("{} at {} {:.4g}", of, point.along, point.at)
@@ -111,7 +111,7 @@ Answer evaluate(const Calibration& calibration, const std::vector<double>& value
   try {
     results = run_tests(tests, options, tools);
   } catch (const RunError& error) {
-    // What the user began with must run; a search may go astray.
+    // The values that the user began with must run; a search may go astray.
     if (first) throw;
     return {std::vector<double>(calibration.points.size(), kMissed), in_one_line(error.what())};
   }

@@ -52,8 +52,8 @@ int check(const CheckOptions& options) {
 
 Command add_check(CLI::App& program, const Grains& grains) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App& command = *program.add_subcommand(
-      "check", "Report all faults of a case, and what is doubtful of it; take no step");
+  CLI::App& command =
+      *program.add_subcommand("check", "Report all faults of a case and remarks on it; take no step");
   add_case(command, options->case_file);
   add_strict(command, options->strict);
   command.add_flag("--all", options->all, "Show all remarks, not the most serious alone");

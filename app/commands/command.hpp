@@ -10,7 +10,7 @@
 
 namespace polargrain::app {
 
-/// What commands need of the grains' side; given by the program, so that nothing here knows an engine.
+/// The services that commands need from the grains' side; given by the program, so that nothing here knows an engine.
 struct Grains {
   const WorkerEngine& engine;
   const PackingTools& packing_tools;
@@ -20,14 +20,14 @@ struct Grains {
 struct Command {
   CLI::App* options = nullptr;
   std::function<int()> call;  ///< @returns the exit status
-  /// Whether what it says is what it was asked for, so that standard output must take it, or only a comfort.
+  /// Whether its output is the answer asked for, so that standard output must take it, or only a comfort.
   bool is_answer = true;
 };
 
-// ---- what several commands have
+// ---- options shared by several commands
 
 /// A case or specification as named, or, where there is none, the one of that name that the program brings along
-/// (cases/): what --help tells to try works in any folder.
+/// (cases/): the examples of --help work in any folder.
 std::string brought_along(const std::string& name);
 /// CASE, which must be given.
 void add_case(CLI::App& command, std::filesystem::path& file);

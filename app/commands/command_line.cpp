@@ -78,7 +78,7 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
-/// What to say where the first word is no command; empty where it is one, or an option.
+/// The message where the first word is no command; empty where it is one, or an option.
 std::string unknown_command(const CLI::App& app, int count, char** arguments) {
   const std::string word = count > 1 ? arguments[1] : "";
   if (word.empty() || word.front() == '-') return {};

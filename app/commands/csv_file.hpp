@@ -20,7 +20,7 @@ class CsvFile {
 
   /// Adds a row in memory.
   void add(const std::vector<std::string>& cells);
-  /// Hands what was added to the system. @throws RunError when it does not take all of it (a full disk); the
+  /// Hands the added rows to the system. @throws RunError when it does not take all of them (a full disk); the
   /// file then ends with the last row that was written before.
   void write();
   /// add and write

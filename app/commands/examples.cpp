@@ -73,7 +73,7 @@ int copy(const ExamplesOptions& options) {
     throw InputError(
         {"", 0, fmt::format("-o {}: is there already, and left alone; name a new folder", to.string())});
   std::filesystem::copy(found->second, to, std::filesystem::copy_options::recursive);
-  // What is installed may be for reading alone; the copy is the user's.
+  // Installed files may be for reading alone; the copy is the user's.
   for (const auto& entry : std::filesystem::recursive_directory_iterator(to))
     std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_write,
                                  std::filesystem::perm_options::add);

@@ -23,8 +23,8 @@ class ProgressLine {
 };
 
 /// Works in a process of its own, because an error of the engine ends its process.
-/// @param log takes all that it and its engine print, the message of an exception too; it is left there
-/// @param work what it writes must be files; given the line of progress
+/// @param log takes all output of it and its engine, the message of an exception too; it is left there
+/// @param work must write its results to files; given the line of progress
 /// @returns whether it ended well @throws RunError when there can be no log or no process
 bool run_in_child(const std::filesystem::path& log, const std::function<void(ProgressLine&)>& work,
                   bool shows_progress);

@@ -60,7 +60,7 @@ Command add_layer(CLI::App& program, const Grains& grains) {
   CLI::App& command = *program.add_subcommand(
       "layer",
       "Measure the internal length of grains: layers of them against columns of cells\nLengths are in mean diameters of "
-      "the grains. What is there already is not made again: the same command goes on.");
+      "the grains. Existing results are kept: the same command goes on.");
   command
       .add_option("SPEC", options->specification,
                   "Specification of the packings (YAML); its script is the contact law")

@@ -30,7 +30,7 @@ struct NewOptions {
   ScriptRules scripts = {};
 };
 
-/// What can be made, and the options that it takes beside -o.
+/// A kind of case to make, and the options that it takes beside -o.
 struct NewKind {
   std::string name;
   std::string summary;

@@ -8,11 +8,11 @@
 
 namespace polargrain::app {
 
-/// What the texts of a new case are filled with.
+/// The values that the texts of a new case are filled with.
 struct NewCase {
   std::string scheme = "cell";  ///< model of the material: cell, adaptive or informed
   int grains = 400;
-  double pressure = 100e3;  ///< of the packing and of what surrounds the body, Pa, positive in compression
+  double pressure = 100e3;  ///< of the packing and around the body, Pa, positive in compression
   double width = 0.4;       ///< of the specimen, m
   double height = 0.8;      ///< of the specimen, m
   int columns = 5;          ///< elements along the width

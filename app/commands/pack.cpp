@@ -92,7 +92,7 @@ PreparedPacking packing_to_settle(const std::filesystem::path& file) {
   return prepared;
 }
 
-/// What --settle asks for: the script and the pressure of the packing, or the one set.
+/// The specification for --settle: the script and the pressure of the packing, or the one set.
 PackingSpecification settling(const PackOptions& options) {
   const PreparedPacking packing = packing_to_settle(options.settle.front());
   const double pressure = packing.reached.pressure;

@@ -11,7 +11,7 @@
 
 namespace polargrain::app {
 
-/// What packings need of the grains' side; given by the program, so that the coupler knows no engine.
+/// The services that packings need from the grains' side; given by the program, so that the coupler knows no engine.
 struct PackingTools {
   /// Called once in the process that makes the packing.
   std::function<void()> start_process;
@@ -31,7 +31,7 @@ struct PackOptions {
   /// A packing and the script that it is brought to rest under, as it is; or nothing.
   std::vector<std::filesystem::path> settle = {};
   ScriptRules scripts = {};
-  /// What else is told of a plane packing at the end, as the cell that it makes under its script; empty: nothing.
+  /// Further remarks on a plane packing at the end, on the cell that it makes under its script; empty: no remarks.
   std::function<std::string(const CellDefinition&)> moduli = {};
 };
 

@@ -129,7 +129,7 @@ bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerT
   return true;
 }
 
-/// What the cell itself answers along the path, its symmetric or skew stress alone, without the Cosserat part
+/// The answers of the cell itself along the path, its symmetric or skew stress alone, without the Cosserat part
 /// of the case. Ends before an increment that fails.
 std::vector<CellResponse> answers_of(coupler::Pool& pool, const CellDefinition& definition,
                                      const std::vector<CellIncrement>& path) {

@@ -43,7 +43,7 @@ bool write_report(const ReportOptions& options, const std::filesystem::path& fil
   } catch (const nlohmann::json::exception& error) {
     throw InputError(
         {"", 0,
-         fmt::format("the summary.json of a result holds what no run writes there ({}); run the case anew",
+         fmt::format("the summary.json of a result was damaged or changed ({}); run the case anew",
                      error.what())});
   }
   return at_work;

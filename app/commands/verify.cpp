@@ -24,7 +24,7 @@
 namespace polargrain::app {
 namespace {
 
-/// What is said, and whether all of it is good.
+/// The findings, and whether all of them are good.
 class Findings {
  public:
   void agrees(const std::string& what) { tell(stdout, "  agrees    {}\n", what); }
@@ -80,7 +80,7 @@ bool check_summary(const Summary& summary, Findings& findings) {
   const std::string recorded = word_at(summary, "/proof/summary");
   if (recorded.empty()) {
     findings.note(
-        "summary.json is of an older version: what it says, and some of the files, are under no proof");
+        "summary.json is of an older version: its figures and some of the files are under no proof");
     return false;
   }
   recorded == name_of_summary(summary) ? findings.agrees("summary.json")

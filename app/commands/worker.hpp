@@ -12,7 +12,7 @@
 
 namespace polargrain::app {
 
-/// What a worker runs; given by the program, so that the coupler knows no engine.
+/// The engine that a worker runs; given by the program, so that the coupler knows no engine.
 struct WorkerEngine {
   /// Called once, before anything else, in a process that becomes a worker.
   std::function<void()> start_process;

@@ -19,7 +19,7 @@ struct ElementCurve {
 std::vector<std::string> element_columns(element::Room room, const std::vector<std::string>& fields,
                                          bool has_void_ratio);
 
-/// The values of these columns. @param void_ratio at the start of the test, of materials that tell none
+/// The values of these columns. @param void_ratio at the start of the test, for materials that do not report one
 std::vector<double> element_values(const element::Row& row, element::Room room,
                                    const std::optional<double>& void_ratio);
 

@@ -23,7 +23,7 @@ struct ElementSpecification {
   std::vector<std::string> names;  ///< of the packings, or of the model
   std::shared_ptr<const coupler::MaterialRecipe> material;
   double pressure = 0.0;             ///< all-round, before the first stage, Pa
-  std::optional<double> void_ratio;  ///< at that pressure, of materials that tell none
+  std::optional<double> void_ratio;  ///< at that pressure, for materials that do not report one
   element::Accuracy accuracy;
   std::vector<element::Stage> stages;  ///< completed; the first is the consolidation
 };

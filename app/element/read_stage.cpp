@@ -23,7 +23,7 @@ using Way = Constraint::Way;
 constexpr int kRows = 100;
 constexpr int kRowsOfCycle = 40;
 constexpr double kStrain = 0.1;  ///< where nothing else is said
-/// What is said to be a strain and is larger was meant to be a stress.
+/// A larger value given as a strain was meant to be a stress.
 constexpr double kLargestStrain = 1.0;
 
 bool is_word(const Entry* entry, const char* word) {
@@ -49,7 +49,7 @@ double read_strain(Section& section, const std::string& key) {
   return strain;
 }
 
-/// What drives a test along an axis. @param strain, stress the names of its keys
+/// The drive of a test along an axis. @param strain, stress the names of its keys
 element::Drive read_drive(Section& section, const std::string& strain, const std::string& stress) {
   element::Drive drive;
   if (section.find("cycles") != nullptr) {

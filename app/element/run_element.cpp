@@ -99,7 +99,7 @@ ElementResult run_material(const ElementSpecification& specification, int worker
   return result;
 }
 
-/// What is told of a curve.
+/// The figures of a curve.
 struct Figures {
   double friction_angle = 0.0;  ///< the largest, degrees
   double strain_at_peak = 0.0;  ///< the axial one (the shear strain where that is larger)

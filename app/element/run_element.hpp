@@ -27,7 +27,7 @@ class NotAtRest : public RunError {
 std::vector<ElementResult> run_elements(std::span<const ElementSpecification> specifications, int workers,
                                         bool trust_scripts);
 
-/// What came out, for the terminal: peak, dilatancy, end of each specimen and their mean.
+/// The result for the terminal: peak, dilatancy, end of each specimen and their mean.
 std::string summary_of(const ElementResult& result);
 
 }  // namespace polargrain::app

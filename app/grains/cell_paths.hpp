@@ -28,13 +28,13 @@ struct StateOrigin {
 /// Folder cell_paths of docs/file_formats.md.
 class CellPathsRecord {
  public:
-  /// @param the_case must outlive this. @param from last step of the checkpoint that the run goes on from: what was kept of
-  /// later ones is dropped; -1: a new run
+  /// @param the_case must outlive this. @param from last step of the checkpoint that the run goes on from: records of
+  /// later steps are dropped; -1: a new run
   CellPathsRecord(const coupler::Case& the_case, std::filesystem::path directory, int from);
 
   /// Takes the requests and replies of an evaluation of the pool.
   void take(std::span<const coupler::PoolRequest> requests, std::span<const CellReply> replies);
-  /// Writes how what a step has committed came about. @param whole_states of points whose states are kept as they are
+  /// Records how a committed step came about. @param whole_states points whose states are kept whole
   /// too, which shortens the way to the grains of later steps
   /// @throws RunError when it cannot be written
   void write(int step, const fem::Solver& solver, const std::set<std::size_t>& whole_states = {});
@@ -48,7 +48,7 @@ class CellPathsRecord {
   std::unordered_map<ContentName, StateOrigin, ContentNameHash> origins_;  ///< since the last step
 };
 
-/// What a CellPathsRecord has left behind.
+/// The record left by a CellPathsRecord.
 class CellPaths {
  public:
   /// @param directory a result directory @throws InputError when a run has kept nothing there, or it cannot be read
@@ -57,7 +57,7 @@ class CellPaths {
   /// Steps whose grains can be made again, ascending.
   [[nodiscard]] std::vector<int> steps() const;
   [[nodiscard]] std::size_t points() const { return cell_of_point_.size(); }
-  /// The cell of a point; null when its material has none.
+  /// The cell of a point; null when its material has no cells.
   [[nodiscard]] const CellDefinition* cell(std::size_t point) const;
   /// The element that a point lies in.
   [[nodiscard]] std::int64_t element(std::size_t point) const { return element_of_point_.at(point); }
@@ -66,7 +66,7 @@ class CellPaths {
     std::map<int, std::vector<ContentName>> states;  ///< by step, then as the points were given
     std::map<ContentName, StateOrigin> origins;
     std::map<ContentName, StatePointer> kept;  ///< states on these ways that need not be made again
-    // What is neither is the packing at rest.
+    // A point in neither list is the packing at rest.
   };
   /// @param steps of steps(), at least one @throws InputError when a file of them is missing or cannot be read
   [[nodiscard]] Ways ways(std::span<const std::size_t> points, const std::set<int>& steps) const;

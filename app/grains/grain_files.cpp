@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kVector{"1", "2", "3"};
 
-/// What a vertex or a line of the file stands for.
+/// The meaning of a vertex or a line of the file.
 enum Kind { kGrain = 0, kContact = 1, kBox = 2, kEnd = 3 };
 
 void add(fem::Field& field, const Eigen::Vector3d& value) {

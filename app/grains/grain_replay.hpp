@@ -28,7 +28,7 @@ class GrainReplay {
   const CellPaths::Ways& ways_;
   std::unique_ptr<CellService> engine_;
   ContentName packing_;
-  ContentName shown_;  ///< what the engine would show now
+  ContentName shown_;  ///< the state that the engine would show now
   std::map<ContentName, StatePointer> made_;
 };
 

@@ -15,12 +15,12 @@ struct ShownGrains {
   const std::set<int>& steps;              ///< of paths.steps()
   const ScriptRules& scripts;
   const WorkerEngine& engine;
-  const std::filesystem::path& log;  ///< takes what the engine prints; left behind when it goes wrong
+  const std::filesystem::path& log;  ///< takes the output of the engine; kept when it goes wrong
   bool shows_progress = false;
 };
 
 /// Makes the grains of points again, point after point, step after step, in a process of its own that has an engine.
-/// @param see called there: what it keeps must be files
+/// @param see called there: its results must be files
 /// @throws InputError as CellPaths::ways; RunError in the engine's words
 void show_grains(const ShownGrains& what,
                  const std::function<void(std::size_t point, int step, const GrainView&)>& see);

@@ -25,12 +25,12 @@ struct ColumnSpecification {
 /// The case of a column.
 std::string column_case(const ColumnSpecification& column);
 
-/// Runs it, or goes on with it: case.yaml and what `polargrain run` writes. One that came to its end, or could not go on, is
+/// Runs it, or goes on with it: case.yaml and the files of `polargrain run`. A column that has ended or failed is
 /// not run again. @throws InputError, RunError, Interrupted
 void run_column(const ColumnSpecification& column, const std::filesystem::path& folder, int workers,
                 const ScriptRules& scripts);
 
-/// What it has left. @throws InputError naming file and line
+/// The result of run_column. @throws InputError naming file and line
 Shearing read_column(const ColumnSpecification& column, const std::filesystem::path& folder);
 
 }  // namespace polargrain::app

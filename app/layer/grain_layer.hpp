@@ -29,12 +29,12 @@ struct LayerShear {
 };
 
 /// Opens a packing above and below, glues the outermost grains, three mean radii deep, to rough plates, and shears it
-/// between them: history.csv and grains/ in the folder, and a file `done` last. What is there already is not made again.
+/// between them: history.csv and grains/ in the folder, and a file `done` last. Existing results are not made again.
 /// @throws RunError in the engine's words
 void shear_layer(const Packing& packing, const LayerScript& script, const LayerShear& shear,
                  const std::filesystem::path& folder, const PackingTools& tools, bool quiet);
 
-/// What shear_layer has left. @throws InputError naming file and line
+/// The result of shear_layer. @throws InputError naming file and line
 Shearing read_layer(const std::filesystem::path& folder, double pressure);
 
 }  // namespace polargrain::app

@@ -9,7 +9,7 @@
 namespace polargrain::app {
 namespace {
 
-/// What columns and layers are compared by.
+/// The values that columns and layers are compared by.
 using Compared = std::array<double, 3>;
 
 Compared compared(const LayerFigures& figures) {

@@ -8,7 +8,7 @@
 
 namespace polargrain::app {
 
-/// What `polargrain layer` is asked for (docs/user_guide.md). Lengths in mean diameters of the grains.
+/// The options of `polargrain layer` (docs/user_guide.md). Lengths in mean diameters of the grains.
 struct LayerOptions {
   std::filesystem::path
       specification;                ///< of the packings; its script is the contact law of both experiments

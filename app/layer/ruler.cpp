@@ -22,7 +22,7 @@ struct Profile {
   const Eigen::VectorXd& heights;  // from 0 to 1
   const Eigen::VectorXd& displacements;
 
-  /// What the best line and tanh of this place and length leave (variable projection).
+  /// The rest behind the best line and tanh of this place and length (variable projection).
   [[nodiscard]] double rest(double place, double logarithm_of_length) const {
     Eigen::MatrixXd columns(heights.size(), 3);
     columns.col(0).setOnes();

@@ -20,7 +20,7 @@ struct Band {
 /// @throws RunError where there is nothing to fit
 Band band_of(const Eigen::VectorXd& heights, const Eigen::VectorXd& displacements);
 
-/// The mean rotation in that band: of the places within half a thickness from its middle. Not-a-number where none is.
+/// The mean rotation in that band: of the places within half a thickness from its middle. NaN where there is no place.
 double rotation_in(const Band& band, const Eigen::VectorXd& heights, const Eigen::VectorXd& rotations);
 
 }  // namespace polargrain::app

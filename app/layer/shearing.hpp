@@ -8,9 +8,9 @@
 
 namespace polargrain::app {
 
-/// A layer that was sheared, of grains or of elements: what both are compared by. Lengths in m, rotations in rad.
+/// A layer that was sheared, of grains or of elements, as both are compared. Lengths in m, rotations in rad.
 struct Shearing {
-  /// What is known of every place at one time.
+  /// All places at one time.
   struct Frame {
     double displacement = 0.0;  ///< of the upper plate
     Eigen::VectorXd heights;
@@ -33,7 +33,7 @@ struct LayerFigures {
   double growth = 0.0;     ///< of the thickness: its last value over its first there
   double turning =
       0.0;  ///< rotation in the band over displacement over thickness, -1/2 for one that turns with the continuum
-  bool complete = false;  ///< whether it came so far; else what is there is of the way it came
+  bool complete = false;  ///< whether it reached its end; otherwise the frames hold the part done
 
   /// Names and values, for tables.
   [[nodiscard]] std::vector<std::pair<std::string, double>> values() const;

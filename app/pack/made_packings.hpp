@@ -27,20 +27,20 @@ struct MadePackings {
 /// Makes them, or says what stands in for them while a specification is checked. @returns a file each seed
 using PackingsOf = std::function<std::vector<std::filesystem::path>(const MadePackings&)>;
 
-/// The specification of a test with files in the place of packings that are to be made; as it is where none are.
-/// @param directory where files are looked for @throws InputError what is wrong with what is asked for
+/// The specification of a test with files in the place of packings to be made; unchanged where there are no such packings.
+/// @param directory where files are looked for @throws InputError with the faults of the packings asked for
 coupler::Entry with_made_packings(coupler::Entry test, const std::filesystem::path& directory,
                                   const ScriptRules& scripts, const PackingsOf& packings_of);
 
-/// Small files that are read as the packings would be: what a specification says can be checked before any is made.
+/// Small files that are read as the packings would be: a specification can be checked before any packing is made.
 /// @param folder exists
 std::vector<std::filesystem::path> stand_ins(const MadePackings& asked, const std::filesystem::path& folder);
 
 /// Makes the packings that are not in the folder yet. The loosest one of a seed is compressed as `polargrain pack` does;
 /// then its friction is lowered in steps, under the same pressure, and between the two steps that enclose the void
-/// ratio it is looked for. What a packing becomes depends on its seed and its void ratio, not on the others.
+/// ratio it is looked for. A packing depends on its seed and its void ratio, not on the others.
 /// @param folder is made @param tell a line for each packing that is made; may be empty
-/// @throws RunError when a void ratio is out of reach or is not hit, with what was
+/// @throws RunError when a void ratio is out of reach or is not hit, with the one reached
 std::vector<std::filesystem::path> make_packings(const MadePackings& asked,
                                                  const std::filesystem::path& folder,
                                                  const PackingTools& tools,

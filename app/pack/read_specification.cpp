@@ -111,7 +111,7 @@ void read_one_dimensional(coupler::Section& top, PackingSpecification& specifica
   if (specification.share_of_axis != std::array{1.0, 1.0, 1.0})
     top.fault(
         "one_dimensional_from",
-        "one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the last axis");
+        "one_dimensional_from: the lateral stresses follow from it; give one pressure, for the last axis");
 }
 
 /// Grains that fall, where asked.
@@ -134,7 +134,7 @@ void read_deposition(coupler::Section& top, PackingSpecification& specification,
     top.fault(
         "pressure",
         "pressure: with 'sides: kept' the lateral stresses follow from the compression along the fall; give one "
-        "pressure, that of the fall");
+        "pressure, along the fall");
 }
 
 /// How it is compressed and when it counts as at rest.

@@ -9,15 +9,15 @@
 
 namespace polargrain::app {
 
-/// Reads what `polargrain pack` is asked for (docs/user_guide.md), its script included.
+/// Reads the specification of `polargrain pack` (docs/user_guide.md), its script included.
 /// @param settings KEY=VALUE that replace values of the file
 /// @throws InputError with all faults
 PackingSpecification read_packing_specification(const std::filesystem::path& file,
                                                 const std::vector<std::string>& settings,
                                                 const ScriptRules& scripts = {});
 
-/// What settling a packing under a script asks for.
-/// @param dimension of the packing @param pressure that it records, Pa; 0 for none @param text what the packing was made from, kept
+/// Reads the specification for settling a packing under a script.
+/// @param dimension of the packing @param pressure that it records, Pa; 0: not recorded @param text source of the packing, kept
 /// with it
 /// @param settings KEY=VALUE: pressure, pressure_tolerance, unbalanced_force_ratio, inertial_number, damping,
 /// most_steps

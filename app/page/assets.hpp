@@ -4,7 +4,7 @@
 
 namespace polargrain::app {
 
-/// What pages carry with them: built into the program by CMake from the files of this folder and from Chart.js.
+/// Style sheets and scripts of pages: built into the program by CMake from the files of this folder and from Chart.js.
 std::string_view style_sheet();
 std::string_view chart_library();
 std::string_view chart_script();

@@ -18,7 +18,7 @@ function colourAt(stops, share) {
   return `rgb(${low.map((value, i) => Math.round(value + (place - k) * (high[i] - value))).join(",")})`;
 }
 
-// What the pictures of a page show: runs that are compared have one scale of colours for a field.
+// The pictures of a page: runs that are compared have one scale of colours for a field.
 const pictures = [];
 
 // The range of a field over all frames of all pictures, so that colours mean the same everywhere; round zero where both
@@ -77,7 +77,7 @@ function showMesh(figure, content) {
   let scale = scaleOf(content.fields[0].name);
   let shown = []; // paths of the elements as drawn last
 
-  // What the body needs of the plane over all frames, so that it does not jump from one to the next.
+  // The room of the body in the plane over all frames, so that it does not jump from one to the next.
   function bounds(times) {
     const found = [Infinity, -Infinity, Infinity, -Infinity];
     for (const of of content.frames) {

@@ -18,10 +18,10 @@ struct ChartAxis {
   bool percent = false;  ///< values are shares, shown as per cent
 };
 
-/// What one name of a chart stands for.
+/// The data behind one name of a chart.
 struct ChartSeries {
   std::string name;                               ///< shown with a point under the mouse, and in the legend
-  std::vector<std::pair<double, double>> points;  ///< x, y; what is not finite is left out
+  std::vector<std::pair<double, double>> points;  ///< x, y; values that are not finite are left out
   bool line = false;                              ///< joined by a line, no marks
   bool dashed = false;
   bool square = false;    ///< marks are squares, otherwise discs

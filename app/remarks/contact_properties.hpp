@@ -17,7 +17,7 @@ struct ContactProperty {
   std::vector<double> values;  ///< those that are plain numbers, or variables of the script
 };
 
-/// What a script says of contacts and neighbours.
+/// The contacts and neighbours that a script sets up.
 struct ContactScript {
   std::map<std::string, std::string> models;  ///< of `pair_style gran`: model hooke, tangential history, ...
   std::vector<ContactProperty> properties;

@@ -25,11 +25,11 @@ struct FormulaNumber {
   coupler::Dimension dimension;
 };
 
-/// What the units of a formula say.
+/// The findings on the units of a formula.
 struct FormulaUnits {
   Powers result{};
   std::vector<FormulaNumber> numbers;
-  std::string clash;  ///< two summands of different dimension, in words; empty where there are none
+  std::string clash;  ///< two summands of different dimension, in words; empty where the units agree
 };
 
 /// @param formula one that coupler::Expression takes @param powers of a name in it

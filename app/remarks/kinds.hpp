@@ -2,8 +2,8 @@
 #pragma once
 #include "app/remarks/scene.hpp"
 
-// The kinds of remarks: each looks at a scene and adds what it has to say. What each looks at stands at the head of its file
-// in kinds/.
+// The kinds of remarks: each looks at a scene and adds its remarks. The head of its file in
+// kinds/ says where each looks.
 namespace polargrain::app {
 
 void loads_at_start(const Scene& scene, Remarks& remarks);
@@ -38,7 +38,7 @@ void measures(const Scene& scene, Remarks& remarks);
 void formulas(const Scene& scene, Remarks& remarks);
 void output(const Scene& scene, Remarks& remarks);
 void cost(const Scene& scene, Remarks& remarks);
-/// Of what the others have not found: only where they have said nothing about time zero.
+/// Adds to the other kinds: only where they have no remark on time zero.
 void balance_at_start(const Scene& scene, Remarks& remarks);
 
 }  // namespace polargrain::app

@@ -9,7 +9,7 @@
 
 namespace polargrain::app {
 
-/// What the engine finds of a packing under its script, at rest: the state in which its cells begin.
+/// The engine's findings on a packing under its script, at rest: the state in which its cells begin.
 struct PackingAtRest {
   Vector7 stress = Vector7::Zero();  ///< Pa, tension positive
   coupler::NetworkModuli moduli;
@@ -26,7 +26,7 @@ struct PackingAtRest {
 /// By name of the material; those without cells are not there.
 using PackingsAtRest = std::map<std::string, PackingAtRest>;
 
-/// What becomes of a worker's log when it cannot answer.
+/// The fate of a worker's log when it cannot answer.
 enum class LogsOfFailure {
   kept,  ///< the message names it
   lost   ///< nobody will read the message

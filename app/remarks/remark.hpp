@@ -10,7 +10,7 @@ namespace polargrain::app {
 /// How wrong a result would be, worst first.
 enum class Rank {
   wrong,     ///< its figures are of another scene than the one that was meant
-  doubtful,  ///< its figures may be off by more than what a user would accept
+  doubtful,  ///< its figures may be off by more than a user would accept
   costly     ///< its figures stand, and time or output is lost
 };
 
@@ -20,8 +20,8 @@ struct Remark {
   Rank rank = Rank::doubtful;
   /// Within the rank: how many times a figure is off, or beyond its bound; at least 1.
   double weight = 1.0;
-  Fault at;            ///< file, line, and what is seen there, with its number
-  std::string remedy;  ///< what to do
+  Fault at;            ///< file, line, and the finding there, with its number
+  std::string remedy;  ///< the action advised
 };
 
 using Remarks = std::vector<Remark>;

@@ -12,7 +12,7 @@
 namespace polargrain::app {
 namespace {
 
-/// What looks at loads and stresses at time zero, one by one.
+/// The kinds that look at loads and stresses at time zero, one by one.
 constexpr RemarkKind kAtTimeZero[] = {loads_at_start, weight_in_boxes, load_on_held,
                                       plain_loads,    tension,         ground_stress,
                                       weight,         free_sides,      stiffness_of_laws};

@@ -7,12 +7,12 @@
 
 namespace polargrain::app {
 
-/// One kind of remark: looks at a scene and adds what it has to say. A new kind is a file in kinds/ with its function, and
+/// One kind of remark: looks at a scene and adds its remarks. A new kind is a file in kinds/ with its function, and
 /// its line in remarks.cpp.
 using RemarkKind = void (*)(const Scene& scene, Remarks& remarks);
 
 /// All remarks on a case, worst first; those of one rank by their weight. Runs no cell. @param document of the case,
-/// settings applied @param packings as the engine has found them; what nobody has asked for is not remarked on
+/// settings applied @param packings as the engine has found them; a packing not asked for gets no remark
 Remarks remarks_on(const coupler::Case& the_case, const coupler::Entry& document,
                    const PackingsAtRest& packings);
 
@@ -22,12 +22,12 @@ Remarks remarks_on(const coupler::Case& the_case, const std::vector<std::string>
 
 /// "wrong", "doubtful", "costly"
 const char* name_of(Rank rank);
-/// A remark on one line: rank, file, line, what is seen, remedy.
+/// A remark on one line: rank, file, line, finding, remedy.
 std::string line_of(const Remark& remark);
 
-/// What people read of them.
+/// The number of remarks shown to people.
 inline constexpr std::size_t kRemarksShown = 8;
-/// The first of them, a line each, under a heading; empty where there are none. @param all whether to show every one
+/// The first of them, a line each, under a heading; empty without remarks. @param all whether to show every one
 std::string text_of(const Remarks& remarks, bool all = false);
 
 /// @throws InputError with all of them as faults, where there are any (--strict)

@@ -13,7 +13,7 @@
 
 namespace polargrain::app {
 
-/// A region of the mesh and what it is made of.
+/// A region of the mesh and its material.
 struct SceneRegion {
   std::string name;
   std::string material;
@@ -42,11 +42,11 @@ class Scene {
 
   /// The entry of keys, from the top; null when it is not there.
   [[nodiscard]] const coupler::Entry* find(const Path& path) const;
-  /// A number that stands there; nothing where there is none.
+  /// The number at that place; nothing where there is no number.
   [[nodiscard]] std::optional<double> quantity(const Path& path, coupler::Dimension dimension) const;
   /// The entry, or the nearest above it that is there: where a remark points.
   [[nodiscard]] const coupler::Entry& place(const Path& path) const;
-  /// The value of `key` in the first item of `boundary` that is on `name` and has it; null where there is none.
+  /// The value of `key` in the first item of `boundary` that is on `name` and has it; null where no item has it.
   [[nodiscard]] const coupler::Entry* boundary_value(const std::string& name, const std::string& key) const;
 
   [[nodiscard]] bool has_cells() const;

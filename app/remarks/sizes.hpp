@@ -6,7 +6,7 @@
 
 namespace polargrain::app {
 
-/// What a run is expected to cost, to a factor of three or so.
+/// The expected cost of a run, to a factor of three or so.
 struct Expectation {
   double evaluations = 0.0;  ///< of cells
   double core_seconds = 0.0;
@@ -15,7 +15,7 @@ struct Expectation {
 /// From the points, steps and grains of a case: as long as cells of cases/biaxial take (docs/performance.md).
 Expectation expectation_of(const Scene& scene);
 
-/// The sizes that decide what a result is worth, a line each: body, elements over lc, lc over the grains, the largest movement
+/// The sizes that decide the worth of a result, a line each: body, elements over lc, lc over the grains, the largest movement
 /// over the body, strain of a step over the elastic strain of the packing, grains of a cell, cells and time to be expected.
 std::string sizes_text(const Scene& scene);
 

@@ -95,7 +95,7 @@ std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
   options.most_cuts = 0;
   options.most_iterations = 5;
   try {
-    // What would be accepted as it is has only been looked at.
+    // Tolerances without end: the state is only looked at, never corrected.
     options.force_tolerance = options.moment_tolerance = 1e300;
     fem::Solver looking(problem, options);
     const double out_of_balance = looking.equilibrate().force_residual;

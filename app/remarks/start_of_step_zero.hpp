@@ -6,7 +6,7 @@
 
 namespace polargrain::app {
 
-/// What step 0 makes of the loads and the stress at time zero, were the body elastic (of laws: E and nu; of grains: the moduli
+/// The outcome of step 0 under loads and stress at time zero, were the body elastic (of laws: E and nu; of grains: the moduli
 /// of their network at rest).
 struct StartOfStepZero {
   double largest_displacement = 0.0;  ///< m

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the summary says of its monitors; empty where it is not there or of another form.
+/// The monitors as the summary has them; empty where it is not there or of another form.
 Json monitors_of(const RunResult& result) {
   if (!result.summary.is_object()) return Json::object();
   const auto found = result.summary.find("monitors");

@@ -18,7 +18,7 @@ FollowedNames followed_names(const std::vector<RunResult>& results, const std::s
 /// "N/m"; empty: without one, or not known. Runs agree on it, or it is not known.
 std::string unit_of_value(const std::vector<RunResult>& results, const std::string& name);
 
-/// What curves are drawn over: a strain by its name, else a displacement, that all runs have and that did change; of the table
+/// The x axis of curves: a strain by its name, else a displacement, that all runs have and that did change; of the table
 /// first, then of the other values. Else `time`.
 std::string value_moved(const std::vector<RunResult>& results);
 

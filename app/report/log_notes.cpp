@@ -12,7 +12,7 @@ struct Kind {
   const char* meaning;
 };
 
-/// What is said where: run.cpp, run_observer.cpp, and what materials and workers tell.
+/// The notes come from run.cpp, run_observer.cpp, materials and workers.
 constexpr Kind kKinds[] = {
     {"within the noise of the stresses", NoteWeight::look,
      "The step is as well balanced as the noise of the cells' stresses lets it be, but not to the tolerance asked for. Results "
@@ -44,11 +44,11 @@ constexpr Kind kKinds[] = {
      "The run ended here. All steps that were committed before are good. The last lines of the log list the attempts. Frequent "
      "causes are a body without balance at this load, steps that are too large, and a tolerance below the noise."},
     {"points at the end (in any step)", NoteWeight::look,
-     "Grains bear skew and couple stress only in proportion to their pressure, and none where they have parted. The stress of "
+     "Grains bear skew and couple stress only in proportion to their pressure, and bear nothing where they have parted. The stress of "
      "these points is at that limit (fields skew_mobilisation, couple_mobilisation, parted). Usual in shear bands and behind "
      "plates. Where many points have parted, ask whether the ground would be in tension there."},
     {"small deformation", NoteWeight::serious,
-     "Rotations or strains have grown beyond what small deformation describes; deformation: large takes them into account."},
+     "Rotations or strains have grown beyond the range of small deformation; deformation: large takes them into account."},
 };
 
 std::string kind_of(const std::string& text) {

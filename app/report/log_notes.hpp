@@ -11,7 +11,7 @@ namespace polargrain::app {
 enum class NoteWeight {
   usual,   ///< such runs have it
   look,    ///< a figure may be off; look at it
-  serious  ///< the result is not what was asked for, or may be false
+  serious  ///< the result differs from the one asked for, or may be false
 };
 
 /// "serious"
@@ -24,7 +24,7 @@ struct LogNote {
   int first_step = -1;
   int last_step = -1;
   NoteWeight weight = NoteWeight::look;  ///< look, where nothing is known of it
-  std::string meaning;                   ///< and what helps; empty where nothing is known of it
+  std::string meaning;                   ///< with the remedy; empty where nothing is known of it
 };
 
 /// The warnings of a log by kind, in the order in which the kinds appear.

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostNumbers = 1500000;
 constexpr std::size_t kMostFrames = 60;
 
-/// What tells most of a run, as far as it is there.
+/// The fields that tell most of a run, as far as they are there.
 const std::vector<std::string> kUsualFields{"deviatoric_strain",
                                             "volume_strain",
                                             "displacement",

@@ -12,7 +12,7 @@ namespace polargrain::app {
 /// make a page too large to be opened.
 /// @param fields their names; empty: those of a fixed list that the files hold. Of vectors and tensors the Euclidean
 /// norm is shown, of values by node the mean of the corners.
-/// @throws InputError when a field named is in none of the files
+/// @throws InputError when a named field is in no file
 MeshPicture picture_of(const RunResult& result, const std::vector<std::string>& fields);
 
 }  // namespace polargrain::app

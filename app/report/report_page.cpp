@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What has no place on a logarithmic axis.
+/// The least value that a logarithmic axis shows.
 constexpr double kLeastResidual = 1e-17;
 
 /// The x that is asked for, or what was moved.
@@ -180,7 +180,7 @@ std::string cost(const std::vector<RunResult>& results) {
 /// Name, and a text for each run; a row of the name alone begins a group.
 using KeyRow = std::vector<std::string>;
 
-/// What a paper's table says of runs: what was computed, how well balanced, at what cost, and what came of it.
+/// The rows of a paper's table of runs: the model, how well balanced, at what cost, and the results.
 std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::vector<MeshPicture>& pictures,
                              const std::string& x) {
   std::vector<KeyRow> rows;
@@ -300,7 +300,7 @@ std::string key_table(const std::vector<RunResult>& results, const std::vector<K
          details("This table with tabulators, for spreadsheets", "<pre>" + escaped(tabs) + "</pre>\n");
 }
 
-/// What a run was made from, as far as the summary tells.
+/// The settings of a run, as far as the summary has them.
 std::string settings(const RunResult& result) {
   std::vector<TableRow> rows;
   const auto add = [&](const std::string& name, const std::string& value) {
@@ -379,8 +379,8 @@ std::string notes(const std::vector<RunResult>& results) {
   std::ranges::stable_sort(weighed, std::ranges::greater{}, &Weighed::weight);
   std::vector<TableRow> rows;
   for (Weighed& one : weighed) rows.push_back(std::move(one.row));
-  std::string text = table(
-      {"weight", "run", "how often", "steps", "the first of them", "what it means, and what to do"}, rows);
+  std::string text =
+      table({"weight", "run", "how often", "steps", "the first of them", "meaning and remedy"}, rows);
   return text.replace(text.find("<table>"), 7, "<table class='text'>");
 }
 

@@ -7,7 +7,7 @@
 
 namespace polargrain::app {
 
-/// The remarks on the cases of runs as a table of a page, from their summaries; empty where there are none.
+/// The remarks on the cases of runs as a table of a page, from their summaries; empty without remarks.
 std::string remarks_section(const std::vector<RunResult>& results);
 
 }  // namespace polargrain::app

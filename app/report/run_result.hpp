@@ -25,7 +25,7 @@ struct LoggedWarning {
   std::string text;
 };
 
-/// What a result directory holds, as far as it is there: a run may be at work in it.
+/// The content of a result directory, as far as it is there: a run may be at work in it.
 struct RunResult {
   std::filesystem::path directory;
   std::string name;  ///< of the directory, for legends
@@ -41,7 +41,7 @@ struct RunResult {
 
   /// Title of the case; of a run without a summary the head of its log.
   [[nodiscard]] std::string title() const;
-  /// Names of what history.csv holds of each step behind the figures of the solver: built-in values and monitors.
+  /// Names of the values that history.csv holds of each step behind the figures of the solver: built-in values and monitors.
   [[nodiscard]] std::vector<std::string> value_names() const;
 };
 

@@ -54,7 +54,7 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh& mesh) {
                      fmt::join(nodes, "; "));
 }
 
-/// What a cell, or a law, says of a point, in the words of the fields of the result.
+/// The values of a cell or a law at a point, in the words of the fields of the result.
 std::string words_of(const fem::Solver& solver, fem::MaterialValues& values, std::size_t point) {
   const Vector7& stress = solver.state().responses[point].stress;
   Lines words{fmt::format("p {:.3g} kPa", -0.5e-3 * (stress(k11) + stress(k22)))};
@@ -116,7 +116,7 @@ std::string without_stress(const fem::Solver& solver) {
   if (!least) return {};
   return fmt::format(
       "  {} of {} points carry next to nothing, least point {} of element {} at {} ({}): their grains have "
-      "parted, and a box of loose grains gives no direction to go in. Where that is what stops the run, some "
+      "parted, and a box of loose grains gives no direction to go in. Where that stops the run, some "
       "pressure left on the free surface may help, and a weight raised slowly at first ('factor' of 'body')",
       lost, solver.points(), *least, solver.element_of_point(*least), at(solver.position_of_point(*least)),
       words_of(solver, values, *least));
@@ -183,7 +183,7 @@ std::string corner(const fem::Trouble& trouble, const fem::Problem& problem) {
   const Lines places = places_of(problem.mesh, node);
   if (!moves || places.size() < 2) return {};
   return fmt::format(
-      "  {} is an end of what moves ({}): strains have no bound there, whatever the mesh; a finer one makes "
+      "  {} is an end of the moving part ({}): strains have no bound there, whatever the mesh; a finer one makes "
       "it harder",
       at(problem.mesh.nodes[static_cast<std::size_t>(node)]), fmt::join(places, " and "));
 }

@@ -8,7 +8,7 @@
 
 namespace polargrain::app {
 
-/// What to tell a user whose step fails: where it is out of balance (nodes, boundaries, elements), which points have no
+/// Advice for a user whose step fails: where it is out of balance (nodes, boundaries, elements), which points have no
 /// good answer and why, what the cells there say, and which keys of the case are worth trying, with the reason of each.
 /// Lines, each begun with two blanks; empty when nothing is known.
 std::string advice(const fem::Trouble& trouble, const fem::Solver& solver, const coupler::Case& the_case);

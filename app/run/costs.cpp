@@ -79,7 +79,7 @@ void restore(ArchiveReader& archive, Costs& costs, coupler::PoolCounts& counts) 
   const std::vector<double> seconds = read_lists(archive, "seconds", 1, kCosts.size() + kSeconds.size());
   const std::vector<std::int64_t> whole = archive.integers("counts");
   // Those that were written before the last ones were counted have less.
-  if (whole.size() > kWhole.size()) throw RunError("'counts' does not hold what a run has cost");
+  if (whole.size() > kWhole.size()) throw RunError("'counts' does not hold the costs of a run");
   for (std::size_t i = 0; i < kCosts.size(); ++i) costs.*kCosts[i] = seconds[i];
   for (std::size_t i = 0; i < kSeconds.size(); ++i) counts.*kSeconds[i] = seconds[kCosts.size() + i];
   for (std::size_t i = 0; i < whole.size(); ++i) counts.*kWhole[i] = whole[i];

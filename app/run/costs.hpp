@@ -25,7 +25,7 @@ Costs& operator+=(Costs& sum, const Costs& more);
 coupler::PoolCounts operator+(const coupler::PoolCounts& a, const coupler::PoolCounts& b);
 coupler::PoolCounts operator-(const coupler::PoolCounts& after, const coupler::PoolCounts& before);
 
-/// What a run has cost so far, in a checkpoint.
+/// The costs of a run so far, in a checkpoint.
 void save(ArchiveWriter& archive, const Costs& costs, const coupler::PoolCounts& counts);
 /// @throws RunError when the archive does not hold it
 void restore(ArchiveReader& archive, Costs& costs, coupler::PoolCounts& counts);

@@ -5,8 +5,8 @@
 
 namespace polargrain::app {
 
-/// JSON for a file, two spaces a level, with a line end. Numbers have the digits that give the same bits back; what is
-/// infinite or no number becomes null. Bytes that are no UTF-8 (names of files) become question marks in a lozenge.
+/// JSON for a file, two spaces a level, with a line end. Numbers have the digits that give the same bits back; infinity
+/// and NaN become null. Bytes that are not UTF-8 (names of files) become question marks in a lozenge.
 inline std::string json_text(const nlohmann::ordered_json& value) {
   return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

@@ -13,12 +13,12 @@ namespace polargrain::app {
 class Progress : public fem::Observer {
  public:
   enum class Style { quiet, sparse, terminal };
-  /// quiet, or what suits the stream.
+  /// quiet, or the style that suits the stream.
   static Style style_for(std::FILE* out, bool quiet);
 
   Progress(std::FILE* out, Style style, int steps);
 
-  /// The run goes on from this time: what is left is reckoned from here.
+  /// The run goes on from this time: the rest is reckoned from here.
   void go_on(double time);
   void begin_step(int step);
   /// A step has been committed: `time` of 1 is reached.

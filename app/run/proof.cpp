@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run leaves and nothing changes afterwards.
+/// The files that a run leaves and nothing changes afterwards.
 constexpr std::array kFiles{"history.csv", "costs.csv", "run.log",      "fields.pvd",
                             "points.pvd",  kSampleFile, kCheckpointFile};
 constexpr std::array kFolders{"fields", kCellPathsFolder};
 
-/// What later commands write, or what tells of one machine and one day.
+/// The files that later commands write, or that belong to one machine and one day.
 constexpr std::array kOthers{"report.html",         "band.json",        "band.csv", "grains",
                              kCheckpointBeforeFile, kOldCheckpointFile, "logs",     "replay"};
 

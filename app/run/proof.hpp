@@ -11,13 +11,13 @@ namespace polargrain::app {
 /// The file with a run's sample of answers, in its result directory.
 constexpr const char* kSampleFile = "sample.h5";
 
-/// Names (XXH3, 128 bits, 32 hexadecimal digits) of what a run has come to, by file or folder, a folder as one; of those that are
+/// Names (XXH3, 128 bits, 32 hexadecimal digits) of the results of a run, by file or folder, a folder as one; of those that are
 /// there: history.csv, costs.csv, run.log, fields.pvd, points.pvd, fields, cell_paths, the sample, the checkpoint. To be asked
 /// for when all of them are written, the log included.
 /// @throws RunError when one that is there cannot be read
 std::map<std::string, std::string> names_of_results(const std::filesystem::path& directory);
 
-/// What a result directory may hold that no proof covers, because commands and users change it after the run: of those that are
+/// The entries of a result directory without a proof, because commands and users change them after the run: of those that are
 /// there.
 std::vector<std::string> without_proof(const std::filesystem::path& directory);
 

@@ -18,7 +18,7 @@ constexpr const char* kOldCheckpointFile = "checkpoint.old.h5";
 /// Somebody renamed or removed the result directory during the run.
 struct Displacement {
   std::filesystem::path now;  ///< where it is; empty when it was removed
-  std::string text;           ///< what happened, for the user
+  std::string text;           ///< the event, for the user
 };
 
 /// While it lives no other run can write to the directory; the lock goes with the process, however that ends.
@@ -47,7 +47,7 @@ class DirectoryLock {
 [[nodiscard]] std::unique_ptr<DirectoryLock> prepare_result_directory(const std::filesystem::path& directory,
                                                                       bool resume);
 
-/// A place for what can be saved of a run whose directory was removed: its name again, or, when something else has that
+/// A place for the rest of a run whose directory was removed: its name again, or, when something else has that
 /// name by now, NAME.rescued. @throws RunError when it cannot be made
 std::filesystem::path make_rescue_directory(const std::filesystem::path& directory);
 

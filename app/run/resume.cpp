@@ -28,7 +28,7 @@ std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_cas
   }
   throw InputError(
       {file.string(), 0,
-       fmt::format("this checkpoint is of another case than {}:\n  {}\nput back what differs, or run without "
+       fmt::format("this checkpoint is of another case than {}:\n  {}\nundo these changes, or run without "
                    "--resume",
                    the_case.file.string(), fmt::join(lines, "\n  "))});
 }

@@ -14,7 +14,7 @@ namespace polargrain::app {
 std::string resume_command(const RunOptions& options, const std::filesystem::path& directory);
 
 /// Reads the checkpoint that a case may go on from.
-/// @throws InputError when it cannot be used, or is of another case, with what differs
+/// @throws InputError when it cannot be used, or is of another case, with the differences
 std::unique_ptr<coupler::Checkpoint> checkpoint_for(const coupler::Case& the_case,
                                                     const std::filesystem::path& file);
 

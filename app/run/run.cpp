@@ -161,7 +161,7 @@ class Run {
       const fem::StepReport report =
           step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
       log_step(log_, report, case_.solver.largest_strain);
-      // What was committed of a step that was not reached is shown, but is no place to go on from.
+      // The committed part of a step that was not reached is shown, but is no place to go on from.
       const bool partly = !report.converged && step > 0 && report.substeps > 0;
       CommittedStep committed{step, report, {}};
       if (report.converged || partly) {
@@ -204,7 +204,7 @@ class Run {
     return solver_->advance(target.amount);
   }
 
-  /// What the cells have cost since the start of the run, before the checkpoint included.
+  /// The costs of the cells since the start of the run, before the checkpoint included.
   [[nodiscard]] coupler::PoolCounts counts() const {
     return pool_ ? counts_before_ + pool_->counts() : counts_before_;
   }
@@ -215,7 +215,7 @@ class Run {
     files_.add(step, costs, record_.pool - before);
   }
 
-  /// What the time since the last call went into, cells that no step came of included, so that seconds and cells of the
+  /// The costs since the last call, cells that no step came of included, so that seconds and cells of the
   /// summary tell of the same work. From the end of the step before: output and checkpoints are in it.
   Costs add_lap(const fem::StepReport& report) {
     const coupler::PoolCounts before = record_.pool;

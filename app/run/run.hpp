@@ -18,7 +18,7 @@ struct RunOptions {
   std::optional<double> checkpoint_minutes;  ///< in place of the case's own
   bool quiet = false;
   bool strict = false;         ///< remarks on the case are faults
-  std::string listen;          ///< tcp://HOST:PORT where workers of other machines may join; empty: none may
+  std::string listen;          ///< tcp://HOST:PORT where workers of other machines may join; empty: no guest
   std::filesystem::path keys;  ///< directory of 'polargrain keys', needed to listen
   std::vector<std::string> settings;  ///< of --set
   ScriptRules scripts = {};           ///< which scripts of cells are run
@@ -28,7 +28,7 @@ struct RunOptions {
 /// Runs a case from its start, or from a checkpoint, to its end and writes the result directory
 /// (docs/file_formats.md). Input is checked whole before anything is written or started.
 /// @returns 0 when the last step is committed, 1 when a step did not converge
-/// @throws InputError, RunError, Interrupted; after the last two what was committed is in the result
+/// @throws InputError, RunError, Interrupted; after the last two the committed steps are in the result
 /// directory, with a checkpoint to go on from
 int run(const RunOptions& options);
 

@@ -10,7 +10,7 @@
 
 namespace polargrain::app {
 
-/// What a run can be gone on from: its last committed step in memory, and the one that is on the disk.
+/// The checkpoints of a run: its last committed step in memory, and the one that is on the disk.
 class RunCheckpoints {
  public:
   /// @param steps of the whole run @param seconds_between two that are written
@@ -23,17 +23,17 @@ class RunCheckpoints {
   void keep(std::unique_ptr<coupler::Checkpoint> last) { last_ = std::move(last); }
   /// Whether it is time to write one.
   [[nodiscard]] bool is_due() const;
-  /// Writes what was kept last. @returns how many seconds it took; nothing when it is there already
+  /// Writes the checkpoint kept last. @returns how many seconds it took; nothing when it is there already
   /// @throws RunError when it cannot be written; the one before stands
   std::optional<double> save();
   /// The next one is due after the usual time only.
   void postpone();
-  /// Nobody is to go on by mistake from what this run has kept and written. The one it has itself begun from is what
-  /// it was. @returns whether there was one, which is checkpoint.doubtful.h5 now
+  /// Keeps anybody from resuming this run by mistake. A checkpoint that the run itself began from stays as it
+  /// was. @returns whether a checkpoint was written, which is checkpoint.doubtful.h5 now
   bool forget();
   /// The directory of the run is elsewhere now. @param with_its_files or is a new, empty one
   void follow(const std::filesystem::path& directory, bool with_its_files);
-  /// Of the one on the disk; -1: there is none.
+  /// The step of the checkpoint on the disk; -1: no checkpoint.
   [[nodiscard]] int saved_step() const { return saved_step_; }
   /// The same in words.
   [[nodiscard]] std::string text() const;

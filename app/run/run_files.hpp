@@ -11,10 +11,10 @@
 
 namespace polargrain::app {
 
-/// What a run writes while it goes on: history.csv, costs.csv, fields (docs/file_formats.md).
+/// The files that a run writes while it goes on: history.csv, costs.csv, fields (docs/file_formats.md).
 class RunFiles {
  public:
-  /// Starts new files, or goes on with those of a checkpoint: what was written after it is dropped.
+  /// Starts new files, or goes on with those of a checkpoint: later rows are dropped.
   /// @param from null for a new run. Both must outlive this object. @throws RunError when they cannot be
   /// written
   RunFiles(const coupler::Case& the_case, std::filesystem::path directory, const coupler::Checkpoint* from);

@@ -7,7 +7,7 @@
 
 namespace polargrain::app {
 
-/// Where the lines of run.log go: time, "run", level, text. What users and engines have written may stand in the text: it
+/// The lines of run.log: time, "run", level, text. The text may hold words of users and engines: it
 /// steers no terminal that shows the log, and no line of it is taken for one of the log's own, which begin with '['.
 /// @param anew whether to empty the file first @throws RunError when the file cannot be written
 std::shared_ptr<spdlog::sinks::sink> run_log_sink(const std::filesystem::path& file, bool anew);

@@ -10,7 +10,7 @@
 
 namespace polargrain::app {
 
-/// Progress for the user, and what happens for the log.
+/// Shows progress to the user and writes events to the log.
 class RunObserver : public Progress {
  public:
   RunObserver(Style style, int steps, spdlog::logger& log) : Progress(stderr, style, steps), log_(log) {}
@@ -26,13 +26,13 @@ class RunObserver : public Progress {
     if (on_struggle) on_struggle(trouble);
   }
   std::function<void(const fem::Trouble&)>
-      on_struggle;  ///< what to do when a step is cut for the second time
+      on_struggle;  ///< the advice when a step is cut for the second time
 
  private:
   spdlog::logger& log_;
 };
 
-/// What a step came to, for the log. @param largest_strain that corrections are shortened to
+/// Logs the outcome of a step. @param largest_strain that corrections are shortened to
 void log_step(spdlog::logger& log, const fem::StepReport& report, double largest_strain);
 
 }  // namespace polargrain::app

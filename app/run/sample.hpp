@@ -11,7 +11,7 @@
 
 namespace polargrain::app {
 
-/// What a cell was asked and what it answered, in bits.
+/// A request to a cell and its answer, in bits.
 struct SampledAnswer {
   std::int64_t definition = 0;  ///< number of the cell's definition in the pool
   CellRequest asked;            ///< its state with bytes; null: from the packing
@@ -47,7 +47,7 @@ class Sample {
 void write_sample(const std::filesystem::path& file, const coupler::CaseIdentity& identity,
                   const std::vector<SampledAnswer>& answers);
 
-/// @param sample as read by read_checkpoint @throws RunError when it holds none
+/// @param sample as read by read_checkpoint @throws RunError when it holds no sample
 std::vector<SampledAnswer> answers_of(coupler::Checkpoint& sample);
 
 }  // namespace polargrain::app

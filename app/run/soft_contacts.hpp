@@ -9,7 +9,7 @@ class Solver;
 namespace polargrain::app {
 
 /// Says, in a sentence for people, that grains of a committed cell overlap by more than contacts are meant to
-/// (docs/user_guide.md, packings): which element, and by how much. Empty while none does, and where no material has cells.
+/// (docs/user_guide.md, packings): which element, and by how much. Empty without such grains, and where no material has cells.
 std::string soft_contacts(const fem::Solver& solver);
 
 }  // namespace polargrain::app

@@ -65,7 +65,7 @@ Json material_figures(const RunRecord& record) {
   return regions;
 }
 
-/// What the result was made from, by whom, and what it is.
+/// The origin of the result, its makers, and its hashes.
 Json proof_figures(const coupler::Case& the_case, const RunRecord& record) {
   Json workers = Json::object();
   for (const auto& [worker, done] : record.worker_records)

@@ -34,10 +34,10 @@ struct RunRecord {
   double jump_residual = 0.0;
   coupler::PoolCounts pool;
   Costs costs;
-  /// What materials tell of their cost and error, by region; only of those that do.
+  /// The cost and error that materials report, by region; only of materials that report them.
   std::map<std::string, std::vector<fem::Figure>> figures;
   Remarks remarks;                             ///< on the case, before it began
-  std::map<std::string, std::string> doubts;   ///< what materials cannot vouch for, by region
+  std::map<std::string, std::string> doubts;   ///< the answers that materials cannot vouch for, by region
   std::map<std::string, std::string> limits;   ///< which points are at limits of their grains, by region
   std::vector<std::string> settings;           ///< of --set
   std::map<std::string, std::string> results;  ///< names of contents, see names_of_results
@@ -55,10 +55,10 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
 /// The table a run ends with: at most some twenty steps, evenly spaced, the last one always.
 std::string table_text(const coupler::Case& the_case, const RunRecord& record);
 
-/// Where the time went and what the cells cost.
+/// The time spent and the cost of the cells.
 std::string costs_text(const RunRecord& record);
 
-/// What the materials tell of their cost and error; empty when none does.
+/// The cost and error that materials report; empty when no material reports them.
 std::string figures_text(const RunRecord& record);
 
 }  // namespace polargrain::app

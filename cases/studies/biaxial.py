@@ -208,7 +208,7 @@ class Study:
         self.new_lock = threading.Lock()
 
     def lock(self, name):
-        """What two runs need is made by the first that comes."""
+        """Files that two runs need are made by the first that comes."""
         with self.new_lock:
             return self.locks.setdefault(name, threading.Lock())
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the faces of a specimen of grains do: how dense it is inside, and where it strains before its peak."""
+"""The effects of the faces of a specimen of grains: how dense it is inside, and where it strains before its peak."""
 import numpy
 
 from built_package import polargrain

@@ -33,7 +33,7 @@ def read_json(file):
 
 
 def figures(run, output):
-    """What a run has to show: the columns of table.csv; nan where there is nothing."""
+    """The figures of a run: the columns of table.csv; nan where there is no figure."""
     rows = curve(output, run)
     strain, ratio, volume = (rows[name] for name in ("axial_strain", "stress_ratio", "volume_strain"))
     peak = ratio.argmax()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What `informed` makes of one point against `cell`: biaxial compression, unloading and reloading, cyclic shear (docs/studies/informed_points.md).
+"""`informed` against `cell` at one point: biaxial compression, unloading and reloading, cyclic shear (docs/studies/informed_points.md).
 
     python3 informed_points.py -o RESULTS [--packings 10] [--tests compression,reloading,cycles] [--set material.KEY=VALUE ... --name NAME]
 

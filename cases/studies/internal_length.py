@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the grains alone say of internal length: moduli and limits of skew and couple stress of cells with controlled rotations.
+"""The internal length of the grains alone: moduli and limits of skew and couple stress of cells with controlled rotations.
 
     python3 internal_length.py [--program POLARGRAIN] [-o RESULTS] [--size reduced|full] [--jobs 2]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What sets the thickness of a band in a column of cells: two controls of cases/studies/layer_study.py.
+"""The cause of the thickness of a band in a column of cells: two controls of cases/studies/layer_study.py.
 
     python3 layer_controls.py cauchy -o RESULTS [--elements 5 10 20] [--programs FOLDER]
     python3 layer_controls.py scatter -o RESULTS

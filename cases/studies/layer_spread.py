@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What makes a band of cells soften as slowly as one of grains: a column in which every slip drags its neighbours along.
+"""A band of cells that softens as slowly as one of grains: a column in which every slip drags its neighbours along.
 
     python3 layer_spread.py -o RESULTS [--lengths 0 4 5 6 8] [--columns 5] [--layers FOLDER] [--program POLARGRAIN]
 

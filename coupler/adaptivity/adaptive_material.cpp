@@ -244,7 +244,7 @@ bool AdaptiveMaterial::confirm() {
       bound = bound_of(measured_errors());
       note_tightening(bound_before, bound);
       tightening_helps_ = bound < kHelps * bound_before;
-      // What is left has entered the histories and no answer of this step mends it. Where it does not grow, a smaller
+      // The rest has entered the histories and no answer of this step mends it. Where it does not grow, a smaller
       // tolerance would be paid for nothing.
       if (!tightening_helps_ && bound < kGrows * bounds_.last) tightening_ /= kTighter;
     }

@@ -21,10 +21,10 @@ struct AdaptivityOptions {
   /// has a cell of its own.
   double tolerance = 0.02;
   /// Share of the points that are followed by a cell of their own through all steps, which measures the error; at
-  /// least six, at the start twelve and the root of their number. 0: none, and nothing is known of the error.
+  /// least six, at the start twelve and the root of their number. 0: no point, and nothing is known of the error.
   double audit = 0.01;
   std::uint64_t seed = 1;
-  /// Of grains whose rotations are controlled, m: what makes curvatures and couple stresses comparable with strains and
+  /// Of grains whose rotations are controlled, m: it makes curvatures and couple stresses comparable with strains and
   /// stresses. 0: rotations are free.
   double mean_diameter = 0.0;
   /// Pa; nothing: the mean in-plane pressure of the packing. A scene that begins almost without stress and is loaded by
@@ -64,7 +64,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   /// @param calls must live as long as the material
   /// @param cosserat of cells with free rotations; nothing: they are controlled, and options.mean_diameter is that of
   /// the grains
-  /// @param note what the user is to know of the parameters; may be empty
+  /// @param note remarks to the user on the parameters; may be empty
   AdaptiveMaterial(CellCalls calls, const std::optional<CosseratParameters>& cosserat,
                    const AdaptivityOptions& options, const std::string& note = {});
 
@@ -127,7 +127,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
     PlaneReply answer = {};
     Departure departure = {};
   };
-  /// A point that is followed by a cell of its own along its whole history, to measure what sharing costs.
+  /// A point that is followed by a cell of its own along its whole history, to measure the error of sharing.
   struct Followed {
     std::size_t point;
     StatePointer state;
@@ -146,22 +146,22 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   bool run_branches(const std::vector<std::size_t>& leaders);
   [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
                                             std::span<const std::size_t> points, std::int64_t& steps);
-  /// What takes the cell of a point through the step.
+  /// The increment that takes the cell of a point through the step.
   [[nodiscard]] Increment increment_of_step(std::size_t point) const;
   /// Size of an error of a stress, as a share of the reference pressure.
   [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / reference_; }
   /// @param part skew and couple stress of the point at the start of the step; goes along to its end
   Response answer_to(std::size_t point, CosseratPart& part) const;
-  /// What the cells say of a point, carried to it; without the Cosserat part of the case.
+  /// The stress of the cells at a point, carried to it; without the Cosserat part of the case.
   [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * reference_; }
   [[nodiscard]] LimitsReached reached(const Point& point) const;
   void choose_followed();
   /// Runs the cells that follow points through the step at work, those that have not been. One that fails is let go.
   void run_followed();
-  /// What the answers to the followed points miss, shares of the reference pressure.
+  /// The errors of the answers at the followed points, shares of the reference pressure.
   [[nodiscard]] std::vector<double> measured_errors() const;
-  /// What the mean error of all points is at most, a share of the reference pressure, with 95 % confidence.
+  /// The upper bound of the mean error of all points, a share of the reference pressure, with 95 % confidence.
   [[nodiscard]] double bound_of(std::span<const double> errors) const;
   /// By how much the estimates of all points, on the average, are above those of the points that are followed, which may
   /// happen to be calm ones: at least 1.
@@ -169,7 +169,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   /// The reference pressure in words.
   [[nodiscard]] std::string reference_name() const;
   void note_tightening(double bound_before, double bound);
-  /// Ends the audit of a step: what was measured is kept, and where it leaves much room one point less is followed.
+  /// Ends the audit of a step: keeps the errors measured, and where they leave much room one point less is followed.
   void keep_audit();
   [[nodiscard]] std::size_t fewest_followed() const;
   [[nodiscard]] bool audits() const { return options_.audit > 0.0 && options_.tolerance > 0.0; }
@@ -208,7 +208,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
     double last = 0.0;          ///< of the mean error of the last step, with 95 % confidence
     double largest = 0.0;       ///< of all steps
     double steps_beyond = 0.0;  ///< increments whose bound was beyond the tolerance,
-    double first_beyond = 0.0;  ///< and the first of them; 0: none
+    double first_beyond = 0.0;  ///< and the first of them; 0: no step
   } bounds_;
   std::array<std::int64_t, 3> sources_{};  ///< committed point steps by Source
   struct Costs {

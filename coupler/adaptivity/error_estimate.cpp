@@ -13,7 +13,7 @@ namespace {
 /// Of the stress between the tangents of sliding and of sticking contacts, what a change of direction was
 /// measured to make (docs/adaptivity.md, 2).
 constexpr double kShareOfElastic = 0.5;
-/// What a cell has shown is forgotten by half at each new run.
+/// The errors that a cell has shown are forgotten by half at each new run.
 constexpr double kMemory = 0.5;
 
 /// The part of a strain that goes on along the last loading.

@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// What is known of how an answer of a cell departs from its tangent (docs/adaptivity.md, 2).
+/// The departure of an answer of a cell from its tangent, as far as known (docs/adaptivity.md, 2).
 struct Departure {
   /// Stress (Pa, GrainMeasure::stress) by which linearisation was wrong over an offset of size `length`. Unknown
   /// while length is 0: nothing has been learned of this cell or of those it comes from.
@@ -34,17 +34,17 @@ class ErrorEstimate {
  public:
   ErrorEstimate() = default;
   /// @param elastic tangent of the packing at rest; symmetric where rotations are free
-  /// @param noise_length what runs shorter than this have shown is mostly noise, and any longer one replaces
-  /// it
+  /// @param noise_length runs shorter than this show mostly noise, and any longer one replaces
+  /// them
   ErrorEstimate(const GrainMeasure& measure, const Matrix7& elastic, double noise_length)
       : measure_(measure), elastic_(elastic), noise_length_(noise_length) {}
 
-  /// Estimated error (Pa) of carrying `answer` by `offset`: what the departure makes, and half of the stress
+  /// Estimated error (Pa) of carrying `answer` by `offset`: the part of the departure, and half of the stress
   /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
   /// the last loading. Infinite where nothing is known.
   [[nodiscard]] double of(const Response& answer, const Departure& departure, const Increment& offset) const;
 
-  /// What a run from `start` to `end` over `offset` has shown about both ends.
+  /// Learns from a run from `start` to `end` over `offset` about both ends.
   /// @param at_start updated: the largest error seen from there
   /// @returns the departure of the answer at the end
   Departure learn(const Response& start, const Response& end, const Increment& offset,

@@ -10,7 +10,7 @@ namespace polargrain::coupler {
 /// The increment with that displacement gradient, and no more.
 Increment increment_of(const Eigen::Matrix2d& displacement_gradient);
 
-/// What an answer of a cell becomes a little further on. In small deformation: s + C : e + (W s - s W), m + D : e + W m,
+/// An answer of a cell carried a little further on. In small deformation: s + C : e + (W s - s W), m + D : e + W m,
 /// with e the Cosserat strain of the offset and W the skew part of its displacement gradient (docs/adaptivity.md, 1). In
 /// large deformation: R (s + C : e) R^T, R (m + D : e), with e the strain of the stretch of the offset and R its turn
 /// (fem/material/rotation.hpp). Of cells with free rotations stress and tangent are to be symmetric.

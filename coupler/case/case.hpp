@@ -30,7 +30,7 @@ struct Monitor {
 /// Names that every formula may use: time, volume_strain, external_work, internal_work.
 const std::vector<std::string>& built_in_values();
 
-/// What one step of a run is to reach.
+/// The target of one step of a run.
 struct StepTarget {
   enum class Control {
     time,       ///< a loading time
@@ -45,7 +45,7 @@ struct StepTarget {
 /// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.
 struct Case {
   std::filesystem::path file;
-  CaseIdentity identity;             ///< what a checkpoint must agree with
+  CaseIdentity identity;             ///< must agree with that of a checkpoint
   double checkpoint_minutes = 10.0;  ///< least time between two checkpoints
   std::string title;
   /// Mesh, supports and loads; its materials are null until a run makes them from the recipes.

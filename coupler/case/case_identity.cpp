@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 namespace {
 
-/// What a script includes is part of it.
+/// Files that a script includes are part of it.
 std::string name_of_content(const std::filesystem::path& file, const std::string& key) {
   const std::string content = key.ends_with("script") ? text_of_script(file) : content_of(file);
   return name_of(std::as_bytes(std::span(content))).text();

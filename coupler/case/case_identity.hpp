@@ -9,7 +9,7 @@
 
 namespace polargrain::coupler {
 
-/// What makes a case the case it is: every value as it was written, with --set, and the content of every file
+/// The identity of a case: every value as it was written, with --set, and the content of every file
 /// that a value names. Comments, the order of keys and where the files lie do not matter.
 struct CaseIdentity {
   std::map<std::string, std::string> values;  ///< by key: "steps.count", "boundary.2.move.u2"
@@ -19,8 +19,8 @@ struct CaseIdentity {
 /// @param directory where the files of the case are looked for (data_files.hpp)
 CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory);
 
-/// What differs, one line each, keys by name; empty when a run of one case may go on as the other. Values
-/// that no result depends on (title, what the table shows, how often checkpoints are written) may differ.
+/// The differences, one line each, keys by name; empty when a run of one case may go on as the other. Values
+/// that no result depends on (title, columns of the table, how often checkpoints are written) may differ.
 std::vector<std::string> differences(const CaseIdentity& before, const CaseIdentity& now);
 
 }  // namespace polargrain::coupler

@@ -8,20 +8,20 @@
 
 namespace polargrain::coupler {
 
-/// What the reader of a material needs of the case: where files are looked for, which scripts it may name, its continuum.
+/// The part of the case that readers of materials need: where files are looked for, which scripts it may name, its continuum.
 struct CaseFiles {
   std::filesystem::path directory;  ///< of the case file
   ScriptRules scripts = {};
   bool cosserat = true;  ///< false: a classical continuum, which asks for no Gc and no lc
 };
 
-/// The text of a script with what it includes in its place (paths from the including file), marked with where each part
-/// comes from (kScriptMark); one that includes nothing as it is. What cannot be included is left as it stands.
+/// The text of a script with the included files in their place (paths from the including file), marked with the origin of each
+/// part (kScriptMark); unchanged without an include. An include that cannot be read is left as it stands.
 std::string text_of_script(const std::filesystem::path& file);
 
 /// A script of cells as a case or a specification names it.
 struct CellScript {
-  std::string file;  ///< as found; empty, with faults, when there is none that may be used
+  std::string file;  ///< as found; empty, with faults, when no script may be used
   std::string text;
 };
 

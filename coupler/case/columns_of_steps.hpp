@@ -5,7 +5,7 @@
 
 namespace polargrain::coupler {
 
-/// The columns of history.csv that tell of a step, in their order; monitors follow them, and none may have their names.
+/// The columns of history.csv that describe a step, in their order; monitors follow them and may not have their names.
 const std::vector<std::string>& columns_of_steps();
 
 }  // namespace polargrain::coupler

@@ -7,7 +7,7 @@
 
 namespace polargrain::coupler {
 
-/// Where a file named in a case may lie, in the order of trial: beside the case; then, for what the program
+/// Where a file named in a case may lie, in the order of trial: beside the case; then, for files that the program
 /// brings along (liggghts_inputs/, cases/), in $POLARGRAIN_DATA and in ../share/polargrain of the program.
 std::vector<std::filesystem::path> data_places(const std::filesystem::path& case_directory);
 
@@ -15,7 +15,7 @@ std::vector<std::filesystem::path> data_places(const std::filesystem::path& case
 std::optional<std::filesystem::path> find_data_file(const std::string& name,
                                                     const std::filesystem::path& case_directory);
 
-/// The bytes of a file; none of one that cannot be read.
+/// The bytes of a file; empty when it cannot be read.
 std::string content_of(const std::filesystem::path& file);
 
 }  // namespace polargrain::coupler

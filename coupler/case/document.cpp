@@ -51,7 +51,8 @@ class Builder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto known = anchors_.find(anchor);
     // An alias inside its own anchor has no value yet.
-    if (known == anchors_.end()) refuse(mark, "an alias (*name) stands before the end of what it repeats");
+    if (known == anchors_.end())
+      refuse(mark, "an alias (*name) stands before the end of the part that it repeats");
     count(mark, known->second.second);
     add(Entry(known->second.first), known->second.second, mark);
   }
@@ -145,7 +146,7 @@ class Builder : public YAML::EventHandler {
   std::size_t entries_ = 0;
 };
 
-/// What people write by habit and YAML does not take.
+/// Advice on habits of writing that YAML does not take.
 std::string advice_on_line(const std::string& text, int line) {
   std::istringstream in(text);
   std::string found;
@@ -166,7 +167,7 @@ Entry parse(const std::string& text, const std::string& file) {
       throw InputError(
           {file, second.first_line,
            "a second document begins here, behind '---' or '...', and would not be read; remove that line, or "
-           "put what follows into a file of its own"});
+           "put the rest into a file of its own"});
   } catch (const YAML::Exception& error) {
     const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
     throw InputError({file, line, "this is no YAML: " + error.msg + advice_on_line(text, line)});

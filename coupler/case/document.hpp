@@ -10,7 +10,7 @@
 namespace polargrain::coupler {
 
 /// One value of a YAML file as it was written, with the place it stands at. Scalars stay text until somebody
-/// who knows what they should be reads them; duplicate keys are all there, so that they can be reported.
+/// who knows their type reads them; duplicate keys are all there, so that they can be reported.
 struct Entry {
   enum class Kind { nothing, scalar, sequence, map };
 
@@ -23,7 +23,7 @@ struct Entry {
   std::string file;             ///< the user's file, or the option that set the value
   int line = 0;                 ///< first line is 1; 0 for options
 
-  /// The last member of that name; null when there is none.
+  /// The last member of that name; null when there is no such member.
   [[nodiscard]] const Entry* find(const std::string& key) const;
   [[nodiscard]] Fault fault(std::string message) const { return {file, line, std::move(message)}; }
 };

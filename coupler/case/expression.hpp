@@ -10,13 +10,13 @@ namespace polargrain::coupler {
 /// parentheses. For example `-top_force / (40 mm * 100 kPa)`.
 class Expression {
  public:
-  /// @throws std::invalid_argument saying what is wrong and where
+  /// @throws std::invalid_argument with the fault and its place
   explicit Expression(const std::string& text);
 
   /// Names that appear in it, each once, in order.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
-  /// @param value_of gives the value of a name. @returns the value; a division by zero gives what IEEE says.
+  /// @param value_of gives the value of a name. @returns the value; a division by zero follows IEEE.
   [[nodiscard]] double evaluate(const std::function<double(const std::string&)>& value_of) const;
 
  private:

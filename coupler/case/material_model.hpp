@@ -18,12 +18,12 @@ class MaterialRecipe {
   virtual ~MaterialRecipe() = default;
   /// @param pool never null when needs_workers(); must outlive the material
   [[nodiscard]] virtual std::shared_ptr<fem::Material> make(Pool* pool) const = 0;
-  /// The cells that the material asks; null when it asks none.
+  /// The cells that the material asks; null when it has no cells.
   [[nodiscard]] virtual const CellDefinition* grains() const { return nullptr; }
   [[nodiscard]] bool needs_workers() const { return grains() != nullptr; }
   /// The cell whose answer is the material's stress, when there is one that a path can be replayed in.
   [[nodiscard]] virtual const CellDefinition* cell() const { return nullptr; }
-  /// Whether its stress has a part normal to the plane; that of discs has none.
+  /// Whether its stress has a part normal to the plane; the stress of discs has no such part.
   [[nodiscard]] virtual bool knows_s33() const {
     return grains() == nullptr || grains()->packing.dimension == 3;
   }
@@ -34,10 +34,10 @@ class MaterialRecipe {
 /// A material model a case can name. To add one: a file in models/ that defines a function which returns it
 /// (elastic.cpp is the shortest), and its line in material_models.cpp.
 struct MaterialModel {
-  std::string name;     ///< what `model:` says
+  std::string name;     ///< the word after `model:`
   std::string summary;  ///< one line for the help
-  /// Reads the parameters from the material's section, puts what is wrong on its list of faults, and calls
-  /// nothing of its finish(). @param material name in the case
+  /// Reads the parameters from the material's section, puts faults on its list, and calls
+  /// no finish() of it. @param material name in the case
   /// @returns null only when there were faults
   std::unique_ptr<MaterialRecipe> (*read)(const std::string& material, Section& section, Faults& faults,
                                           const CaseFiles& files);

@@ -8,7 +8,7 @@
 
 namespace polargrain::coupler {
 
-/// What `polargrain layer` has found for the grains of a packing under a script, kept beside the packing in
+/// The lengths that `polargrain layer` has found for the grains of a packing under a script, kept beside the packing in
 /// PACKING.length.yaml and read where a case says `lc: measured` (docs/file_formats.md).
 struct MeasuredLength {
   double internal_length = 0.0;          ///< lc, m
@@ -20,10 +20,10 @@ struct MeasuredLength {
 /// NAME.length.yaml beside NAME.h5
 std::filesystem::path length_file_of(const std::filesystem::path& packing);
 
-/// A name of what a script commands, whatever its comments, spaces and files: the same for equal contact laws written alike.
+/// A name for the commands of a script, whatever its comments, spaces and files: the same for equal contact laws written alike.
 std::string name_of_script(const std::string& text);
 
-/// @throws InputError with all that is wrong with the file, its lines, and what to do
+/// @throws InputError with all faults of the file, their lines, and the remedy
 MeasuredLength read_measured_length(const std::filesystem::path& file);
 
 }  // namespace polargrain::coupler

@@ -23,7 +23,7 @@ Dimension dimension_of(fem::Dof dof) {
 
 namespace {
 
-/// What to do about a mesh of Gmsh's without names.
+/// The advice on a mesh of Gmsh's without names.
 std::string no_groups(const std::string& kind, const std::string& name) {
   return fmt::format(
       "no {0} of it has a name: in the script for Gmsh write Physical {0}(\"{1}\") = {{1}}; with the number of the {0} in "

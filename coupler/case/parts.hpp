@@ -16,7 +16,7 @@ fem::Dof dof_of(const std::string& name);
 /// Of a prescribed value: a length, or an angle.
 Dimension dimension_of(fem::Dof dof);
 
-/// What the readers of the parts of a case share.
+/// The common data of the readers of the parts of a case.
 struct CaseParts {
   std::filesystem::path directory;  ///< of the case file
   Case result;
@@ -32,14 +32,14 @@ struct CaseParts {
   }
 
   /// That the mesh has places of these names (given by key `key` of the section), and boundaries where a load
-  /// needs edges. @param edge_load what needs them, "a pressure"; empty when nothing does
+  /// needs edges. @param edge_load the load that needs them, "a pressure"; empty without one
   void check_places(Section& section, const std::string& key, const std::vector<std::string>& places,
                     const std::string& edge_load = "");
   /// The region of `key`, checked; empty (all of the body) when the key is not there.
   std::string region(Section& section, const std::string& key);
 };
 
-// Each reads one part of a case into parts.result and lists what is wrong with it.
+// Each reads one part of a case into parts.result and lists its faults.
 void read_mesh(const Entry& entry, CaseParts& parts);
 void read_boundary(const Entry& entry, CaseParts& parts);
 void read_body_loads(const Entry& entry, CaseParts& parts);

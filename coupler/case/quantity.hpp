@@ -7,7 +7,7 @@
 
 namespace polargrain::coupler {
 
-/// What a number in a case measures, and so which units may follow it.
+/// The quantity that a number in a case measures, and so which units may follow it.
 enum class Dimension {
   number,
   length,
@@ -33,7 +33,7 @@ bool is_plain_number(std::string_view text);
 /// nothing larger can be meant.
 double largest_of(Dimension dimension);
 
-/// "Pa": what a number without a unit is taken for; empty for Dimension::number.
+/// "Pa": the unit of a number written without one; empty for Dimension::number.
 std::string_view si_unit(Dimension dimension);
 
 /// The unit of any dimension that `text` begins with and that no letter or digit follows: the longest, so that "kN/m3" is

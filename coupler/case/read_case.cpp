@@ -29,11 +29,10 @@ class CaseReader {
 
   Case read() {
     Section top(document_, "case", faults_);
-    case_.title = top.text("title", "a line that says what the case is");
+    case_.title = top.text("title", "a line that names the case");
     while (case_.title.ends_with('\n')) case_.title.pop_back();  // of a text in lines of its own
     if (!control_character_in(case_.title).empty())
-      top.fault("title",
-                "title: must be one line without control characters; write what is more as comments");
+      top.fault("title", "title: must be one line without control characters; write the rest as comments");
     case_.problem.continuum = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy"
                                   ? fem::Continuum::cauchy
                                   : fem::Continuum::cosserat;
@@ -144,7 +143,7 @@ class CaseReader {
         monitors.fault(
             member.key,
             "the name of a monitor heads a column of a CSV file: no comma or quotation mark in it, and "
-            "none of = + - @ at its beginning");
+            "no = + - @ at its beginning");
       }
       Monitor monitor;
       monitor.name = member.key;
@@ -291,7 +290,7 @@ class CaseReader {
                                   "set 'continuum: cauchy', give Gc, or fix w"));
   }
 
-  /// What the finite elements have to say about the whole.
+  /// The faults that the finite elements find in the whole.
   void check_whole() {
     for (const std::string& message : fem::faults(case_.problem)) {
       faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));

@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 namespace {
 
-/// What a single value means in place of a table.
+/// The meaning of a single value in place of a table.
 enum class Single {
   constant,  ///< at all times
   ramp       ///< reached in a straight line from 0 at time 0 to time 1

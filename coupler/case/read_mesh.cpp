@@ -53,7 +53,7 @@ void make_levels(const Entry& entry, CaseParts& parts) {
 /// Most elements of a case: beyond, the numbers of the entries of the equations outgrow 32 bits.
 constexpr double kMostElements = 1e6;
 
-/// What a run takes of memory for each, factors included: measured, 10,800 elements Q8R more with an elastic material.
+/// The memory of a run for each, factors included: measured, 10,800 elements Q8R more with an elastic material.
 constexpr double kBytesOfElement = 65e3;
 
 void check_number(Section& section, const fem::RectangleSpecification& specification) {

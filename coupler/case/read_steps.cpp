@@ -11,7 +11,7 @@ namespace {
 /// Most steps of a case. A row of each stays in memory, for checkpoints, and is written once more with each of them.
 constexpr int kMostSteps = 1000000;
 
-/// What a step keeps in memory, measured: its place in the plan, its rows, its values for the summary.
+/// The memory of a step, measured: its place in the plan, its rows, its values for the summary.
 constexpr double kBytesOfStep = 1000.0;
 
 /// @returns the count that a key gives; 1, with a fault, where it and those before are too many
@@ -131,7 +131,7 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   solver.jump_residual =
       steps.quantity_or("jump_residual", Dimension::number, Limit::positive, solver.jump_residual);
   solver.acceleration_depth = steps.whole_or("acceleration", 0, 0);
-  // What a box of grains takes to follow a strain grows with the strain.
+  // The cost of a box of grains to follow a strain grows with the strain.
   solver.largest_strain = steps.quantity_or("largest_strain", Dimension::number, Limit::positive,
                                             parts.result.needs_workers() ? 0.05 : solver.largest_strain);
   // A residual that grows within the noise of the grains is no reason to ask all of them again.

@@ -59,7 +59,7 @@ bool has_decimal_comma(const std::string& text) {
 
 namespace {
 
-/// What others call keys of a case: nearer by meaning than any other key is by its letters.
+/// Names that others use for keys of a case: nearer by meaning than any other key is by its letters.
 struct OtherName {
   const char* word;
   const char* key;
@@ -380,7 +380,7 @@ void Section::find_forgotten_units() {
     if (with_unit == written_.end()) continue;
     const bool same_key = with_unit->key == plain.key;
     faults_.push_back(plain.entry->fault(
-        fmt::format("{}: {}: '{}' has no unit, '{}'{} has one; write '{} {}' if that is what it is", name_,
+        fmt::format("{}: {}: '{}' has no unit, '{}'{} has one; write '{} {}' if that is its unit", name_,
                     plain.key, plain.entry->text, with_unit->entry->text,
                     same_key ? "" : " of " + with_unit->key, plain.entry->text, si_unit(plain.dimension))));
   }

@@ -12,19 +12,19 @@ namespace polargrain::coupler {
 
 using Faults = std::vector<Fault>;
 
-/// What a number must be beyond finite.
+/// The condition on a number beyond finite.
 enum class Limit { any, positive, not_negative };
 
 /// The known word that `word` was most likely meant to be, by its letters or as another name of the same thing; empty when
-/// none is near.
+/// no word is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 /// "a, b, c"
 std::string listed(const std::vector<std::string>& words);
 
-/// One map of a case while it is read. Every getter notes the key it asks for, checks what it finds and puts
+/// One map of a case while it is read. Every getter notes the key it asks for, checks the value it finds and puts
 /// a fault on the list when that is wrong or missing; reading then goes on, so that all faults show at once.
-/// What a getter returns after a fault is only fit for reading on. finish() reports keys nobody asked for.
+/// The value a getter returns after a fault is only fit for reading on. finish() reports keys nobody asked for.
 class Section {
  public:
   /// @param name how messages call this map, for example "material 'sand'"
@@ -61,7 +61,7 @@ class Section {
   /// Puts a fault at the place of a key (of the whole section when the key is not there).
   void fault(const std::string& key, const std::string& message);
 
-  /// Faults where a value that must stay below a bound does not. @param why what lies beyond it
+  /// Faults where a value that must stay below a bound does not. @param why the meaning of values beyond it
   void require_below(const std::string& key, double bound, const std::string& why);
 
   /// To be called when all keys have been asked for. Keys that nobody asked for are faults, and so are plain numbers
@@ -85,7 +85,7 @@ class Section {
   void find_forgotten_units();
   std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
   const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
-  /// @param or_word what else may stand there, for messages; or empty
+  /// @param or_word a word that may stand there instead, for messages; or empty
   double number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit,
                    const std::string& or_word = {});
   int whole_of(const Entry& entry, const std::string& key, int least);

@@ -16,8 +16,8 @@ struct CellCalls {
   std::function<PlaneReply()> initial;
   std::function<std::vector<PlaneReply>(std::span<const PlaneRequest>, std::span<const std::size_t> points)>
       evaluate;
-  /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for what
-  /// is committed. Empty: they all do.
+  /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for the states
+  /// committed. Empty: all replies bring them.
   std::function<std::vector<StatePointer>(std::span<const StatePointer>)> collect = {};
 };
 
@@ -26,7 +26,7 @@ class Pool;
 /// The cells of a definition as the workers of a pool answer for them. @param pool must outlive the calls
 CellCalls calls_of(Pool& pool, std::uint32_t definition);
 
-/// The packing at rest. What the engine remarked on it and its script goes to the notes instead of into the
+/// The packing at rest. Remarks of the engine on it and its script go to the notes instead of into the
 /// answer.
 /// @throws RunError when it cannot be brought to rest
 PlaneReply packing_at_rest(const CellCalls& calls, std::vector<std::string>& notes);

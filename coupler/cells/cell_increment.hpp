@@ -6,7 +6,7 @@ namespace polargrain::coupler {
 
 bool is_zero(const Increment& increment);
 
-/// What the cell of a point is to follow. In large deformation the increment as it is: the box turns, and its stress
+/// The increment that the cell of a point follows. In large deformation the increment as it is: the box turns, and its stress
 /// with it. In small deformation no stress turns with the continuum, so the box
 /// gets the symmetric part of the gradient, and its grains the micro-rotation against the rotation left out
 /// (docs/theory/solver.md, small and large deformation).

@@ -24,7 +24,7 @@ constexpr double kBending = 3e-3;
 enum Way : std::size_t { kSheared, kTurned, kBent };
 constexpr std::array<const char*, 3> kNames{"sheared", "turned", "bent"};
 
-/// What a stress is of each limit.
+/// The measure of a stress for each limit, a share of its pressure.
 double share(std::size_t way, const Vector7& stress) {
   const double pressure = -0.5 * (stress[k11] + stress[k22]);
   if (!(pressure > 0.0)) return 0.0;
@@ -62,7 +62,7 @@ namespace {
 
 constexpr std::size_t kWays = 3;
 
-/// What became of the packing on the way to each limit.
+/// The state of the packing on the way to each limit.
 struct Pushed {
   std::array<double, kWays> largest{};   ///< share of the limit
   std::array<bool, kWays> is_known{};    ///< an answer on the way was at rest

@@ -37,7 +37,7 @@ struct CellLimits {
 CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing);
 
 /// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
-/// @throws RunError where a path cannot be followed or a limit is none
+/// @throws RunError where a path cannot be followed or a limit cannot be found
 CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter);
 
 }  // namespace polargrain::coupler

@@ -23,7 +23,7 @@ class CellMaterial : public fem::Material, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
-  /// @param note what the user is to know of them; may be empty
+  /// @param note remarks to the user on them; may be empty
   CellMaterial(Pool& pool, std::uint32_t definition, const std::optional<CosseratParameters>& cosserat,
                const std::string& note = {});
 
@@ -41,7 +41,7 @@ class CellMaterial : public fem::Material, public GrainsOfPoints {
   /// The diagnostics of the cell (docs/file_formats.md), parted, and with free rotations skew_mobilisation and couple_mobilisation.
   [[nodiscard]] double moment_length() const override { return 2.0 * mean_radius_; }
   [[nodiscard]] std::vector<std::string> field_names() const override;
-  /// What the engine remarked on the packing and its script, once.
+  /// Remarks of the engine on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   void fields(std::size_t point, std::span<double> values) const override;
   [[nodiscard]] std::vector<fem::Figure> figures() const override { return at_limits_.figures(); }

@@ -9,8 +9,8 @@ namespace polargrain::coupler {
 /// Noise of the stress of a cell: mean pressure in the plane times the unbalanced force ratio at read-out,
 /// over the root of the number of grains, as the unbalanced forces of grains are independent. Cells whose
 /// increments differ slightly scatter by as much (docs/performance.md). The same holds for the moments of a cell
-/// with controlled rotations: of the skew stress, and, times the mean radius, of the couple stress. What is not the
-/// grains' (skew and couple stress of CosseratParameters) counts as exact.
+/// with controlled rotations: of the skew stress, and, times the mean radius, of the couple stress. Stresses that are not
+/// the grains' (skew and couple stress of CosseratParameters) count as exact.
 /// @param mean_radius of grains whose rotations are controlled, m; 0: they are free
 inline StressNoise noise_of(const PlaneReply& reply, double mean_radius) {
   const CellDiagnostics& cell = reply.diagnostics;

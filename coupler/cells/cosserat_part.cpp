@@ -65,7 +65,7 @@ void limit_couple(Response& response, double length, double modulus) {
   }
 }
 
-/// What rounding may leave of a stress that is at its limit.
+/// The share of its limit that rounding leaves of a stress at the limit.
 constexpr double kAtLimit = 1.0 - 1e-9;
 
 double share_of_limit(double stress, std::optional<double> limit, double pressure) {

@@ -24,7 +24,7 @@ struct CosseratParameters {
   }
 };
 
-/// Which limits of its grains a point has reached.
+/// The limits of its grains that a point has reached.
 struct LimitsReached {
   bool parted = false;  ///< the grains carry no pressure that counts
   bool skew = false;
@@ -39,7 +39,7 @@ struct LimitsReached {
 ///     s21 - s12  +=  2 Gc s (eps21 - eps12)    |s21 - s12| <= skew_limit p
 ///     m_i        +=  2 G lc^2 s kappa_i        |m| <= lp p
 ///
-/// s is the share of its contacts that the cell has kept, at the start of the increment. What would exceed a limit
+/// s is the share of its contacts that the cell has kept, at the start of the increment. A stress beyond its limit
 /// returns to it radially (backward Euler). Without pressure a stress that has a limit is zero. In large deformation the
 /// curvature is that of the stretch of the step, and the couple stress then turns with the material
 /// (fem/material/rotation.hpp); the skew stress is the same in any frame.
@@ -55,13 +55,13 @@ struct CosseratPart {
   double contacts_kept = 1.0;  ///< s: contacts of the cell over those of its packing
   double pressure = 0.0;       ///< of the cell at the end of the last increment, Pa
 
-  /// Goes along an increment. @param cell what the cell answered to it @param kept contacts of the cell now over those
+  /// Goes along an increment. @param cell the answer of the cell to it @param kept contacts of the cell now over those
   /// of its packing @returns the answer of the point, as joined_to, with the tangent of the stresses that are at their limits
   Response follow(const Increment& increment, const Response& cell, const CosseratParameters& cosserat,
                   double kept);
-  /// The answer of a point where nothing has happened: the symmetric part of what its cell answered, with this part.
+  /// The answer of a point where nothing has happened: the symmetric part of the answer of its cell, with this part.
   [[nodiscard]] Response joined_to(const Response& cell, const CosseratParameters& cosserat) const;
-  /// Reduces both stresses to what a cell under `pressure` (Pa) bears.
+  /// Reduces both stresses to the limits of a cell under `pressure` (Pa).
   void keep_within(const CosseratParameters& cosserat, double new_pressure);
 
   /// @param least pressure below which grains count as parted, Pa
@@ -90,8 +90,8 @@ inline double pressure_in_plane(const Vector7& stress) {
 /// @returns whether it was beyond
 bool limit_skew(Response& response, double skew_limit, double modulus);
 
-/// The symmetric part of a stress or a strain, without couples or curvatures: what a cell with free rotations answers
-/// and feels.
+/// The symmetric part of a stress or a strain, without couples or curvatures: the answer and the strain of a cell with free
+/// rotations.
 Vector7 symmetric_part(const Vector7& components);
 
 /// The tangent of the symmetric stress with respect to the Cosserat strain: mean of the two shear rows, and,

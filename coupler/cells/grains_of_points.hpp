@@ -14,7 +14,7 @@ class GrainsOfPoints {
   /// The committed state of the cell that a point of the material goes by: its own, or (adaptive) the one that it shares,
   /// which was run to another point of like history.
   [[nodiscard]] virtual StatePointer grains_of(std::size_t point) const = 0;
-  /// How many of its points are, or have been, at a limit of their grains, in a sentence; empty: none. For the end of a run.
+  /// How many of its points are, or have been, at a limit of their grains, in a sentence; empty: no point. For the end of a run.
   [[nodiscard]] virtual std::string at_limits() const = 0;
 };
 

@@ -23,7 +23,7 @@ enum class InformedUpdate {
   fixed_point  ///< in every evaluation, for the cone of this step: a cell call a Newton iteration
 };
 
-/// What follows where law and cell disagree by more than the limit.
+/// The consequence where law and cell disagree by more than the limit.
 enum class BeyondMismatch {
   tell,  ///< the run goes on with the law, and says so
   stop,  ///< the run ends before the step is committed
@@ -54,12 +54,12 @@ struct InformedParameters {
 /// The generalised elastoplastic Cosserat material (docs/theory/plasticity.md, B.9): at each point a
 /// closed-form law carries the stress, and a cell that follows the point's strain tells it friction and
 /// dilatancy. A cell with controlled rotations follows micro-rotation and curvature too; its limits of skew and couple
-/// stress are the law's weights, and friction is read from its whole stress. What law and cell disagree about is shown
-/// as the field stress_mismatch; where it is too much a point may go over to its cell's answer (own_answer.hpp).
+/// stress are the law's weights, and friction is read from its whole stress. The disagreement of law and cell is shown
+/// as the field stress_mismatch; where it is too large a point may go over to its cell's answer (own_answer.hpp).
 class InformedMaterial : public fem::Material, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
-  /// @param note what the user is to know of the parameters; may be empty
+  /// @param note remarks to the user on the parameters; may be empty
   /// @param with_tangent the same cells, answering with tangents; asked only with BeyondMismatch::cell
   InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note = {},
                    CellCalls with_tangent = {});
@@ -70,7 +70,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   void allocate(std::size_t points) override;
   void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
   /// Frozen: the cells now follow the step. One that has no good answer follows it in halves, quarters, ...
-  /// @throws RunError when it has none in sixteenths either, and where law and cell disagree by more than they may.
+  /// @throws RunError when sixteenths fail too, and where law and cell disagree by more than they may.
   void commit() override;
   void revert() override { trial_ = committed_; }
   void save(ArchiveWriter& archive) const override;
@@ -92,7 +92,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   /// At how many points that go by their law it has left its cell, and by how much at the worst.
   [[nodiscard]] std::string doubt() const override;
   [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
-  /// What the engine remarked on the packing and its script, and that a law has left its cell; once.
+  /// Remarks of the engine on the packing and its script, and that a law has left its cell; once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 
  private:
@@ -128,14 +128,14 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
   /// The points that go by their cells' answers.
   void evaluate_own(std::span<const Increment> increments, std::span<Response> responses);
-  /// What the law answers to the stretch of a step, and where it ends, in the axes of the start of the step.
+  /// The answer of the law to the stretch of a step, and where it ends, in the axes of the start of the step.
   [[nodiscard]] Response integrate_stretch(std::size_t point, const Increment& stretch,
                                            fem::ElastoplasticState& end) const;
   /// The same with friction and dilatancy of the step itself.
   [[nodiscard]] Response integrate_updated(std::size_t point, const Increment& stretch,
                                            const fem::Mobilisation& mobilisation,
                                            fem::ElastoplasticState& end) const;
-  /// What the grains of a cell feel of an increment.
+  /// The increment that the grains of a cell feel.
   [[nodiscard]] Increment felt(const Increment& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(const CellCalls& calls, std::span<const std::size_t> points);
@@ -153,7 +153,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] bool may_change() const { return parameters_.beyond_mismatch == BeyondMismatch::cell; }
   /// The stress of a point as a law keeps it.
   [[nodiscard]] fem::ScaledVector<double> scaled_stress(const Vector7& stress) const;
-  /// What the cell feels of a strain, and its stress with the s33 it is lent by the law: scaled; symmetric in the
+  /// The strain that the cell feels, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
   [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& stretch) const;
   [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,

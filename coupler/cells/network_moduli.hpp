@@ -28,14 +28,14 @@ NetworkModuli network_moduli(const Matrix7& tangent);
 /// The same of a packing under its script, as a worker finds it. @throws RunError when it cannot be brought to rest
 NetworkModuli network_moduli(Pool& pool, CellDefinition definition);
 
-/// What a case says of a limit: a value, that there is none, or nothing of it.
+/// The choice of a limit in a case: a value, no limit, or not given.
 struct LimitChoice {
   std::optional<double> value = {};
   bool none = false;
   [[nodiscard]] bool is_open() const { return !value && !none; }
 };
 
-/// What a case says of the Cosserat part; nothing where the packing is to tell.
+/// The choice of the Cosserat part in a case; empty where the packing is to tell.
 struct CosseratChoice {
   std::optional<double> shear_modulus;           ///< Pa
   std::optional<double> cosserat_shear_modulus;  ///< Pa
@@ -45,10 +45,10 @@ struct CosseratChoice {
   bool has_rotations = true;  ///< of the continuum: a classical one has no use for a length or limits
 };
 
-/// Fills in what is left to the packing by asking a worker for its network, and by taking two copies of it to their limits
+/// Fills in the values left to the packing by asking a worker for its network, and by taking two copies of it to their limits
 /// where rotations are free. A plastic length that is left open becomes sqrt(2/3) M lc, with M of the packing: the limit that
 /// the law of `informed` has (docs/theory/plasticity.md, B.9).
-/// @param note gets a line each of what was found @throws RunError where a modulus of the packing is not positive
+/// @param note gets a line for each value found @throws RunError where a modulus of the packing is not positive
 CosseratParameters resolved(const CosseratChoice& choice, Pool& pool, const CellDefinition& definition,
                             std::string& note);
 

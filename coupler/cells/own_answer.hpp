@@ -10,7 +10,7 @@
 
 namespace polargrain::coupler {
 
-/// What a point of `informed` needs to go by the answer of its cell once its law has left it
+/// The data that a point of `informed` needs to go by the answer of its cell once its law has left it
 /// (docs/theory/plasticity.md, B.9). The point starts in balance: the stress that its law had beyond the cell's is
 /// carried along, turns with the material, and is worked off in a straight line over the strain that follows. So no
 /// stress jumps, and a smaller step lets go of less.
@@ -43,11 +43,11 @@ struct OwnAnswerRules {
   PackingAtStart packing = {};
 };
 
-/// From the law's stress to the cell's answer. What the law has of skew and couple stress beyond the limits of the cell is
+/// From the law's stress to the cell's answer. Skew and couple stress of the law beyond the limits of the cell are
 /// carried along too. @param law stress at the end of the step, Pa and N/m
 OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneReply& cell);
 
-/// The answer of a point that goes by its cell. @param start at the start of the step @param cell what the cell answered
+/// The answer of a point that goes by its cell. @param start at the start of the step @param cell the answer of the cell
 /// to the increment @param end gets the point at the end of the step
 Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
                     const PlaneReply& cell, OwnAnswer& end);

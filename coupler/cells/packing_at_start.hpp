@@ -7,7 +7,7 @@
 
 namespace polargrain::coupler {
 
-/// What the cells of a material are measured by: the packing that all of them start from.
+/// The measure of the cells of a material: the packing that all of them start from.
 struct PackingAtStart {
   /// Share of the pressure of the packing below which the grains of a point count as parted.
   static constexpr double kParted = 1e-3;
@@ -20,7 +20,7 @@ struct PackingAtStart {
       : contacts(static_cast<double>(packing.diagnostics.contacts)),
         pressure(pressure_in_plane(packing.response.stress)) {}
 
-  /// Contacts of a cell over those of the packing; 1 where the packing has none to compare with.
+  /// Contacts of a cell over those of the packing; 1 where the packing has no contacts.
   [[nodiscard]] double kept(const CellDiagnostics& cell) const {
     return contacts > 0.0 ? static_cast<double>(cell.contacts) / contacts : 1.0;
   }

@@ -7,20 +7,20 @@
 
 namespace polargrain::coupler {
 
-// Cells as the points of plane finite elements see them: what goes to a cell is put into space here, what comes from it
-// is taken out of space here, and nowhere else.
+// Cells as the points of plane finite elements see them: requests to a cell are put into space here, answers from it
+// are taken out of space here, and nowhere else.
 
-/// What a point asks of a cell.
+/// The request of a point to a cell.
 struct PlaneRequest {
   StatePointer state;   ///< null: the packing
   Increment increment;  ///< about the start of the step (increment_for_cell)
 };
 
-/// What a cell answers to a point of the plane.
+/// The answer of a cell to a point of the plane.
 struct PlaneReply {
   Response response;  ///< the cell's own stress and tangent
   /// Whether the cell has a stress along e_3. Discs have none: the s33 of the response is zero then, and the material
-  /// that asks says what it puts there.
+  /// that asks puts its own there.
   bool knows_s33 = true;
   CellDiagnostics diagnostics;
   StatePointer state;  ///< state after the increment; null when the evaluation failed

@@ -6,7 +6,7 @@ namespace polargrain::coupler {
 
 /// Increments that follow each other are not added: of displacement gradients (I + second)(I + first) = I + both;
 /// a curvature counts per position at the start of its own increment, so that the second one is pulled back by
-/// I + first; micro-rotations about one axis are added. What comes of it is of large deformation where the last
+/// I + first; micro-rotations about one axis are added. The result is of large deformation where the last
 /// increment is.
 Increment followed_by(const Increment& first, const Increment& second);
 

@@ -220,7 +220,7 @@ Checkpoint read_whole(const std::filesystem::path& file) {
   return content_in(file);
 }
 
-/// What to do when a checkpoint cannot be read.
+/// The advice when a checkpoint cannot be read.
 std::string advice(const std::filesystem::path& file) {
   const std::filesystem::path before = checkpoint_before(file);
   try {

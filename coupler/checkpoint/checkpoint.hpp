@@ -9,7 +9,7 @@
 
 namespace polargrain::coupler {
 
-/// A run after one of its steps: all that is needed to go on, and what it had written up to then.
+/// A run after one of its steps: all that is needed to go on, and everything it had written up to then.
 struct Checkpoint {
   std::string program;  ///< version that wrote it
   CaseIdentity identity;

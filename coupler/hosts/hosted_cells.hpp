@@ -18,7 +18,7 @@ class Cancelled : public RunError {
   using RunError::RunError;
 };
 
-/// Cells are known by what they are; those who share a pointer share the engines.
+/// Cells are known by their definition; those who share a pointer share the engines.
 using DefinitionPointer = std::shared_ptr<const CellDefinition>;
 
 struct HostedRequest {

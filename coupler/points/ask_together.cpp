@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 namespace {
 
-/// What one test waits for.
+/// The request that one test waits for, and its answer.
 struct Desk {
   std::optional<CellRequest> request;
   std::optional<CellReply> reply;

@@ -40,8 +40,8 @@ class CellPoint : public element::MaterialPoint {
   CellReply trial_;
 };
 
-/// Runs several tests side by side over one pool: what they ask is put to the pool together, so that its workers share
-/// it. Each has a thread, of which one at a time is at work. What comes out does not depend on how many workers there are.
+/// Runs several tests side by side over one pool: their requests are put to the pool together, so that its workers share
+/// them. Each has a thread, of which one at a time is at work. Results do not depend on how many workers there are.
 /// @param definitions of the cells, one a test, from Pool::define
 /// @param run called once a test, with its number. An exception of one is thrown on when all have ended
 void ask_together(Pool& pool, const std::vector<std::uint32_t>& definitions,

@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// Who tried to do a task, in vain.
+/// A worker that tried to do a task, in vain.
 struct Attempt {
   enum class End {
     by_work,       ///< the engine's own end: exit, crash, hang, a false answer
@@ -17,7 +17,7 @@ struct Attempt {
   End end = End::by_work;
   std::uint64_t worker = 0;  ///< number of its Member
   std::string party;         ///< Member::party
-  std::string words = {};    ///< what was said of it
+  std::string words = {};    ///< the message about it
 };
 
 /// A worker as the list below sees it.
@@ -28,7 +28,7 @@ struct Candidate {
       {};  ///< Member::name: that of a process of our own stays with the one that takes its place
 };
 
-/// The attempts at a task that came to nothing, and what they say: that the task is at fault only when
+/// The failed attempts at a task, and their verdict: that the task is at fault only when
 /// workers as different as there are could not do it. One that fails at everything, or comes again under
 /// another number, proves nothing.
 class Attempts {
@@ -43,7 +43,7 @@ class Attempts {
   [[nodiscard]] const std::vector<Attempt>& list() const { return list_; }
 
   /// How much a worker would tell by trying: 3 it is one of our own and none of these has tried, 2 nobody of its party
-  /// has, 1 another one of its party has, 0 it has tried itself. What guests alone could not do proves nothing while
+  /// has, 1 another one of its party has, 0 it has tried itself. A failure of guests alone proves nothing while
   /// one of our own is there.
   [[nodiscard]] int news_of(const Candidate& worker) const;
   /// Whether nobody there would tell more than this one.

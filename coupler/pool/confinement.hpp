@@ -9,9 +9,9 @@
 
 namespace polargrain::coupler {
 
-/// What a worker gives up for good, so that an engine that a script or a state has got the better of can do little
-/// harm. In two parts, because the engine's own start needs more than its work does. What the system does not allow
-/// is left out and named.
+/// The rights that a worker gives up for good, so that an engine taken over by a script or a state can do little
+/// harm. In two parts, because the engine's own start needs more than its work does. Rights that the system does not let
+/// go are left out and named.
 class Confinement {
  public:
   /// Before anything else in the process: its own folder as working and temporary directory. A worker that has no use

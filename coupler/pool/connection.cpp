@@ -27,7 +27,7 @@ Connection::Connection(const std::string& url, const std::optional<WorkerKey>& k
                      url)});
   }
   require_descriptors(kDescriptors, "a worker");
-  // What is still unsent when a worker is told to stop is of no use to anybody.
+  // Messages still unsent when a worker is told to stop are of no use to anybody.
   socket_.set(zmq::sockopt::linger, 0);
   socket_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kLongestMessage));
   socket_.set(zmq::sockopt::reconnect_ivl, 200);

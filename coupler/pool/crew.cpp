@@ -279,15 +279,15 @@ void Crew::receive(const Address& from, std::span<const std::byte> bytes) {
       events_.said(*member, envelope.message);
     }  // else a straggler: meant for another session, or from one who was given up; it will say Hello again
   } catch (const FalseMessage& error) {
-    if (member != nullptr) send_away(*member, fmt::format("it sent what cannot be true: {}", error.what()));
+    if (member != nullptr) send_away(*member, fmt::format("it sent a false message: {}", error.what()));
     return;
   } catch (const ProtocolError& error) {
     if (member == nullptr) return;
     // One broken message is as good as lost and asked for again; a worker that sends nothing else is broken.
     if (++member->unreadable == 1)
-      say(fmt::format("{} sent what cannot be used: {}", member->name, error.what()));
+      say(fmt::format("{} sent an unusable message: {}", member->name, error.what()));
     if (member->unreadable >= kMostUnreadable) {
-      give_up(*member, fmt::format("it sent what cannot be used: {}", error.what()));
+      give_up(*member, fmt::format("it sent an unusable message: {}", error.what()));
     }
     return;
   }

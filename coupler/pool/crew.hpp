@@ -27,7 +27,7 @@ struct CrewOptions {
   std::vector<std::string> worker_command;            ///< the crew adds `--connect URL`
   Process::Network network = Process::Network::none;  ///< of local workers
   double startup_seconds = 60.0;
-  std::size_t cache_bytes = 0;         ///< what a worker is taken to keep
+  std::size_t cache_bytes = 0;         ///< the memory that a worker is taken to have for states
   double heartbeat_seconds = 1.0;      ///< asked of working workers
   std::optional<Listening> listening;  ///< for workers of other machines
   std::function<void(const std::string&)> tell;
@@ -72,7 +72,7 @@ struct Loss {
   bool from_outside = false;
 };
 
-/// Who hears of the crew.
+/// The listener to the crew.
 class CrewEvents {
  public:
   virtual ~CrewEvents() = default;
@@ -97,13 +97,13 @@ class Crew {
   /// @throws RunError when all of them fail to: a program that cannot start
   void start();
   /// Waits for something to happen, not longer than `timeout`, and handles it.
-  /// @throws RunError when no worker is left and none can come; what CrewOptions::heed throws
+  /// @throws RunError when no worker is left and none can come; exceptions of CrewOptions::heed
   void listen(std::chrono::milliseconds timeout);
   /// A member that cannot be reached is lost at the next listen.
   void send(Member& member, const Message& message);
   /// Does without a member: kills it if it is ours (another is started), forgets it otherwise.
   void give_up(Member& member, const std::string& cause);
-  /// The same with a member that was found to say what is false. A guest is told, is not let in again by this
+  /// The same with a member that gave a false answer. A guest is told, is not let in again by this
   /// connection, and its key is shut out of the run when that happens too often; so is the place of one of ours.
   void send_away(Member& member, const std::string& cause);
   /// How much of the time since `elapsed` ago, when this was asked last, a process of ours was ready to run and others
@@ -133,7 +133,7 @@ class Crew {
     int fruitless = 0;             ///< counts ends without a job since it last answered
     int offences = 0;              ///< times that it was sent away
     bool has_reported = false;     ///< one of its processes has
-    std::string false_start = {};  ///< how its last process ended that did not report; empty: none did
+    std::string false_start = {};  ///< how its last process ended that did not report; empty: all reported
   };
 
   void fill(Seat& seat);
@@ -160,7 +160,7 @@ class Crew {
   std::list<Member> members_;
   std::map<Address, std::list<Member>::iterator> places_;  ///< of the members
   std::set<Address> unreachable_;
-  std::string last_end_;  ///< how the last process ended, for the message when none is left
+  std::string last_end_;  ///< how the last process ended, for the message when no process is left
   bool starting_ = true;
   std::set<Address> sent_away_;
   std::map<std::string, int> offences_;  ///< by party

@@ -9,7 +9,7 @@ namespace polargrain::coupler {
 void allow_many_descriptors();
 
 /// A process that has no descriptor left for a connection is not told so: the library of the messages tries again, silently,
-/// for ever. @param more descriptors that are needed beside those in use @param purpose what they are for, for the message
+/// for ever. @param more descriptors that are needed beside those in use @param purpose of them, for the message
 /// @throws RunError when the limit of open files leaves fewer
 void require_descriptors(std::size_t more, const std::string& purpose);
 

@@ -136,7 +136,7 @@ void Foreman::lost(Member& member, const Loss& loss) {
   present_.erase(member.number);
   book_.forget_worker(member.number);
   for (const std::size_t number : queue_.take_all_of(member.number)) enqueue(number);
-  // What it has answered last may be lost with it, so any of what it had may have been at work.
+  // Its last answers may be lost with it, so any of its jobs may have been at work.
   Job had;
   for (const Job& job : member.jobs) {
     had.tasks.insert(had.tasks.end(), job.tasks.begin(), job.tasks.end());

@@ -20,7 +20,7 @@
 namespace polargrain::coupler {
 
 /// Has tasks done by a crew: gives every worker the next ones before it has finished with those at hand,
-/// sends again what was lost on its way, notices who hangs, and gives the tasks of the lost to others.
+/// sends lost messages again, notices who hangs, and gives the tasks of the lost to others.
 class Foreman final : private CrewEvents {
  public:
   explicit Foreman(PoolOptions options);
@@ -85,12 +85,12 @@ class Foreman final : private CrewEvents {
   void take_opinion(const Member& member, Task& task, const CellReply& reply);
   /// @returns whether enough agree
   bool decide(Task& task);
-  /// Ends what waits for an opinion that nobody can give.
+  /// Ends the tasks that wait for an opinion that nobody can give.
   void settle_what_waits();
   void settle(Task& task);
   /// One opinion is false: takes back all that its worker has answered in this call.
   void find_false(const Opinion& opinion, const std::string& words);
-  /// What is returned now has nobody's word but its own: noted, should its worker be found to answer falsely later.
+  /// Answers returned now rest on one worker's word: noted, should it be found to answer falsely later.
   void note_returned();
 
   // Tasks that cannot be finished.

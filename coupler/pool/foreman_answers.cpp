@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the foreman does with answers, and who is to blame for what does not come to one.
+// The foreman's treatment of answers, and who is to blame for a task without one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -109,7 +109,7 @@ void Foreman::take_other_state(Member& member, Task& done, const CellReply& repl
   if (name_of_answer(reply) != done.evidence.answer)
     throw RunError(
         fmt::format("{}, and to other numbers than {} gave, which are in the results of this step: {} "
-                    "has sent what is false, or the machines of the workers do not compute alike",
+                    "has sent a false answer, or the machines of the workers do not compute alike",
                     text, first, first));
   tell(fmt::format("{}, as another evaluation did: {} named a false state; its numbers were right", text,
                    first));
@@ -132,7 +132,7 @@ void Foreman::blame_others(const Member& member, const Task& done) {
         attempt.end == Attempt::End::refused || attempt.end == Attempt::End::other_state;
     if (contradicted && attempt.worker != member.number && present_.contains(attempt.worker))
       blamed_.emplace(attempt.worker,
-                      fmt::format("{} answers what it does not: {}", member.name, attempt.words));
+                      fmt::format("{} answers the same request: {}", member.name, attempt.words));
   }
 }
 

@@ -14,8 +14,7 @@ namespace {
 /// Answers to one evaluation, after which nobody else is asked.
 constexpr std::size_t kMostOpinions = 5;
 
-constexpr const char* kCause =
-    "it has sent what is false, or its machine does not compute like those of the others";
+constexpr const char* kCause = "it has sent a false answer, or its machine does not compute like the others";
 
 }  // namespace
 
@@ -108,8 +107,8 @@ void Foreman::find_false(const Opinion& opinion, const std::string& words) {
   }
   if (const auto used = returned_.find(opinion.standing); used != returned_.end()) {
     throw FalseResults(
-        fmt::format("{}. {} of its answers that nobody has checked were used before: what this run "
-                    "has written may be false",
+        fmt::format("{}. {} of its answers that nobody has checked were used before: files of this "
+                    "run may be false",
                     words, used->second));
   }
   std::size_t again = 0;

@@ -12,7 +12,7 @@ struct Listening {
   CoordinatorKeys keys;
 };
 
-/// Refuses what is no tcp://HOST:PORT with a port of 1 to 65535, or * for any that is free: the library of the messages takes
+/// Refuses any URL but tcp://HOST:PORT with a port of 1 to 65535, or * for any that is free: the library of the messages takes
 /// the remainder of a larger one, and opens a port that nobody named. @param option that gave it, for the message
 /// @throws InputError
 void check_tcp_url(const std::string& option, const std::string& url);

@@ -21,22 +21,22 @@ struct Opinion {
   [[nodiscard]] bool is_ours() const { return worker.party.empty(); }
 };
 
-/// The answers to an evaluation that is checked: it is done when two of them have the same bits. Guests may agree on
-/// what is false: against a process of our own they count when another one of our own says the same.
+/// The answers to an evaluation that is checked: it is done when two of them have the same bits. Guests may agree on a
+/// false answer: against a process of our own they count when another one of our own says the same.
 class Opinions {
  public:
   void add(Opinion opinion) { list_.push_back(std::move(opinion)); }
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] const std::vector<Opinion>& list() const { return list_; }
-  /// Forgets what a worker that was found to answer falsely has said.
+  /// Forgets the answers of a worker that was found to answer falsely.
   void remove(const std::string& standing);
 
-  /// Those present whose answer would be a second one: who has answered counts as the same when it comes again.
+  /// The candidates whose answer would be a second one: a worker that has answered counts as the same when it comes again.
   [[nodiscard]] std::vector<Candidate> others(const std::vector<Candidate>& present) const;
   /// Whether this worker is the best of them to ask: a guest is checked by one of our own, one of our own by a
   /// guest, before two with one key check each other; where answers differ one of our own is asked.
   [[nodiscard]] bool may_answer(const Candidate& worker, const std::vector<Candidate>& others) const;
-  /// The first answer that another one agrees with. Nothing: none does yet.
+  /// The first answer that another one agrees with. Empty: no two agree yet.
   [[nodiscard]] std::optional<std::size_t> agreed() const;
   [[nodiscard]] bool same(std::size_t a, std::size_t b) const;
 

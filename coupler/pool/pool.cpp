@@ -33,7 +33,7 @@ bool is_elsewhere(const StatePointer& state) {
   return state && !state->is_here();
 }
 
-/// What brings the bytes of these states: each once, those of one worker next to each other.
+/// The tasks that bring the bytes of these states: each once, those of one worker next to each other.
 std::vector<Task> tasks_to_bring(std::span<const StatePointer> states, const StateBook& book,
                                  StatesByName& found) {
   std::vector<std::pair<std::uint64_t, Task>> tasks;

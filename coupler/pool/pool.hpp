@@ -38,7 +38,7 @@ struct PoolOptions {
   StateCheck state_fault;
   /// Share of the evaluations that two workers must agree on, 0 to 1; see foreman_checks.cpp.
   double check_share = 0.0;
-  /// Called twice a second at least while the pool waits for anything, its first workers included. What it throws ends the
+  /// Called twice a second at least while the pool waits for anything, its first workers included. An exception ends the
   /// waiting: this is where a program heeds the signals it was sent. Empty: the pool waits undisturbed.
   std::function<void()> heed;
   /// Gets a sentence about everything the user should know that ends nothing: a worker lost, a guest refused.
@@ -78,14 +78,14 @@ struct PoolCounts {
   double member_seconds = 0.0;  ///< the same, times the workers there were
 };
 
-/// Who has answered.
+/// The account of a worker that has answered.
 struct WorkerRecord {
   std::int64_t evaluations = 0;
   std::string processor = {};  ///< its kind, as the worker says
 };
 
 /// The coordinator's side of its workers: spreads cells over them as they become free, notices their death at
-/// once and their hanging by their silence. What comes back does not depend on how many there are, nor on who
+/// once and their hanging by their silence. Results do not depend on how many there are, nor on who
 /// took which cell, nor on who died meanwhile.
 ///
 /// A request whose worker is lost goes to another one, from the same state. When the work itself has ended
@@ -94,15 +94,15 @@ struct WorkerRecord {
 ///
 /// A new state stays with the worker that made it: the replies of evaluate name it and say its size. Most are
 /// never needed again; collect brings the bytes of those that are, at the latest when a step is committed.
-/// What was lost with its worker is made again from where it came from, to the same bits. A worker is given
-/// first what starts from a state that it has.
+/// A state lost with its worker is made again from where it came from, to the same bits. A worker is given
+/// first the requests that start from a state that it has.
 ///
 /// Order of calls: construct (starts the workers), define each material's cell, then any number of initial,
 /// evaluate and collect. After an exception the pool can only be destroyed. One thread.
 ///
-/// A share of the evaluations, drawn by their order from a fixed seed, is done by two workers, who must come to
-/// the same bits; a third decides. The one found alone is sent away, and what it has answered besides in the same
-/// call is done again.
+/// A share of the evaluations, drawn by their order from a fixed seed, is done by two workers, who must
+/// come to the same bits; a third decides. A worker found alone is sent away, and its other answers in the same
+/// call are computed again.
 ///
 /// @throws FalseResults when answers that were returned before come from such a worker. @throws RunError when a
 /// program cannot be started as a worker, when a definition ends every worker that
@@ -120,7 +120,7 @@ class Pool {
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
   /// The packing of a definition at rest, with its state.
   CellReply initial(std::uint32_t definition);
-  /// Evaluates all requests; equal ones once. Collects first what they start from.
+  /// Evaluates all requests; equal ones once. Collects first the states they start from.
   /// @returns the replies in the order of the requests. A state in them may be elsewhere
   std::vector<CellReply> evaluate(std::span<const PoolRequest> requests);
   /// The same states with their bytes; those that are here already, and null, as they are. To be used in the

@@ -5,7 +5,7 @@
 namespace polargrain::coupler {
 
 /// A new directory for local sockets (and short-lived logs) that nobody but the user can enter (mode 0700),
-/// removed with its content at the end. What processes that were killed have left behind is removed when the
+/// removed with its content at the end. Remains of killed processes are removed when the
 /// next one is made. Lies in $TMPDIR or /tmp: a socket's path must be shorter than 108 characters, which a
 /// path below the result directory need not be.
 class PrivateDirectory {

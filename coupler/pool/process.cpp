@@ -63,7 +63,7 @@ void leave_network(const IdMaps& maps) {
   close(any);
 }
 
-/// What the child does between fork and exec; only calls that are safe there.
+/// The work of the child between fork and exec; only calls that are safe there.
 [[noreturn]] void become(char* const* arguments, int log, pid_t parent, const IdMaps* maps) {
   if (maps != nullptr) leave_network(*maps);  // first: it takes the signal of the parent's end away
   // A group of its own: Ctrl-C at the terminal goes to the coordinator alone, which ends its workers in

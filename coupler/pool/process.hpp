@@ -10,7 +10,7 @@
 
 namespace polargrain::coupler {
 
-/// What the main thread of a process had of the processors since its start. Zeros where the system does not tell.
+/// The processor time of the main thread of a process since its start. Zeros where the system does not tell.
 struct ProcessorShare {
   std::chrono::nanoseconds ran{};
   std::chrono::nanoseconds waited{};  ///< it was ready to run, and others ran; as of when it ran last

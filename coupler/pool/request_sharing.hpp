@@ -9,7 +9,7 @@
 namespace polargrain::coupler {
 
 /// For each request the number of the first one that asks the same: equal definitions, states of one name,
-/// increments with the same bits. What a cell answers depends on nothing else, so that one answer does for
+/// increments with the same bits. The answer of a cell depends on nothing else, so that one answer does for
 /// all of them.
 std::vector<std::size_t> first_alike(std::span<const PoolRequest> requests);
 

@@ -8,7 +8,7 @@ namespace polargrain::coupler {
 void StateBook::Pages::remove(const ContentName& name, const State* place) {
   const auto found = entries.find(name);
   if (found == entries.end() || found->second.place != place) return;
-  // What the entry holds may be the last pointer to another state, whose entry then goes too: that must not
+  // The entry may hold the last pointer to another state, whose entry then goes too: that must not
   // happen while the table is at work on this one.
   const auto removed = entries.extract(found);
   release(name, removed.mapped().home);

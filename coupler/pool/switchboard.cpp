@@ -153,7 +153,7 @@ bool Switchboard::receive_from(zmq::socket_t& socket, Address& from, zmq::messag
   bytes.rebuild();
   bool more = address.more();
   if (more && socket.recv(bytes)) more = bytes.more();
-  // What judge_keys has said of the connection.
+  // The verdict of judge_keys on the connection.
   const char* const key = from.remote ? zmq_msg_gets(bytes.handle(), "User-Id") : nullptr;
   from.key = key == nullptr ? "" : key;
   while (more) {  // no worker of ours sends a third part; read it away to stay in step

@@ -14,7 +14,7 @@
 
 namespace polargrain::coupler {
 
-/// Who a message comes from or goes to.
+/// The sender or receiver of a message.
 struct Address {
   bool remote = false;
   std::string id = {};
@@ -23,8 +23,8 @@ struct Address {
 };
 
 /// The coordinator's sockets. Local workers come by a socket in a directory that only the user can enter; all
-/// others by TCP, and there only with a key of the allow list (CURVE, ZAP): what is refused is counted and
-/// told, and never becomes a message.
+/// others by TCP, and there only with a key of the allow list (CURVE, ZAP): a refused connection is counted and
+/// reported, and never becomes a message.
 class Switchboard {
  public:
   /// @param tell gets a line about peers that were refused

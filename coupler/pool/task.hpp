@@ -25,7 +25,7 @@ struct Task {
   std::optional<std::size_t> point = {};
   StatePointer wanted = {};  ///< fetch, again: the state on trial
 
-  std::uint64_t home = 0;  ///< the worker that should have what the cell starts from; 0: nobody is known to
+  std::uint64_t home = 0;  ///< the worker that should have the state the cell starts from; 0: not known
 
   CellReply reply = {};
   bool alone = false;  ///< was with a worker that was lost, beside others: the next worker has nothing else
@@ -38,7 +38,7 @@ struct Task {
 
   // fetch, again: of the evaluation that made the state
   Evidence evidence = {};
-  std::vector<ContentName> others = {};  ///< what evaluations again have come to instead
+  std::vector<ContentName> others = {};  ///< the other answers of repeated evaluations
 };
 
 /// Whether two tasks may go in one message.

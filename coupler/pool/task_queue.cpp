@@ -23,7 +23,7 @@ std::vector<std::size_t> TaskQueue::take(std::uint64_t worker, const std::functi
   Queue* queue = own != own_.end() && !own->second.empty() ? &own->second : nullptr;
   std::size_t passed = 0;
   if (queue == nullptr) {
-    // What somebody has tried in vain is always in this queue, and may be for others only.
+    // A task that somebody has tried in vain is always in this queue, and may be for others only.
     while (passed < common_.size() && !may((*tasks_)[common_[passed]])) ++passed;
     queue = passed < common_.size() ? &common_ : longest();
   }

@@ -11,18 +11,18 @@
 namespace polargrain::coupler {
 
 /// The tasks that nobody works on yet: one queue for all, and one for each worker with those that it should
-/// take because it has what they start from. A worker without any in its own takes from the others': it never
+/// take because it has the states they start from. A worker without any in its own takes from the others': it never
 /// waits for the sake of a transfer.
 class TaskQueue {
  public:
-  /// @param tasks what the numbers below count
+  /// @param tasks which the numbers below count
   void begin(const std::vector<Task>& tasks);
   void add(std::size_t task) { put_in(common_, task, false); }
   void add_first(std::size_t task) { put_in(common_, task, true); }
   void add_for(std::uint64_t worker, std::size_t task) { put_in(own_[worker], task, false); }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// What this worker should do next, as tasks that go together; nothing when there is nothing it can do.
+  /// The next work of this worker, as tasks that go together; empty when there is nothing it can do.
   /// @param may whether a task may go to this worker at all; others are passed over
   /// @param most how many, given the first of them; 0 when that one is not for this worker now
   std::vector<std::size_t> take(std::uint64_t worker, const std::function<bool(const Task&)>& may,

@@ -17,8 +17,8 @@
 
 namespace polargrain::coupler {
 
-/// Walks the members of one msgpack array in order. Every getter checks the type of what it finds.
-/// @throws ProtocolError (all getters) naming the member and what was expected of it
+/// Walks the members of one msgpack array in order. Every getter checks the type of the member it finds.
+/// @throws ProtocolError (all getters) naming the member and the type expected
 class ArrayReader {
  public:
   ArrayReader(const msgpack::object& object, const char* what) : what_(what) {
@@ -86,7 +86,7 @@ class ArrayReader {
     return values;
   }
   [[nodiscard]] bool text_follows() const { return is_next(msgpack::type::STR); }
-  /// A state with its bytes, or none.
+  /// A state with its bytes, or null.
   StatePointer state() {
     if (is_next(msgpack::type::NIL)) {
       ++at_;
@@ -95,7 +95,7 @@ class ArrayReader {
     const std::span<const std::byte> bytes = block();
     return std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
   }
-  /// A state with its bytes or by its name alone, or none.
+  /// A state with its bytes or by its name alone, or null.
   StatePointer state_or_name() {
     if (!is_next(msgpack::type::ARRAY)) return state();
     ArrayReader reader(next(), "a state");

@@ -26,7 +26,7 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The bytes are a message of this protocol, but what it says cannot be true: no line makes that of an honest
+/// The bytes are a message of this protocol, but its content cannot be true: no line makes that of an honest
 /// message, so its sender is at fault.
 class FalseMessage : public ProtocolError {
  public:
@@ -39,7 +39,7 @@ struct Hello {
   std::int64_t process = 0;     ///< process id of the worker on its machine
   std::string host = {};        ///< name of that machine, for messages to the user
   std::string processor = {};   ///< kind of its processor, for the proof of a result
-  std::string unconfined = {};  ///< what it could not give up (Confinement), for messages to the user
+  std::string unconfined = {};  ///< the rights it could not give up (Confinement), for messages to the user
 };
 
 /// Coordinator to worker: end, and why when it is not the end of the run.
@@ -47,12 +47,12 @@ struct Stop {
   std::string reason = {};
 };
 
-/// Coordinator to worker: its Hello was accepted. Whatever the worker keeps from another session is void.
+/// Coordinator to worker: its Hello was accepted. All that the worker keeps from another session is void.
 struct Welcome {
   double heartbeat_seconds = 1.0;  ///< while it works the worker says Working at least so often
 };
 
-/// Coordinator to worker: what the cells numbered `definition` are. Sent before their first request.
+/// Coordinator to worker: the definition of the cells numbered `definition`. Sent before their first request.
 struct Define {
   std::uint32_t definition = 0;
   CellDefinition cell;
@@ -103,7 +103,7 @@ struct States {
   std::vector<StatePointer> states;
 };
 
-/// Worker to coordinator: a request cannot be served before what it names is sent (again).
+/// Worker to coordinator: a request cannot be served before the states it names are sent (again).
 struct Missing {
   std::uint64_t request = 0;
   bool definition = false;         ///< its Define is missing; else
@@ -123,7 +123,7 @@ struct Refusal {
   std::string message;
 };
 
-/// Hello and Stop keep their places and their first members for ever: they are what versions say to each
+/// Hello and Stop keep their places and their first members for ever: by them versions talk to each
 /// other.
 using Message = std::variant<Hello, Stop, Welcome, Define, InitialRequest, EvaluateRequest, Reply, Missing,
                              Working, Refusal, FetchRequest, States>;
@@ -142,7 +142,7 @@ std::string encode(const Message& message, std::uint64_t session = 0);
 /// Takes nothing on trust: kinds, counts, lengths, finite numbers, and that a state's bytes have its name;
 /// words for the user come back as plain text (common/plain_text.hpp). Of a Hello of another version only that
 /// version is read.
-/// @throws ProtocolError saying what is wrong; FalseMessage when it is an answer that no cell can give
+/// @throws ProtocolError with the fault; FalseMessage when it is an answer that no cell can give
 Envelope decode(std::span<const std::byte> bytes);
 
 }  // namespace polargrain::coupler

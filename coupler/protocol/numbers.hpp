@@ -13,7 +13,7 @@ namespace polargrain::coupler {
 /// @throws ProtocolError when the length is not a multiple of 8 bytes
 std::vector<double> numbers_of(std::span<const std::byte> bytes);
 
-/// @throws FalseMessage "`what` holds a number that is not finite" when one is not
+/// @throws FalseMessage "`what` holds a number that is not finite" when a number is not finite
 void require_finite(std::span<const double> numbers, const char* what);
 
 }  // namespace polargrain::coupler

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/protocol/parts.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <unordered_set>
 
@@ -39,7 +41,7 @@ void require_possible(const CellDiagnostics& d) {
   require_finite_fields(d, "a cell's diagnostics");
   if (d.contacts < 0 || d.contacts > kMostCounted || d.dem_steps < 0 || d.dem_steps > kMostCounted ||
       !(d.engine_seconds >= 0.0 && d.engine_seconds <= kMostSeconds)) {
-    throw FalseMessage("a cell's diagnostics count what no cell can have done");
+    throw FalseMessage("the diagnostics of a cell hold impossible counts");
   }
 }
 
@@ -76,7 +78,7 @@ CellReply read_cell_reply(const msgpack::object& object) {
   CellResponse& response = reply.response;
   response.message = plain_text(response.message);
   if (!(response.step_factor > 0.0 && response.step_factor <= 1.0))
-    throw FalseMessage("a response proposes a part of its increment that is none");
+    throw FalseMessage(fmt::format("step_factor must lie between 0 and 1, found {}", response.step_factor));
   require_possible(reply.diagnostics);
   // A failed response has no numbers worth anything; all others are going to be used.
   if (response.quality == Quality::failed) return reply;

@@ -17,7 +17,7 @@ struct RotationLoading {
   Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
 };
 
-/// A BoxPath in time, one DEM step after the other: what grains that follow the box must be given, whatever
+/// A BoxPath in time, one DEM step after the other: the motion of grains that follow the box, whatever
 /// loop moves them. With H_k the base vectors after step k, in the frame of the box, the affine velocity during
 /// step k is A_k x with A_k = Hdot_k H^-1 and Hdot_k = (H_k - H_(k-1)) / dt, so that x_k = H_k H_0^-1 x_0
 /// exactly, and two descriptions of one lattice stay one.
@@ -37,7 +37,7 @@ class BoxMotion {
   [[nodiscard]] const Box& box_before() const { return before_; }
   /// Hdot of the step under way, m/s: the velocity of the images.
   [[nodiscard]] const Eigen::Matrix2d& rate() const { return rate_; }
-  /// What the step under way adds to the affine velocity gradient where it starts:
+  /// The change of the affine velocity gradient by the step under way, where it starts:
   /// (Hdot_k - Hdot_(k-1)) H_(k-1)^-1, 1/s.
   [[nodiscard]] const Eigen::Matrix2d& change_of_gradient() const { return change_; }
   /// Hdot_k H_(k-1)^-1 and Hdot_k H_k^-1: the affine velocity gradient before and after the grains have moved.
@@ -47,7 +47,7 @@ class BoxMotion {
   [[nodiscard]] bool moving() const { return moving_; }
   /// Rotation of the frame in the step under way, rad.
   [[nodiscard]] double turn() const { return turn_; }
-  /// Affine spin of the step under way, counted from the frame, and what the step added to it, rad/s.
+  /// Affine spin of the step under way, counted from the frame, and its change by the step, rad/s.
   [[nodiscard]] double spin() const { return spin_; }
   [[nodiscard]] double change_of_spin() const { return change_of_spin_; }
   /// Rate of curvature in the position now and the frame of the box now, rad/(m s).

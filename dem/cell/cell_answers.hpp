@@ -33,21 +33,21 @@ inline bool is_bent(const CellControl& control) {
 void check_rolling_model(LAMMPS_NS::LAMMPS& lammps);
 
 /// Gives the cell the contacts of its packing.
-/// @param restore does it @throws RunError what it throws, with what the user can do about it
+/// @param restore does it @throws RunError of restore, with the remedy for the user
 void restore_packing(const std::function<void()>& restore);
 
 /// The answer to an increment beyond kLargestIncrement, an iteration gone astray; nothing where it is not.
 std::optional<CellReply> gone_astray(double size);
 
-/// Marks an answer as not to be committed, with the reason, where its grains did not come to rest or are beyond what the
-/// laws of their contacts, or the time step, are good for.
+/// Marks an answer as not to be committed, with the reason, where its grains did not come to rest, or are beyond the range
+/// of the laws of their contacts or of the time step.
 /// @param diagnostics of the answer, whose overlaps are judged
 void judge(CellResponse& response, const CellDiagnostics& diagnostics, const QuasiStatic& protocol,
            const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
            const Inertia& inertia, double time_step, double most_void_ratio);
 
-/// What a cell remarks on its packing at rest, a line each: `remark`, if there is one, and which loop steps its grains.
-/// @param loop that takes the scenes it knows: "the loop over discs" @param selection what it says of this scene
+/// The remarks of a cell on its packing at rest, a line each: `remark`, if there is one, and which loop steps its grains.
+/// @param loop that takes the scenes it knows: "the loop over discs" @param selection its verdict on this scene
 /// @param instructions that it is compiled for, or nothing
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
                             const DiscSelection& selection, std::string_view instructions = {});

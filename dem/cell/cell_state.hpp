@@ -16,19 +16,19 @@ namespace polargrain::dem {
 
 /// Takes everything the engine needs to go on: the box, and each grain with its velocity, spin and contact
 /// history, as the engine packs a grain that leaves for another process. Bits survive.
-/// @param rotations of the grains so far, rad, one a grain or none (FixCellStrain)
+/// @param rotations of the grains so far, rad, one a grain or empty (FixCellStrain)
 StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations = {});
-/// The same of spheres in space. @param rotations three a grain (FixSpaceStrain), or none
+/// The same of spheres in space. @param rotations three a grain (FixSpaceStrain), or empty
 StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const SpaceBox& box,
                         std::span<const double> rotations = {});
 
 struct RestoredState {
   Box box;                        ///< of a plane state
-  std::vector<double> rotations;  ///< rad, one a grain or, in space, three; zero when the state has none
+  std::vector<double> rotations;  ///< rad, one a grain or, in space, three; zero when not in the state
   std::optional<SpaceBox> space;  ///< of a state in space
 };
 
-/// Puts a state into the engine in place of what is there; the grains keep the masses they have in the
+/// Puts a state into the engine in place of its present one; the grains keep the masses they have in the
 /// engine, which are the packing's. Forces and neighbour lists are not set up yet.
 /// @throws RunError when the bytes are not a state of this engine: nothing of them is believed
 /// (packed_grains.hpp, disc_state.hpp), because the engine believes every length and partner.

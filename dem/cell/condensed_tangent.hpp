@@ -40,7 +40,7 @@ class CondensedTangent {
   std::optional<Matrix7> classical(const ContactNetwork& network);
 
   /// The weighted mean of the rotations prescribed.
-  /// @param weights one a grain, adding up to 1 (FixCellStrain), or none: then the mean is free too, as no
+  /// @param weights one a grain, adding up to 1 (FixCellStrain), or empty: then the mean is free too, as no
   /// grain can be turned
   std::optional<Matrix7> cosserat(const ContactNetwork& network, std::span<const double> weights);
 

@@ -25,7 +25,7 @@ struct FrontMatrix {
 };
 
 /// Eliminates the pivots: the first `pivots` rows become those of U (and of the right-hand sides), the other
-/// rows what is left to eliminate, the Schur complement; the factor L stands below the diagonal. Among the
+/// rows the rest to eliminate, the Schur complement; the factor L stands below the diagonal. Among the
 /// rows of pivots the largest is taken when the one in place is less than a tenth of it.
 /// @returns false when a pivot is zero or not finite; the front is spoilt then
 bool eliminate(const FrontMatrix& front, InstructionSet set);

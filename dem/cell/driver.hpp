@@ -9,8 +9,8 @@
 
 namespace polargrain::dem {
 
-/// One engine with one packing of discs in a periodic box that follows a path: what cells and the making of packings
-/// share. The box is the packing's, at rest.
+/// One engine with one packing of discs in a periodic box that follows a path: the common part of cells and of the making
+/// of packings. The box is the packing's, at rest.
 class Driver : public GrainEngine {
  public:
   Driver(const Packing& packing, const std::string& script, const std::string& script_file,

@@ -10,7 +10,7 @@ namespace polargrain::dem {
 
 namespace {
 
-/// What a front costs, in multiplications of 3 x 3 blocks: its elimination, the passing on of its border, and
+/// The cost of a front, in multiplications of 3 x 3 blocks: its elimination, the passing on of its border, and
 /// a fixed amount. The constants are fitted to measured times (bench/tangent_bench); only speed depends on
 /// them.
 std::int64_t cost(std::int64_t pivots, std::int64_t border) {

@@ -13,7 +13,7 @@ namespace polargrain::dem {
 ///
 /// Grains are ordered by approximate minimum degree. Those that follow one another in the elimination with
 /// (nearly) the same neighbours make one front, whose equations are a dense matrix: the grains to eliminate
-/// (the pivots), then the grains that they are coupled to by then (the border). What is left of a front after
+/// (the pivots), then the grains that they are coupled to by then (the border). The rest of a front after
 /// the elimination is added to its parent's: the multifrontal method (Duff, Reid 1983).
 class EliminationPlan {
  public:

@@ -39,7 +39,7 @@ int FixCellStrain::setmask() {
 }
 
 void FixCellStrain::init() {
-  // What Domain::init does for fix deform with `remap v`, which it knows by name only: grains that cross a
+  // As Domain::init does for fix deform with `remap v`, which it knows by name only: grains that cross a
   // face and images of grains get the velocity difference of the faces. The atom style keeps its own copy.
   domain->deform_vremap = 1;
   domain->deform_groupbit = groupbit;

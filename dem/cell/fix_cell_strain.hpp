@@ -49,7 +49,7 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   /// instead of following their forces (mode 3); the curvature then acts through them alone. To be set after
   /// begin, with a RotationLoading.
   void hold(std::vector<bool> held) { held_ = std::move(held); }
-  /// What holds them, by local index: force in the frame of the box, N, and moment, N m, at the last force
+  /// The reactions that hold them, by local index: force in the frame of the box, N, and moment, N m, at the last force
   /// pass.
   [[nodiscard]] std::span<const Eigen::Vector3d> reactions() const { return reactions_; }
 
@@ -79,7 +79,7 @@ class FixCellStrain : public LAMMPS_NS::Fix {
   void accelerate();
   void move_held_grains();
   void take_reactions();
-  /// What is done to the forces of a pass: sums for the read-out, damping, mean rotation.
+  /// Treats the forces of a pass: sums for the read-out, damping, mean rotation.
   void balance(bool damped);
   /// The mean rotation is prescribed and there are grains to hold it with.
   [[nodiscard]] bool controlled() const { return motion_.rotation() && !weights_.empty(); }

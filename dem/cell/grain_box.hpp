@@ -11,7 +11,7 @@
 
 namespace polargrain::dem {
 
-/// Grains in a periodic box that can be carried along a path: what a cell drives. Order of calls: restore,
+/// Grains in a periodic box that can be carried along a path: the box that a cell drives. Order of calls: restore,
 /// begin, set_up, then run as often as wanted; the rest tells of the last force pass.
 class GrainBox {
  public:

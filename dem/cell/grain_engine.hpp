@@ -25,7 +25,7 @@ class GrainEngine {
   /// Reads the packing through the user's script; then, once the box has been set, `start` is to be called. No forces
   /// are computed yet.
   /// @param script_file for messages only
-  /// @param contact_library of contact laws of the user's own, or none @throws RunError as add_contact_library
+  /// @param contact_library of contact laws of the user's own, or empty @throws RunError as add_contact_library
   /// @param after_script called before the contact models read their parameters
   /// @param strain_fix style of the fix that carries the box
   GrainEngine(const Packing& packing, const std::string& script, const std::string& script_file,

@@ -8,7 +8,7 @@
 
 namespace polargrain::dem {
 
-/// What is shown of a cell, from what its engine has in the frame of the box.
+/// The view of a cell, from the data of its engine in the frame of the box.
 /// @param grains whose places may be outside of the box; their numbers of contacts are found here
 /// @param contacts count the grains in that order
 /// @param base base vectors of the box in its frame as columns, upper triangular, m @param frame box frame to laboratory

@@ -32,7 +32,7 @@ LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& fram
 
   stiffness.setZero();
   stiffness.topLeftCorner<2, 2>() = contact.normal_stiffness * n * n.transpose();
-  // What a spring no longer answers, the limit does: it falls with the compressive normal force, which falls by k_n as
+  // The share that a spring no longer answers is the limit's: it falls with the compressive normal force, which falls by k_n as
   // the contact opens.
   const WayOfSprings way = WayOfSprings::of(strain, branch.norm());
   const double normal_force = contact.normal_force();

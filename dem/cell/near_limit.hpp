@@ -4,7 +4,7 @@
 
 namespace polargrain::dem {
 
-/// How far the springs of a contact go, one way or the other, along an increment of a given strain: what decides how near
+/// How far the springs of a contact go, one way or the other, along an increment of a given strain: it decides how near
 /// to its limit a spring must stand to be spent on the way (docs/theory/grains.md, C.7).
 struct WayOfSprings {
   double slip = 0.0;  ///< m
@@ -16,7 +16,7 @@ struct WayOfSprings {
 };
 
 /// The share of a spring that still answers along an increment: 1 far from its limit, 0 at it, and in between in
-/// proportion to what is missing to the limit over the way that the spring goes. Contacts do not slide steadily: they
+/// proportion to the distance from the limit over the way that the spring goes. Contacts do not slide steadily: they
 /// come to their limit, let go, fall back and come again, so that those near it at one moment are those that slide.
 /// @param value force or moment, its size @param way m or rad; 0: the share is 1 but at the limit itself
 inline double spring_share(double value, double limit, double stiffness, double way) {

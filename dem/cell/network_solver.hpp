@@ -78,7 +78,7 @@ class NetworkSolver {
   EliminationPlan plan_;
   std::vector<Place> places_;
   std::vector<double> factors_;       // fronts one after another, each cut down to the rows of its pivots
-  std::vector<double> passed_;        // stack of what closed fronts leave to their parents
+  std::vector<double> passed_;        // stack of the parts that closed fronts leave to their parents
   std::vector<std::size_t> waiting_;  // closed fronts whose parent is not open yet
   std::size_t passed_end_ = 0;
   std::vector<int> local_;  // first row in the open front, by grain

@@ -16,14 +16,14 @@ namespace polargrain::dem {
 ///
 ///     length | place, motion, tag, type, ... | partners and springs of its contacts | more values
 ///
-/// The engine believes every length and every partner in it. What is unpacked there has to pass both checks
+/// The engine believes every length and every partner in it. A record unpacked there has to pass both checks
 /// below.
 struct PackedGrains {
   Box box;                          ///< of a plane state
   std::size_t history_values = 0;   ///< springs of a contact
   std::vector<double> values;       ///< the records
   std::vector<std::size_t> starts;  ///< where each record begins, and where the last ends
-  std::vector<double> rotations;    ///< rad, one a grain or, in space, three; or none
+  std::vector<double> rotations;    ///< rad, one a grain or, in space, three; or empty
   std::optional<SpaceBox> space;    ///< the box of a state in space; nothing: a plane state
 
   [[nodiscard]] std::size_t grains() const { return starts.size() - 1; }
@@ -38,7 +38,7 @@ PackedGrains decode_grains(const State& state);
 /// The opposite. `starts` is not needed.
 StatePointer encode(const PackedGrains& state, std::size_t grains);
 
-/// How an engine packs its grains, and what of them never changes.
+/// How an engine packs its grains, and which members of them never change.
 struct GrainLayout {
   static constexpr std::size_t kPlace = 1;  ///< x, y, z; then the velocity; then the tag
   static constexpr std::size_t kVelocity = 4;

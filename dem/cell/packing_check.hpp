@@ -50,8 +50,8 @@ inline constexpr double kMostOverlapToStart = 0.75;
 /// under 1 kPa has 1e7.
 inline constexpr double kMostStiffnessLevel = 1e10;
 
-/// Why the places of the grains are no packing, whatever the script: grains in one place, or none that touch.
-/// Nothing when they are one. For before the first force: the engine itself does not survive all of these.
+/// Why the places of the grains are not a packing, whatever the script: grains in one place, or no two that touch.
+/// Empty when they are a packing. For before the first force: the engine itself does not survive all of these.
 std::string geometry_fault(const Packing& packing);
 
 /// Two grains that touch on two sides of a narrow box, in words: the tangential springs of a contact are kept by the names of its grains, so
@@ -61,7 +61,7 @@ std::string twofold_contact(const Packing& packing);
 /// A packing under a script before the first step.
 struct PackingAtRest {
   double pressure = 0.0;         ///< mean normal stress, compression positive, Pa
-  double recorded = 0.0;         ///< the packing file's, Pa; 0 when it has none
+  double recorded = 0.0;         ///< the packing file's, Pa; 0 when it has no pressure
   double stiffness_level = 0.0;  ///< mean k_n / (pressure * thickness)
   Equilibrium equilibrium;
   Overlaps overlaps;
@@ -69,7 +69,7 @@ struct PackingAtRest {
   bool space = false;  ///< of spheres: the stiffness level is mean k_n / (pressure * mean diameter)
 };
 
-/// Why a packing does not fit its script, with the numbers and what to do; nothing when it does.
+/// Why a packing does not fit its script, with the numbers and the remedy; empty when it does.
 /// @param unrest the ratio that the user asks of cells; ten times that is allowed of the packing when it is
 /// more than kMostUnrest @param script the user's file
 std::string packing_fault(const PackingAtRest& packing, double unrest, const std::string& script);

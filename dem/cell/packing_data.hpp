@@ -19,7 +19,7 @@ class PackingDataFile {
   ~PackingDataFile();
   /// Path that this process can open.
   [[nodiscard]] std::string path() const;
-  /// Gives the engine what scripts ask of a packing: ${packing}, that path, and ${neighbour_distance}
+  /// Gives the engine the variables that scripts ask of a packing: ${packing}, that path, and ${neighbour_distance}
   /// (grains_io/neighbour_distance.hpp).
   void define_variables(Engine& engine) const;
 

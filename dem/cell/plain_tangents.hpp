@@ -8,8 +8,8 @@
 namespace polargrain::dem {
 
 // The condensed tangents as docs/theory/grains.md, C.7 writes them, by one sparse matrix and a factorisation
-// with free exchange of pivots (Eigen's SparseLU: the same bits on any processor): what CondensedTangent is
-// tested against, and what it falls back to. Empty when the matrix is singular or the solution does not
+// with free exchange of pivots (Eigen's SparseLU: the same bits on any processor): the reference for tests of
+// CondensedTangent, and its fallback. Empty when the matrix is singular or the solution does not
 // satisfy it.
 
 std::optional<Matrix7> plain_classical_tangent(const ContactNetwork& network);

@@ -20,7 +20,7 @@ std::vector<double> rotation_weights(
     std::span<const Contact> contacts, int grains,
     double (*normal_force)(const Contact&) = [](const Contact& contact) { return contact.normal_force(); });
 
-/// Resultants of the contacts of the grains, and of what holds their mean rotation, before damping.
+/// Resultants of the contacts of the grains, and of the reaction that holds their mean rotation, before damping.
 struct Imbalance {
   double force = 0.0;   ///< sum over grains of its magnitude, N
   double moment = 0.0;  ///< the same, N m
@@ -89,7 +89,7 @@ class QuasiStatic {
   /// @param curvature rad/m; where rotations are free neither it nor `turn` counts @param reach as above
   /// @throws RunError when that is more than 1e9 steps
   void begin(double strain, double turn, double curvature, double time_step, double reach = 0.0);
-  /// What is prescribed of the rotations; nothing where they are free.
+  /// The rotations prescribed; empty where they are free.
   [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment& increment) const;
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
 

@@ -12,8 +12,8 @@
 
 namespace polargrain::dem {
 
-/// A network of contacts to first order whose grains find their own equilibrium under strains: what the condensed tangents
-/// of discs and of spheres have in common (docs/theory/grains.md, C.7 (ii)). An object keeps memory between calls, never a
+/// A network of contacts to first order whose grains find their own equilibrium under strains: the common part of condensed
+/// tangents of discs and of spheres (docs/theory/grains.md, C.7 (ii)). An object keeps memory between calls, never a
 /// result.
 ///
 /// @tparam Law of one contact: `stiffness`, `motions` and `affine` as in LinearContact, with as many openings as a grain has
@@ -31,7 +31,7 @@ class RelaxedNetwork {
   /// Stresses once the grains have found their equilibrium under given strains, or nothing where the forces found do not
   /// balance.
   /// @param network contacts, grains, volume, hold as in ContactNetwork; there is a contact at least
-  /// @param weights one a grain: the weighted means of the rotations are held at zero; none: they are free
+  /// @param weights one a grain: the weighted means of the rotations are held at zero; empty: they are free
   /// @param law_of law_of(c) returns the Law of contacts[c]
   template <int Strains, class Network, class LawOf>
   std::optional<Columns<Strains>> stresses(const Network& network, std::span<const double> weights,

@@ -20,11 +20,11 @@ void set_time_step(LAMMPS_NS::LAMMPS& lammps, double time_step);
 /// Masses and moments of inertia of the grains as the engine's integrator has them.
 Inertia inertia_of(const LAMMPS_NS::LAMMPS& lammps);
 
-/// Who sets the time step of a scene: the script, or this program, from the contacts.
+/// The owner of the time step of a scene: the script, or this program, from the contacts.
 class ScriptTimeStep {
  public:
   /// After the script has been read, before the engine is initialised: without a step of the script's the
-  /// engine gets one for the time being, as it starts with none.
+  /// engine gets one for the time being, as it starts without one.
   explicit ScriptTimeStep(LAMMPS_NS::LAMMPS& lammps);
 
   [[nodiscard]] bool given() const { return given_; }  ///< whether the script has a line `timestep`
@@ -54,8 +54,8 @@ class ScriptTimeStep {
   bool given_ = false;
 };
 
-/// Whether a step that was stable still is; costs little while there is room. @returns what is wrong, else
-/// nothing
+/// Whether a step that was stable still is; costs little while there is room. @returns the fault, or
+/// an empty text
 std::string step_fault(std::span<const Contact> contacts, const Inertia& inertia, double damping_rate,
                        double time_step);
 

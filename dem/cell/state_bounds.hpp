@@ -24,7 +24,7 @@ struct SpaceMotionOfGrain {
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();    ///< rotation since the packing, rad
 };
 
-// Bounds of what a state may say. Numbers that no evaluation leaves behind would make lists without end, not
+// Bounds of the numbers in a state. Numbers that no evaluation leaves behind would make lists without end, not
 // answers.
 
 /// The fault of the box of a state; empty when it is sound. @param grain_area of all grains, m^2
@@ -39,8 +39,8 @@ std::string motion_fault(const Box& box, std::size_t grain, const GrainMotion& m
 std::string motion_fault(const SpaceBox& box, std::size_t grain, const SpaceMotionOfGrain& motion,
                          double radius, double time_step);
 
-/// Most bytes that the state of so many grains may have, and the fewest: many times what their contacts
-/// take, and the places and motions alone.
+/// Most bytes that the state of so many grains may have, and the fewest: many times the size of their contacts,
+/// and the places and motions alone.
 std::size_t most_state_bytes(std::size_t grains);
 std::size_t least_state_bytes(std::size_t grains);
 /// Most contacts of so many grains whose springs a state may hold.

@@ -11,7 +11,7 @@ class LAMMPS;
 
 namespace polargrain::dem {
 
-/// What stock contact models keep to themselves and tangents, time steps and damping need: the slope of Hertz's normal
+/// The internals of stock contact models that tangents, time steps and damping need: the slope of Hertz's normal
 /// force, of which the engine tells force over overlap, and rolling stiffness and limit of the model epsd2.
 class StockLaws {
  public:

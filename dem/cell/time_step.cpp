@@ -50,7 +50,7 @@ struct Springs {
     force.segment<3>(6 * second + 3) -= arm_second * lever - moment;
   }
 
-  /// What the springs add to the diagonal block of a grain, scaled by the roots of its inertias.
+  /// The share of the springs in the diagonal block of a grain, scaled by the roots of its inertias.
   [[nodiscard]] Eigen::Matrix<double, 6, 6> block(double arm, double root_mass, double root_moment) const {
     Eigen::Matrix3d across;  // turning -> turning x normal
     across << 0.0, normal.z(), -normal.y(), -normal.z(), 0.0, normal.x(), normal.y(), -normal.x(), 0.0;

@@ -42,7 +42,7 @@ double stable_time_step(double frequency, double viscous_time, double damping_ra
 /// Longest time viscosity / stiffness of the dashpots of the contacts, s.
 double longest_viscous_time(std::span<const Contact> contacts);
 
-/// What the stiffest contacts of a packing in the making look like.
+/// The stiffest contacts of a packing in the making.
 struct StiffestContact {
   double normal_stiffness = 0.0;      ///< N/m
   double tangential_stiffness = 0.0;  ///< N/m

@@ -7,10 +7,10 @@
 
 namespace polargrain::dem {
 
-/// What a cell imposes on its contacts beyond the motion of the grains; outside a cell there is nothing.
+/// The loading of contacts by their cell beyond the motion of the grains; zero outside a cell.
 class CellLoading {
  public:
-  /// Every contact between grains is to see their spins turned by what a rate of curvature makes from the middle of the
+  /// Every contact between grains is to see their spins turned by the share of a rate of curvature from the middle of the
   /// branch to either centre (docs/theory/grains.md, C.6, C.8). Laws that take spins past the contact (stock rolling
   /// models) do not feel it.
   /// @param rate (i,j) = d(micro-rotation about e_i)/dx_j in a unit of time, in the frame of the box, rad/(m s)

@@ -22,7 +22,7 @@ inline constexpr const char* kContactLibraryName = "polargrain_contact_library";
 /// Loads a library of contact laws of the user's own (docs/own_contact_law) and makes them usable in
 /// `pair_style gran` and in walls, together with all other models. To be called after every creation of an
 /// engine whose script is to know them. The library stays loaded for the life of the process.
-/// @param file none: nothing is to be loaded
+/// @param file empty: nothing is to be loaded
 /// @throws RunError when the file is missing, has another content than it should, is no such library, was compiled for
 /// another version, or names a law as another one is named
 void add_contact_library(const ContactLibraryFile& file);

@@ -21,7 +21,7 @@ struct Contact {
   double tangential_viscosity = 0.0;  ///< N s/m
   double arm_first = 0.0;             ///< centre of first to the contact point, m
   double arm_second = 0.0;
-  double friction = 0.0;  ///< sliding friction coefficient of the pair; 0 when the script has none
+  double friction = 0.0;  ///< sliding friction coefficient of the pair; 0 when the script has no friction
   /// Rolling resistance moment about e_3 on first by second (conjugate to the rotation of second relative to
   /// first), N m, of any rolling model.
   double moment = 0.0;
@@ -44,7 +44,7 @@ struct Contact {
     const Eigen::Vector2d n = normal();
     return -force.x() * n.y() + force.y() * n.x();
   }
-  /// What is conjugate to the curvature along the branch: the rolling moment, and the polar part of the
+  /// The couple conjugate to the curvature along the branch: the rolling moment, and the polar part of the
   /// tangential force, which discs of unequal radii have (docs/theory/grains.md, C.8); N m.
   [[nodiscard]] double couple() const { return moment - 0.5 * (arm_second - arm_first) * tangential_force(); }
   /// The tangential spring stands at its Coulomb limit. The force computation scales it exactly there, so
@@ -59,7 +59,7 @@ struct Contact {
 /// the only place that knows a contact's stiffnesses, so it is asked there, in passing, without a second
 /// loop.
 struct ContactRecorder {
-  /// What only the rolling law knows of the contact under way; it leaves it here for the taking down.
+  /// The values that only the rolling law knows of the contact under way; it leaves them here for the taking down.
   struct Rolling {
     double stiffness = 0.0;
     bool at_limit = false;

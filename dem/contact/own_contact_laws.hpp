@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What polargrain_contact_laws() of the CMake package compiles into a library of contact laws. Beside it that function
+// The source that polargrain_contact_laws() of the CMake package compiles into a library of contact laws. Beside it that function
 // writes own_*_model.h, lists of the headers given to it, and the engine's lists style_*_model.h, in which they follow
 // the models of this project.
 #include <algorithm>
@@ -63,7 +63,7 @@ inline std::string add_names() {
   std::string taken;
   const auto add = [&taken](Identifier identifier, Add add_model, const std::string& name, int number) {
     Factory& factory = Factory::instance();
-    const int known = (factory.*identifier)(name);  // 0: none, and the number of `off`
+    const int known = (factory.*identifier)(name);  // 0: not found, and the number of `off`
     if (name == "off" || (known != 0 && known != number)) taken = name;
     if (taken.empty()) (factory.*add_model)(name, number);
   };

@@ -9,7 +9,7 @@
 namespace polargrain::dem {
 
 /// The engine's own loop over pairs of grains, for everything that is rare: virial tallies, `compute
-/// pair/gran/local`, rigid bodies, stored contact forces. What a cell does a million times, the plain force
+/// pair/gran/local`, rigid bodies, stored contact forces. The frequent work of a cell, the plain force
 /// pass, is done by a leaner loop over the same neighbour list with the same models and the same order of
 /// additions, so that both give the same bits. All calls are inlined into it, which lets the compiler keep a
 /// contact in registers; bench/contact_loop measures what that saves.
@@ -44,7 +44,7 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
   }
 
  private:
-  /// One long function: what it keeps at hand over all pairs would be handed from part to part, once a contact.
+  /// One long function: values kept at hand over all pairs would be handed from part to part, once a contact.
   __attribute__((flatten)) void plain_pass(LAMMPS_NS::PairGran& pair) {
     using LIGGGHTS::ContactModels::ForceData;
     using LIGGGHTS::ContactModels::SurfacesIntersectData;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What the tangential and the rolling law of Li and Chu share: relative rotation, the reduced radius, and
+// The kinematics that the tangential and the rolling law of Li and Chu share: relative rotation, the reduced radius, and
 // springs that turn with the contact. Vectors follow the engine: en points from grain j to grain i,
 // everything is seen as acting on i. With n = -en and t = e_3 x n the measures of docs/theory.md, D.1 are
 //   sliding s = -u_s t,   relative rotation W = w_i - w_j = -theta_r e_3,   rolling displacement R* en x W =

@@ -66,7 +66,7 @@ struct SpokenSettings {
   }
 };
 
-/// Who knows the settings of a combination: the loop over its pairs.
+/// The source of the settings of a combination: the loop over its pairs.
 class SettingsSource {
  public:
   virtual ~SettingsSource() = default;

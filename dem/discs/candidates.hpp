@@ -29,7 +29,7 @@ struct CandidateList {
   std::vector<Candidate> pairs;
   std::vector<LatticeVector> images;  ///< that occur; the first one is (0, 0)
   int springs = 0;                    ///< values a pair
-  std::vector<double> values;         ///< springs of the contacts, `springs` a pair; zero where none
+  std::vector<double> values;         ///< springs of the contacts, `springs` a pair; zero without contact
 
   /// Finds the pairs.
   /// @param types of the discs, from 0; @param kinds types there are

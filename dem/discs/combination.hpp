@@ -47,7 +47,7 @@ struct PairParameters {
   double rolling_force_damping = 0.0;    ///< li_chu: zeta_r
 };
 
-/// What a script says of its contacts, where the loops over discs and over spheres can take it.
+/// The contacts that a script sets up, where the loops over discs and over spheres can take it.
 struct DiscCombination {
   NormalLaw normal = NormalLaw::hooke_radii;
   TangentialLaw tangential = TangentialLaw::history;

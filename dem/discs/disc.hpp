@@ -22,7 +22,7 @@ struct alignas(32) DiscForce {
   double unused = 0.0;      ///< keeps four numbers in step with a vector register
 };
 
-/// What the last force pass gave a disc, damping included, and how far it has turned.
+/// The force of the last pass on a disc, damping included, and how far it has turned.
 struct alignas(32) DiscMotion {
   double ax = 0.0, ay = 0.0;  ///< m/s^2
   double angular = 0.0;       ///< rad/s^2

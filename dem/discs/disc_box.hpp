@@ -18,7 +18,7 @@ namespace polargrain::dem {
 /// passes a step: one over the contacts and one over the discs. Tests hold it to the engine's own loop.
 class DiscBox final : public GrainBox {
  public:
-  /// What of the discs never changes.
+  /// The part of the discs that never changes.
   struct Definition {
     DiscCombination combination;
     std::vector<double> radii;   ///< m
@@ -31,7 +31,7 @@ class DiscBox final : public GrainBox {
   explicit DiscBox(Definition definition);
 
   void restore(const State& state) override;
-  /// The same from a snapshot. @throws RunError when it is none of these discs and laws
+  /// The same from a snapshot. @throws RunError when it is not one of these discs and laws
   void restore(const DiscSnapshot& snapshot);
   [[nodiscard]] StatePointer save() override;
   void begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) override;
@@ -48,7 +48,7 @@ class DiscBox final : public GrainBox {
   [[nodiscard]] std::span<const double> rotations() const override;
 
  private:
-  /// @throws RunError when the numbers are none that an evaluation leaves behind
+  /// @throws RunError when no evaluation leaves such numbers behind
   void check(const DiscSnapshot& snapshot) const;
   /// Makes the list anew; springs come from the former one.
   void find_candidates();
@@ -58,7 +58,7 @@ class DiscBox final : public GrainBox {
   void compute_forces(bool advance, bool record);
   /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
   void control_rotation(bool damped);
-  /// The box goes on by a step, and the discs do its first half: what the box adds to the velocities, half a
+  /// The box goes on by a step, and the discs do its first half: the velocity change by the box, half a
   /// kick, drift. One pass over the discs does that and the second half of the step before.
   void begin_step(bool end_the_last);
   /// Second half of a step: damping, half a kick.
@@ -95,7 +95,7 @@ DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& com
 
 /// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who
 /// go on in the engine's own loop. The box is the caller's business; lists are not set up.
-/// @throws RunError when the snapshot is none of these grains and models
+/// @throws RunError when the snapshot is not one of these grains and models
 void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const DiscSnapshot& snapshot);
 
 }  // namespace polargrain::dem

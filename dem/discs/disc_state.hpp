@@ -10,7 +10,7 @@
 
 namespace polargrain::dem {
 
-/// What changes in a box of discs from one step to the next, and nothing else: radii, masses and laws are those
+/// The part of a box of discs that changes from one step to the next, and nothing else: radii, masses and laws are those
 /// of the packing and the script. Discs are counted as in the packing.
 struct DiscSnapshot {
   using Motion = GrainMotion;
@@ -34,8 +34,8 @@ bool is_disc_state(const State& state);
 
 StatePointer encode(const DiscSnapshot& snapshot);
 
-/// Nothing of the bytes is believed: lengths, numbers of discs, places, finite values.
-/// @throws RunError saying what is wrong
+/// Checks all bytes: lengths, numbers of discs, places, finite values.
+/// @throws RunError with the fault
 DiscSnapshot decode_discs(const State& state);
 
 }  // namespace polargrain::dem

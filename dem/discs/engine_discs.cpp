@@ -65,7 +65,7 @@ void write_springs(const double* springs, const DiscCombination& combination, co
   if (combination.rolling != RollingLaw::off) history[places.rolling + 2] = springs[kRollingSpring];
 }
 
-/// What the engine keeps of one grain's contacts: partners and, for each, the values of its history.
+/// The engine's record of one grain's contacts: partners and, for each, the values of its history.
 struct GrainHistories {
   std::vector<int> partners;
   std::vector<double> values;

@@ -16,9 +16,9 @@ using EngineParts = std::unordered_map<std::type_index, std::shared_ptr<void>>;
 /// @param lammps of an Engine
 EngineParts& parts_of(LAMMPS_NS::LAMMPS& lammps);
 
-/// The Part that belongs to this engine and to no other, made when it is first asked for: how contact models, fixes and
-/// cells of one engine share what they know, while other engines of the process know nothing of it. It lives as long as
-/// the engine does. Looking it up takes a search: who needs it for every contact keeps the reference.
+/// The Part that belongs to this engine and to no other, made when it is first asked for: by it contact models, fixes and
+/// cells of one engine share their data, while other engines of the process know nothing of it. It lives as long as
+/// the engine does. Looking it up takes a search: code that needs it for every contact keeps the reference.
 /// @param lammps of an Engine
 template <typename Part>
 Part& part_of(LAMMPS_NS::LAMMPS& lammps) {

@@ -4,8 +4,8 @@
 
 namespace polargrain::dem {
 
-/// The engine warns on the error stream of every combination of models that is registered twice, which is what
-/// replacing one means: nothing is printed there as long as this lives.
+/// The engine warns on the error stream of every combination of models that is registered twice, although
+/// this replaces one: nothing is printed there as long as this lives.
 class QuietErrors {
  public:
   QuietErrors() : buffer_(std::cerr.rdbuf(nullptr)) {}

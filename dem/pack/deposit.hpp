@@ -8,10 +8,10 @@
 namespace polargrain::dem {
 
 /// Lets grains fall along -x2 onto a floor, under an acceleration with which the bed weighs on the floor as much as the
-/// specification asks of x2, until they rest. The middle of the bed, without what the floor has put in order and without
+/// specification asks of x2, until they rest. The middle of the bed, without the layer ordered by the floor and without
 /// its surface, becomes a packing that is periodic in x2 too: cut along two planes, the upper one laid under the lower one, shifted
 /// along x1, with cut and shift where the seam is closest. Its box is not narrower than the bed was; nothing overlaps at the seam.
-/// @param rain what falls (place_rain)
+/// @param rain the grains to fall (place_rain)
 /// @throws RunError when the grains are not at rest within the steps allowed
 Packing deposit(const PackingSpecification& specification, const Packing& rain,
                 const MakingFriction& friction, const std::function<void(const PackingReached&)>& progress);

@@ -26,7 +26,7 @@ FixSpaceBox::FixSpaceBox(LAMMPS_NS::LAMMPS* lammps, int count, char** words) : F
     error->all(
         FLERR,
         "A packing of spheres in space needs a script with dimension 3 and boundary p p p, whose box is "
-        "that of read_data ${packing}");
+        "set by read_data ${packing}");
 }
 
 int FixSpaceBox::setmask() {
@@ -34,7 +34,7 @@ int FixSpaceBox::setmask() {
 }
 
 void FixSpaceBox::init() {
-  // What the engine does for fix deform with `remap v`, which it knows by name only.
+  // As the engine does for fix deform with `remap v`, which it knows by name only.
   domain->deform_vremap = 1;
   domain->deform_groupbit = groupbit;
   atom->avec->init();

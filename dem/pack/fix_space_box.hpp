@@ -10,7 +10,7 @@ namespace polargrain::dem {
 ///
 /// Strains and shears a periodic box of spheres in space: smoothly, with the affine velocity given to the
 /// grains and the velocity of the faces to their images, and with viscous damping against the affine flow.
-/// What fix cell/strain is for plane boxes, as far as the making of packings needs it. Not for scripts.
+/// The counterpart of fix cell/strain of plane boxes, as far as the making of packings needs it. Not for scripts.
 class FixSpaceBox : public LAMMPS_NS::Fix {
  public:
   FixSpaceBox(LAMMPS_NS::LAMMPS* lammps, int count, char** words);

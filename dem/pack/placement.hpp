@@ -13,7 +13,7 @@ namespace polargrain::dem {
 Packing place_grains(const PackingSpecification& specification);
 
 /// The same for grains that are to fall (deposit()): in a box as wide as a cube of the packing's own grains will be about, high
-/// enough for some layers more, which stay on the floor and on top. None reaches through floor or top.
+/// enough for some layers more, which stay on the floor and on top. No grain reaches through floor or top.
 Packing place_rain(const PackingSpecification& specification);
 
 /// How many of the grains that have fallen lie below those that are kept.

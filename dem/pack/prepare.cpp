@@ -30,7 +30,7 @@ constexpr int kFallAxis = 1;
 
 using Progress = std::function<void(const PackingReached&)>;
 
-/// What a box is brought to: the stress of those axes that are strained, in its frame, compression positive, Pa.
+/// The aim of a box: the stress of those axes that are strained, in its frame, compression positive, Pa.
 struct Aim {
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   double pressure = 0.0;  // that tolerance and rate refer to, Pa
@@ -216,7 +216,7 @@ class Compression {
   PackingReached reached_;
 };
 
-/// What a packing is made with: rolling friction in proportion to the sliding one, and none without it.
+/// The friction while a packing is made: rolling friction in proportion to the sliding one, and zero without it.
 MakingFriction friction_of(const PackingSpecification& specification, double sliding) {
   MakingFriction friction{sliding, specification.rolling_friction};
   if (friction.rolling) *friction.rolling *= sliding > 0.0 ? sliding / specification.friction : 0.0;

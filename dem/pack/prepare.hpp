@@ -19,7 +19,7 @@ namespace polargrain::dem {
 ///
 /// @param progress called now and then; may be empty
 /// @throws RunError when the packing does not come to rest within the steps allowed, or when the void ratio
-/// asked for is out of reach or was not hit; the message says what was reached.
+/// asked for is out of reach or was not hit; the message gives the value reached.
 PreparedPacking prepare_packing(const PackingSpecification& specification,
                                 const std::function<void(const PackingReached&)>& progress);
 

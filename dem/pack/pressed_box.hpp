@@ -14,7 +14,7 @@ namespace polargrain::dem {
 /// Friction while a packing is made.
 struct MakingFriction {
   double sliding = 0.0;
-  std::optional<double> rolling;  ///< none: the script's, or none at all without sliding friction
+  std::optional<double> rolling;  ///< empty: the script's, or no rolling without sliding friction
 };
 
 class FixGravity;
@@ -62,7 +62,7 @@ class PressedBox {
   /// Where the script leaves the time step to this program: takes the one that suits the contacts as they are
   /// and those that may come (StiffestContact). Else checks the script's. @param damping_rate viscous, 1/s
   virtual void renew_time_step(double damping_rate) = 0;
-  /// What the grains fall under; nothing unless the box was made with Fall::yes.
+  /// The gravity of the grains; null unless the box was made with Fall::yes.
   [[nodiscard]] FixGravity* gravity() { return gravity_; }
 
  protected:
@@ -72,7 +72,7 @@ class PressedBox {
 /// Whether the grains of a box fall under gravity.
 enum class Fall { no, yes };
 
-/// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's; none: the
+/// Discs, or spheres in a single layer. @param friction sliding friction in place of the script's; empty: the
 /// script's own
 std::unique_ptr<PressedBox> make_plane_box(const PackingSpecification& specification, const Packing& packing,
                                            const std::optional<MakingFriction>& friction,

@@ -34,7 +34,7 @@ namespace polargrain::dem {
 /// The platens start at the outermost grains. The lower one stays. While P is on the upper one it is a plate
 /// of a tenth of the grains' mass with critical damping against the stiffness of the specimen.
 ///
-/// Vector (global): 1 axial strain, 2 axial stress (Pa: P and what the platens push beyond it, mean of both,
+/// Vector (global): 1 axial strain, 2 axial stress (Pa: P and the push of the platens beyond it, mean of both,
 /// over the mean width; as a laboratory counts piston and cell pressure), 3 the same over P (stress ratio), 4
 /// volume strain (dilation positive), 5 mean width (area / height, m), 6 height (m), 7 and 8 force of the
 /// upper and the lower platen (N, as compression), 9 mean unbalanced force on a grain over P T d, d the mean

@@ -18,7 +18,7 @@ namespace polargrain::dem {
 /// T    thickness of the discs, m, 1; stresses are forces per thickness
 ///
 /// Vector (global): 1 shear (displacement of the upper plate over the height at the start), 2 that displacement (m), 3 shear
-/// stress s21 (Pa, mean of what the two plates feel), 4 the same over P, 5 normal stress on the lower plate over P
+/// stress s21 (Pa, mean over the two plates), 4 the same over P, 5 normal stress on the lower plate over P
 /// (compression positive), 6 rise of the upper plate since the start of the shear (m), 7 height between the grains of
 /// the plates nearest to each other, centre to centre (m), 8 and 9 force along x on the upper and the lower plate (N), 10 mean
 /// unbalanced force on a free grain over P T d, d the mean diameter.
@@ -50,7 +50,7 @@ class FixLayer : public LAMMPS_NS::Fix {
 
   [[nodiscard]] double height() const;
   [[nodiscard]] double width() const;
-  /// Takes what pushes the plates off their grains and lets them go with their plate.
+  /// Takes the forces off the grains of the plates, which move with their plate.
   void hold_plates();
   void move_upper_plate();
 

@@ -17,12 +17,12 @@ namespace polargrain::dem {
 /// A line `timestep` of the script is honoured instead: refused, at the start or later, when it is unstable,
 /// with a remark when it wastes more than a factor of three.
 ///
-/// Refused: grains without any contact at the start (there is nothing to tell the step from) unless the
+/// Refused: grains without any contact at the start (contacts set the step) unless the
 /// script has a `timestep`, walls of the engine's own (their stiffness is not known here), more than one
 /// process. Drags such as fix viscous are not counted: they shorten the stable step by the share of their
 /// rate in the frequency, usually 1e-3.
 ///
-/// In restart files: the step in use. What `dt` says in the script after the first run has started, or after
+/// In restart files: the step in use. `dt` in the script after the first run has started, or after
 /// the fix was made from a restart file, is that step.
 class FixTimeStep : public LAMMPS_NS::Fix {
  public:

@@ -10,7 +10,7 @@ namespace polargrain::dem {
 class FurtherSprings {
  public:
   virtual ~FurtherSprings() = default;
-  /// Adds the springs as they are, as contacts, and what stands behind them as grains; what does not move has
+  /// Adds the springs as they are, as contacts, and the bodies behind them as grains; a body that does not move has
   /// infinite inertia. Called after forces have been computed.
   virtual void add_springs(std::vector<Contact>& contacts, Inertia& inertia) const = 0;
 };

@@ -35,7 +35,7 @@ int history_values(const DiscCombination& laws) {
   return values;
 }
 
-/// What the engine keeps of one grain's contacts: partners and, for each, the values of its history.
+/// The engine's record of one grain's contacts: partners and, for each, the values of its history.
 struct GrainHistories {
   std::vector<int> partners;
   std::vector<double> values;

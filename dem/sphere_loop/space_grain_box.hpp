@@ -13,14 +13,14 @@
 
 namespace polargrain::dem {
 
-/// Spheres in a box that is periodic in space and can be carried along a path: what a cell of spheres drives, and what
+/// Spheres in a box that is periodic in space and can be carried along a path: the box that a cell of spheres drives, as
 /// GrainBox is in the plane. Order of calls: restore, begin, set_up, then run as often as wanted; the rest tells of the
 /// last force pass.
 class SpaceGrainBox {
  public:
   virtual ~SpaceGrainBox() = default;
 
-  /// Puts a state in place of what is there. @throws RunError when it is none of these spheres and models
+  /// Puts a state in place of the present one. @throws RunError when it is not one of these spheres and models
   virtual void restore(const State& state) = 0;
   /// The spheres as they are, in their box, folded back into it (SpaceBox::reduced).
   [[nodiscard]] virtual StatePointer save() = 0;

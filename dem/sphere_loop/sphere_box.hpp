@@ -25,7 +25,7 @@ class SphereBox final : public SpaceGrainBox {
   SphereBox(Spheres spheres, const SphereKernels& kernels);
 
   void restore(const State& state) override;
-  /// The same from a snapshot. @throws RunError when it is none of these spheres and laws
+  /// The same from a snapshot. @throws RunError when it is not one of these spheres and laws
   void restore(const SphereSnapshot& snapshot);
   [[nodiscard]] StatePointer save() override;
   void begin(const SpacePath& path, double damping_rate, const std::optional<SpaceRotation>& rotation,
@@ -52,7 +52,7 @@ class SphereBox final : public SpaceGrainBox {
   [[nodiscard]] bool outgrown();
   void place_images();
   void compute_forces(bool advance, bool record);
-  /// Contacts from what the last pass has taken down.
+  /// Contacts from the records of the last pass.
   void read_records();
   [[nodiscard]] Contact contact_of(int candidate, const double* record) const;
   [[nodiscard]] SphereMotion motion_of_step();
@@ -69,7 +69,7 @@ class SphereBox final : public SpaceGrainBox {
   int springs_ = 0;              // of a contact in a state
   double skin_ = 0.0;            // m
   double largest_radius_ = 0.0;  // m
-  // Two spheres that are none stand behind the others: they fill up the blocks of candidates.
+  // Two dummy spheres stand behind the others: they fill up the blocks of candidates.
   LineVector<double> grains_, forces_, accelerations_, turned_, inverse_mass_, inverse_inertia_;
   SphereList list_;
   SphereList former_;
@@ -96,7 +96,7 @@ SphereSnapshot sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination&
 
 /// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who go on in
 /// the engine's own loop. The box is the caller's business; lists are not set up.
-/// @throws RunError when the snapshot is none of these grains and models
+/// @throws RunError when the snapshot is not one of these grains and models
 void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
                  const SphereSnapshot& snapshot);
 

@@ -7,7 +7,7 @@
 
 namespace polargrain::dem {
 
-/// What of the spheres of a box never changes.
+/// The part of the spheres of a box that never changes.
 struct Spheres {
   DiscCombination combination;
   std::vector<double> radii;   ///< m

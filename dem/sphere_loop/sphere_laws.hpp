@@ -20,7 +20,7 @@ struct LawKind {
   static constexpr bool hertz = Hertz_;
   static constexpr int tangential = Tangential_;
   static constexpr int rolling = Rolling_;
-  static constexpr bool bare = Bare_;  ///< none of SphereSettings is on, but the torsion of li_chu
+  static constexpr bool bare = Bare_;  ///< every one of SphereSettings is off, but the torsion of li_chu
   static constexpr bool bends = Rolling_ >= kRollingLiChu;
   static constexpr bool twists = Rolling_ == kRollingLiChuWithTorsion;
   /// The springs that the law has may be these.
@@ -41,7 +41,7 @@ struct Meeting {
   Number radius_first, radius_second;
 };
 
-/// What the law makes of it.
+/// The answer of the law.
 template <typename Number>
 struct Meant {
   Vector<Number> force, moment;  ///< force on the first; rolling resistance on the second
@@ -51,7 +51,7 @@ struct Meant {
   Number rolling_stiffness, rolling_limit, is_rolling, is_twisting;
 };
 
-/// What a number is divided by may be zero where the quotient is not used, or its numerator is zero too.
+/// A safe divisor: `a` may be zero where the quotient is not used, or its numerator is zero too.
 template <typename Number>
 POLARGRAIN_INLINE Number not_zero(Number a) {
   return greater(a, all<Number>(1e-290));

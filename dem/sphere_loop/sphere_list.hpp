@@ -48,9 +48,9 @@ SpaceLattice copy_at(const Eigen::Matrix3d& inverse, const Eigen::Vector3d& plac
 /// Pairs of spheres of a periodic box whose surfaces are nearer than a skin, each pair once, in the zones of
 /// SpherePass. The order depends on the positions alone.
 struct SphereList {
-  LineVector<int> first, second, image;  ///< of the candidates; grains from `grains` on are none
+  LineVector<int> first, second, image;  ///< of the candidates; grains from `grains` on are dummies
   std::array<LineVector<double>, kSphereConstants> constants;  ///< empty where no law asks for them
-  std::array<LineVector<double>, kSphereSprings> springs;      ///< zero where there is none
+  std::array<LineVector<double>, kSphereSprings> springs;      ///< zero without contact
   std::vector<SpaceLattice> images;  ///< that occur; the first one is the box itself
   std::vector<double> gaps;          ///< least of each block, m
   std::vector<unsigned char> active;

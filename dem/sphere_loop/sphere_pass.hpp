@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-// What the compiled kernels of the loop over spheres read and write: plain numbers and pointers, because each kernel is
+// The data that the compiled kernels of the loop over spheres read and write: plain numbers and pointers, because each kernel is
 // compiled for an instruction set of its own (vectors.hpp).
 
 namespace polargrain::dem {
@@ -42,7 +42,7 @@ enum SphereSpring {
   kSphereSprings = 10
 };
 
-/// What is taken down of a candidate, in this order, lane by lane of its block.
+/// The record of a candidate, in this order, lane by lane of its block.
 enum SphereRecord {
   kIsTouching,
   kDelta,             ///< three: from the centre of the second to that of the first, m
@@ -65,7 +65,7 @@ struct SphereSettings {
 };
 
 /// One pass over the candidates: forces from places, velocities and springs. Candidates stand in four zones, each
-/// filled up to whole blocks with pairs of grains that are none and never touch:
+/// filled up to whole blocks with pairs of dummies that never touch:
 ///
 ///     touching in the box | near | touching across its faces | near
 ///

@@ -10,7 +10,7 @@
 
 namespace polargrain::dem {
 
-/// What changes in a box of spheres from one step to the next, and nothing else: radii, masses and laws are those of
+/// The part of a box of spheres that changes from one step to the next, and nothing else: radii, masses and laws are those of
 /// the packing and the script. Spheres are counted as in the packing.
 struct SphereSnapshot {
   /// In the frame of the box; rotations in the laboratory.
@@ -38,11 +38,11 @@ bool is_sphere_state(const State& state);
 
 StatePointer encode(const SphereSnapshot& snapshot);
 
-/// Nothing of the bytes is believed: lengths, numbers of spheres, finite values.
-/// @throws RunError saying what is wrong
+/// Checks all bytes: lengths, numbers of spheres, finite values.
+/// @throws RunError with the fault
 SphereSnapshot decode_spheres(const State& state);
 
-/// What is wrong with the box and the spheres of a snapshot; empty when they are sound.
+/// The fault of the box and the spheres of a snapshot; empty when they are sound.
 /// @param radii of the spheres, as many as there are, m @param time_step s; 0: not known
 std::string snapshot_fault(const SphereSnapshot& snapshot, const std::vector<double>& radii,
                            double time_step);

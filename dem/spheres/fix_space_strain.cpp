@@ -27,7 +27,7 @@ FixSpaceStrain::FixSpaceStrain(LAMMPS_NS::LAMMPS* lammps, int count, char** word
       !domain->zperiodic)
     error->all(FLERR,
                "A cell of spheres in space needs a script with dimension 3 and boundary p p p, whose box is "
-               "that of read_data ${packing}");
+               "set by read_data ${packing}");
   // Cells forget the springs of contacts that open, also those of stock models, which would keep them until the
   // next neighbour list.
   neighbor->register_contact_dist_factor(kClosingFactor);
@@ -38,7 +38,7 @@ int FixSpaceStrain::setmask() {
 }
 
 void FixSpaceStrain::init() {
-  // What Domain::init does for fix deform with `remap v`, which it knows by name only.
+  // As Domain::init does for fix deform with `remap v`, which it knows by name only.
   domain->deform_vremap = 1;
   domain->deform_groupbit = groupbit;
   atom->avec->init();

@@ -13,7 +13,7 @@
 
 namespace polargrain::dem {
 
-/// What is prescribed of an increment: a path, and rotations where they are controlled.
+/// The prescribed part of an increment: a path, and rotations where they are controlled.
 struct SpaceLead {
   SpacePath path;
   std::optional<SpaceRotation> rotation;
@@ -25,7 +25,7 @@ SpaceLead lead_along(QuasiStatic& protocol, const SpaceBox& box, const CellIncre
 
 /// fix ID all cell/space_strain
 ///
-/// Carries the periodic box of a cell of spheres along a SpacePath, one DEM step at a time: what fix cell/strain does in
+/// Carries the periodic box of a cell of spheres along a SpacePath, one DEM step at a time, as fix cell/strain does in
 /// the plane. The grains get the change of the affine velocity and spin at the start of each step, images the velocity
 /// of their face. The frame of the box turns; velocities and spins are counted from it. Viscous damping acts against
 /// the affine flow: a grain of mass m and moment of inertia I that moves at v and spins at w loses rate m (v - affine
@@ -79,7 +79,7 @@ class FixSpaceStrain : public LAMMPS_NS::Fix {
  private:
   void set_box(const SpaceBox& box);
   void accelerate();
-  /// What is done to the forces of a pass: sums for the read-out, damping, mean rotation.
+  /// Treats the forces of a pass: sums for the read-out, damping, mean rotation.
   void balance(bool damped);
   void damp();
   /// Adds lambda V weight to the torques.

@@ -28,11 +28,11 @@ double spring_left_across(double slip, double limit);
 /// Places and rotations of grains, and springs of contacts, where an increment starts; at its end they tell how far each
 /// contact has slid on the way (docs/theory/grains.md, C.9). Springs count as force over stiffness, as all models of the
 /// engine keep them that have a limit. A contact that has closed on the way has moved since by the share of its overlap in
-/// what the grains have come nearer.
+/// the approach of the grains.
 class IncrementSlip {
  public:
   /// @param positions three a grain, in the frame of the box, m @param rotations three a grain, in the laboratory, rad,
-  /// or none: they count from zero
+  /// or empty: they count from zero
   void start(std::span<const Contact> contacts, const double* positions, std::span<const double> rotations,
              const SpaceBox& box, int grains);
   /// One a contact. @param rotations as in start(), at the end @param curvature of the increment, in the laboratory, rad/m
@@ -49,7 +49,7 @@ class IncrementSlip {
     Eigen::Vector3d rotation;  // bending and torsion, rad
   };
   static Springs springs_of(const Contact& contact, const Eigen::Matrix3d& frame);
-  /// Of the same pair of grains, by the same of its images; none when they did not touch.
+  /// Of the same pair of grains, by the same of its images; null when they did not touch.
   [[nodiscard]] const Springs* found(const Contact& contact, const Eigen::Vector3d& branch) const;
 
   SpaceBox box_;

@@ -56,7 +56,7 @@ class SpacePath {
 /// The largest principal strain of a path, its magnitude.
 double largest_principal_strain(const SpacePath& path);
 
-/// What mode 2 adds to a SpacePath (docs/theory/grains.md, C.9), in the laboratory.
+/// The addition of mode 2 to a SpacePath (docs/theory/grains.md, C.9), in the laboratory.
 struct SpaceRotation {
   /// The mean rotation of the grains over the path as the vector of a rotation, rad. With R(w) of the path, grains turn
   /// against the continuum by the vector v of R(w)^T R(rotation), and after the fraction s of the way have turned by
@@ -87,7 +87,7 @@ class SpaceMotion {
   [[nodiscard]] const SpaceBox& box() const { return box_; }
   /// Hdot of the step under way, m/s: the velocity of the images.
   [[nodiscard]] const Eigen::Matrix3d& rate() const { return rate_; }
-  /// (Hdot_k - Hdot_(k-1)) H_(k-1)^-1, 1/s: what the step adds to the affine velocity gradient where it starts.
+  /// (Hdot_k - Hdot_(k-1)) H_(k-1)^-1, 1/s: the change of the affine velocity gradient by the step, where it starts.
   [[nodiscard]] const Eigen::Matrix3d& change_of_gradient() const { return change_; }
   /// Hdot_k H_k^-1: the affine velocity gradient after the grains have moved, 1/s.
   [[nodiscard]] const Eigen::Matrix3d& gradient() const { return gradient_; }
@@ -96,14 +96,14 @@ class SpaceMotion {
   /// Rotation of the frame in the step under way, in the laboratory, rad.
   [[nodiscard]] const Eigen::Vector3d& turn() const { return turn_; }
   [[nodiscard]] bool rotation_is_prescribed() const { return rotation_.has_value(); }
-  /// Affine or prescribed spin of the step under way, counted from the frame, and what the step added to it, rad/s.
+  /// Affine or prescribed spin of the step under way, counted from the frame, and its change by the step, rad/s.
   [[nodiscard]] const Eigen::Vector3d& spin() const { return spin_; }
   [[nodiscard]] const Eigen::Vector3d& change_of_spin() const { return change_of_spin_; }
   /// Rate of curvature (i,j) in the position now and the frame of the box now, rad/(m s).
   [[nodiscard]] const Eigen::Matrix3d& curvature_rate() const { return curvature_rate_; }
 
  private:
-  /// What is prescribed of the spins in the step under way.
+  /// Prescribes the spins in the step under way.
   void turn_grains();
 
   SpacePath path_;

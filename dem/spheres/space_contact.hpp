@@ -8,7 +8,7 @@
 
 namespace polargrain::dem {
 
-// What a contact says in space, and the averages over contacts of spheres (docs/theory/grains.md, C.9). Vectors are in
+// The answer of a contact in space, and the averages over contacts of spheres (docs/theory/grains.md, C.9). Vectors are in
 // the frame of the box, stresses too.
 
 inline Eigen::Vector3d branch_of(const Contact& contact) {

@@ -16,7 +16,7 @@ namespace polargrain::dem {
 /// components of the displacement of the second surface against the first, and the rotation vector of the second grain
 /// against the first) to the change of force and moment on the first grain.
 ///
-/// Of a spring that has given way over the increment what is left along and across its way acts
+/// Of a spring that has given way over the increment the rest along and across its way acts
 /// (spring_left_along, spring_left_across), and it changes with the normal force by the rest of its share in it: a contact
 /// that slides to the end of the increment keeps |f_t| = mu f_n, one at its rolling limit |M| = (limit / f_n) f_n. The
 /// torsion spring acts where the law has one (li_chu), and the rolling stiffness of models that do not tell it counts as
@@ -38,7 +38,7 @@ struct SpaceNetwork {
   Eigen::Matrix3d frame;  ///< turns vectors of the contacts into the frame of the tangent
   double volume = 0.0;    ///< m^3
   double hold = 0.0;      ///< spring on each grain, over the mean normal stiffness
-  /// Of the contacts over the increment that the tangent is the derivative by; none: by a further one, infinitely small.
+  /// Of the contacts over the increment that the tangent is the derivative by; empty: by a further one, infinitely small.
   std::span<const SpaceSlip> slips = {};
 };
 
@@ -59,7 +59,7 @@ class CondensedSpaceTangent {
   /// Rotations free. Empty when the network has no solution that balances its forces.
   std::optional<Matrix18> classical(const SpaceNetwork& network);
   /// The weighted means of the rotations about the three axes prescribed. @param weights one a grain, adding up to 1, or
-  /// none: then the mean is free too
+  /// empty: then the mean is free too
   std::optional<Matrix18> cosserat(const SpaceNetwork& network, std::span<const double> weights);
 
  private:

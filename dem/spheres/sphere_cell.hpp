@@ -6,8 +6,8 @@
 
 namespace polargrain::dem {
 
-/// The engine that stands in for the cells of spheres of a definition: what make_cell_service makes of a packing of
-/// dimension 3. @throws RunError when the places of its grains are none of a packing
+/// The engine that stands in for the cells of spheres of a definition: make_cell_service makes it for a packing of
+/// dimension 3. @throws RunError when the places of its grains are not a packing
 std::unique_ptr<CellOfGrains> make_sphere_cell(const CellDefinition& definition);
 
 }  // namespace polargrain::dem

@@ -12,12 +12,12 @@ namespace polargrain::dem {
 /// One engine with a packing of spheres in a box that is periodic in space.
 class SphereEngine : public GrainEngine {
  public:
-  /// With the contacts of the packing, where it has any. @throws RunError when its state is none of it
+  /// With the contacts of the packing, where it has any. @throws RunError when its state does not belong to it
   explicit SphereEngine(const CellDefinition& definition);
   FixSpaceStrain& strain() { return *strain_; }
   [[nodiscard]] const FixSpaceStrain& strain() const { return *strain_; }
 
-  /// @throws RunError when the state is none of these grains and models
+  /// @throws RunError when the state is not one of these grains and models
   void restore(const State& state);
   /// The grains folded back into their box, which is reduced.
   StatePointer save();

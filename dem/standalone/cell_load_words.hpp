@@ -12,7 +12,7 @@
 
 namespace polargrain::dem {
 
-/// The words of a fix cell/load, of discs or of spheres; what they mean is said there (fix_cell_load.hpp).
+/// The words of a fix cell/load, of discs or of spheres; fix_cell_load.hpp gives their meaning.
 struct CellLoadWords {
   CellControl control;
   MeanGrain mean_grain;  ///< a mass of 0: not given

@@ -13,8 +13,8 @@ namespace polargrain::dem {
 
 /// fix ID all cell/load keyword values ...   in a script of dimension 3
 ///
-/// Takes a cell of spheres along increments in a script of the user's, by the very steps that a coupled run takes: what
-/// FixCellLoad is for discs, with its words but these:
+/// Takes a cell of spheres along increments in a script of the user's, by the very steps that a coupled run takes. It is
+/// FixCellLoad for spheres, with the words of that but these:
 ///
 ///   frame Q11 Q12 ... Q33        rotation of the box against the laboratory, in place of turned (identity)
 ///

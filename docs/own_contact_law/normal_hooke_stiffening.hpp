@@ -48,7 +48,7 @@ class NormalModel<HOOKE_STIFFENING> : public NormalModelBase {
     const double more = stiffening_[contact.itype][contact.jtype] * contact.deltan / length;
     const double normal_force = linear * contact.deltan * (1.0 + more);
 
-    // What the law states of itself: cells take their tangent and their time step from it, tangential and rolling
+    // The law's statement of itself: cells take their tangent and their time step from it, tangential and rolling
     // models their limits and stiffness.
     contact.Fn = normal_force;
     contact.kn = linear * (1.0 + 2.0 * more);

@@ -19,7 +19,7 @@ struct ShapeFunctions {
   Eigen::MatrixX2d derivative;  ///< dN_a / d xi_i, a row a node
 };
 
-/// A family of isoparametric elements: interpolation, quadrature and what neighbours need to know. Nodes run
+/// A family of isoparametric elements: interpolation, quadrature and the data that neighbours need. Nodes run
 /// counter-clockwise, corners first, then the middle nodes of the sides in the order of the sides (the order
 /// of VTK). All of (u1, u2, w) are interpolated alike.
 struct ElementType {

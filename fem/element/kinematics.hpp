@@ -31,7 +31,7 @@ Eigen::Matrix2d jacobian(const Eigen::MatrixX2d& nodes, const ShapeFunctions& sh
 /// The integration points of one element. @param nodes positions, a row a node.
 std::vector<PointGeometry> point_geometries(const ElementType& type, const Eigen::MatrixX2d& nodes);
 
-/// What the point feels (docs/theory.md, A.1). @param dofs u1, u2, w of each node in turn.
+/// The increment that the point feels (docs/theory.md, A.1). @param dofs u1, u2, w of each node in turn.
 Increment increment_at(const PointGeometry& point, Continuum continuum, const Eigen::VectorXd& dofs);
 
 /// The same in large deformation: gradients about the start of the step (Configuration::start).

@@ -14,7 +14,7 @@ namespace polargrain::fem {
 Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& start,
                               const Increment& increment, Continuum continuum, const Response& response);
 
-/// What elements with mean dilatation have beside: their mean gradients change with the shape of the element.
+/// The further stiffness of elements with mean dilatation: their mean gradients change with the shape of the element.
 /// @param points of the element at the end of the step @param answers as many
 Eigen::MatrixXd mean_dilatation_stiffness(std::span<const PointGeometry> points,
                                           std::span<const Response> answers);

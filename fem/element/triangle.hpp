@@ -4,7 +4,7 @@
 
 namespace polargrain::fem {
 
-/// T6: quadratic, 3 points; what Gmsh gives for any outline.
+/// T6: quadratic, 3 points; the element of Gmsh for any outline.
 ElementType triangle6();
 
 }  // namespace polargrain::fem

@@ -19,7 +19,7 @@ struct ElasticParameters {
   Vector7 initial_stress = Vector7::Zero();  ///< order of common/increment.hpp, Pa and N/m
 };
 
-/// What is wrong with the parameters, one message a fault; empty when the law is usable. Gc = 0 and lc = 0
+/// The faults of the parameters, one message each; empty when the law is usable. Gc = 0 and lc = 0
 /// are allowed here (the classical limits); a mesh with rotations then has rotations that nothing holds.
 std::vector<std::string> faults(const ElasticParameters& parameters);
 

@@ -22,7 +22,7 @@ struct ElastoplasticParameters {
   double apex_stiffness_share = 1e-3;
 };
 
-/// What is wrong with the parameters, one message a fault; empty when the law is usable. Names the bound and
+/// The faults of the parameters, one message each; empty when the law is usable. Names the bound and
 /// the value; tests the softening bound (B.2) on every piece of the hardening functions at the initial mean
 /// stress. Under a larger pressure it may still be passed: then integrate fails and says so.
 std::vector<std::string> faults(const ElastoplasticParameters& parameters);
@@ -38,7 +38,7 @@ struct ElastoplasticState {
   Regime regime = Regime::elastic;  ///< how the last step ended
 };
 
-/// What turns unscaled increments into scaled ones and the elastic constants of the return mapping.
+/// The frame that turns unscaled increments into scaled ones and holds the elastic constants of the return mapping.
 struct ElastoplasticFrame {
   SubspaceModuli moduli;
   double length = 0.0;  ///< lc, m

@@ -115,7 +115,7 @@ void check_initial_stress(const ElastoplasticParameters& parameters, const Subsp
   if (parameters.elastic.internal_length > 0.0) {
     scaled.tail<2>() /= parameters.elastic.internal_length;
   } else if (has_couple_stress) {
-    found.push_back("the initial stress has couple stresses, but with lc = 0 there are none; give lc > 0");
+    found.push_back("the initial stress has couple stresses, which need lc > 0; found lc = 0");
     return;
   }
   if (parameters.elastic.cosserat_shear_modulus == 0.0 && initial(k12) != initial(k21)) {

@@ -14,7 +14,7 @@
 namespace polargrain::fem {
 
 /// A constitutive law that answers for one point in place, from a plain state and an increment. A law holds
-/// parameters only; what changes at a point lives in its State.
+/// parameters only; the values that change at a point live in its State.
 ///
 ///     struct Law {
 ///       struct State { ... };                       // copyable, plain data
@@ -45,7 +45,7 @@ concept LawWithGivenStress = requires(const Law law, const Vector7 stress) {
   { law.initial_state(stress) } -> std::same_as<typename Law::State>;
 };
 
-/// The law can turn what a point remembers: State rotated(const State& state, double angle) const.
+/// The law can turn the state of a point: State rotated(const State& state, double angle) const.
 template <class Law>
 concept LawWithRotation = requires(const Law law, const typename Law::State state) {
   { law.rotated(state, 0.0) } -> std::same_as<typename Law::State>;

@@ -44,7 +44,7 @@ class Material {
   [[nodiscard]] virtual bool can_turn() const { return true; }
 
   /// The length over which moments of this material act, m: the mean diameter of grains that answer with couple
-  /// stresses of their own. 0: it has none, and moments are measured by the size of the elements.
+  /// stresses of their own. 0: the material has no such length, and moments are measured by the size of the elements.
   [[nodiscard]] virtual double moment_length() const { return 0.0; }
 
   /// Answers for all points at once, so that a material may spread the work (cells over workers).
@@ -66,8 +66,8 @@ class Material {
     (void)archive;
     throw RunError("this material cannot be written to a checkpoint");
   }
-  /// Takes the committed states of all points from what save wrote; after allocate with as many points. What
-  /// follows is the same to the bit as without the interruption.
+  /// Takes the committed states of all points from the archive of save; after allocate with as many points. The run
+  /// continues to the same bits as without the interruption.
   /// @throws RunError when the archive holds something else.
   virtual void restore(ArchiveReader& archive) {
     (void)archive;
@@ -82,11 +82,11 @@ class Material {
     (void)values;
   }
 
-  /// What the material has to tell of its cost and its error since it was allocated; empty for most.
+  /// The cost and error that the material reports since it was allocated; empty for most.
   [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
-  /// What of its committed answers the material cannot vouch for, in a sentence; empty: nothing. For the end of a run.
+  /// The committed answers that the material cannot vouch for, in a sentence; empty: no such answer. For the end of a run.
   [[nodiscard]] virtual std::string doubt() const { return {}; }
-  /// What happened in the last commits that a user should read in the log, a sentence each; then forgotten.
+  /// Events of the last commits that a user should read in the log, a sentence each; then forgotten.
   [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
 };
 

@@ -31,7 +31,7 @@ struct MicroStep {
   bool macro_plastic = false;          ///< the macro law yielded in this step
 };
 
-/// What one point knows of its micro scale: a plain value.
+/// The knowledge of one point about its micro scale: a plain value.
 struct Mobilisation {
   /// A point of the window: plastic strain of the micro scale over a measure of its deformation.
   struct Sample {
@@ -41,7 +41,7 @@ struct Mobilisation {
 
   FrozenCone cone;              ///< for the next step of the macro law
   double micro_friction = 0.0;  ///< mu, as the micro scale itself showed it last
-  bool limited = false;         ///< what was read last was outside the limits, or the micro scale in tension
+  bool limited = false;         ///< the value read last was outside the limits, or the micro scale in tension
   /// Oldest first, at most window + 1, all of one loading; empty in unloading.
   std::vector<Sample> samples;
   /// How the micro scale answered in the last step, where the macro law did not flow and the micro scale was inside of the
@@ -53,17 +53,17 @@ struct Mobilisation {
 /// @throws InputError when the angle or the cohesion is outside its range.
 Mobilisation initial_mobilisation(const MobilisationOptions& options);
 
-/// What the point knows, turned with the material: the plastic strains of the window.
+/// The knowledge of the point, turned with the material: the plastic strains of the window.
 Mobilisation rotated(Mobilisation mobilisation, double angle);
 
-/// What a point knows after one more increment of its micro scale.
+/// The knowledge of a point after one more increment of its micro scale.
 ///
 /// The window holds the increments of one loading: s : d eps + m . d kappa > 0 with the deviators of stress and strain. In
 /// unloading it is emptied and the cone stays. The cone also stays while the macro law is elastic, and
 /// friction does not fall when the micro scale, loaded again, is still on its way up to it: it falls only
 /// when the micro scale loses strength while it is being loaded (softening).
-/// Grains that have come out of contact (less than a twentieth of the law's pressure) show nothing: friction stays, and the law contracts by what drift_shear
-/// asks for until they carry again.
+/// Grains that have come out of contact (less than a twentieth of the law's pressure) show nothing: friction stays, and the law contracts as drift_shear
+/// asks until they carry again.
 Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,
                      const MobilisationOptions& options);
 

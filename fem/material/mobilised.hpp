@@ -22,7 +22,7 @@ struct DilatancyLimits {
   double most = 1.0;
 };
 
-/// d eps - D^-1 d s in scaled components: what elasticity does not explain of a strain increment. A subspace
+/// d eps - D^-1 d s in scaled components: the part of a strain increment that is not elastic. A subspace
 /// without elastic stiffness (Gc = 0) has no plastic part.
 ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
                                     const ScaledVector<double>& strain_increment,

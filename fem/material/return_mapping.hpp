@@ -119,7 +119,7 @@ Scalar apex_gamma_increment(const SubspaceModuli& moduli, const std::array<Scala
       sum += moduli.weight[k] / (c * c) * squared[k];
     }
   }
-  // The root of an exact zero has no derivative; a purely volumetric trial has none either.
+  // The root of an exact zero has no derivative, and neither has the root of a purely volumetric trial.
   return real_part(sum) > 0.0 ? 2.0 / 3.0 * sqrt(1.5 * sum) : Scalar(0.0);
 }
 
@@ -237,7 +237,7 @@ void return_to_side(const Split<Scalar>& trial, const YieldEquation<Scalar, Cone
 /// @param trial   scaled trial stress, Pa
 /// @param gamma_p accumulated plastic shear at the start of the step
 /// @param cone_at callable, gamma_p -> Cone: HardeningCone, FrozenCone or any other
-/// Never throws: what cannot be returned comes back with a fault, and its stress must not be used.
+/// Never throws: a stress that cannot be returned comes back with a fault, and must not be used.
 template <class Scalar, class ConeAt>
 ConeReturn<Scalar> return_to_cone(const ScaledVector<Scalar>& trial, const Scalar& gamma_p,
                                   const SubspaceModuli& moduli, const ConeAt& cone_at) {

@@ -4,7 +4,7 @@
 
 namespace polargrain::fem {
 
-/// What laws that answer in place can do beyond plane strain: take a strain along e_3 too. For tests of one point
+/// The ability of laws that answer in place beyond plane strain: they take a strain along e_3 too. For tests of one point
 /// (coupler/points); finite elements here are plane.
 class StrainDriven {
  public:

@@ -41,7 +41,7 @@ struct InvariantWeights {
   double a3 = 0.5;
 };
 
-/// What the three subspaces outside the mean stress need, in the order: symmetric deviator, skew shear,
+/// The moduli and weights of the three subspaces outside the mean stress, in the order: symmetric deviator, skew shear,
 /// couple stress. Elasticity acts on each by a factor d_k, the invariant q weighs each by p_k.
 struct SubspaceModuli {
   double bulk = 0.0;                  ///< K, Pa

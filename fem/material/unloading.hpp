@@ -22,7 +22,7 @@ struct UnloadingMode {
   [[nodiscard]] Felt felt(const ScaledVector<double>& strain, std::size_t parts) const;
 };
 
-/// What one increment of a micro scale shows of it; nothing where only the volume was strained. The stiffness is kept
+/// The unloading stiffness seen in one increment of a micro scale; empty where only the volume was strained. It is kept
 /// between 0.02 and 2: an elastic law takes no more, and no softening.
 std::optional<UnloadingMode> unloading_mode(const SubspaceModuli& moduli, const ScaledVector<double>& strain,
                                             const ScaledVector<double>& stress_increment);

@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> gmsh_module_places();
 Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8 = "Q8R",
                const std::vector<std::filesystem::path>& module_places = gmsh_module_places());
 
-/// The mesh of what Gmsh's library has read from the file. @throws InputError as read_gmsh
+/// The mesh that Gmsh's library has read from the file. @throws InputError as read_gmsh
 Mesh mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8 = "Q8R");
 
 }  // namespace polargrain::fem

@@ -36,7 +36,7 @@ struct PointField {
   std::vector<bool> known;  ///< by point; empty: at all of them
 };
 
-/// What `quantity` says of each point, component by component.
+/// A field of the values of `quantity` at each point, component by component.
 template <class Quantity>
 Field point_field(const Solver& solver, Field field, Quantity quantity) {
   for (std::size_t point = 0; point < solver.points(); ++point)
@@ -90,7 +90,7 @@ std::vector<std::string> material_field_names(const Solver& solver) {
   return names;
 }
 
-/// What materials show; 0 where the material of a point does not have a field.
+/// The fields of the materials; 0 where the material of a point does not have a field.
 std::vector<PointField> material_fields(const Solver& solver) {
   const std::vector<std::string> names = material_field_names(solver);
   std::map<std::string, std::size_t> places;

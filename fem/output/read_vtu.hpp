@@ -13,7 +13,7 @@ struct FieldFile {
   Fields fields;
 };
 
-/// Reads what write_vtu wrote. Elements are of the first type that element_names() has for their VTK type.
+/// Reads a file of write_vtu. Elements are of the first type that element_names() has for their VTK type.
 /// @throws InputError naming the file when it is another kind of file, or its arrays do not fit together
 FieldFile read_vtu(const std::filesystem::path& file);
 

@@ -93,7 +93,7 @@ class Arrays {
   bool compressed_;
 };
 
-/// What VTK calls cells: which places each joins.
+/// The cells in the sense of VTK: which places each joins.
 struct Cells {
   std::vector<std::int64_t> places;
   std::vector<std::int64_t> ends;

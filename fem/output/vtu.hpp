@@ -17,7 +17,7 @@ struct Field {
   int components;
   std::vector<double> values;
   std::string unit = {};                          ///< "1" for a pure number; empty: not said
-  std::vector<std::string> component_names = {};  ///< one a component; empty: none has a name
+  std::vector<std::string> component_names = {};  ///< one a component; empty: no component has a name
 };
 
 /// The fields of one output time.
@@ -29,8 +29,8 @@ struct Fields {
 /// Fields of the committed state (docs/file_formats.md, fields). By node: displacement (u1, u2, 0), micro_rotation, the
 /// same as a vector; by node smoothed (smooth.hpp) and by element as averages over the volume: stress and strain (11, 22, 33,
 /// 12, 21), couple_stress, curvature, relative_rotation (theory, A.1; about e_3), volume_strain, deviatoric_strain (sqrt(2/3 e_ij e_ij) of the symmetric deviator),
-/// what the materials show (Material::fields; 0 where the element's material does not have the field; at nodes only what
-/// is a quantity in space), and what StressMeasures reads off the stress so averaged or smoothed.
+/// the fields of the materials (Material::fields; 0 where the element's material does not have the field; at nodes only
+/// quantities in space), and the StressMeasures of the stress so averaged or smoothed.
 Fields collect_fields(const Solver& solver);
 
 /// Fields at places of their own, and lines between them.

@@ -36,7 +36,7 @@ class Anderson {
   /// @param unbalanced nodal forces, zero where displacements are given. @param noise absolute forces that
   /// noise alone leaves (residual_floor.hpp); empty without noise.
   void remember(const Correction& position, const Eigen::VectorXd& unbalanced, const Eigen::VectorXd& noise);
-  /// @param correction K^-1 of what is unbalanced at the place remembered last
+  /// @param correction K^-1 of the unbalanced forces at the place remembered last
   /// @param solve K^-1 of a nodal vector of forces, under the constraint of the step.
   void accelerate(Correction& correction, const std::function<Correction(const Eigen::VectorXd&)>& solve);
 

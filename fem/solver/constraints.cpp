@@ -16,7 +16,7 @@ Constraints::Constraints(const Problem& problem)
     for (const int node : mesh.nodes_on(item.on)) {
       const auto number = static_cast<std::size_t>(node);
       const std::size_t entry = entry_of(number, item.dof);
-      // What is given twice with one precedence is given alike (checked by faults); the first one stands.
+      // Two items of equal rank give one entry the same value (checked by faults); the first one stands.
       if (equation_[entry] < 0) continue;
       equation_[entry] = -1;
       given_.push_back({entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});

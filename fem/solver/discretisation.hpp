@@ -15,7 +15,7 @@ namespace polargrain::fem {
 
 class Discretisation;
 
-/// What a tangent is taken of: the answers of the points and, where the mesh moves along with the body, the
+/// The base of a tangent: the answers of the points and, where the mesh moves along with the body, the
 /// configurations they belong to.
 struct Linearisation {
   struct Moving {
@@ -58,8 +58,8 @@ class Discretisation {
   /// Tangent times nodal displacements, without forming the tangent.
   [[nodiscard]] Eigen::VectorXd linearised_forces(const Linearisation& of,
                                                   const Eigen::VectorXd& nodal) const;
-  /// The sum over the points of element e of B^T D B times volume; where the mesh moves along, of what
-  /// large_tangent.hpp says, this discretisation being the end of the step.
+  /// The sum over the points of element e of B^T D B times volume; where the mesh moves along, with the terms of
+  /// large_tangent.hpp, this discretisation being the end of the step.
   [[nodiscard]] Eigen::MatrixXd element_tangent(std::size_t e, const Linearisation& of) const;
 
  private:

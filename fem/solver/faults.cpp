@@ -34,8 +34,9 @@ void check_names(const Problem& problem, Messages& messages) {
   for (const NodeLoad& item : problem.node_loads) check_nodes(item.on);
   for (const EdgeLoad& item : problem.edge_loads) {
     if (mesh.boundaries.contains(item.on)) continue;
-    messages.push_back(fmt::format("a pressure or traction needs a boundary, '{}' is none; the mesh has {}",
-                                   item.on, names_of(mesh.boundaries)));
+    messages.push_back(
+        fmt::format("a pressure or traction needs a boundary, '{}' is not a boundary; the mesh has {}",
+                    item.on, names_of(mesh.boundaries)));
   }
   for (const BodyLoad& item : problem.body_loads) {
     if (item.region.empty() || mesh.regions.contains(item.region)) continue;
@@ -126,7 +127,7 @@ GivenValues check_prescribed_once(const Problem& problem, Messages& messages) {
   return first;
 }
 
-/// What holds one side of a tie has to hold the other alike.
+/// A support of one side of a tie must hold the other alike.
 void check_ties(const Problem& problem, const GivenValues& given, Messages& messages) {
   const Mesh& mesh = problem.mesh;
   const auto item_at = [&](int node, Dof dof) {
@@ -173,7 +174,7 @@ Messages faults(const Problem& problem) {
   for (const std::string& motion :
        free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {
     messages.push_back(
-        fmt::format("the supports leave a rigid motion free: {}; fix or move what holds it", motion));
+        fmt::format("the supports leave a rigid motion free: {}; give a support that holds it", motion));
   }
   return messages;
 }

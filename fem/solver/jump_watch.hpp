@@ -15,11 +15,11 @@ class JumpWatch {
   void failed(double share, double residual, double excess) {
     attempts_.push_back({share, residual, excess});
   }
-  /// A substep was committed: what comes next starts elsewhere.
+  /// A substep was committed: the next one starts elsewhere.
   void clear() { attempts_.clear(); }
   /// Whether the attempts since the last substep show a jump.
   [[nodiscard]] bool seen() const { return longer_with_as_much() != nullptr; }
-  /// The same for people; empty while they show none.
+  /// The same for people; empty while they show no jump.
   [[nodiscard]] std::string statement() const;
 
  private:

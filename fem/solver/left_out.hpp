@@ -7,9 +7,9 @@
 
 namespace polargrain::fem {
 
-/// What small deformation leaves out of a state: equilibrium on the mesh as it was, and stresses that do not turn.
+/// The effects that small deformation leaves out of a state: equilibrium on the mesh as it was, and stresses that do not turn.
 /// @param discretisation on the mesh of the start @param displacement 3 a node, in all
-/// @returns where the continuum has turned by more than 0.05 rad or strained by more than 0.1, and what of; empty
+/// @returns where the continuum has turned by more than 0.05 rad or strained by more than 0.1, and the effect; empty
 /// where it has nowhere
 std::string left_out_by_small_deformation(const Discretisation& discretisation,
                                           const Eigen::VectorXd& displacement);

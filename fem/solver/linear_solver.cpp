@@ -21,7 +21,7 @@ class SignalsHeldBack {
     pthread_sigmask(SIG_BLOCK, &held, &mask_);
     for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], nullptr, &actions_[k]);
   }
-  /// What came meanwhile goes to the handlers of before, with their flags, which METIS forgets.
+  /// Signals that came meanwhile go to the handlers of before, with their flags, which METIS forgets.
   ~SignalsHeldBack() {
     for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &actions_[k], nullptr);
     pthread_sigmask(SIG_SETMASK, &mask_, nullptr);

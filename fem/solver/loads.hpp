@@ -33,7 +33,7 @@ class Loads {
   /// How the forces of the pressures change as the boundary moves, at `time`: an item an edge. Empty in small
   /// deformation. Exact wherever the boundary is, since the forces are linear in the place of the nodes.
   [[nodiscard]] std::vector<EdgeStiffness> stiffness(double time) const;
-  /// That stiffness times nodal displacements.
+  /// Product of that stiffness and nodal displacements.
   [[nodiscard]] Eigen::VectorXd linearised(double time, const Eigen::VectorXd& nodal) const;
   /// Sum over all loads and nodes of the largest absolute nodal force (not moments), N/m.
   [[nodiscard]] double largest_force() const;

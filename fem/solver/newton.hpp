@@ -18,22 +18,22 @@
 
 namespace polargrain::fem {
 
-/// What a step is to reach: a loading time, or a growth of a linear measure of the displacements.
+/// The target of a step: a loading time, or a growth of a linear measure of the displacements.
 struct StepGoal {
   double time = 0.0;        ///< used when `measure` is empty
   Eigen::VectorXd measure;  ///< nodal vector: the measure is its product with the displacements
   double amount = 0.0;      ///< by which the measure grows in this step
-  /// Share, at the end of the step, of what equilibrate() lets go: displacements given at time 0 and nodal
+  /// Share, at the end of the step, of the forces that equilibrate() lets go: displacements given at time 0 and nodal
   /// forces that are out of balance then.
   double released = 1.0;
   bool releases_displacements = false;  ///< the given displacements too, not only the forces
   double jump_let_go =
-      1.0;  ///< share of what a jump has left out of balance (Newton::pass_jump) let go at the end
+      1.0;  ///< share of the imbalance left behind by a jump (Newton::pass_jump) let go at the end
 
   [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
 };
 
-/// What became of one attempt at a step.
+/// The outcome of one attempt at a step.
 struct Attempt {
   bool converged = false;
   std::string reason;        ///< why not
@@ -51,14 +51,14 @@ class Newton {
   [[nodiscard]] Attempt evaluate_initial_state(StepReport& report);
   /// Residual of the committed state against the loads of its own time; fixes the reference force.
   [[nodiscard]] Residual initial_residual();
-  /// Holds back what is out of balance in the committed state until steps release it (StepGoal::released).
+  /// Holds back the imbalance of the committed state until steps release it (StepGoal::released).
   void withhold_imbalance();
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
-  /// Largest force residual that the best iterate of the last attempt has; infinite where it has none to commit.
+  /// Largest force residual that the best iterate of the last attempt has; infinite without an iterate to commit.
   [[nodiscard]] double best_residual() const { return best_ ? best_->residual.force : HUGE_VAL; }
-  /// Commits the best iterate of the last attempt although it is out of balance: the stresses jump there. What is out
-  /// of balance is held by fictive forces until attempts let it go (StepGoal::jump_let_go). Leaves the committed state
+  /// Commits the best iterate of the last attempt although it is out of balance: the stresses jump there. The imbalance
+  /// is held by fictive forces until attempts let it go (StepGoal::jump_let_go). Leaves the committed state
   /// alone when a material does not stand by its answer.
   [[nodiscard]] Attempt pass_jump(StepReport& report);
   /// Where the attempt that has just failed was out of balance; to be asked before revert().
@@ -93,7 +93,7 @@ class Newton {
   enum class Balance { none, within_tolerance, within_noise, within_rounding };
 
   [[nodiscard]] Eigen::VectorXd loads_at(double time, double released, double jump_let_go) const;
-  /// What the tangent at the last evaluation, or at the committed state, is taken of.
+  /// The base of the tangent at the last evaluation, or at the committed state.
   [[nodiscard]] Linearisation linearised(const std::vector<Response>& answers) const;
   [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
@@ -113,7 +113,7 @@ class Newton {
   [[nodiscard]] Attempt limit_correction(Iterate& iterate, Correction& change, StepReport& report) const;
   [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
                                         StepReport& report) const;
-  /// The committed step before, as far as this goal, with the given entries of the goal; empty when there is none or it
+  /// The committed step before, as far as this goal, with the given entries of the goal; empty when there was no such step or it
   /// went another way.
   [[nodiscard]] Correction last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const;
   void remember(const Iterate& iterate);
@@ -133,7 +133,7 @@ class Newton {
   std::string inverted_;             ///< names an element the last iterate turns inside out
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;
-  Eigen::VectorXd withheld_;     ///< forces out of balance at the start; empty when there are none
+  Eigen::VectorXd withheld_;     ///< forces out of balance at the start; empty when all are in balance
   double released_ = 1.0;        ///< share of them that committed steps have let go
   Eigen::VectorXd jump_;         ///< forces out of balance behind the jump that was passed last
   double jump_let_go_ = 1.0;     ///< share of them that committed steps have let go

@@ -68,7 +68,7 @@ Attempt Newton::limit_predictor(const StepGoal& goal, Iterate& iterate, Correcti
 Correction Newton::last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const {
   if (state.last_increment.size() == 0) return {};
   Correction drawn_on{state.last_increment, 0.0};
-  // What is given of it: the increments of this goal, or so many times their growth with the time.
+  // The given part of it: the increments of this goal, or so many times their growth with the time.
   Eigen::VectorXd given = goal.controls_time() ? iterate.displacement : constraints.slope(iterate.time);
   for (Eigen::Index entry = 0; entry < given.size(); ++entry) {
     if (constraints.is_free(static_cast<std::size_t>(entry))) given(entry) = 0.0;

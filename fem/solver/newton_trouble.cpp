@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What can be said of an attempt that failed (trouble.hpp).
+// The account of an attempt that failed (trouble.hpp).
 #include <algorithm>
 #include <cmath>
 #include <numeric>

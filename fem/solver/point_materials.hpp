@@ -20,7 +20,7 @@ class PointMaterials {
   /// One response a point, in the order of the discretisation.
   void evaluate(const std::vector<Increment>& increments, std::vector<Response>& responses);
   [[nodiscard]] bool can_turn() const;
-  /// The least of what the materials say (Material::moment_length); `otherwise` where none does.
+  /// The least length of the materials (Material::moment_length); `otherwise` where no material has one.
   [[nodiscard]] double moment_length(double otherwise) const;
   /// Whether all materials stand by their answers (Material::confirm).
   [[nodiscard]] bool confirm();

@@ -13,7 +13,7 @@ struct Residual {
   double moment = 0.0;
 };
 
-/// Sums of absolute values over the free entries of `unbalanced`, relative to the references. What is zero
+/// Sums of absolute values over the free entries of `unbalanced`, relative to the references. Zero
 /// over a reference of zero is zero.
 Residual measure(const Eigen::VectorXd& unbalanced, const Constraints& constraints, double reference_force,
                  double reference_length);

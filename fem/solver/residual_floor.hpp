@@ -9,7 +9,7 @@
 
 namespace polargrain::fem {
 
-/// What no iteration can remove from the unbalanced forces, as nodal vectors (3 a node) of absolute values.
+/// The part of the unbalanced forces that no iteration can remove, as nodal vectors (3 a node) of absolute values.
 ///
 /// Expected absolute value at each node of the forces that independent Gaussian errors of the stresses
 /// (Response::noise) leave: sqrt(2/pi) times the root of the sum of the variances. Empty when no stress has

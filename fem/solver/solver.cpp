@@ -32,7 +32,7 @@ struct Solver::Implementation : Newton {
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
   void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
 
-  /// What became of a jump.
+  /// The outcome of a jump.
   struct Passing {
     bool passed = false;  ///< else nothing was committed
     bool stuck = false;   ///< what was committed cannot be balanced
@@ -168,7 +168,7 @@ StepReport Solver::equilibrate() {
   report.converged = given == self.state.displacement && self.excess(residual) <= 1.0;
   if (report.converged) return report;
   self.withhold_imbalance();
-  // What the stress at time zero and the loads leave out of balance is no step of the user's: no shorter one helps.
+  // The imbalance of the stress at time zero and the loads is no step of the user's: no shorter one helps.
   constexpr int kMostTries = 10;
   report = self.march(
       std::move(report),

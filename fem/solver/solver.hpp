@@ -34,7 +34,7 @@ struct SolverOptions {
   /// price of an evaluation; the best of them is kept. 0: no line search.
   int most_line_search_halvings = 3;
   /// Where stresses carry noise (Response::noise), a step also counts as balanced when each residual is
-  /// within its tolerance or this factor times what the noise alone leaves; StepReport::within_noise counts
+  /// within its tolerance or this factor times the residual of the noise alone; StepReport::within_noise counts
   /// such steps. 0: the tolerances alone count. Corrections that cancel one sample of the noise meet the next
   /// one, so an iteration cannot be expected to get below sqrt(2).
   double noise_factor = 0.0;
@@ -47,7 +47,7 @@ struct SolverOptions {
   double largest_strain = 1.0;
   /// Where stresses jump, as those of few grains do when they rearrange, an iteration stagnates at the height of the
   /// jumps. So many of them a step may be passed: the best iterate is committed, with the cells behind their jump, and
-  /// what is out of balance is held by fictive forces and let go from there, in parts where it has to be, so that the
+  /// the imbalance is held by fictive forces and let go from there, in parts where it has to be, so that the
   /// step as a whole ends in balance; StepReport::jumps counts them. 0: a jump ends the run.
   int most_jumps = 0;
   /// Force residual up to which a jump is passed as soon as the iteration stagnates; a larger one only where no cut of
@@ -64,7 +64,7 @@ struct IterationReport {
   double moment_residual = 0.0;  ///< relative to reference force times reference length
 };
 
-/// What became of Solver::advance.
+/// The outcome of Solver::advance.
 struct StepReport {
   bool converged = false;
   std::string message;  ///< why it has not converged; empty when it has
@@ -75,7 +75,7 @@ struct StepReport {
   long evaluations = 0;         ///< of material points, lost ones too
   double force_residual = 0.0;  ///< of the last committed substep
   double moment_residual = 0.0;
-  double force_noise = 0.0;  ///< what noise alone leaves of the residuals, of the last committed substep
+  double force_noise = 0.0;  ///< the residual of noise alone, of the last committed substep
   double moment_noise = 0.0;
   int within_noise = 0;     ///< substeps committed with a residual above its tolerance but within the noise
   int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
@@ -147,7 +147,7 @@ class Solver {
   void set_observer(Observer* observer);
 
   /// Brings the initial stresses into balance with the loads and supports at time 0. Zero iterations when
-  /// they already are. Where one attempt does not get there, what is out of balance and the displacements
+  /// they already are. Where one attempt does not get there, the imbalance and the displacements
   /// given at time 0 are let go in shares, cut like any step, in ten times SolverOptions::most_iterations at most. Not
   /// converged too when nothing resists a micro-rotation.
   StepReport equilibrate();
@@ -163,15 +163,15 @@ class Solver {
   /// @throws RunError before the first substep has been committed.
   StepReport advance_arc_length(double length);
 
-  /// Of the last attempt of the last step that failed; empty when none has.
+  /// Of the last attempt of the last step that failed; empty when no step has failed.
   [[nodiscard]] const Trouble& trouble() const;
   [[nodiscard]] const Problem& problem() const;
   [[nodiscard]] const SolverState& state() const;
   /// Writes all that the steps to come depend on, states of the materials included (state_archive.hpp).
   /// @throws RunError when a material cannot be kept
   void save(ArchiveWriter& archive) const;
-  /// In place of equilibrate: goes on from what save wrote for an equal problem with equal options. What
-  /// follows is the same to the bit as without the interruption.
+  /// In place of equilibrate: goes on from the archive of save for an equal problem with equal options. The run
+  /// continues to the same bits as without the interruption.
   /// @throws RunError when the archive holds something else; the solver can then only be destroyed
   void restore(ArchiveReader& archive);
 
@@ -188,7 +188,7 @@ class Solver {
   /// Nodal forces of the stresses (3 a node: N/m, N/m, N), internal and of the loads, at the committed time.
   [[nodiscard]] Eigen::VectorXd internal_forces() const;
   [[nodiscard]] Eigen::VectorXd external_forces() const;
-  /// Sum over the nodes of boundaries and node sets, each node once, of what the supports exert on the body: force along 1 and 2
+  /// Sum over the nodes of boundaries and node sets, each node once, of the forces of the supports: force along 1 and 2
   /// (N per m of thickness) and nodal moments (N).
   [[nodiscard]] Eigen::Vector3d reaction(const std::vector<std::string>& on) const;
   [[nodiscard]] Eigen::Vector3d reaction(const std::string& on) const { return reaction(std::vector{on}); }
@@ -199,7 +199,7 @@ class Solver {
   }
   /// Mean of eps_11 + eps_22 over the volume; positive is expansion.
   [[nodiscard]] double volume_strain() const;
-  /// What small deformation leaves out of the committed state (left_out.hpp); empty where that is little, and in large
+  /// The effects that small deformation leaves out of the committed state (left_out.hpp); empty where small, and in large
   /// deformation.
   [[nodiscard]] std::string left_out() const;
 

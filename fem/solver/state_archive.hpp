@@ -5,10 +5,10 @@
 
 namespace polargrain::fem {
 
-/// Every member of a SolverState, under its own name. A member that is added there must be added here: what
-/// is left out makes a run that goes on from a checkpoint differ.
+/// Every member of a SolverState, under its own name. A member that is added there must be added here: a member
+/// left out makes a run that goes on from a checkpoint differ.
 void write_state(ArchiveWriter& archive, const SolverState& state);
-/// @throws RunError when the archive holds the state of another mesh, or none
+/// @throws RunError when the archive holds the state of another mesh, or no state
 SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points);
 
 }  // namespace polargrain::fem

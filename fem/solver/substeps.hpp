@@ -4,8 +4,8 @@
 
 namespace polargrain::fem {
 
-/// A way, from 0 to 1, that is gone whole, or in parts where it fails: shares of a step, or of what a jump has left out
-/// of balance.
+/// A way, from 0 to 1, that is gone whole, or in parts where it fails: shares of a step, or of the imbalance left by
+/// a jump.
 class Substeps {
  public:
   /// @param growth of a part behind one that went @param next length of the first part; 0: the whole way

@@ -8,14 +8,14 @@
 
 namespace polargrain::fem {
 
-/// Two opposite boundaries that move alike, node by node, in u1, u2 and w: what happens between them repeats sideways
+/// Two opposite boundaries that move alike, node by node, in u1, u2 and w: the field between them repeats sideways
 /// without end (a layer as wide as one element, a periodic block).
 struct Tie {
   std::string on;  ///< boundary or node set whose nodes follow
   std::string to;  ///< the boundary or node set they follow: the same nodes, moved by one translation
 };
 
-/// What a tie comes to on a mesh.
+/// A tie on a mesh.
 struct TiedNodes {
   std::vector<std::pair<int, int>> pairs;  ///< (node that follows, node it follows)
   std::string fault;                       ///< why the two do not match; empty when they do

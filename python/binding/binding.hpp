@@ -4,7 +4,7 @@
 
 namespace polargrain::python {
 
-// What the module `polargrain._cells` has, a file each. What its users see is made of it in polargrain/*.py, where it is
+// The parts of the module `polargrain._cells`, a file each. The interface for users is made of it in polargrain/*.py, where it is
 // documented.
 void add_packing(pybind11::module_& module);
 void add_definition(pybind11::module_& module);

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def real_array(values, name):
-    """What a user gave as numbers, as an array of floats. Raises ValueError for what numpy would make numbers of without a word:
+    """Numbers of a user as an array of floats. Raises ValueError for values that numpy would turn into numbers without a word:
     complex numbers, truth values, texts, dates, and arrays that hide some of theirs (masked)."""
     given = np.asarray(values)
     if np.ma.is_masked(values):

@@ -11,7 +11,7 @@ from .table import read_table
 
 
 class Calibration:
-    """What a calibration found (docs/element_tests.md), from its folder.
+    """The result of a calibration (docs/element_tests.md), from its folder.
 
     parameters -- {name: (best, low, high)}, the last two the 95 % interval from linearising around the best
     record     -- Table of all evaluations: parameters, misfit (mean square of the differences, in errors), differences

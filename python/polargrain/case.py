@@ -33,7 +33,7 @@ class Case:
         return Case(self.file, {**self.overrides, **overrides}, trust_scripts=self.trust_scripts)
 
     def check(self):
-        """What the program says of it. Raises InputError with all faults at once."""
+        """The remarks of the program on it. Raises InputError with all faults at once."""
         return call("check", self.file, *self._words())
 
     def run(self, output=None, *, workers=None, resume=False, progress=None, checkpoint_minutes=None):

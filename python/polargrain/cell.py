@@ -18,7 +18,7 @@ _NAMES = [f"s{ij}" for ij in _NINE] + [f"m{ij}" for ij in _NINE]
 
 
 class Answer:
-    """What a cell answers to an increment.
+    """The answer of a cell to an increment.
 
     stress        -- Pa, tension positive, first index the normal of the face; shape (2, 2) of discs, (3, 3) of spheres
     couple_stress -- N/m, first index the normal of the face, second the axis of the moment; of discs (m13, m23), shape
@@ -62,7 +62,7 @@ class Answer:
 
 
 def diagnostics():
-    """What `Answer.diagnostics` holds: {name: (unit, meaning)}."""
+    """The fields of `Answer.diagnostics`: {name: (unit, meaning)}."""
     return _cells.diagnostics_notes()
 
 
@@ -148,7 +148,7 @@ class Cell:
 
     @property
     def answer(self):
-        """The Answer of the last step; that of the packing at rest before the first; None once a state was given."""
+        """The Answer of the last step; before the first step, the one at rest; None once a state was given."""
         with self._lock:
             if self._answer is None and self._state is None:
                 return self.at_rest
@@ -161,7 +161,7 @@ class Cell:
             self._answer = None
 
     def evaluate(self, F=None, rotation=None, curvature=None, *, displacement_gradient=None, state=None):
-        """What it would answer to an increment; it stays where it is. Returns an Answer of any quality.
+        """Its answer to an increment; the cell stays where it is. Returns an Answer of any quality.
 
         All increments are about the start of the step, from the cell's state or from `state`:
 

@@ -12,7 +12,7 @@ from .table import Table, read_table
 
 
 class ElementResult:
-    """What a laboratory test of one point came to (docs/element_tests.md).
+    """The result of a laboratory test of one point (docs/element_tests.md).
 
     curves -- {packing: Table}, a row for each recorded row: axial_strain, volume_strain, s11_Pa, p_Pa, q_Pa, stress_ratio,
               friction_angle_deg, void_ratio, ... (tension positive, p and q positive in compression)

@@ -33,7 +33,7 @@ class Engines:
         self._cells.close()
 
     def counts(self):
-        """What cells have cost since the workers were started last: evaluations, dem_steps, workers_lost, engine_seconds
+        """The costs of cells since the workers were started last: evaluations, dem_steps, workers_lost, engine_seconds
         (s, summed over the workers), as a dict."""
         return self._cells.counts()
 
@@ -56,7 +56,7 @@ def _again(workers, trust_scripts):
 
 
 def shared_engines(trust_scripts=False):
-    """The engines of all cells that were given none: one worker, started by the first question."""
+    """The engines of all cells without engines of their own: one worker, started by the first question."""
     if trust_scripts not in _SHARED:
         _SHARED[trust_scripts] = Engines(trust_scripts=trust_scripts)
     return _SHARED[trust_scripts]

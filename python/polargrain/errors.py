@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What goes wrong, as exceptions with the words of the program."""
+"""Errors, as exceptions with the words of the program."""
 
 
 class InputError(ValueError):
-    """What was given is wrong; no grain has moved and nothing was written.
+    """The input is wrong; no grain has moved and nothing was written.
 
     faults -- all of them, each as (file, line, message); the line is 0 where the whole file, or no file, is meant
     """

@@ -39,7 +39,7 @@ class Fields:
         try:
             self._read(root, piece)
         except (KeyError, TypeError, AttributeError, ValueError, zlib.error) as error:
-            raise no_input(file, f"holds what no run writes ({error!r}); it was cut or changed") from error
+            raise no_input(file, f"was cut or changed ({error!r})") from error
 
     def _read(self, root, piece):
         self._compressed = root.get("compressor") is not None
@@ -73,7 +73,7 @@ class Fields:
 
 
 def _inflated(text):
-    """What VTK's zlib compressor has made: the number of blocks, two sizes, that of each compressed block; then the blocks."""
+    """Data of VTK's zlib compressor: the number of blocks, two sizes, the size of each compressed block; then the blocks."""
     count = int.from_bytes(base64.b64decode(text[:12])[:8], "little")
     size = 8 * (3 + count)
     end = -(-size // 3) * 4

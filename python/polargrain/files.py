@@ -20,7 +20,7 @@ def why_no_input(file):
         return f"cannot be read: {error.strerror}"
     if stat.S_ISDIR(mode):
         return "is a directory; give the name of a file in it"
-    return "" if stat.S_ISREG(mode) else "is a pipe or a device; write what it gives into a file, and name that"
+    return "" if stat.S_ISREG(mode) else "is a pipe or a device; write its output into a file, and name that file"
 
 
 def no_input(file, message):

@@ -49,7 +49,7 @@ def micro_simulation(packing, script, *, tangent=False, **settings):
             self._given = _Given(np.zeros((3, 3)), np.zeros(3), np.zeros((3, 3)))
 
         def initialize(self, *_):
-            """What the packing at rest answers."""
+            """The answer of the packing at rest."""
             return _written(self._cell, self._cell.at_rest, tangent)
 
         def solve(self, macro_data, dt):
@@ -94,7 +94,7 @@ def micro_simulation(packing, script, *, tangent=False, **settings):
 
 
 class _Given:
-    """What was read last: displacement gradient, rotation, curvature since the start of the run; a value."""
+    """The last input: displacement gradient, rotation, curvature since the start of the run; a value."""
 
     def __init__(self, gradient, rotation, curvature):
         self.gradient, self.rotation, self.curvature = gradient, rotation, curvature

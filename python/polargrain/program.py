@@ -108,7 +108,7 @@ def _end(process):
 
 
 def _without(word, lines):
-    """What was said as an error; all of it where nothing was."""
+    """The lines of errors; all lines where there is no error."""
     errors = [number for number, line in enumerate(lines) if line.startswith(word)]
     text = "\n".join(lines[errors[0]:] if errors else lines)
     return text[len(word):] if text.startswith(word) else text

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run left behind."""
+"""The result of a run."""
 import json
 import pathlib
 import xml.etree.ElementTree as ElementTree
@@ -35,7 +35,7 @@ class Result:
 
     @property
     def summary(self):
-        """summary.json as a dict: status, errors, costs, what materials say of themselves, proof."""
+        """summary.json as a dict: status, errors, costs, figures of materials, proof."""
         file = input_file(self.directory / "summary.json")
         try:
             with open(file, encoding="utf-8") as text:

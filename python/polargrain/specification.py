@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a command is asked for, as a file of the user's or as a dict with the keys of that file."""
+"""The specification for a command, as a file of the user's or as a dict with the keys of that file."""
 import collections.abc
 import pathlib
 import re

@@ -9,7 +9,7 @@ _MARK = b"polargrain state 1\n"
 
 
 def save(state, file):
-    """Writes a state to a file, whole or not at all. What is no file (/dev/null, a pipe) takes the bytes and stays what it is."""
+    """Writes a state to a file, whole or not at all. A pipe or a device (/dev/null) takes the bytes and stays."""
     write_whole(file, _MARK + state.name.encode() + b"\n" + state.bytes)
 
 

@@ -107,7 +107,7 @@ port, to, delay, loss, rate = int(sys.argv[1]), int(sys.argv[2]), *map(float, sy
 chance = random.Random(20261122)
 async def pass_on(reader, writer):
     while data := await reader.read(65536):
-        # What TCP makes of a lost packet: it comes later, and all behind it.
+        # TCP's treatment of a lost packet: it comes later, and all behind it.
         await asyncio.sleep(delay + (0.2 if chance.random() < loss else 0.0) + (len(data) / rate if rate else 0.0))
         writer.write(data)
         await writer.drain()

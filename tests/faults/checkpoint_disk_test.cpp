@@ -79,7 +79,7 @@ TEST_F(Disk, FullForTheOutputEndsTheRunAndLosesNothing) {
   EXPECT_NE(full.errors.find("to go on:\n  polargrain run case.yaml -o small/out --resume"),
             std::string::npos)
       << full.errors;
-  // What is there is whole: rows of the undisturbed run.
+  // The file is whole: rows of the undisturbed run.
   const std::string rows = result("small/out/history.csv");
   EXPECT_GT(std::count(rows.begin(), rows.end(), '\n'), 2);
   EXPECT_EQ(result("whole/history.csv").substr(0, rows.size()), rows);

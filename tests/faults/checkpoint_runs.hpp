@@ -43,7 +43,7 @@ inline bool has_pending_signal(pid_t process) {
 
 /// A run of a FakeCase into out/ that a signal (SIGSTOP) has stopped behind so many committed steps or more, with two of its ten
 /// left at least. A busy machine may let it get further before the test has seen its steps: then another one is started.
-/// @throws std::runtime_error when none could be stopped
+/// @throws std::runtime_error when no run could be stopped
 inline std::unique_ptr<RunningProgram> frozen_behind(const std::filesystem::path& directory, int steps,
                                                      const std::string& options) {
   for (int attempt = 0; attempt < 50; ++attempt) {
@@ -65,7 +65,7 @@ struct FakeCase {
   std::string engine;  ///< script of the fake engine (tests/integration/fake_engine.hpp)
   std::string elements = "[2, 2]";
   std::string steps = "count: 10, tolerance: 1e-8";
-  std::string model = "cell";  ///< with what else the model needs
+  std::string model = "cell";  ///< with the further keys that the model needs
   std::string output = "{}";
 };
 
@@ -105,7 +105,7 @@ inline std::string results_of(const std::filesystem::path& directory) {
   return all;
 }
 
-/// What so many kills at random moments, each followed by a resumption, have done.
+/// The record of so many kills at random moments, each followed by a resumption.
 struct Kills {
   int kills = 0;
   int resumed = 0;           ///< runs that went on from a checkpoint

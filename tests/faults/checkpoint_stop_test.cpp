@@ -93,7 +93,7 @@ TEST_F(StoppedRun, ACheckpointOfAnotherCaseIsRefusedWithWhatDiffers) {
   EXPECT_EQ(stop_behind(1, SIGTERM), 3);
   const std::string history = result("out/history.csv");
   const std::string case_text = result("case.yaml");
-  // What does not matter may change: title, comments.
+  // Title and comments may change.
   write(scratch_.path() / "case.yaml", "# a comment\n" + case_text);
   const Outcome settings =
       polargrain("run case.yaml -o out --resume --set steps.count=20 --set materials.sand.Gc='11 MPa'");
@@ -102,7 +102,7 @@ TEST_F(StoppedRun, ACheckpointOfAnotherCaseIsRefusedWithWhatDiffers) {
             "out/checkpoint.h5: this checkpoint is of another case than case.yaml:\n"
             "  materials.sand.Gc: was '10 MPa', is '11 MPa'\n"
             "  steps.count: was '10', is '20'\n"
-            "put back what differs, or run without --resume\n");
+            "undo these changes, or run without --resume\n");
   write(scratch_.path() / "fake.in", "sleep_milliseconds 5\n");
   const Outcome script = polargrain("run case.yaml -o out --resume --set continuum=cosserat");
   EXPECT_EQ(script.status, 2);
@@ -110,7 +110,7 @@ TEST_F(StoppedRun, ACheckpointOfAnotherCaseIsRefusedWithWhatDiffers) {
             "out/checkpoint.h5: this checkpoint is of another case than case.yaml:\n"
             "  continuum: was not given, is 'cosserat'\n"
             "  materials.sand.script: the file 'fake.in' has another content\n"
-            "put back what differs, or run without --resume\n");
+            "undo these changes, or run without --resume\n");
   // Nothing was touched by what was refused.
   EXPECT_EQ(result("out/history.csv"), history);
   write(scratch_.path() / "fake.in", "sleep_milliseconds 4\n");
@@ -144,7 +144,7 @@ TEST_F(StoppedRun, ADamagedCheckpointIsRefused) {
   write(before, "damaged too");
   advice = "run without --resume\n";
   expect_refused("", cut);
-  // What the advice says brings the whole run.
+  // The command of the advice brings the whole run.
   write(before, good_before);
   std::filesystem::rename(before, file);
   EXPECT_EQ(polargrain("run case.yaml -o out --resume --quiet").status, 0);

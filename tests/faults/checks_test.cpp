@@ -83,7 +83,7 @@ TEST_F(ChecksTest, OneForgerOfThreeIsFoundAndItsAnswersAreMadeAgain) {
   for (const CellReply& reply : second) EXPECT_TRUE(reply.state->is_here());
   EXPECT_EQ(pool.counts().workers_lost, 1) << told_;
   EXPECT_EQ(pool.counts().evaluations_checked, 2 * static_cast<int>(kCells)) << told_;
-  EXPECT_NE(told_.find("who agree to the bit: it has sent what is false"), std::string::npos) << told_;
+  EXPECT_NE(told_.find("who agree to the bit: it has sent a false answer"), std::string::npos) << told_;
 }
 
 // Never a false answer without a word: either it was found before anything of it was returned, or the run ends.
@@ -153,7 +153,7 @@ TEST_F(ChecksTest, AGuestIsCheckedByAProcessOfOurOwn) {
   Process honest(guest(pool.listening_url(), false), scratch_.path() / "honest.log");
   step_until(pool, [&] { return liar.end().has_value(); });
   EXPECT_EQ(liar.end().value_or("still there"), "exit status 1") << told_;
-  EXPECT_NE(testing::content(scratch_.path() / "guest.log").find("it has sent what is false"),
+  EXPECT_NE(testing::content(scratch_.path() / "guest.log").find("it has sent a false answer"),
             std::string::npos)
       << testing::content(scratch_.path() / "guest.log");
   EXPECT_FALSE(honest.end());
@@ -243,8 +243,7 @@ TEST_F(CheckedRunsTest, AForgerThatIsFoundLateLeavesNoCheckpointToGoOnFrom) {
       "FAKE_ENGINE_FORGES=$PWD/forger " +
           command(100, " --set workers.check=0.002 --trust-scripts --checkpoint-minutes 0 -o out -w 3"));
   EXPECT_EQ(outcome.status, 1) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("what this run has written may be false"), std::string::npos)
-      << outcome.errors;
+  EXPECT_NE(outcome.errors.find("files of this run may be false"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "out" / "checkpoint.h5"));
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "out" / "checkpoint.doubtful.h5"));
   EXPECT_EQ(outcome.errors.find("to go on:"), std::string::npos) << outcome.errors;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What an engine that somebody has got the better of can still do: nothing but compute.
+// An engine that somebody has got the better of can still compute, and nothing else.
 #include "tests/faults/fake_case.hpp"
 
 namespace polargrain::testing {

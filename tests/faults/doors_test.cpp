@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What comes in from outside is refused before anything waits for it, and what goes out harms nothing.
+// Bad input is refused before anything waits for it, and output harms nothing.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

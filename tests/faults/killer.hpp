@@ -64,7 +64,7 @@ bool await(Beside& command, Condition condition) {
   return true;
 }
 
-/// Rows of a table that a run writes, that of the names included; 0 when there is none yet.
+/// Rows of a table that a run writes, the row of names included; 0 when there is no table yet.
 inline long rows_of(const std::filesystem::path& table) {
   std::ifstream in(table, std::ios::binary);
   return std::count(std::istreambuf_iterator<char>(in), {}, '\n');

@@ -50,7 +50,7 @@ class LiarsTest : public ::testing::TestWithParam<const char*> {
   std::string told_;
 };
 
-/// What the guest is told and the user reads.
+/// The messages to the guest and to the user.
 const std::map<std::string, std::string>& causes() {
   static const std::map<std::string, std::string> kCauses{
       {"short", "a state has 100 bytes instead of 48"},
@@ -59,8 +59,8 @@ const std::map<std::string, std::string>& causes() {
       {"nan", "a state holds a number that is not finite"},
       {"lies", "the bytes of a state do not have its name"},
       {"diagnostics", "a cell's diagnostics holds a number that is not finite"},
-      {"refuses", "answers what it does not: guest 1 on here refuses"},
-      {"shouts", "answers what it does not: guest 1 on here refuses"},
+      {"refuses", "answers the same request: guest 1 on here refuses"},
+      {"shouts", "answers the same request: guest 1 on here refuses"},
       {"misses", "it misses something for no reason"},
   };
   return kCauses;
@@ -122,7 +122,7 @@ TEST_P(FalseNamesTest, TrueNumbersAreUsedAndFalseOnesEndTheRun) {
     } catch (const RunError& error) {
       EXPECT_NE(std::string(error.what())
                     .find("comes to another state, and to other numbers than guest 1 on here gave, which are "
-                          "in the results of this step: guest 1 on here has sent what is false"),
+                          "in the results of this step: guest 1 on here has sent a false answer"),
                 std::string::npos)
           << error.what();
     }

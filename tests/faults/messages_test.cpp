@@ -91,7 +91,7 @@ TEST_F(MessageFaultsTest, AWorkerThatSendsGarbageIsGivenUp) {
   EXPECT_EQ(replies[0].response.quality, Quality::failed);
   EXPECT_NE(replies[0].response.message.find(
                 "was given up at work on point 0 of material 'sand' (fake.in): it sent "
-                "what cannot be used"),
+                "an unusable message"),
             std::string::npos)
       << replies[0].response.message;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the system does to a run: closed streams, pipes nobody reads, files that may not grow, directories that go away,
+// The effects of the system on a run: closed streams, pipes nobody reads, files that may not grow, directories that go away,
 // signals in a hurry.
 #include <gtest/gtest.h>
 

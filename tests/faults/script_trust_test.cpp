@@ -71,7 +71,7 @@ TEST_F(ScriptTrust, IncludedFilesCountAndHaveTheirOwnLines) {
   EXPECT_NE(outcome.errors.find("parts/inner.in:1: the command 'shell'"), std::string::npos)
       << outcome.errors;
   EXPECT_NE(outcome.errors.find("top.in:3: the command 'log'"), std::string::npos) << outcome.errors;
-  // What is included is run, and belongs to the case: a change of it is another case.
+  // An included file is run, and belongs to the case: a change of it is another case.
   write(folder_ / "top.in", "include parts/part.in\n");
   write(folder_ / "parts/inner.in", "young 1e8\n");
   EXPECT_EQ(polargrain("run case.yaml -o out -w 1 --quiet").status, 0);

@@ -127,7 +127,7 @@ TEST_F(SoakTest, FaultsAtRandomChangeNoByteAndTakeNoMemory) {
   if (first_and_last.empty()) return;
   std::cout << "[figure] memory of the last coordinator that lived long: " << first_and_last[0]
             << " MB in the second third of its life, " << first_and_last[1] << " MB in the last\n";
-  // What it keeps for the summary grows by some hundred bytes a step.
+  // Its record for the summary grows by some hundred bytes a step.
   EXPECT_LT(first_and_last[1], 1.1 * first_and_last[0] + 2.0);
 }
 

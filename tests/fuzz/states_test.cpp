@@ -86,7 +86,7 @@ TEST(FlippedStates, OfDiscsAreRefusedOrGoneOnFrom) {
     try {
       box.restore(*bad);
       sheared(box, 3);
-      // What an engine takes up has been let through before: there are more checks here, none less.
+      // A state that an engine takes up has been let through before: there are more checks here, not fewer.
       EXPECT_TRUE(is_plausible) << run;
       ++accepted;
     } catch (const RunError&) {  // refused, as it should be
@@ -100,7 +100,7 @@ TEST(FlippedStates, OfDiscsAreRefusedOrGoneOnFrom) {
   EXPECT_NO_THROW(sheared(box, 3));
 }
 
-// What is flung away has no place in a list of neighbours: that is said, and no memory is written where none is.
+// A disc flung away has no place in a list of neighbours: that is said, and no memory is written outside of it.
 TEST(FlippedStates, OfDiscsThatFlingGrainsAwayEndInWords) {
   const CellDefinition cell = test::lattice(kSide, kSide, CellRotations::free);
   const DiscBox::Definition discs = discs_of(cell.packing);
@@ -183,7 +183,7 @@ Packed packed_lattice(const Packing& packing) {
   return made;
 }
 
-/// What the engine does with a record: it believes all of it.
+/// The engine's reading of a record: it believes all of it.
 double unpacked(const PackedGrains& state, const GrainLayout& layout) {
   std::vector<double> of_grain(layout.heads.size(), 0.0);
   double sum = 0.0;

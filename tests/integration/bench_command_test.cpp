@@ -326,7 +326,7 @@ TEST_F(BenchCommandTest, GoesOnWhereItWasBrokenOff) {
     for (const char* column : {"status", "steps", "cell_evaluations", "dem_steps", "error_force"})
       EXPECT_EQ(rows.at(name).at(column), row.at(column)) << name << ", " << column;
   }
-  // What was done has not been done again.
+  // Finished runs have not been done again.
   EXPECT_EQ(content(directory() / "out/run-01/run.log").substr(0, log.size()), log);
 
   const Outcome other = polargrain("bench case.yaml --quick -o out -w 1 --resume --set steps.count=3");

@@ -232,14 +232,15 @@ TEST_F(Calibrate, TheBestMayBeOneOfTheDerivatives) {
 
 TEST_F(Calibrate, PackingsAreBroughtToTheirVoidRatio) {
   make_laboratory();
-  write(scratch.path() / "loose.yaml",
-        "grains: 9\nsizes: {law: uniform, radius: [1 m, 2 m]}\ndensity: 1000\nthickness: 1 m\nscript: loose.in\n"
-        "pressure: 10 kPa\nfriction: 0.5\nseed: 1\n");
+  write(
+      scratch.path() / "loose.yaml",
+      "grains: 9\nsizes: {law: uniform, radius: [1 m, 2 m]}\ndensity: 1000\nthickness: 1 m\nscript: loose.in\n"
+      "pressure: 10 kPa\nfriction: 0.5\nseed: 1\n");
   write(scratch.path() / "loose.in", "variable friction index 0.5\nyoung ${friction}\n");
   const std::string packing = "packing: {specification: loose.yaml, seeds: [3, 4]}\nvoid_ratio: ";
   const std::string rest =
       "\nscript: cell.in\ntest: biaxial\npressure: 100 kPa\naxial_strain: 1 %\nrows: 5\n";
-  // What is wrong with the rest of it is found before a packing is made.
+  // A fault in the rest of it is found before a packing is made.
   write(scratch.path() / "test.yaml", packing + "0.62" + rest + "drained: yes\n");
   EXPECT_EQ(run("element test.yaml -o made").status, 2);
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "packings"));

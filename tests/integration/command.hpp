@@ -12,7 +12,7 @@
 
 namespace polargrain::testing {
 
-/// What a command did.
+/// The outcome of a command.
 struct Outcome {
   int status = -1;
   std::string out;

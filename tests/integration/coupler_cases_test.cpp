@@ -20,7 +20,7 @@ class ReadyCase : public ::testing::Test {
   }
 };
 
-/// What the base carries is the weight, the surcharge and the load on the footing; the tolerance of the case
+/// The base carries the weight, the surcharge and the load on the footing; the tolerance of the case
 /// is 1e-6 of the loads.
 TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
   const Outcome outcome = run(CASES "/footing/case.yaml");

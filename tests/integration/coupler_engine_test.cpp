@@ -206,7 +206,7 @@ TEST_F(EngineTest, AnElementOnAHomogeneousPathAnswersAsItsCellAlone) {
     }
   }
   std::cout << "[figure] largest difference of stress over confining stress: " << largest << '\n';
-  // What the mesh adds is the rounding of its displacement gradients, 1e-16, times a stiffness of 1e8 Pa, as
+  // The mesh adds the rounding of its displacement gradients, 1e-16, times a stiffness of 1e8 Pa, as
   // far as the grains let it grow in five increments.
   EXPECT_LT(largest, 1e-6);
 }

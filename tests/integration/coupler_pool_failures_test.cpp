@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What becomes of cells and workers that fail, hang or end.
+// The fate of cells and workers that fail, hang or end.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a pool answers, and where states are kept.
+// The answers of a pool, and where states are kept.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

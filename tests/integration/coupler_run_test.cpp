@@ -133,7 +133,7 @@ TEST_F(RunTest, WritesWhatItPromises) {
         "points.pvd", "fields/points-00000.vtu", "fields/points-00005.vtu"}) {
     EXPECT_TRUE(std::filesystem::exists(directory() / "out" / file)) << file;
   }
-  // What cells show has the unit that their record tells, wherever it stands.
+  // A field of cells has the unit of its record, wherever it stands.
   for (const char* file : {"out/fields/step-00005.vtu", "out/fields/points-00005.vtu"}) {
     const std::string text = result(file);
     const std::size_t array = text.find("Name=\"mean_rotation\"");

@@ -50,7 +50,7 @@ TEST_F(ElementCommand, BiaxialCompressionOfLinearCells) {
   const std::vector<double> axial = table.numbers("s22_Pa");
   ASSERT_EQ(strains.size(), 13u);  // packing, consolidation, zero and ten rows
   EXPECT_DOUBLE_EQ(strains.back(), 0.01);
-  // What the box feels of each row is the increment over its length then; s11 stays where e11 = -nu / (1 - nu) e22.
+  // The box feels, in each row, the increment over its length then; s11 stays where e11 = -nu / (1 - nu) e22.
   double sum = 0.0;
   for (std::size_t k = 3; k < strains.size(); ++k) {
     sum += (strains[k] - strains[k - 1]) / (1.0 - strains[k - 1]);

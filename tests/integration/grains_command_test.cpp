@@ -53,7 +53,7 @@ class GrainsCommand : public ::testing::Test {
     ASSERT_EQ(run.status, 0) << run.errors;
   }
 
-  /// What the grains of a point add up to, and the fields of the point.
+  /// The sums over the grains of a point, and the fields of the point.
   /// @param entry of the collection @param step nothing: the same
   [[nodiscard]] Values seen(std::size_t point, int entry, std::optional<int> step = {}) const {
     const std::string grains = "out/grains/point-" + std::to_string(point) + ".pvd";
@@ -74,7 +74,7 @@ class GrainsCommand : public ::testing::Test {
     return values;
   }
 
-  /// What grains and point agree about whatever the model of the material: the diagnostics of the cell.
+  /// Grains and point agree, whatever the model of the material, about the diagnostics of the cell.
   static void expect_diagnostics(Values& values) {
     for (const char* name : {"void_ratio", "coordination_number", "sliding_fraction", "rolling_fraction",
                              "rattlers", "mean_rotation", "rotation_spread"}) {

@@ -22,7 +22,7 @@ refused() {
   grep -qF -- "$words" said || { cat said; fail "nothing said of '$words': $*"; }
 }
 
-# What needs the source tree; the rest runs when it is out of sight.
+# The part that needs the source tree; the rest runs when it is out of sight.
 if [[ ${3:-} != hidden ]]; then
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT

@@ -112,7 +112,7 @@ TEST_P(MistakeTest, HasItsMessage) {
 std::vector<Mistake> mistakes() {
   return {
       {"ForgottenUnit", "lc: 8 mm", "G: 40, Gc: 10 MPa, lc: 8 mm",
-       "G: '40' has no unit, '10 MPa' of Gc has one; write '40 Pa' if that is what it is"},
+       "G: '40' has no unit, '10 MPa' of Gc has one; write '40 Pa' if that is its unit"},
       {"UnitOfOneItem", "[0.4 m, 0.8 m]", "[0.4 m, 0.8]", "size: '0.8' has no unit, '0.4 m' has one"},
       {"DegreesWithoutUnit", "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
        std::string(kLaw).replace(kLaw.find("40 deg"), 6, "40"),
@@ -222,7 +222,7 @@ TEST(QuestionsAndAnswers, TellWhatTheProgramSays) {
         << "no mistake is told of like this: " << cells[row];
 }
 
-/// What was refused once, or looks like a mistake, and is none.
+/// Input that was refused once, or looks like a mistake, and is right.
 class NoMistakeTest : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(NoMistakeTest, IsTaken) {

@@ -61,7 +61,7 @@ TEST(PackCommand, ItsEngineNeedsNoFolderOfMpi) {
   const Outcome made = run_in(scratch.path(), "TMPDIR=/proc " + kProgram + " pack discs.yaml -o discs.h5");
   EXPECT_NE(made.out.find("20 grains in "), std::string::npos) << made.out;
   EXPECT_EQ(made.errors.find("ORTE"), std::string::npos) << made.errors;
-  // What does need one says so: the moduli are asked of a worker.
+  // A command that needs a directory says so: the moduli are asked of a worker.
   EXPECT_NE(made.errors.find("set TMPDIR to a directory you may write to"), std::string::npos) << made.errors;
 }
 

@@ -121,7 +121,7 @@ TEST_F(ReportTest, ShowsTheNumbersOfTheRun) {
   EXPECT_FALSE(std::filesystem::exists(directory() / "out/report.html"));
 }
 
-// What names would do in an element, in an attribute of either quotation mark, in a script and in its JSON. The page is taken
+// The effect of names in an element, in an attribute of either quotation mark, in a script and in its JSON. The page is taken
 // apart by a reader of HTML: it has the elements of the same page with plain names, and no attribute that runs anything.
 TEST_F(ReportTest, NamesAreNamesWhereverTheyStand) {
   const auto shape_of = [&](const std::string& file) {
@@ -146,7 +146,7 @@ TEST_F(ReportTest, NamesAreNamesWhereverTheyStand) {
     ASSERT_EQ(polargrain("report out").status, 0);
     const std::string html = page();
     EXPECT_EQ(shape_of("out/report.html"), shape) << name;
-    // What the browser shows is the name itself.
+    // The browser shows the name itself.
     EXPECT_EQ(chart_of(html, "axial_strain", "n" + name)["series"][0]["points"].size(), 6U) << name;
   }
 }

@@ -58,7 +58,7 @@ struct Careless {
   std::string base;
   std::string good;
   std::string bad;
-  std::string message = {};  ///< part of what must be said
+  std::string message = {};  ///< part of the message expected
   app::Rank rank = app::Rank::wrong;
   std::string script_good = {};  ///< a change to the script of the grains
   std::string script_bad = {};
@@ -76,7 +76,7 @@ inline std::string replaced(std::string text, const std::string& good, const std
   return text;
 }
 
-/// What the engine says of packing100 under hooke_radii.in, rounded: no engine is started here.
+/// The engine's findings on packing100 under hooke_radii.in, rounded: no engine is started here.
 inline app::PackingAtRest packing_at_rest_of_tests() {
   app::PackingAtRest packing;
   for (const int i : {k11, k22}) packing.stress(i) = -100e3;

@@ -32,7 +32,7 @@ inline void write_lattice(const std::filesystem::path& file) {
           << " " << kRadius * (1.0 + std::sqrt(3.0) * row) << " 0\n";
 }
 
-/// Output of `polargrain-liggghts` on a script in a folder, and what it ended with.
+/// Output of `polargrain-liggghts` on a script in a folder, and its exit status.
 struct ScriptRun {
   std::string text;
   int status = 0;

@@ -21,7 +21,7 @@ constexpr int kSubSteps = 20;         // of the micro scale within one macro ste
 constexpr double kStandstill = 1e-4;  // where the fixed point stops: of mu + beta, or of the lateral stress
 constexpr double kStartFriction = 0.75;
 
-/// Friction rises along a parabola to its peak and decays to critical state; dilatancy is what friction has
+/// Friction rises along a parabola to its peak and decays to critical state; dilatancy is the friction
 /// above critical (a stress-dilatancy rule). Dense knots, so that the pieces do not show.
 inline fem::HardeningCone micro_strength() {
   constexpr double kPeak = 1.184;  // a peak of s22/s11 of about 5.65, as in the table of B.9

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A block of elements that is strained while it is turned, its boundary given: what it ends with must be what the
-// straight one ends with, turned.
+// A block of elements that is strained while it is turned, its boundary given: its end must be that of the
+// straight one, turned.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 
 namespace polargrain::testing {
 
-/// What a body is taken through: x = Q(angle) (X + strained(X)), all in proportion to the time, while its lower edge
+/// The path of a body: x = Q(angle) (X + strained(X)), all in proportion to the time, while its lower edge
 /// gives the grains a rotation of their own.
 struct Path {
   Eigen::Matrix2d gradient;        ///< of the strain, at the end
@@ -35,7 +35,7 @@ struct Block {
   double tolerance = 1e-10;
 };
 
-/// @returns the stresses at the end; none where the run does not get there
+/// @returns the stresses at the end; empty where the run does not get there
 inline std::vector<Response> turned_block(std::shared_ptr<fem::Material> material, const Block& block,
                                           const Path& path, double angle, int steps) {
   using namespace fem;

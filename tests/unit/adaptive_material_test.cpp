@@ -134,7 +134,7 @@ TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
   EXPECT_EQ(error(responses), 0.0);
 }
 
-// What a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
+// An offset that a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
 TEST_F(AdaptiveMaterialTest, GrainsAreTurnedByAllOfALargeRotation) {
   AdaptiveMaterial sand = material(2, 0.0);
   const double angle = 0.6;
@@ -291,7 +291,7 @@ TEST_F(AdaptiveMaterialTest, AuditsAreDenseAtFirstAndThinWithEvidence) {
   EXPECT_NE(none.doubt().find("nothing is known"), std::string::npos);
 }
 
-// What the true mean error is, is known here: of 400 draws of the points followed the bound covers it in as many as it says.
+// The true mean error is known here: of 400 draws of the points followed the bound covers it in as many as it says.
 TEST_F(AdaptiveMaterialTest, TheBoundCoversTheTrueMeanErrorFromTheFirstStep) {
   constexpr int kDraws = 400;
   std::mt19937 random(11);

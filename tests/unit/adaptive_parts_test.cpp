@@ -58,7 +58,7 @@ TEST(Linearised, ARotationTurnsSkewAndCoupleStressToo) {
   turn.micro_rotation = angle;  // grains and box turn alike: no strain
   const Vector7 carried = linearised_stress(answer, turn);
   const Vector7 exact = fem::rotated(answer.stress, angle);
-  // What is left out is of second order: angle^2 times differences of 2e5 Pa and 200 N/m.
+  // The rest is of second order: angle^2 times differences of 2e5 Pa and 200 N/m.
   EXPECT_LT((carried - exact).head<5>().norm(), 5e-3);
   EXPECT_LT((carried - exact).tail<2>().norm(), 5e-6);
   EXPECT_GT((exact - answer.stress).tail<2>().norm(), 1e-2) << "the test would see nothing";
@@ -74,7 +74,7 @@ TEST(Linearised, ARotationTurnsTheStress) {
   const Eigen::Matrix2d rotation =
       gradient(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle));
   const Eigen::Matrix2d exact = rotation * stress * rotation.transpose();
-  // What is left out is of second order: angle^2 times the stress difference of 2e5 Pa, 2e-3 Pa.
+  // The rest is of second order: angle^2 times the stress difference of 2e5 Pa, 2e-3 Pa.
   EXPECT_NEAR(carried[k11], exact(0, 0), 5e-3);
   EXPECT_NEAR(carried[k22], exact(1, 1), 5e-3);
   EXPECT_NEAR(carried[k12], exact(0, 1), 5e-3);
@@ -146,7 +146,7 @@ TEST(GrainMeasure, ControlledGrainsCountRelativeRotationAndCurvatureInDiameters)
   stress << 0.0, 0.0, 7.0, 2e3, 4e3, 30.0, -40.0;
   EXPECT_DOUBLE_EQ(measure.stress(stress), std::sqrt(4e6 + 16e6 + 25e6));
   EXPECT_DOUBLE_EQ(GrainMeasure().stress(stress), std::sqrt(18e6));
-  // What is measured does the work: stress . strain = (m / d) (kappa d).
+  // The measured strain does the work: stress . strain = (m / d) (kappa d).
   Vector7 measured = stress;
   measured.tail<2>() /= kDiameter;
   EXPECT_DOUBLE_EQ(measured.dot(measure.strain(bent)), stress.dot(bent.strain()));

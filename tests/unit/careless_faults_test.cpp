@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What cannot be right at all: a fault with its line, in words that one can act on.
+// Values that cannot be right at all: a fault with its line, in words that one can act on.
 #include "app/pack/read_specification.hpp"
 #include "tests/support/careless_scenes.hpp"
 

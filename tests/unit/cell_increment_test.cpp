@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a cell is told of the motion of its point, in small and in large deformation, and what of the answer turns.
+// The motion of a point as its cell takes it, in small and in large deformation, and the parts of the answer that turn.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -112,7 +112,7 @@ std::vector<Scene> scenes() {
           {"large_deformation", turning_block, loose, {to(0.2), to(0.4), to(0.6), to(0.8), to(1.0)}}};
 }
 
-/// What a run leaves behind: all that a history file would show.
+/// The trace of a run: all that a history file would show.
 struct Trace {
   std::vector<double> values;
   int cuts = 0;

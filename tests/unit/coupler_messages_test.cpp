@@ -82,7 +82,7 @@ TEST(Messages, DoublesKeepTheirBits) {
   }
 }
 
-/// What discs cannot tell is not sent, and comes back as zero.
+/// Components that discs cannot tell are not sent, and come back as zero.
 TEST(Messages, OnlyKnownComponentsTravel) {
   const auto filled = [](KnownComponents known) {
     Reply reply = some_reply(known);
@@ -125,7 +125,7 @@ TEST(Messages, DiagnosticsKeepTheirPlaces) {
   EXPECT_GT(next, 16.0);
 }
 
-/// What was lost on the way before: the noise of a stress, the heights of grains and the dimension of a packing.
+/// Once lost on the way: the noise of a stress, the heights of grains and the dimension of a packing.
 TEST(Messages, NothingOfAnAnswerOrAPackingIsLost) {
   Reply reply = some_reply();
   reply.cells[0].response.noise = {1.0, 2.0, 3.0};

@@ -66,7 +66,7 @@ TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(fault("a,b\n1,nan\n"), "2: 'nan' in column 'b' is not a number");
   EXPECT_EQ(fault("a,b\n1,1e999\n"), "2: '1e999' in column 'b' is not a number");
   EXPECT_EQ(fault("# of what\na,c\n1,2\n"), "2: there is no column 'b'; there are a, c");
-  EXPECT_EQ(fault("a,b\n1,\"2\n"), "2: a quotation mark opens a value and none closes it");
+  EXPECT_EQ(fault("a,b\n1,\"2\n"), "2: a quotation mark opens a value and no mark closes it");
   EXPECT_EQ(fault("a,b\n1,\"2\"3\n"), "2: a comma was expected behind a quoted value");
   EXPECT_EQ(fault("# nothing\n"), "0: is empty; a line with the names of the columns was expected");
   EXPECT_THROW(CsvTable("/nowhere/table.csv"), InputError);

@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 namespace {
 
-/// What require_kind says of a file with those keys; empty: nothing.
+/// The message of require_kind for a file with those keys; empty: no message.
 std::string said_of(const std::vector<std::string>& keys, DocumentKind expected) {
   Entry document;
   document.kind = Entry::Kind::map;

@@ -111,7 +111,7 @@ TEST(gmsh, runs_no_script_that_comes_with_a_mesh) {
   std::filesystem::remove_all(folder);
 }
 
-/// What Gmsh would not hand over, were it without faults.
+/// Content that Gmsh would not hand over, were it without faults.
 TEST(gmsh, content_that_does_not_fit_together_is_refused_in_words) {
   const GmshContent whole{{{1, {0, 0, 0}}, {2, {1, 0, 0}}, {3, {1, 1, 0}}, {4, {0, 1, 0}}},
                           {{2, 1, 3, 4, {1, 2, 3, 4}}, {1, 1, 1, 2, {1, 2}}, {0, 1, 15, 1, {1}}},

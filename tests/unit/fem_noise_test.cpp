@@ -211,7 +211,7 @@ TEST_P(Acceleration, needs_fewer_iterations_where_the_tangent_is_not_true) {
   ASSERT_TRUE(accelerated.converged) << accelerated.message;
   EXPECT_LE(accelerated.force_residual,
             std::max(options.force_tolerance, options.noise_factor * accelerated.force_noise));
-  // What it costs at least half of is not worth having; measured are ratios of 2.5 and more.
+  // Acceleration that does not halve the cost is not worth having; measured are ratios of 2.5 and more.
   if (plain.converged) {
     EXPECT_LT(2 * accelerated.iterations, plain.iterations);
   }
@@ -251,7 +251,7 @@ TEST(acceleration, takes_no_jump_for_stiffness) {
   jumped.accelerate(on, solve);
   EXPECT_EQ(on.displacement(0), 0.5);
   EXPECT_EQ(on.displacement(1), 2.0);
-  // What was before it stays forgotten: along (0.5, 2) half of the force was left, so as much again is to go.
+  // The places before it stay forgotten: along (0.5, 2) half of the force was left, so as much again is to go.
   jumped.remember(at(1.5, 2.0), Eigen::Vector3d(0.25, 1.0, 0.0), Eigen::Vector3d::Zero());
   Correction next = at(0.25, 1.0);
   jumped.accelerate(next, solve);

@@ -139,8 +139,8 @@ TEST(faults, lists_everything_that_is_wrong_at_once) {
   problem.edge_loads = {{.on = "all", .pressure = TimeTable::constant(1.0)}};
   const Strings messages = faults(problem);
   const Strings expected{
-      "'bottum'",         "'all' is none",        "no region 'sand'",
-      "have no material", "two different values", "rigid motion free: translation along 2"};
+      "'bottum'",         "'all' is not a boundary", "no region 'sand'",
+      "have no material", "two different values",    "rigid motion free: translation along 2"};
   for (const std::string& part : expected) {
     bool found = false;
     for (const std::string& message : messages) found = found || message.find(part) != std::string::npos;

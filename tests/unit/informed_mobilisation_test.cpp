@@ -51,7 +51,7 @@ TEST(Mobilisation, GrainsOutOfContactArePressedTogetherAgain) {
   point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), with_drift);
   ASSERT_NEAR(point.cone.friction, 0.6, 1e-12);
   ASSERT_NEAR(point.cone.dilatancy, 0.2, 1e-12);
-  // What is left of their stress, a hundredth, has a high friction, which is none.
+  // The rest of their stress, a hundredth, has a high friction, which must not count.
   MicroStep apart = step(0.6, 0.6, 1e-3, 0.2);
   apart.stress_after = 0.01 * stress(3.0);
   point = advance(point, apart, moduli(), with_drift);

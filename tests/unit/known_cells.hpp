@@ -21,7 +21,7 @@ inline constexpr double kModulus = 3e7;
 inline constexpr double kHalf = 4e-3;
 inline constexpr CosseratParameters kCosserat{16e6, 14e6, 0.02};
 
-/// s = -p + 2 G e / (1 + |e| / half), without history but for the creep. What it keeps as its state is its strain and
+/// s = -p + 2 G e / (1 + |e| / half), without history but for the creep. Its state is its strain and
 /// the number of its runs.
 class KnownCells {
  public:

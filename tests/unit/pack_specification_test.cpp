@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `polargrain pack` says about wrong specifications: file, line, what was expected.
+// Messages of `polargrain pack` on wrong specifications: file, line, the value expected.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -56,6 +56,7 @@ TEST_F(Specification, IsRead) {
 TEST_F(Specification, SpheresInSpaceHaveNoThickness) {
   std::string text = kGood;
   text.replace(text.find("thickness: 100 mm"), 17, "dimension: 3");
+  text.replace(text.find("hooke_radii.in"), 14, "spheres_hooke_radii.in");
   std::ofstream(file_) << text;
   const PackingSpecification read = read_packing_specification(file_, {});
   EXPECT_EQ(read.dimension, 3);
@@ -84,7 +85,7 @@ TEST_F(Specification, TellsWhatEachAxisCarries) {
             ":9: packing: one_dimensional_from: must be less than the pressure");
   EXPECT_EQ(
       fault("pressure: 100 kPa", "pressure: [1 kPa, 2 kPa]\none_dimensional_from: 1 kPa"),
-      ":7: packing: one_dimensional_from: the lateral stresses follow from it; give one pressure, that of the "
+      ":7: packing: one_dimensional_from: the lateral stresses follow from it; give one pressure, for the "
       "last axis");
 }
 

@@ -126,7 +126,7 @@ TEST(script, faults_name_what_is_known_and_repeat_nothing_else) {
     }
   }
   EXPECT_EQ(script_faults("root:$6$secret:19000\nmore\n", "shadow", {true, {}}).front().text(),
-            "shadow: this is no LIGGGHTS input script: it holds none of its commands");
+            "shadow: this is not a LIGGGHTS input script: it holds no command of LIGGGHTS");
   EXPECT_EQ(script_faults(std::string("units si\n\0", 10), "binary", {true, {}}).size(), 1u);
 }
 

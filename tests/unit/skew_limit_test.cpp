@@ -141,7 +141,7 @@ TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
     ASSERT_EQ(std::abs(skew_of(here)) > 0.999 * limit, is_at_limit);
     Matrix7 expected = here.tangent;
     if (is_at_limit) {
-      // What keeps the micro-rotation solvable is in the tangent alone.
+      // The stiffness that keeps the micro-rotation solvable is in the tangent alone.
       const double hold = CosseratPart::kHold * kModulus;
       expected(k12, k12) -= hold;
       expected(k21, k21) -= hold;

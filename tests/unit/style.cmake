@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# What clang-format, clang-tidy and doxygen say of the code, and what words and links of the pages keep to. clang-tidy takes seconds a file: all folders on request.
+# Checks of the code by clang-format, clang-tidy and doxygen, and of words and links of the pages. clang-tidy takes seconds a file: all folders on request.
 if(NOT POLARGRAIN_SANITIZE)
   set(style ${CMAKE_CURRENT_SOURCE_DIR}/style.sh)
   add_test(NAME format COMMAND ${style} format)

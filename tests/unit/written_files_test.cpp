@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is written where, and under which name: links, devices, rows of names, the proof of a summary.
+// Files and their names: links, devices, rows of names, the proof of a summary.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -71,7 +71,7 @@ TEST_F(WrittenFiles, NothingIsWaitedForNorReplaced) {
   EXPECT_NE(refusal(at(std::string("x\0y", 3))), "none") << "a name with a NUL";
   write_file(at("null"), "new");
   EXPECT_TRUE(fs::is_character_file(at("null")) && fs::is_character_file(at("full")));
-  // What somebody has put where the file is made.
+  // A link that somebody has put where the file is made.
   fs::create_symlink("victim", at("file.part"));
   testing::write(at("victim"), "old");
   EXPECT_NE(refusal(at("file")), "none");
@@ -180,7 +180,7 @@ TEST(ProofOfASummary, DoesNotDependOnHowItIsWritten) {
   EXPECT_NE(sorted.dump(), summary.dump());
   EXPECT_EQ(app::name_of_summary(sorted), app::name_of_summary(summary));
   EXPECT_EQ(app::name_of_summary(Json::parse(summary.dump(8))), app::name_of_summary(summary));
-  // What no file can hold is named as the file has it.
+  // A name that no file can have stands as the file has it.
   Json odd = summary;
   odd["value"] = std::numeric_limits<double>::quiet_NaN();
   odd["name"] = "\xff";

@@ -64,7 +64,7 @@ TEST(Cell, ZeroIncrementHoldsTheStress) {
   const auto cell = make_plane_cell(test::demo_cell());
   const PlaneReply loaded = cell->evaluate(request(nullptr, 1e-4, 0.0, 0.0, -1e-4));
   const PlaneReply held = cell->evaluate(request(loaded.state, 0.0, 0.0, 0.0, 0.0));
-  // What is left unbalanced (half a percent of a contact force) may still creep.
+  // The unbalanced rest (half a percent of a contact force) may still creep.
   EXPECT_LT((held.response.stress - loaded.response.stress).norm(), 5e-3 * loaded.response.stress.norm());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a cell with controlled rotations must obey beyond elasticity (docs/theory/grains.md): limits of the
+// Rules for a cell with controlled rotations beyond elasticity (docs/theory/grains.md): limits of the
 // skew stress and the couple stress (C.6), virtual work of any motion of the grains (C.2 to C.4), work and
 // stored energy, covariance (E.7 f).
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 namespace polargrain::dem {
 namespace {
 
-/// What the engine's own sum over the grains weighs (`mass(all)` in a script), kg.
+/// The engine's own sum over the grains (`mass(all)` in a script), kg.
 double engine_mass(Driver& driver) {
   return driver.lammps().group->mass(0);
 }

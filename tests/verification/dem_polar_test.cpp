@@ -79,7 +79,7 @@ double bending_stiffness(const TwoRadii& lattice, int rows) {
   return (matrix * motion + given).squaredNorm() / (2.0 * l);
 }
 
-/// What a row more adds to the bending stiffness beyond its stretching: B times the height of a row. The ends of the
+/// The bending stiffness that one more row adds beyond its stretching: B times the height of a row. The ends of the
 /// column disturb a few rows, the same ones for any number.
 double bent_couple_modulus(const TwoRadii& lattice) {
   const double l = lattice.spacing();

@@ -108,7 +108,7 @@ TEST(Tangent, AfterYieldItKnowsWhatSlides) {
     const PlaneReply reply = evaluate(*condensed_cell, state, step);
     state = reply.state;
     if (k != 1 && k != 3 && k != 10) continue;
-    // What Newton asks for: the derivative with respect to the increment, at increments that go on, short and long.
+    // As Newton's method needs it: the derivative with respect to the increment, at increments that go on, short and long.
     for (const double length : {0.1, 1.0, 3.0}) {
       const Vector7 further = length * step;
       const Matrix7 derivative = differences(*condensed_cell, state, further, 0.1 * length * 1e-3);

@@ -74,7 +74,7 @@ TEST_P(TwoCells, InTurnsAnswerAsEachAlone) {
     one.go_on(*first, one_in_turns);
     const std::vector<Contact> contacts(first->contacts().begin(), first->contacts().end());
     other.go_on(*second, other_in_turns);
-    // What the first recorded is still its own.
+    // The record of the first is still its own.
     ASSERT_EQ(contacts.size(), first->contacts().size());
     for (std::size_t c = 0; c < contacts.size(); ++c)
       ASSERT_EQ(contacts[c].force, first->contacts()[c].force) << c;

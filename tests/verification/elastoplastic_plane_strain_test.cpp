@@ -68,7 +68,7 @@ TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   EXPECT_LE(dilatancy_error, 1e-6);
   EXPECT_LE(out_of_plane, 1e-6);
 
-  // What a cell of discs would show of this state gives the cone back.
+  // The plastic strain that a cell of discs would show of this state gives the cone back.
   const ScaledVector<double> plastic = increment.strain();
   const auto read = mobilised_in_plane(state.scaled_stress, plastic);
   ASSERT_TRUE(read);

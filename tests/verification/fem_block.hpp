@@ -89,7 +89,7 @@ inline double mohr_coulomb(const Block& block) {
   return -(block.confining / ratio - 2 * block.cohesion / std::sqrt(ratio));
 }
 
-/// Runs to the end or stops with a reason, prints what happened and checks it.
+/// Runs to the end or stops with a reason, prints the outcome and checks it.
 inline void check_block(const Block& block) {
   SolverOptions options;
   options.reference_force = 40e6 * 1e-3 * 0.04;  // the same for all, also where nothing presses
@@ -111,15 +111,15 @@ inline void check_block(const Block& block) {
   }
   const double stress = solver.reaction("top")(1) / 0.04;
   const SolverState& state = solver.state();
-  // What unbalanced forces within the tolerance may do over the way of the top is no error of the balance.
+  // Work of unbalanced forces within the tolerance over the way of the top is no error of the balance.
   const double work_tolerance = 1e-5 * std::abs(state.internal_work) + 1e-8 * options.reference_force * 0.008;
   const double work_error = std::abs(state.external_work - state.internal_work);
   std::cout << "[figure] " << block.name << ": " << (message.empty() ? "to the end" : "stopped, " + message)
             << "; time " << state.time << " of " << steps / 10 << ", iterations " << iterations << ", cuts "
             << cuts << ", axial stress " << stress / 1e3 << " kPa";
   if (block.has_reference) {
-    // The plane-strain limit is approached as elastic strain rates die out; 1e-3 is what 10 % of strain may
-    // leave.
+    // The plane-strain limit is approached as elastic strain rates die out; 1e-3 is the rest after 10 % of
+    // strain.
     const double error = stress / mohr_coulomb(block) - 1;
     std::cout << ", relative error " << error;
     EXPECT_TRUE(message.empty()) << message;

@@ -68,7 +68,7 @@ Path sheared() {
   return path;
 }
 
-/// What the tolerance of the balance leaves; before, a quarter turn in 20 steps was off by 2e-2.
+/// The error within the tolerance of the balance; before, a quarter turn in 20 steps was off by 2e-2.
 constexpr double kExact = 1e-7;
 
 TEST(Objectivity, EveryModelAndEveryElementTurnedByAQuarterIn20Steps) {

@@ -100,7 +100,7 @@ TEST(PackDeposit, TheBeddingAngleTurnsAll) {
                 1e-14);
     const Eigen::Matrix3d fabric = turn * tensor(level.reached.fabric) * turn.transpose();
     EXPECT_LE((tensor(turned.reached.fabric) - fabric).norm(), 1e-12);
-    // What cells find in them, tangential forces included: a right box against a leaning one.
+    // The stress that cells find in them, tangential forces included: a right box against a leaning one.
     const Eigen::Matrix3d expected = turn * stress_in_a_cell(asked, level) * turn.transpose();
     EXPECT_LE((stress_in_a_cell(asked, turned) - expected).cwiseAbs().maxCoeff(), 1e-6 * asked.pressure)
         << dimension;

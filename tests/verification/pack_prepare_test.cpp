@@ -111,7 +111,7 @@ TEST(PackPrepare, SpheresEndWithoutShear) {
   EXPECT_NEAR(again.void_ratio, stuck.reached.void_ratio, 1e-5);
 }
 
-/// What a cell finds when it starts from a packing: compressive stresses of the axes, Pa.
+/// The stresses of a cell that starts from a packing: compressive stresses of the axes, Pa.
 Eigen::Vector3d pressures(const PackingSpecification& asked, const PreparedPacking& made) {
   return -stress_in_a_cell(asked, made).diagonal();
 }

@@ -83,7 +83,7 @@ TEST(SphereTangent, KnowsContactsThatSlide) {
   request.increment.displacement_gradient.diagonal() << 5e-4, 5e-4, -1e-3;
   request.state = cell->evaluate(request).state;
   const CellReply reply = cell->evaluate(request);
-  // What Newton asks for: the derivative with respect to the increment, at an increment that goes on.
+  // As Newton's method needs it: the derivative with respect to the increment, at an increment that goes on.
   const Eigen::Matrix3d further = 0.1 * request.increment.displacement_gradient;
   const Eigen::Matrix<double, 9, 6> expected = differences(*cell, reply.state, further, 1e-5);
   CellRequest on{reply.state, {}};
@@ -197,7 +197,7 @@ TEST_P(SlidingAndRolling, OfControlledRotationsIsKnownByTheIncrement) {
       "the couples, %.2f mixed; Voigt tangent %.2f, %.2f, %.2f\n",
       1e-3 * part, 100.0 * ahead.diagnostics.sliding_fraction, 100.0 * ahead.diagnostics.rolling_fraction,
       condensed.forces, condensed.couples, condensed.mixed, voigt.forces, voigt.couples, voigt.mixed);
-  // What is left comes to slide or stops sliding within the difference. A tangent of the contacts as they stand at the
+  // The rest comes to slide or stops sliding within the difference. A tangent of the contacts as they stand at the
   // end is away by 0.33 and 0.29 by the small increment.
   EXPECT_LT(condensed.forces, 0.1);
   EXPECT_LT(condensed.couples, 0.1);

@@ -52,7 +52,7 @@ StatePointer spoiled_state(const State& good, long run) {
   return testing::Spoiler(static_cast<unsigned>(20260119 + run))(good);
 }
 
-/// What the evaluating process tells; in memory that it shares with the test.
+/// The tally of the evaluating process; in memory that it shares with the test.
 struct Tally {
   long run = 0;  ///< at work on
   long refused = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is out of balance at time zero, and the displacement that step 0 makes of it.
+// The imbalance at time zero, and the displacement that step 0 makes of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void balance_at_start(const Scene& scene, Remarks& remarks) {
                  "{:.3g} mm for that, and changes its stress by {:.0f} % on average",
                  100.0 * start->out_of_balance, 1e3 * start->largest_displacement,
                  100.0 * start->stress_change)),
-         "give all boundaries, the weight and the stress at time zero so that they agree; let what is to change change "
+         "give all boundaries, the weight and the stress at time zero so that they agree; give later changes "
          "over steps: [[0, FIRST], [1, LAST]]"});
   } else if (moved > kLargeMovement) {
     remarks.push_back(

@@ -22,7 +22,7 @@ void against_elements(const Scene& scene, const SceneRegion& region, double leng
        scene.place({"materials", region.material, "lc"})
            .fault(fmt::format(
                "material '{}': the elements of region '{}' measure {:.3g} mm, {:.3g} times lc (at most {:g}): "
-               "bands of shear are as wide as the elements, and what follows a peak is the mesh's",
+               "bands of shear are as wide as the elements, and the curve behind a peak depends on the mesh",
                region.material, region.name, 1e3 * element, ratio, kMostElementOverLength)),
        fmt::format("elements of {:.4g} mm where bands are expected, or 'lc: {:.3g} mm' and more",
                    1e3 * kMostElementOverLength * length, 1e3 * element / kMostElementOverLength)});

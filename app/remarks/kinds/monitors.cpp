@@ -43,7 +43,7 @@ void look_at_reaction(const Scene& scene, const coupler::Monitor& monitor, Remar
   const std::string seen =
       held == 0
           ? fmt::format(
-                "monitor '{}': {} is free at all of its nodes, and a reaction is what supports exert: it stays zero",
+                "monitor '{}': {} is free at all of its nodes, and only supports exert a reaction: it stays zero",
                 monitor.name, dof)
           : fmt::format(
                 "monitor '{}': {} is prescribed at {} of its {} nodes only, ends that other boundaries hold: the reaction is theirs",
@@ -102,7 +102,7 @@ void output(const Scene& scene, Remarks& remarks) {
       {Rank::costly, static_cast<double>(the_case.output_every) / the_case.steps(),
        scene.place({"output", "every"})
            .fault(fmt::format(
-               "output: fields are written every {} steps, and there are {}: of the way to the end none is shown",
+               "output: fields are written every {} steps, and there are {}: no field between start and end is written",
                the_case.output_every, the_case.steps())),
        fmt::format("every: {} or less", std::max(1, the_case.steps() / 4))});
 }

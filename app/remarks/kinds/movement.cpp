@@ -47,7 +47,7 @@ void movement(const Scene& scene, Remarks& remarks) {
     else if (share < kNothing)
       remarks.push_back({Rank::doubtful, kNothing / share,
                          place.fault(seen + ", less than rounding and grains can resolve"),
-                         "check the unit of the movement, and that of the mesh (Gmsh's numbers are in m)"});
+                         "check the units of the movement and of the mesh (Gmsh's numbers are in m)"});
   }
 }
 

@@ -109,7 +109,7 @@ class Study:
         pathlib.Path(f"{output}.h5").unlink()
 
     def figures(self, way, friction, number, pressure, until):
-        """What one packing shows up to a strain (%); nothing while it has not been tested."""
+        """The figures of one packing up to a strain (%); None while it has not been tested."""
         name, _ = self.packing(way, friction, number)
         file = self.folder / f"{name}-{pressure:g}kPa.csv"
         if not file.exists():

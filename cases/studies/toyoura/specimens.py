@@ -113,7 +113,7 @@ class Specimens:
         return column
 
     def figures(self, one):
-        """What the table holds of a specimen; nothing where there is no band.json."""
+        """The row of a specimen in the table; nothing where there is no band.json."""
         file, curve = self.folder / one.name / "band.json", self.curve(one)
         if curve is None or not file.exists():
             return None

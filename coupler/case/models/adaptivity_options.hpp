@@ -5,7 +5,7 @@
 
 namespace polargrain::coupler {
 
-/// Reads what `adaptive` asks for beside its cells: tolerance, reference_pressure, audit, seed; all have defaults. `cell` and `informed` read
+/// Reads tolerance, reference_pressure, audit and seed of `adaptive`; all have defaults. `cell` and `informed` read
 /// them too and make no use of them, so that a case changes from one to the other by one word.
 AdaptivityOptions read_adaptivity_options(Section& section);
 

@@ -86,12 +86,12 @@ void take_measured_length(Section& section, const CellDefinition& definition, co
     if (std::abs(measured.mean_diameter - diameter) > kSameGrains * diameter)
       section.fault(
           "lc",
-          fmt::format("lc: measured: {} is of grains of {:.4g} mm, those of the packing have {:.4g} mm; "
+          fmt::format("lc: measured: {} is of grains of {:.4g} mm, the grains of the packing have {:.4g} mm; "
                       "measure with these grains, or give a length",
                       file.filename().string(), 1e3 * measured.mean_diameter, 1e3 * diameter));
     if (!definition.script.empty() && measured.script != name_of_script(definition.script))
       section.fault("lc",
-                    fmt::format("lc: measured: {} was measured under another contact law than that of {}; "
+                    fmt::format("lc: measured: {} was measured under another contact law than the one in {}; "
                                 "measure with this script, or give a length",
                                 file.filename().string(), definition.script_file));
     choice.internal_length = measured.internal_length;

@@ -10,7 +10,7 @@
 
 namespace polargrain::coupler {
 
-/// Reads what every model with cells asks for: script, packing and how the cells are loaded. Only fit for use
+/// Reads the keys common to all models with cells: script, packing and how the cells are loaded. Only fit for use
 /// when no fault has been added.
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
                                     const CaseFiles& files);

@@ -6,7 +6,7 @@
 
 namespace polargrain::coupler {
 
-/// Reads what `informed` asks for beside its cells and G, Gc, lc: nu, update, window, dilatancy_limits,
+/// Reads the options of `informed` beside its cells and G, Gc, lc: nu, update, window, dilatancy_limits,
 /// initial_friction, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
 /// them, so that a case changes from one to the other by one word. The moduli are left open.
 InformedParameters read_informed_parameters(Section& section);

@@ -41,7 +41,7 @@ fs::path file_of_cell() {
                    beside.string())});
 }
 
-/// What comes with the program is found by its name, as in a case. The host's own folder is none of ours.
+/// Files of the program are found by their name, as in a case. The host's own folder is not the program's.
 void find_beside_program(Entry& document, const fs::path& directory, const fs::path& program) {
   std::error_code error;
   const fs::path share =

@@ -13,7 +13,7 @@
 namespace polargrain::coupler::mgis {
 
 /// The cell of a behaviour library, read when a host loads it: from NAME.yaml beside the library NAME.so, else from the
-/// file that $POLARGRAIN_CELL names. What is wrong with it is told by every integration.
+/// file that $POLARGRAIN_CELL names. Every integration reports its faults.
 class CellBehaviour {
  public:
   /// The one of this library.
@@ -23,7 +23,7 @@ class CellBehaviour {
   /// How many doubles a host keeps for the state of a point, as three factors below 128 (its arrays have no more).
   [[nodiscard]] const std::vector<int>& state_shape() const { return state_shape_; }
 
-  /// Answers as MGIS expects it, and writes what was asked for; nothing on failure but its reason.
+  /// Answers as MGIS expects it, and writes the outputs asked for; on failure only its reason.
   /// May be called by several threads: as many at once as there are workers.
   int integrate(DataView& data, Hypothesis hypothesis);
 
@@ -39,7 +39,7 @@ class CellBehaviour {
   CellReply ask(const DataView& data, Hypothesis hypothesis, bool is_prediction);
   void check(Hypothesis hypothesis) const;
 
-  std::string fault_;  ///< of the file; empty: none
+  std::string fault_;  ///< of the file; empty: no fault
   DefinitionPointer definition_;
   std::vector<int> state_shape_{1, 1, 1};
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-// What a host hands over for one integration point: the binary interface of MFront's generic behaviours, version 1, as
+// The data that a host hands over for one integration point: the binary interface of MFront's generic behaviours, version 1, as
 // MFrontGenericInterfaceSupport (MGIS) 2.0 and later call them. Layout and meaning are theirs; the words are ours.
 
 namespace polargrain::coupler::mgis {
@@ -22,9 +22,9 @@ struct StateView {
 struct DataView {
   char* error_message;  ///< null, or room for 512 characters
   double time_increment;
-  /// In: in its first place what is asked for (Wish). Out: the blocks of the tangent, one after the other, each row by row.
+  /// In: in its first place the wish of the host (Wish). Out: the blocks of the tangent, one after the other, each row by row.
   double* tangent;
-  double* time_step_factor;  ///< out: what the next time step should be, over this one
+  double* time_step_factor;  ///< out: the proposed next time step, over this one
   double* speed_of_sound;
   StateView<const double> start;
   StateView<double> end;

@@ -13,8 +13,8 @@ enum class Hypothesis { plane_strain, space };
 
 /// Where the components of a host's gradients and forces stand among the eighteen of a cell (common/cell_response.hpp).
 ///
-/// Hosts follow MFront: the strain is e_ij = d u_i / d x_j + e_ijk w_k, the wryness k_ij = d w_i / d x_j, and what they do
-/// work on has the direction first and the normal of the face second: transposed from the rest of this project. The
+/// Hosts follow MFront: the strain is e_ij = d u_i / d x_j + e_ijk w_k, the wryness k_ij = d w_i / d x_j, and the stresses
+/// have the direction first and the normal of the face second: transposed from the rest of this project. The
 /// components of a tensor are 11, 22, 33, 12, 21, then 13, 31, 23, 32; in plane strain the first five, and of wryness
 /// and couple stress the two about e_3: a vector.
 struct Places {
@@ -23,7 +23,7 @@ struct Places {
 };
 const Places& places_of(Hypothesis hypothesis);
 
-/// What a cell is led along from the gradients at both ends of a step, in small deformation: its box is strained and not
+/// The increment of a cell from the gradients at both ends of a step, in small deformation: its box is strained and not
 /// turned, its grains turn as far as the micro-rotation goes beyond the rotation of the continuum.
 CellIncrement increment_of(const DataView& data, Hypothesis hypothesis);
 
