@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Pictures of the report and of the documentation's pages for docs/gallery.md, taken by chromium without a window:
-#   docs/make_screenshots.sh POLARGRAIN      from the root of the project, with chromium and mkdocs; half a minute on two cores
+# Pictures of the program's pages and of the documentation's for docs/gallery.md, taken by chromium without a window:
+#   docs/make_screenshots.sh POLARGRAIN      from the root of the project, with chromium and mkdocs; two minutes on two cores
 set -euo pipefail
 polargrain=$(realpath "$1")
 images=$(realpath docs/images)
@@ -18,5 +18,13 @@ cd "$work"
 "$polargrain" report result >/dev/null
 picture report 1200 1500 "$work/result/report.html"
 picture report_narrow_dark 420 1100 "$work/result/report.html" --force-dark-mode --enable-features=WebContentsForceDark
+"$polargrain" check "$source/cases/tutorial/gravity.yaml" --picture check.html >/dev/null
+picture check 1000 860 "$work/check.html"
+"$polargrain" element "$source/cases/element_tests/unloading.yaml" -o element --quiet
+picture element 1200 1000 "$work/element.html"
+cp -r "$source/cases/element_tests/known_sand" . && (cd known_sand && "$polargrain" calibrate curve.csv spec.yaml -o fit --quiet)
+picture calibration 1200 1000 "$(ls "$work"/known_sand/fit/*.html)"
+"$polargrain" bench "$source/cases/footing_cells/case.yaml" -o bench --vary materials.soil.tolerance=10%,3% --set steps.count=2 >/dev/null
+picture bench 1200 1000 "$(ls "$work"/bench/*.html)"
 "$source/cmake/make_site.py" "$source" "$work/site" >/dev/null
 picture site 1200 800 "$work/site/site/docs/tutorial.html"

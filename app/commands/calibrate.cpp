@@ -134,13 +134,13 @@ std::vector<std::string> columns_of_record(const Calibration& calibration) {
   return columns;
 }
 
-std::string row_of(const Evaluation& evaluation) {
+std::vector<std::string> cells_of(const Evaluation& evaluation) {
   std::vector<std::string> cells;
   for (const double value : evaluation.values) cells.push_back(exact(value));
   cells.push_back(exact(evaluation.misfit));
   for (const double difference : evaluation.differences) cells.push_back(exact(difference));
   cells.push_back(evaluation.left_out);
-  return csv_row(cells);
+  return cells;
 }
 
 std::string heading_of(const Calibration& calibration) {
@@ -225,7 +225,7 @@ int run_calibration(const CalibrateOptions& options, const PackingTools& tools) 
   const std::filesystem::path file = options.directory / "record.csv";
   const std::vector<Evaluation> known = known_evaluations(file, calibration);
   std::string text = heading_of(calibration);
-  for (const Evaluation& one : known) text += row_of(one);
+  for (const Evaluation& one : known) text += csv_row(cells_of(one));
   CsvFile record(file, text);
   std::size_t count = known.size();
   bool first = known.empty();
@@ -236,9 +236,7 @@ int run_calibration(const CalibrateOptions& options, const PackingTools& tools) 
       },
       known,
       [&](const Evaluation& one) {
-        std::string row = row_of(one);
-        row.pop_back();
-        record.row({row});
+        record.row(cells_of(one));
         if (!one.left_out.empty())
           tell(stderr, "warning: evaluation {}: {:.4g}: left out, the tests could not be run: {}\n", ++count,
                fmt::join(one.values, ", "), one.left_out);

@@ -160,7 +160,8 @@ int verify(const VerifyOptions& options) {
   tell(stdout, "{}: {}, {}\n", options.directory.string(), word_at(summary, "/title"),
        word_at(summary, "/status"));
   const bool all_recorded = check_summary(summary, findings);
-  for (const auto& [region, limits] : summary.value("at_limits", Summary::object()).items())
+  const Summary at_limits = summary.value("at_limits", Summary::object());  // items() refers to it
+  for (const auto& [region, limits] : at_limits.items())
     if (limits.is_string()) findings.note(fmt::format("region '{}': {}", region, limits.get<std::string>()));
   const Summary& proof = summary["proof"];
   check_results(proof["results"], options.directory, all_recorded, findings);

@@ -2,6 +2,8 @@
 #include "app/report/followed.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "coupler/case/case.hpp"
@@ -60,8 +62,15 @@ bool has(const RunResult& result, const std::string& name) {
 }
 
 bool changes(const RunResult& result, const std::string& name) {
-  const std::vector<double> values = result.history->numbers(name);
-  return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
+  const std::size_t column = result.history->column(name);
+  std::optional<double> first;
+  for (std::size_t row = 0; row < result.history->rows(); ++row) {
+    const double value = result.history->figure(row, column);
+    if (std::isnan(value)) continue;  // 0/0, as at the start of a ratio
+    if (first && value != *first) return true;
+    first = value;
+  }
+  return false;
 }
 
 bool is_strain(const std::string& name) {

@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
             "case.yaml:15: boundary item 4: on: a pressure needs a boundary, 'top_left' is a set of nodes; "
             "boundaries are bottom, left, right, top"},
         BadInput{"UnknownDof", "fix: [u1]", "fix: [u3]",
-                 "case.yaml:13: boundary item 2: fix: expected u1, u2 or w, found 'u3'"},
+                 "case.yaml:13: boundary item 2: fix: expected u1, u2 or w, found 'u3'; did you mean 'u1'?"},
         BadInput{"BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
                  "case.yaml:14: boundary item 3: does nothing; give fix, move, pressure, traction, "
                  "node_force or tie"},

@@ -44,7 +44,8 @@ Matrix7 stiffness(double young) {
   std::_Exit(1);
 }
 
-/// FAKE_ENGINE_FORGES=1: it does; a path: the first process that makes this directory does, and no other.
+/// FAKE_ENGINE_FORGES=1: it does; a path: the first process that is asked to
+/// evaluate, and so makes this directory, does, and no other.
 bool this_process_forges() {
   const char* const who = std::getenv("FAKE_ENGINE_FORGES");
   if (who == nullptr) return false;
@@ -127,7 +128,7 @@ class FakeEngine : public CellService {
       for (int i = 0; i < 5; ++i) stress[i] += change[i];
     }
     // Another engine than the one of the run, for tests of `verify`: the last digits of its answers differ.
-    if (forges_) stress[k11] *= 1.0 + 1e-15;
+    if (this_process_forges()) stress[k11] *= 1.0 + 1e-15;
     return reply(stress, softened(stress[k11] - stress[k22]), start[5] + 1.0);
   }
 
@@ -180,7 +181,6 @@ class FakeEngine : public CellService {
 
   std::map<std::string, double> settings_;
   Matrix7 stiffness_;
-  const bool forges_ = this_process_forges();
 };
 
 }  // namespace

@@ -48,10 +48,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "  - {unit_weight: 9"},
         Careless{"Overconsolidated", kGround, "K0: 0.5", "K0: 1.5"},
         Careless{"LargeDeformation", kGrains, "continuum: cosserat", "deformation: large"},
-        Careless{"WholeCycles", kGrains, "{u2: -8 mm}",
-                 "{u2: [[0, 0], [0.0625, -1 mm], [0.1875, 1 mm], [0.3125, -1 mm], [0.4375, 1 mm], [0.5625, -1 mm], "
-                 "[0.6875, 1 mm], [0.8125, -1 mm], [0.9375, 1 mm], [1, 0]]}"},
-        Careless{"MeshBelowTheSurface", replaced(kGround, "[[0, 10 kPa], [1, 60 kPa]]", "[[0, 820 kPa], [1, 870 kPa]]"),
+        Careless{
+            "WholeCycles", kGrains, "{u2: -8 mm}",
+            "{u2: [[0, 0], [0.0625, -1 mm], [0.1875, 1 mm], [0.3125, -1 mm], [0.4375, 1 mm], [0.5625, -1 mm], "
+            "[0.6875, 1 mm], [0.8125, -1 mm], [0.9375, 1 mm], [1, 0]]}"},
+        Careless{"MeshBelowTheSurface",
+                 replaced(kGround, "[[0, 10 kPa], [1, 60 kPa]]", "[[0, 820 kPa], [1, 870 kPa]]"),
                  "surface: 5 m", "surface: 50 m"},
         Careless{"ThirdsInAFormula", kGround, "-base_force / 10 m", "-0.333 * base_force / 10 m"},
         Careless{"PressureInTwoParts", kGrains, "{on: [left, right], pressure: 100 kPa}",

@@ -136,6 +136,24 @@ void look_at_side(const Scene& scene, const coupler::Entry& place, const coupler
   }
 }
 
+/// A side of the body written in millimetres or centimetres without its unit.
+void look_at_plain_lengths(const Scene& scene, const coupler::Entry& place, const std::string& name,
+                           const FormulaUnits& units, Remarks& remarks) {
+  for (const FormulaNumber& number : units.numbers) {
+    if (number.has_unit || is_innocent(number.value)) continue;
+    for (const double side : {scene.body().size().x(), scene.body().size().y()})
+      for (const auto& [unit, share] : {std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2}}) {
+        if (!is_about(share * number.value, side)) continue;
+        remarks.push_back({Rank::wrong, 1.0 / share,
+                           place.fault(fmt::format(
+                               "monitor '{}': '{}' in '{}' has no unit, and a side of the body is {} {}",
+                               name, number.text, place.text, number.text, unit)),
+                           fmt::format("write '{} {}', or '{:.4g} m'", number.text, unit, side)});
+        return;
+      }
+  }
+}
+
 }  // namespace
 
 void formulas(const Scene& scene, Remarks& remarks) {
@@ -156,6 +174,7 @@ void formulas(const Scene& scene, Remarks& remarks) {
            "forces are of a metre of thickness, N/m: give each summand the same dimension"});
     look_at_numbers(scene, place, monitor.name, units, remarks);
     look_at_side(scene, place, monitor, units, remarks);
+    look_at_plain_lengths(scene, place, monitor.name, units, remarks);
     const bool any_unit =
         std::ranges::any_of(units.numbers, [](const FormulaNumber& number) { return number.has_unit; });
     const auto plain = std::ranges::find_if(units.numbers, [](const FormulaNumber& number) {
