@@ -30,6 +30,9 @@ constexpr double kLooseAtFirst = 1.4142135623730951;
 constexpr double kTighter = 1.4142135623730951;
 /// Of the points, that have cells of their own when sharing is given up.
 constexpr double kNothingToShare = 0.9;
+/// An error that a run leaves in the history of a cell stays. It weighs so many times one that a later run still mends.
+constexpr double kStays = 2.0;
+constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 /// A smaller tolerance helps when the bound falls below this share of what it was.
 constexpr double kHelps = 0.9;
 /// The error grows when its bound is above that of the step before by more than this.
@@ -81,6 +84,7 @@ void AdaptiveMaterial::begin_step() {
   }
   for (const Point& point : points_) branch_of_point_.push_back(point.cell);
   target_.resize(points_.size());
+  excursions_.resize(points_.size());
 }
 
 void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
@@ -90,6 +94,10 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
   increments_.assign(increments.begin(), increments.end());
   for (std::size_t point = 0; point < points_.size(); ++point) {
     target_[point] = followed_by(points_[point].offset, increment_of_step(point));
+    const Departure& departure = branches_[points_[point].cell].departure;
+    const double depth = estimate_.onward(departure, farthest(point));
+    const double now = estimate_.onward(departure, target_[point]);
+    excursions_[point] = {std::max(depth, now), std::max(depth - now, 0.0)};
   }
   settle(tolerance());
   for (std::size_t point = 0; point < points_.size(); ++point) {
@@ -108,8 +116,27 @@ Increment AdaptiveMaterial::increment_of_step(std::size_t point) const {
   return of_box;
 }
 
+Increment AdaptiveMaterial::farthest(std::size_t point) const {
+  Increment place = points_[point].farthest;
+  place.configuration = target_[point].configuration;  // no checkpoint keeps it
+  return place;
+}
+
 double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
-  return estimate_.of(branch.answer.response, branch.departure, offset_between(branch.place, target_[point]));
+  const double of_offset =
+      estimate_.of(branch.answer.response, branch.departure, offset_between(branch.place, target_[point]));
+  const Branch& cell = branches_[branch.cell];
+  const double of_history =
+      estimate_.of_history(cell.answer.response, cell.departure, excursions_[point], branch.excursion);
+  return of_offset + (branch.was_run ? kStays : 1.0) * of_history;
+}
+
+Excursion AdaptiveMaterial::excursion_of_run(std::size_t leader) const {
+  const Branch& cell = branches_[points_[leader].cell];
+  const Excursion& own = excursions_[leader];
+  const Excursion straight{own.depth - own.back, 0.0};
+  const double left_out = estimate_.of_history(cell.answer.response, cell.departure, own, straight);
+  return kStays * left_out > tolerance() ? own : straight;
 }
 
 std::size_t AdaptiveMaterial::best_branch(std::size_t point) const {
@@ -161,18 +188,71 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
     Departure expected = unmoved.departure;
     const bool turns = target_[leader].configuration != Configuration::fixed;
-    const Vector7 own = measure_.strain(target_[leader]);
+    const Excursion excursion = excursion_of_run(leader);
+    Vector7 own = measure_.strain(target_[leader]);
+    if (excursion.back > 0.0) own -= measure_.strain(farthest(leader));
     const Vector7 strain = turns ? fem::rotated(own, fem::rotation_angle(target_[leader])) : own;
     if (strain.norm() > 0.0) expected.direction = strain / strain.norm();
-    return estimate_.of(with_tangent_turned(unmoved.answer.response, target_[leader]), expected,
-                        offset_between(target_[leader], target_[other])) <= tolerance();
+    const double of_offset = estimate_.of(with_tangent_turned(unmoved.answer.response, target_[leader]),
+                                          expected, offset_between(target_[leader], target_[other]));
+    const double of_history =
+        estimate_.of_history(unmoved.answer.response, unmoved.departure, excursions_[other], excursion);
+    return of_offset + kStays * of_history <= tolerance();
   });
 }
 
-bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
+std::size_t AdaptiveMaterial::enter(Branch moved, std::size_t start, const Increment& increment) {
+  const std::size_t number = branches_.size();
+  if (moved.answer.response.quality != Quality::failed) {
+    Branch& from = branches_[start];
+    moved.departure = estimate_.learn(from.answer.response, moved.answer.response, increment, from.departure);
+    branches_of_cell_[moved.cell].push_back(number);
+  }
+  moved.start = start;
+  moved.was_run = true;
+  branches_.push_back(std::move(moved));
+  return number;
+}
+
+std::vector<std::size_t> AdaptiveMaterial::run_turns(const std::vector<std::size_t>& leaders) {
   std::vector<PlaneRequest> requests;
+  std::vector<std::size_t> turning;
   for (const std::size_t leader : leaders) {
-    requests.push_back({branches_[points_[leader].cell].answer.state, target_[leader]});
+    if (excursion_of_run(leader).back == 0.0 || turns_.contains(leader)) continue;
+    requests.push_back({branches_[points_[leader].cell].answer.state, farthest(leader)});
+    turning.push_back(leader);
+  }
+  if (!turning.empty()) {
+    std::vector<PlaneReply> replies = run(requests, turning, costs_.steps);
+    costs_.runs += static_cast<std::int64_t>(requests.size());
+    for (std::size_t k = 0; k < turning.size(); ++k) {
+      const std::size_t cell = points_[turning[k]].cell;
+      Branch turn{cell};
+      turn.place = requests[k].increment;
+      turn.leader = kNobody;  // who follows it shares it
+      turn.answer = std::move(replies[k]);
+      turn.excursion = {excursions_[turning[k]].depth, 0.0};
+      turns_[turning[k]] = enter(std::move(turn), cell, requests[k].increment);
+    }
+  }
+  std::vector<std::size_t> starts;
+  for (const std::size_t leader : leaders) {
+    starts.push_back(points_[leader].cell);
+    if (excursion_of_run(leader).back == 0.0) continue;
+    const std::size_t turn = turns_.at(leader);
+    // A cell that cannot go there goes straight.
+    if (branches_[turn].answer.response.quality != Quality::failed) starts.back() = turn;
+  }
+  return starts;
+}
+
+bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
+  const std::vector<std::size_t> starts = run_turns(leaders);
+  std::vector<PlaneRequest> requests;
+  for (std::size_t k = 0; k < leaders.size(); ++k) {
+    const Branch& start = branches_[starts[k]];
+    const Increment& target = target_[leaders[k]];
+    requests.push_back({start.answer.state, start.was_run ? offset_between(start.place, target) : target});
   }
   std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
   costs_.runs += static_cast<std::int64_t>(requests.size());
@@ -183,16 +263,10 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
     moved.place = target_[leader];
     moved.leader = leader;
     moved.answer = std::move(replies[k]);
-    branch_of_point_[leader] = branches_.size();
-    if (moved.answer.response.quality == Quality::failed) {
-      all_good = false;
-    } else {
-      Branch& start = branches_[moved.cell];
-      moved.departure = estimate_.learn(start.answer.response, moved.answer.response, requests[k].increment,
-                                        start.departure);
-      branches_of_cell_[moved.cell].push_back(branches_.size());
-    }
-    branches_.push_back(std::move(moved));
+    // Of a cell that could not go by the farthest place too: no further run would mend that.
+    moved.excursion = excursion_of_run(leader);
+    all_good = all_good && moved.answer.response.quality != Quality::failed;
+    branch_of_point_[leader] = enter(std::move(moved), starts[k], requests[k].increment);
   }
   // Points that an old answer would still serve go along where a new one serves them better, so that a field
   // of nearly equal strains stays one cell.
@@ -272,10 +346,10 @@ void AdaptiveMaterial::commit() {
     const std::size_t b = branch_of_point_[p];
     const Branch& branch = branches_[b];
     Point& point = points_[p];
-    const bool was_run = b >= cells_.size();
     point.estimate = estimate(p, branch);
     point.offset = offset_between(branch.place, target_[p]);
-    point.source = !was_run ? Source::tangent : branch.leader == p ? Source::own : Source::neighbour;
+    if (branch.was_run || excursions_[p].back == 0.0) point.farthest = point.offset;
+    point.source = !branch.was_run ? Source::tangent : branch.leader == p ? Source::own : Source::neighbour;
     ++sources_[static_cast<std::size_t>(point.source)];
     answer_to(p, point.cosserat);
     point.cell = static_cast<std::uint32_t>(cell_of_branch[b]);
@@ -299,9 +373,12 @@ LimitsReached AdaptiveMaterial::reached(const Point& point) const {
   return {.parted = point.cosserat.pressure <= least};
 }
 
-void AdaptiveMaterial::count_unused(const std::vector<char>& in_use) {
-  for (std::size_t b = cells_.size(); b < branches_.size(); ++b) {
-    if (in_use[b] != 0) continue;
+void AdaptiveMaterial::count_unused(std::vector<char> in_use) {
+  for (std::size_t b = branches_.size(); b-- > cells_.size();) {
+    if (in_use[b] != 0) {
+      in_use[branches_[b].start] = 1;
+      continue;
+    }
     ++costs_.unused_runs;
     costs_.unused_steps += static_cast<std::int64_t>(branches_[b].answer.diagnostics.dem_steps);
   }
@@ -329,6 +406,7 @@ void AdaptiveMaterial::forget_step() {
   branches_.clear();
   branches_of_cell_.clear();
   branch_of_point_.clear();
+  turns_.clear();
   increments_.clear();
 }
 

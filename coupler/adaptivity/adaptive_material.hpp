@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -105,7 +106,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   };
   struct Point {
     std::uint32_t cell = 0;
-    Increment offset;  ///< from the cell to the point
+    Increment offset;    ///< from the cell to the point
+    Increment farthest;  ///< place along the cell's last loading since its last run, from the cell
     CosseratPart cosserat;
     double estimate = 0.0;  ///< of its error, Pa
     Source source = Source::tangent;
@@ -114,6 +116,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
     friend void describe(Record& point, Visit&& visit) {
       visit(FieldNotes{"cell", "", "its number"}, point.cell);
       visit(FieldNotes{"offset", "", "from the cell to the point"}, point.offset);
+      visit(FieldNotes{"farthest", "", "place since the cell was last run"}, point.farthest);
       visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
       visit(FieldNotes{"estimate", "Pa", "of its error"}, point.estimate);
       visit(FieldNotes{"source", "", "where the stress came from"}, point.source);
@@ -126,6 +129,9 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
     std::size_t leader = 0;  ///< point it was run to
     PlaneReply answer = {};
     Departure departure = {};
+    bool was_run = false;
+    std::size_t start = 0;     ///< branch that its run began at
+    Excursion excursion = {};  ///< of the cell on its way here
   };
   /// A point that is followed by a cell of its own along its whole history, to measure the error of sharing.
   struct Followed {
@@ -139,11 +145,22 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   /// Runs branches until the estimate of every point is within `allowed` (Pa). @returns false when a cell has failed
   bool settle(double allowed);
   [[nodiscard]] double estimate(std::size_t point, const Branch& branch) const;
+  /// What a run of its cell to a point makes: the point's own excursion where that is needed to hold the tolerance, else
+  /// none.
+  [[nodiscard]] Excursion excursion_of_run(std::size_t leader) const;
   /// The branch of a point's cell with the smallest estimate.
   [[nodiscard]] std::size_t best_branch(std::size_t point) const;
   [[nodiscard]] std::vector<std::size_t> leaders_for(std::size_t cell,
                                                      const std::vector<std::size_t>& points) const;
   bool run_branches(const std::vector<std::size_t>& leaders);
+  /// Runs cells to the farthest places of those leaders that have turned back, where that is needed. @returns the branches
+  /// that the leaders' own runs begin at
+  std::vector<std::size_t> run_turns(const std::vector<std::size_t>& leaders);
+  /// Enters what a run over an increment from the branch of number `start` has made, and what it has shown.
+  /// @returns the number of the new branch
+  std::size_t enter(Branch moved, std::size_t start, const Increment& increment);
+  /// Farthest place of a point at the start of the step.
+  [[nodiscard]] Increment farthest(std::size_t point) const;
   [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
                                             std::span<const std::size_t> points, std::int64_t& steps);
   /// The increment that takes the cell of a point through the step.
@@ -174,7 +191,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] std::size_t fewest_followed() const;
   [[nodiscard]] bool audits() const { return options_.audit > 0.0 && options_.tolerance > 0.0; }
   void notice_sharing(std::size_t cells);
-  void count_unused(const std::vector<char>& in_use);
+  void count_unused(std::vector<char> in_use);
   void forget_step();
 
   CellCalls calls_;
@@ -196,7 +213,9 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   std::vector<Branch> branches_;
   std::vector<std::vector<std::size_t>> branches_of_cell_;
   std::vector<std::size_t> branch_of_point_;
-  std::vector<Increment> target_;  ///< from the cell's place to the point's
+  std::vector<Increment> target_;             ///< from the cell's place to the point's
+  std::vector<Excursion> excursions_;         ///< of the points, at their targets
+  std::map<std::size_t, std::size_t> turns_;  ///< branches at the farthest places of leaders, by leader
   std::vector<Increment> increments_;
 
   std::vector<Followed> followed_;  ///< in the order they were drawn

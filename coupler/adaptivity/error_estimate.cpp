@@ -16,7 +16,7 @@ constexpr double kShareOfElastic = 0.5;
 /// The errors that a cell has shown are forgotten by half at each new run.
 constexpr double kMemory = 0.5;
 
-/// The part of a strain that goes on along the last loading.
+/// How far a strain goes on along the last loading.
 double onward_of(const Vector7& strain, const Departure& departure) {
   return std::max(0.0, strain.dot(departure.direction));
 }
@@ -36,6 +36,19 @@ double ErrorEstimate::of(const Response& answer, const Departure& departure, con
   const Vector7 onward = onward_of(strain, departure) * departure.direction;
   const Vector7 apart = (elastic_ - answer.tangent) * measure_.unmeasured(strain - onward);
   return departure.over(size) + kShareOfElastic * measure_.stress(apart);
+}
+
+double ErrorEstimate::onward(const Departure& departure, const Increment& offset) const {
+  return onward_of(measure_.strain(offset), departure);
+}
+
+double ErrorEstimate::of_history(const Response& answer, const Departure& departure, const Excursion& point,
+                                 const Excursion& cell) const {
+  // Two that have not turned back differ in their places alone, which is no matter of history.
+  const double missed = std::min(std::abs(point.depth - cell.depth), std::max(point.back, cell.back));
+  if (missed == 0.0) return 0.0;
+  const Vector7 apart = (elastic_ - answer.tangent) * measure_.unmeasured(missed * departure.direction);
+  return kShareOfElastic * measure_.stress(apart);
 }
 
 Departure ErrorEstimate::learn(const Response& start, const Response& end, const Increment& offset,

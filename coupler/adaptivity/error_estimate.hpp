@@ -29,6 +29,12 @@ void describe(Record& departure, Visit&& visit) {
         departure.direction);
 }
 
+/// How far something has been along the last loading of a cell since that cell was last run.
+struct Excursion {
+  double depth = 0.0;  ///< the farthest place, a strain
+  double back = 0.0;   ///< what of it has been taken back
+};
+
 /// Estimates errors of linearisation for the cells of one packing.
 class ErrorEstimate {
  public:
@@ -43,6 +49,16 @@ class ErrorEstimate {
   /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
   /// the last loading. Infinite where nothing is known.
   [[nodiscard]] double of(const Response& answer, const Departure& departure, const Increment& offset) const;
+
+  /// How far an offset goes on along the last loading of a cell, a strain; 0 where it goes back.
+  [[nodiscard]] double onward(const Departure& departure, const Increment& offset) const;
+
+  /// Estimated error (Pa) of the history of a cell that has been elsewhere than its point. Loading onward is soft and the
+  /// way back is stiff: a way out and back that only one of them has gone leaves this stress between them. It shows no
+  /// offset.
+  /// @param answer of the cell before both excursions
+  [[nodiscard]] double of_history(const Response& answer, const Departure& departure, const Excursion& point,
+                                  const Excursion& cell) const;
 
   /// Learns from a run from `start` to `end` over `offset` about both ends.
   /// @param at_start updated: the largest error seen from there

@@ -120,6 +120,29 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   EXPECT_NEAR(estimate.of(soft, departure, back), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);
 }
 
+TEST(ErrorEstimate, AWayOutAndBackThatOneHasGoneAloneLeavesAnErrorInItsHistory) {
+  Matrix7 elastic = Matrix7::Zero();
+  elastic(k11, k11) = elastic(k22, k22) = 3e7;
+  Response soft;
+  soft.tangent = 0.1 * elastic;
+  const Increment along = increment_of(gradient(-3e-4, 0.0, 0.0, 4e-4));
+  const Departure departure{1.0, along.strain().norm(), along.strain().normalized()};
+  const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
+  EXPECT_DOUBLE_EQ(estimate.onward(departure, along), 5e-4);
+  EXPECT_EQ(estimate.onward(departure, increment_of(gradient(3e-4, 0.0, 0.0, -4e-4))), 0.0);
+  const auto of = [&](Excursion point, Excursion cell) {
+    return estimate.of_history(soft, departure, point, cell) / (0.5 * 0.9 * 3e7);
+  };
+  EXPECT_DOUBLE_EQ(of({3e-3, 1e-3}, {0.0, 0.0}), 1e-3)
+      << "a cell that has not moved, carried part of the way";
+  EXPECT_DOUBLE_EQ(of({3e-3, 3e-3}, {0.0, 0.0}), 3e-3) << "the same, all of it taken back";
+  EXPECT_DOUBLE_EQ(of({3e-3, 1e-3}, {2e-3, 0.0}), 1e-3) << "a cell that went straight to where the point is";
+  EXPECT_DOUBLE_EQ(of({2e-3, 0.0}, {3e-3, 2e-3}), 1e-3) << "a cell that was farther than the point";
+  EXPECT_EQ(of({3e-3, 1e-3}, {3e-3, 2e-3}), 0.0)
+      << "both turned at one place, where they are now is no matter";
+  EXPECT_EQ(of({3e-3, 0.0}, {2e-3, 0.0}), 0.0) << "neither has turned";
+}
+
 TEST(GrainMeasure, AVolumeChangeCountsLessAndARotationNothing) {
   const auto size = [](double h11, double h12, double h21, double h22) {
     return GrainMeasure().size(increment_of(gradient(h11, h12, h21, h22)));
