@@ -85,8 +85,9 @@ std::vector<PlaceConditions> conditions_of(const Scene& scene) {
     place.name = name;
     place.is_boundary = problem.mesh.boundaries.contains(name);
     place.nodes = problem.mesh.nodes_on(name);
-    for (const fem::PrescribedDof& item : problem.prescribed)
-      if (item.on == name) add_prescribed(place, item, end);
+    for (const fem::Dof dof : {fem::Dof::u1, fem::Dof::u2, fem::Dof::w})
+      for (const fem::PrescribedDof& item : problem.prescribed)
+        if (item.on == name && item.dof == dof) add_prescribed(place, item, end);
     for (const fem::EdgeLoad& load : problem.edge_loads) {
       if (load.on != name) continue;
       add_loads(place, load, 0.0, place.loads_at_start);

@@ -69,13 +69,11 @@ struct Pushed {
   std::array<std::string, kWays> fault;  ///< why the path ended early; empty: it did not
 };
 
-/// @param ways those to go, the first ones
+/// @param going the ways to go
 Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
-              const std::array<Increment, kWays>& increments, std::size_t ways) {
+              const std::array<Increment, kWays>& increments, std::vector<std::size_t> going) {
   Pushed found;
-  std::vector<PlaneReply> at(ways, packing);
-  std::vector<std::size_t> going{};
-  for (std::size_t way = 0; way < ways; ++way) going.push_back(way);
+  std::vector<PlaneReply> at(kWays, packing);
   for (int k = 0; k < kIncrements && !going.empty(); ++k) {
     std::vector<PlaneRequest> requests;
     for (const std::size_t way : going) requests.push_back({at[way].state, increments[way]});
@@ -110,17 +108,22 @@ std::array<Increment, kWays> increments_to_limits(double mean_diameter) {
 
 }  // namespace
 
-CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing) {
-  const Pushed found = pushed(calls, packing, increments_to_limits(0.0), kBent);
-  const auto why_not = [&](std::size_t way) -> std::string {
+CellLimits limits_without_bending(const CellCalls& to_shear, const PlaneReply& at_rest,
+                                  const CellCalls& to_turn, const PlaneReply& at_rest_to_turn) {
+  const std::array<Increment, kWays> increments = increments_to_limits(0.0);
+  const Pushed sheared = pushed(to_shear, at_rest, increments, {kSheared});
+  const Pushed turned = pushed(to_turn, at_rest_to_turn, increments, {kTurned});
+  const auto why_not = [](const Pushed& found, std::size_t way) -> std::string {
     if (found.is_known[way]) return {};
     return found.fault[way].empty() ? "its grains do not come to rest" : found.fault[way];
   };
-  return {found.largest[kSheared], found.largest[kTurned], 0.0, why_not(kSheared), why_not(kTurned)};
+  return {sheared.largest[kSheared], turned.largest[kTurned], 0.0, why_not(sheared, kSheared),
+          why_not(turned, kTurned)};
 }
 
 CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter) {
-  const Pushed found = pushed(calls, packing, increments_to_limits(mean_diameter), kWays);
+  const Pushed found =
+      pushed(calls, packing, increments_to_limits(mean_diameter), {kSheared, kTurned, kBent});
   for (std::size_t way = 0; way < kWays; ++way) {
     if (!found.fault[way].empty())
       throw RunError(fmt::format("the limits of a packing cannot be found: {} it fails: {}", kNames[way],

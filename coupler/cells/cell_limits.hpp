@@ -33,8 +33,10 @@ struct CellLimits {
 /// Friction and the limit of skew stress alone, of grains whose rotations are controlled or turned: there is no bending, and
 /// `couple` is 0. Never throws for what the grains do: a path ends where it cannot be followed. A path without one answer at
 /// rest has its reason in not_sheared or not_turned. A limit that was found may be 0.
-/// @param packing at rest
-CellLimits limits_without_bending(const CellCalls& calls, const PlaneReply& packing);
+/// @param to_shear cells to shear @param at_rest their packing
+/// @param to_turn cells to turn @param at_rest_to_turn their packing
+CellLimits limits_without_bending(const CellCalls& to_shear, const PlaneReply& at_rest,
+                                  const CellCalls& to_turn, const PlaneReply& at_rest_to_turn);
 
 /// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
 /// @throws RunError where a path cannot be followed or a limit cannot be found

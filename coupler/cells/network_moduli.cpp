@@ -46,18 +46,20 @@ NetworkModuli network_moduli(Pool& pool, CellDefinition definition) {
 
 namespace {
 
-/// Damping of the copies that are taken to their limits. Where all contacts slide, grains that ring let go in turns:
-/// at half of this and less the skew stress is 0.5 to 0.97 of what contacts bear (dem_limits_test).
-constexpr double kDampingToLimits = 0.5;
+/// Damping of the copy that is turned. Where all contacts slide, grains that ring let go in turns: at half of this and
+/// less the skew stress is 0.5 to 0.97 of what contacts bear (dem_limits_test). Sheared grains would not come to rest with it.
+constexpr double kDampingToTurn = 0.5;
 
 /// The packing is sheared and turned and never bent: any rolling model will do, which a cell with this tangent allows.
 CellLimits limits_of_free(Pool& pool, CellDefinition definition) {
-  definition.control.damping = std::max(definition.control.damping, kDampingToLimits);
   definition.control.rotations = CellRotations::controlled;
   definition.control.tangent = CellTangent::cosserat;
-  const CellCalls calls = calls_of(pool, pool.define(std::move(definition)));
+  const CellCalls to_shear = calls_of(pool, pool.define(definition));
+  definition.control.damping = std::max(definition.control.damping, kDampingToTurn);
+  const CellCalls to_turn = calls_of(pool, pool.define(std::move(definition)));
   std::vector<std::string> remarks;  // the material's own cell makes them too
-  return limits_without_bending(calls, packing_at_rest(calls, remarks));
+  return limits_without_bending(to_shear, packing_at_rest(to_shear, remarks), to_turn,
+                                packing_at_rest(to_turn, remarks));
 }
 
 /// Fills in the limits of skew stress and couple stress. @returns a line that says what was found, or nothing

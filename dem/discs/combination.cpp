@@ -176,9 +176,11 @@ DiscSelection sphere_combination(LAMMPS& lammps) {
   for (int k = 0; k < lammps.atom->nlocal; ++k)
     if (lammps.atom->tag[k] != k + 1) return {std::nullopt, "grains that the engine has reordered"};
   DiscSelection selection = disc_models(lammps);
-  // At the limit of its spring this dashpot jumps, and there the loop differs from LIGGGHTS's by more than rounding.
+  // At the limits of their springs these dashpots jump, and there the loop differs from LIGGGHTS's by more than rounding.
   if (selection.combination && selection.combination->settings.rolling_damped)
     return {std::nullopt, "rollingDamping on"};
+  if (selection.combination && selection.combination->settings.rolling_force_damped)
+    return {std::nullopt, "rollingFrictionForceDamping on"};
   return selection;
 }
 
