@@ -33,6 +33,8 @@ constexpr double kNothingToShare = 0.9;
 /// An error that a run leaves in the history of a cell stays. It weighs so many times one that a later run still mends.
 constexpr double kStays = 2.0;
 constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+/// By what it is divided at most at once.
+constexpr double kMostTightening = 4.0;
 /// A smaller tolerance helps when the bound falls below this share of what it was.
 constexpr double kHelps = 0.9;
 /// The error grows when its bound is above that of the step before by more than this.
@@ -313,19 +315,32 @@ bool AdaptiveMaterial::confirm() {
     run_followed();
     for (double bound = bound_of(measured_errors()); bound > options_.tolerance && tightening_helps_;) {
       const double bound_before = bound;
-      tightening_ *= kTighter;
+      const double tightening_before = tightening_;
+      tightening_ = tightening_to_next_run();
       if (!settle(tolerance())) return false;
       bound = bound_of(measured_errors());
       note_tightening(bound_before, bound);
       tightening_helps_ = bound < kHelps * bound_before;
       // The rest has entered the histories and no answer of this step mends it. Where it does not grow, a smaller
       // tolerance would be paid for nothing.
-      if (!tightening_helps_ && bound < kGrows * bounds_.last) tightening_ /= kTighter;
+      if (!tightening_helps_ && bound < kGrows * bounds_.last) tightening_ = tightening_before;
     }
   }
   const bool stands = branch_of_point_ == before;
   costs_.redone += stands ? 0 : 1;
   return stands;
+}
+
+double AdaptiveMaterial::tightening_to_next_run() const {
+  double largest = 0.0;
+  for (std::size_t point = 0; point < points_.size(); ++point)
+    largest = std::max(largest, estimate(point, branches_[branch_of_point_[point]]));
+  double tightening = tightening_ * kTighter;
+  // A tolerance that no estimate exceeds changes nothing, which says nothing of whether a smaller one helps.
+  while (options_.tolerance / tightening * reference_ >= largest &&
+         tightening < kMostTightening * tightening_)
+    tightening *= kTighter;
+  return tightening;
 }
 
 void AdaptiveMaterial::commit() {

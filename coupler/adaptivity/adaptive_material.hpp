@@ -185,6 +185,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] double neglected(std::span<const double> errors) const;
   /// The reference pressure in words.
   [[nodiscard]] std::string reference_name() const;
+  /// The next larger tightening that asks for a run of a cell, as far as one is near.
+  [[nodiscard]] double tightening_to_next_run() const;
   void note_tightening(double bound_before, double bound);
   /// Ends the audit of a step: keeps the errors measured, and where they leave much room one point less is followed.
   void keep_audit();
