@@ -16,7 +16,7 @@ from .errors import InputError, RunError
 from .files import no_input
 
 _PACKAGE = pathlib.Path(__file__).resolve().parent
-_PLACES = (_PACKAGE.parents[3] / "bin" / "polargrain",  # installed: PREFIX/lib/python3/dist-packages/polargrain
+_PLACES = (_PACKAGE.parents[3] / "bin" / "polargrain",  # installed: PREFIX/lib/python3*/*-packages/polargrain
            _PACKAGE.parents[1] / "app" / "polargrain")  # in the folder of the build
 
 

@@ -186,8 +186,9 @@ refused 2 "is no shared library" "${trusted[@]}" materials.sand.contact_library=
 refused 1 "it is no library of contact laws" polargrain point own.yaml sand path.csv --trust-scripts \
   --set materials.sand.contact_library=../prefix/lib/polargrain/polargrain_gmsh.so
 refused 2 "there is no such file" polargrain-liggghts -contact missing.so -in law/two_grains.in -log none
-sed 's/0\.2\.[0-9]*/0.1.9/' "$library" >older.so
-refused 1 "it was built for polargrain 0.1.9" polargrain run own.yaml -w 1 "${small[@]}" --trust-scripts \
+version=$(polargrain --version | sed 's/^[^ ]* //')
+sed "s/${version//./\\.}/${version%?}x/" "$library" >older.so  # as long as it was
+refused 1 "it was built for polargrain ${version%?}x" polargrain run own.yaml -w 1 "${small[@]}" --trust-scripts \
   --set materials.sand.contact_library=older.so
 refused 2 "another law is called hooke/radii already" \
   polargrain-liggghts -contact taken/build/own_contact_law.so -in law/two_grains.in -log none
