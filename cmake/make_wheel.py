@@ -92,6 +92,9 @@ def main(build, folder):
             sys.exit(f"make_wheel: {build} has no Python package")
         if module.name != "_cells" + sysconfig.get_config_var("EXT_SUFFIX"):
             sys.exit(f"make_wheel: {module.name} is for another Python: start this with {cached(build, 'Python_EXECUTABLE')}")
+        said = subprocess.run([prefix / "bin/polargrain", "--version"], check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+        if said != f"polargrain {version}":
+            sys.exit(f"make_wheel: {build} is not finished: its program is {said}, its package of version {version}")
         documents = prefix / "share/doc/polargrain"
         folder.mkdir(parents=True, exist_ok=True)
         path = folder / f"polargrain-{version}-{'-'.join(tags())}.whl"
