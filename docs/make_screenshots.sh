@@ -14,7 +14,7 @@ picture() {
     "--screenshot=$images/$1.png" "file://$4" 2>/dev/null
 }
 cd "$work"
-"$polargrain" run "$source/cases/biaxial/case.yaml" -o result --quiet --set "title=Biaxial compression of 32 boxes of 400 grains between rough plates" --set mesh.rectangle.elements=[2,4] --set output.every=1
+"$polargrain" run "$source/cases/biaxial/case.yaml" -o result --quiet --set "title=Biaxial compression of 32 boxes of 400 grains between rough plates" --set mesh.rectangle.elements=[2,4] --set materials.sand.lc=80mm --set output.every=1
 "$polargrain" report result >/dev/null
 picture report 1200 1500 "$work/result/report.html"
 picture report_narrow_dark 420 1100 "$work/result/report.html" --force-dark-mode --enable-features=WebContentsForceDark
@@ -22,9 +22,10 @@ picture report_narrow_dark 420 1100 "$work/result/report.html" --force-dark-mode
 picture check 1000 860 "$work/check.html"
 "$polargrain" element "$source/cases/element_tests/unloading.yaml" -o element --quiet
 picture element 1200 1000 "$work/element.html"
-cp -r "$source/cases/element_tests/known_sand" . && (cd known_sand && "$polargrain" calibrate curve.csv spec.yaml -o fit --quiet)
-picture calibration 1200 1000 "$(ls "$work"/known_sand/fit/*.html)"
-"$polargrain" bench "$source/cases/footing_cells/case.yaml" -o bench --vary materials.soil.tolerance=10%,3% --set steps.count=2 >/dev/null
-picture bench 1200 1000 "$(ls "$work"/bench/*.html)"
+known="$source/cases/element_tests/known_sand"
+"$polargrain" calibrate "$known/curve.csv" "$known/spec.yaml" -o fit --quiet
+picture calibration 1200 1000 "$work/fit/calibration.html"
+"$polargrain" bench "$source/cases/footing_cells/case.yaml" -o bench --quick --set steps.count=2 >/dev/null
+picture bench 1200 1000 "$work/bench/bench.html"
 "$source/cmake/make_site.py" "$source" "$work/site" >/dev/null
 picture site 1200 800 "$work/site/site/docs/tutorial.html"

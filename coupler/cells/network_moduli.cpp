@@ -47,7 +47,7 @@ NetworkModuli network_moduli(Pool& pool, CellDefinition definition) {
 namespace {
 
 /// Damping of the copy that is turned. Where all contacts slide, grains that ring let go in turns: at half of this and
-/// less the skew stress is 0.5 to 0.97 of what contacts bear (dem_limits_test). Sheared grains would not come to rest with it.
+/// less the skew stress is 0.5 to 0.97 of what contacts bear (dem_limits_test). The sheared copy keeps the damping of the run.
 constexpr double kDampingToTurn = 0.5;
 
 /// The packing is sheared and turned and never bent: any rolling model will do, which a cell with this tangent allows.
