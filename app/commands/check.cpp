@@ -35,8 +35,8 @@ int check(const CheckOptions& options) {
       coupler::load_document_of(coupler::DocumentKind::problem, options.case_file, options.settings);
   // Each script and packing in an engine, before anything is said to be well.
   const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
-  const Remarks remarks = remarks_on(the_case, document, packings);
   const Scene scene(the_case, document, packings);
+  const Remarks remarks = remarks_on(scene);
   // Also where remarks refuse the case: it is then that somebody looks.
   if (!options.picture.empty()) write_file(options.picture, case_picture(scene, remarks));
   if (options.strict) refuse(remarks);

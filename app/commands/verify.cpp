@@ -45,14 +45,14 @@ class Findings {
 
 using Summary = nlohmann::ordered_json;
 
-/// The text at a place of a summary ("/proof/case_file"); empty where there is none.
+/// The text at a place of a summary ("/proof/case_file"); empty without one.
 std::string word_at(const Summary& summary, const char* place) {
   const Summary::json_pointer pointer(place);
   return summary.contains(pointer) && summary.at(pointer).is_string() ? summary.at(pointer).get<std::string>()
                                                                       : std::string();
 }
 
-/// @throws InputError when there is none, or none that can be read
+/// @throws InputError when the summary is missing or cannot be read
 Summary summary_in(const std::filesystem::path& file, Findings& findings) {
   if (const std::string reason = why_no_input(file); !reason.empty())
     throw InputError({file.string(), 0, reason + "; a run writes it when it ends"});

@@ -68,14 +68,15 @@ std::string chart(const ChartAxis& x, const ChartAxis& y, const std::vector<Char
       escaped(y.title), escaped(x.title), in_script(content));
 }
 
-std::string table(const std::vector<std::string>& titles, const std::vector<TableRow>& rows) {
+std::string table(const std::vector<std::string>& titles, const std::vector<TableRow>& rows, TableOf of) {
   const auto is_number = [](const std::string& cell) {
     double value = 0.0;
     const char* const end = cell.data() + cell.size();
     const auto read = std::from_chars(cell.data(), end, value);
     return read.ec == std::errc() && (read.ptr == end || std::string_view(read.ptr, end) == " %");
   };
-  std::string text = "<div class='table'><table>\n<tr>";
+  std::string text = "<div class='table'>";
+  text += of == TableOf::text ? "<table class='text'>\n<tr>" : "<table>\n<tr>";
   for (const std::string& title : titles) text += "<th>" + escaped(title) + "</th>";
   text += "</tr>\n";
   for (const TableRow& row : rows) {

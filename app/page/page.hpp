@@ -41,8 +41,12 @@ struct TableRow {
   std::string style = {};          ///< a class of page.css: "front", "group"; empty: plain
 };
 
+/// A table of figures, or of sentences, whose lines break.
+enum class TableOf { figures, text };
+
 /// A table that scrolls within the page where it is wider than that; numbers stand on the right.
-std::string table(const std::vector<std::string>& titles, const std::vector<TableRow>& rows);
+std::string table(const std::vector<std::string>& titles, const std::vector<TableRow>& rows,
+                  TableOf of = TableOf::figures);
 
 /// Text that the reader opens with a click. @param body HTML
 std::string details(const std::string& title, const std::string& body);

@@ -11,6 +11,7 @@
 #include "app/page/page.hpp"
 #include "app/picture/conditions.hpp"
 #include "app/picture/packing_picture.hpp"
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/remarks.hpp"
 
 namespace polargrain::app {
@@ -215,7 +216,7 @@ std::string scale_bar(const Frame& frame) {
       "<path d='M{0:.1f} {1:.1f}h{2:.1f}M{0:.1f} {3:.1f}v8M{4:.1f} {3:.1f}v8' stroke='currentColor' "
       "stroke-width='2'/><text x='{5:.1f}' y='{6:.1f}' fill='currentColor'>{7}</text>\n",
       8.0, y, frame.scale * length, y - 4.0, 8.0 + frame.scale * length, 16.0 + frame.scale * length, y + 5.0,
-      length < 1.0 ? fmt::format("{:g} mm", 1e3 * length) : fmt::format("{:g} m", length));
+      metres(length));
 }
 
 std::string drawing(const Scene& scene, const std::vector<PlaceConditions>& places) {
@@ -294,7 +295,7 @@ std::string remarks_table(const Remarks& remarks) {
   for (const Remark& remark : remarks)
     rows.push_back(
         {{name_of(remark.rank), fmt::format("line {}", remark.at.line), remark.at.message, remark.remedy}});
-  return "<h2>Remarks</h2>\n" + table({"rank", "where", "seen", "remedy"}, rows);
+  return "<h2>Remarks</h2>\n" + table({"rank", "where", "seen", "remedy"}, rows, TableOf::text);
 }
 
 }  // namespace

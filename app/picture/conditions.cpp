@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
+
+#include "app/remarks/in_units.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -14,11 +15,6 @@ constexpr std::array<const char*, fem::kDofsOfNode> kNames{"u1", "u2", "w"};
 
 void add(std::string& list, const std::string& text) {
   list += (list.empty() ? "" : "; ") + text;
-}
-
-std::string pascals(double value) {
-  if (std::abs(value) >= 1e6) return fmt::format("{:.4g} MPa", 1e-6 * value);
-  return std::abs(value) >= 1e3 ? fmt::format("{:.4g} kPa", 1e-3 * value) : fmt::format("{:.4g} Pa", value);
 }
 
 void add_prescribed(PlaceConditions& place, const fem::PrescribedDof& item, double end) {

@@ -30,9 +30,7 @@ std::string with_number(std::size_t count) {
 
 }  // namespace
 
-Remarks remarks_on(const coupler::Case& the_case, const coupler::Entry& document,
-                   const PackingsAtRest& packings) {
-  const Scene scene(the_case, document, packings);
+Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
   for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
   if (remarks.empty()) balance_at_start(scene, remarks);
@@ -47,7 +45,7 @@ Remarks remarks_on(const coupler::Case& the_case, const std::vector<std::string>
                    const PackingsAtRest& packings) {
   const coupler::Entry document =
       coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, settings);
-  return remarks_on(the_case, document, packings);
+  return remarks_on(Scene(the_case, document, packings));
 }
 
 const char* name_of(Rank rank) {

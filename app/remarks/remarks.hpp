@@ -11,12 +11,11 @@ namespace polargrain::app {
 /// its line in remarks.cpp.
 using RemarkKind = void (*)(const Scene& scene, Remarks& remarks);
 
-/// All remarks on a case, worst first; those of one rank by their weight. Runs no cell. @param document of the case,
-/// settings applied @param packings as the engine has found them; a packing not asked for gets no remark
-Remarks remarks_on(const coupler::Case& the_case, const coupler::Entry& document,
-                   const PackingsAtRest& packings);
+/// All remarks on a scene, worst first; those of one rank by their weight. Runs no cell.
+Remarks remarks_on(const Scene& scene);
 
 /// The same from the file of a case. @param settings of --set
+/// @param packings as the engine has found them; a packing not asked for gets no remark
 Remarks remarks_on(const coupler::Case& the_case, const std::vector<std::string>& settings,
                    const PackingsAtRest& packings);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/lengths.hpp"
 
 namespace polargrain::app {
@@ -17,10 +18,6 @@ constexpr double kStepsOfStrain = 120.0 / 1e-3;
 constexpr double kDefaultRate = 6e-4;
 constexpr double kSecondsOfDisc = 45e-9;
 constexpr double kSecondsOfSphere = 200e-9;
-
-std::string metres(double length) {
-  return length < 1.0 ? fmt::format("{:.3g} mm", 1e3 * length) : fmt::format("{:.3g} m", length);
-}
 
 std::string seconds(double s) {
   if (s < 120.0) return fmt::format("{:.0f} s", std::max(1.0, s));

@@ -379,9 +379,8 @@ std::string notes(const std::vector<RunResult>& results) {
   std::ranges::stable_sort(weighed, std::ranges::greater{}, &Weighed::weight);
   std::vector<TableRow> rows;
   for (Weighed& one : weighed) rows.push_back(std::move(one.row));
-  std::string text =
-      table({"weight", "run", "how often", "steps", "the first of them", "meaning and remedy"}, rows);
-  return text.replace(text.find("<table>"), 7, "<table class='text'>");
+  return table({"weight", "run", "how often", "steps", "the first of them", "meaning and remedy"}, rows,
+               TableOf::text);
 }
 
 }  // namespace

@@ -26,10 +26,8 @@ std::string remarks_section(const std::vector<RunResult>& results) {
     }
   }
   if (rows.empty()) return {};
-  std::string text = table({"run", "rank", "where", "finding before the run", "remedy"}, rows);
-  if (const std::size_t at = text.find("<table>"); at != std::string::npos)
-    text.replace(at, 7, "<table class='text'>");
-  return "<h2>Remarks on the case</h2>\n" + text;
+  return "<h2>Remarks on the case</h2>\n" +
+         table({"run", "rank", "where", "finding before the run", "remedy"}, rows, TableOf::text);
 }
 
 }  // namespace polargrain::app

@@ -51,7 +51,7 @@ std::optional<RollingLaw> rolling_of(int number) {
   return std::nullopt;
 }
 
-/// The first fix of the scene that does more than the loops over grains do; empty when there is none.
+/// The first fix of the scene that does more than the loops over grains do; empty without one.
 std::string foreign_fix(const LAMMPS& lammps) {
   constexpr std::array<std::string_view, 6> kKnown{"property/global", "nve/sphere",  "enforce2d",
                                                    "contacthistory",  "cell/strain", "cell/space_strain"};
@@ -68,7 +68,7 @@ std::string foreign_fix(const LAMMPS& lammps) {
   return integrators == 1 ? "" : "a fix nve/sphere that is missing or doubled";
 }
 
-/// Why a scene is none for the loop over discs, or spheres, whatever its contacts; empty when it is one.
+/// Why the loop over discs, or spheres, cannot step a scene, whatever its contacts; empty when it can.
 std::string foreign_scene(const LAMMPS& lammps, int dimension) {
   if (lammps.domain->dimension != dimension) return fmt::format("dimension {}", lammps.domain->dimension);
   if (lammps.force->newton_pair) return "newton on";

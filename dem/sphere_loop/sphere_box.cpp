@@ -64,7 +64,7 @@ SphereBox::SphereBox(Spheres spheres, const SphereKernels& kernels)
     inverse_mass_.push_back(1.0 / spheres_.masses[k]);
     inverse_inertia_.push_back(1.0 / (kSphereInertia * spheres_.masses[k] * radius * radius));
   }
-  grains_[(n + 1) * kGrainStride] = 1.0;  // the two that are none lie apart
+  grains_[(n + 1) * kGrainStride] = 1.0;  // two places without a grain lie apart
   skin_ = kSkin * mean;
   list_.spring_count = former_.spring_count = is_bare(spheres_.combination) ? springs_ : kSphereSprings;
   listed_places_.resize(n);

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 
 namespace polargrain::app {
@@ -16,12 +17,6 @@ namespace {
 /// A packing is at rest under its pressure to a few per cent, and so is a body under loads that differ by less.
 constexpr double kSlack = 0.05;
 constexpr double kFar = 0.3;  // of the pressure: the grains rearrange before the first step
-
-std::string pascals(double pressure) {
-  if (std::abs(pressure) < 1e3 && pressure != 0.0) return fmt::format("{:.3g} Pa", pressure);
-  return std::abs(pressure) < 1e6 ? fmt::format("{:.4g} kPa", 1e-3 * pressure)
-                                  : fmt::format("{:.4g} MPa", 1e-6 * pressure);
-}
 
 /// Mean over a boundary at time zero, tension positive, Pa.
 struct Mismatch {
@@ -94,7 +89,7 @@ bool is_special(const fem::Problem& problem, const std::string& boundary,
   return false;
 }
 
-/// Over the edges that are free; nothing where there are none or no stress is known.
+/// Over the free edges; nothing without a free edge or a known stress.
 std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
                                     const std::vector<OutlineEdge>& edges,
                                     const std::vector<std::array<bool, 2>>& held) {
