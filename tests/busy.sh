@@ -14,15 +14,16 @@ cd "$(dirname "$0")/.."
 
 loops=8 times=1
 declare -a where=()
-while getopts n:cr:h option; do
-  case $option in
-    n) loops=$OPTARG ;;
-    c) where=(taskset -c 0) ;;
-    r) times=$OPTARG ;;
-    *) sed -n '3,11s/^# \{0,1\}//p' "$0"; exit 2 ;;
+# Not `getopts`: it would refuse ctest's own options, which follow these.
+while (($#)); do
+  case $1 in
+    -n) loops=${2:?-n asks for a number of loops}; shift 2 ;;
+    -c) where=(taskset -c 0); shift ;;
+    -r) times=${2:?-r asks for a number of times}; shift 2 ;;
+    -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0"; exit ;;
+    *) break ;;
   esac
 done
-shift $((OPTIND - 1))
 
 # A loop ends with this script, however that ends.
 busy='while [[ -d /proc/$0 ]]; do for ((k = 0; k < 100000; ++k)); do :; done; done'
