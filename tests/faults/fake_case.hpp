@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "tests/integration/command.hpp"
@@ -36,6 +37,9 @@ class FakeCaseTest : public ::testing::Test {
   }
   /// Runs the case undisturbed. @returns the command that runs it slowly, to be disturbed
   [[nodiscard]] std::string prepare(int steps, const std::string& settings = "") {
+    for (const char* const former : {"quiet", "disturbed"})
+      std::filesystem::remove_all(scratch_.path() / former);
+    write(scratch_.path() / "fake.in", "\n");
     const Outcome quiet = run_in(scratch_.path(), command(steps, settings) + " -o quiet -w 1");
     EXPECT_EQ(quiet.status, 0) << quiet.errors;
     write(scratch_.path() / "fake.in", "sleep_milliseconds 10\n");  // time to be disturbed in
