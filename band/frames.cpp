@@ -181,7 +181,7 @@ Samples Frames::increment(std::size_t from, std::size_t to, bool current) const 
   const Frame end = read(to);
   if (kind_ == FrameKind::grains) return grains(from == 0 ? start : read(0), start, end, current);
   if (start.positions.size() != end.positions.size())
-    fail(files_[to], 0, "the mesh is not that of the frame before");
+    fail(files_[to], 0, "the mesh differs from the frame before");
   Samples samples;
   for (std::size_t k = 0; k < start.positions.size(); ++k) {
     const Eigen::Matrix2d strain = end.strains[k] - start.strains[k];

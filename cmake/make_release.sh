@@ -25,7 +25,7 @@ export SOURCE_DATE_EPOCH
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 /usr/bin/python3 -B cmake/make_wheel.py "$build" "$folder" >/dev/null
-cpack --config "$build/CPackConfig.cmake" -B "$work" >"$work/said" || { cat "$work/said"; fail "there is no Debian package"; }
+cpack --config "$build/CPackConfig.cmake" -B "$work" >"$work/said" 2>&1 || { cat "$work/said"; fail "there is no Debian package"; }
 mv "$work"/*.deb "$folder"
 git archive --prefix="polargrain-$version/" -o "$folder/polargrain-$version.tar.gz" HEAD
 (cd "$folder" && sha256sum polargrain* >"$work/sums" && mv "$work/sums" SHA256SUMS && cat SHA256SUMS)

@@ -8,16 +8,17 @@ images=$(realpath docs/images)
 source=$PWD
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# picture NAME WIDTH HEIGHT FILE [OPTION...]
+# picture NAME WIDTH HEIGHT FILE [OPTION...]: in a frame, since no window of chromium is narrower than 500 pixels.
 picture() {
+  echo "<body style='margin:0'><iframe src='file://$4' style='border:0;width:$2px;height:$3px'></iframe>" >frame.html
   chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --virtual-time-budget=5000 "--window-size=$2,$3" "${@:5}" \
-    "--screenshot=$images/$1.png" "file://$4" 2>/dev/null
+    "--screenshot=$images/$1.png" "file://$PWD/frame.html" 2>/dev/null
 }
 cd "$work"
 "$polargrain" run "$source/cases/biaxial/case.yaml" -o result --quiet --set "title=Biaxial compression of 32 boxes of 400 grains between rough plates" --set mesh.rectangle.elements=[2,4] --set materials.sand.lc=80mm --set output.every=1
 "$polargrain" report result >/dev/null
 picture report 1200 1500 "$work/result/report.html"
-picture report_narrow_dark 420 1100 "$work/result/report.html" --force-dark-mode --enable-features=WebContentsForceDark
+picture report_narrow_dark 420 1100 "$work/result/report.html" --blink-settings=preferredColorScheme=0
 "$polargrain" check "$source/cases/tutorial/gravity.yaml" --picture check.html >/dev/null
 picture check 1000 860 "$work/check.html"
 "$polargrain" element "$source/cases/element_tests/unloading.yaml" -o element --quiet

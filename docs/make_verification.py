@@ -231,6 +231,13 @@ def verification_page(results):
                     "a page of their own.", ""]
 
 
+def pages(results):
+    """@returns texts of the pages by their names"""
+    hard = [figure for name in ("fem_hard_cases_test", "fem_many_elements_test") if name in results
+            for figure in results[name][0]]
+    return {"hard_cases.md": hard_cases_page(hard), "verification.md": "\n".join(verification_page(results))}
+
+
 def main():
     sections = SECTIONS + (LONG if "--long" in sys.argv[2:] else [])
     results = kept()
@@ -239,10 +246,8 @@ def main():
         order = [name for _, name in SECTIONS + LONG]
         results = {name: results[name] for name in sorted(results, key=order.index)}
         keep(results)
-    hard = [figure for name in ("fem_hard_cases_test", "fem_many_elements_test") if name in results
-            for figure in results[name][0]]
-    (DOCS / "hard_cases.md").write_text(hard_cases_page(hard))
-    (DOCS / "verification.md").write_text("\n".join(verification_page(results)))
+    for name, text in pages(results).items():
+        (DOCS / name).write_text(text)
     sys.exit(1 if any(outcome == "FAILED" for _, cases, _ in results.values() for _, outcome in cases) else 0)
 
 

@@ -23,7 +23,7 @@ std::string why_not(Room room, const Constraint& constraint, int place) {
         "{}: discs neither move out of their plane nor have a stress there ({}); leave it out, or take "
         "a packing of spheres (dimension: 3)",
         constraint.name, name);
-  return fmt::format("{}: the material is one of plane strain and says nothing of it ({}); leave it out",
+  return fmt::format("{}: the material is of plane strain and has no such component ({}); leave it out",
                      constraint.name, name);
 }
 
@@ -115,7 +115,7 @@ std::vector<std::string> faults(const Stage& stage, Room room) {
     std::vector<std::string> names;
     for (const int place : open) names.emplace_back(kPlaceNames[static_cast<std::size_t>(place)]);
     found.push_back(fmt::format(
-        "{}: {} for {} normal component{} that nothing else prescribes ({}); each needs one, so {}",
+        "{}: {} for {} normal component{} that no other key prescribes ({}); each needs one condition, so {}",
         fmt::join(sums, ", "), sums.size() == 1 ? "one condition" : fmt::format("{} conditions", sums.size()),
         open.size(), open.size() == 1 ? "" : "s",
         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")),

@@ -86,7 +86,7 @@ const Words kVariables{"index", "loop", "string", "equal", "atom", "delete"};
 /// The commands that make loops and jumps.
 const Words kFlow{"jump", "label", "next"};
 
-constexpr const char* kAdvice = "; remove it, or say --trust-scripts when you know what this script does";
+constexpr const char* kAdvice = "; remove it, or give --trust-scripts if you have read this script";
 
 struct Word {
   std::string text;
@@ -178,7 +178,7 @@ class Judge {
     if (command == "print") return print(words);
     if (command == "if") return branches(words);
     if (command == "read_data" && (words.size() != 2 || words[1].text != "${packing}")) {
-      return fmt::format("read_data reads ${{packing}} and nothing else{}", kAdvice);
+      return fmt::format("read_data may read ${{packing}} only{}", kAdvice);
     }
     return {};
   }
@@ -205,7 +205,7 @@ class Judge {
     for (std::size_t k = 2; k < words.size(); k += 2) {
       const bool known = words[k].text == "screen" || words[k].text == "newline";
       if (!known || (k + 1 < words.size() && words[k + 1].varies())) {
-        return fmt::format("print: nothing but its text and 'screen' or 'newline' may follow{}", kAdvice);
+        return fmt::format("print: only its text and 'screen' or 'newline' may follow{}", kAdvice);
       }
     }
     if (words.size() > 1 && !words[1].quoted && words[1].varies()) {

@@ -5,6 +5,8 @@
     tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no clauses without a subject;
                                       a page of docs/ begins with whom it is for
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
+    tests/pages.py paper              docs/paper has the head, sections, words and references that JOSS asks for
+    tests/pages.py made               performance.md, verification.md and hard_cases.md are as their commands write them
     tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
 
 Without PAGE: all pages that git knows. Tables, code and headings are no sentences; code and the bars of tables are no words.
@@ -113,6 +115,43 @@ def check_links(pages, whole):
     return faults
 
 
+PAPER_SECTIONS = ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement", "AI usage disclosure",
+                  "Acknowledgements", "References"]
+PAPER_WORDS = range(750, 1751)
+
+
+def check_paper(_, __):
+    """What JOSS asks of a paper: metadata, sections, words, and references that are cited and can be found."""
+    text = (ROOT / "docs/paper/paper.md").read_text(encoding="utf-8")
+    _, head, body = text.split("---\n", 2)
+    faults = [f"the head has no '{key}'" for key in ("title", "tags", "authors", "affiliations", "date", "bibliography")
+              if not re.search(rf"^{key}:", head, re.M)]
+    sections = re.findall(r"^# (.*)$", body, re.M)
+    faults += [f"there is no section '{name}'" for name in PAPER_SECTIONS if name not in sections]
+    words = len(body.split())
+    if words not in PAPER_WORDS:
+        faults.append(f"{words} words, expected {PAPER_WORDS[0]} to {PAPER_WORDS[-1]}")
+    entries = dict(re.findall(r"^@\w+\{(\w+),(.*?)^\}", (ROOT / "docs/paper/paper.bib").read_text(encoding="utf-8"), re.M | re.S))
+    cited = set(re.findall(r"@(\w+)", body))
+    faults += [f"'{key}' is cited and not in paper.bib" for key in sorted(cited - set(entries))]
+    faults += [f"'{key}' is in paper.bib and not cited" for key in sorted(set(entries) - cited)]
+    for key, entry in entries.items():
+        faults += [f"'{key}' has no {field}" for field in ("author", "title", "year", "doi|url") if not re.search(rf"\b({field}) = ", entry)]
+    print(f"paper: {words} words, {len(entries)} references")
+    return faults
+
+
+def check_made(_, __):
+    """Pages that a command writes hold the figures that it keeps."""
+    sys.path.insert(0, str(ROOT / "docs"))
+    import make_performance  # pylint: disable=import-outside-toplevel
+    import make_verification  # pylint: disable=import-outside-toplevel
+    made = {"performance.md": make_performance.page(), **make_verification.pages(make_verification.kept())}
+    print(f"{len(made)} pages")
+    return [f"docs/{name}: docs/make_*.py writes another text from the kept figures" for name, text in made.items()
+            if (ROOT / "docs" / name).read_text(encoding="utf-8") != text]
+
+
 KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
                  r"\(\s*\"([A-Za-z]\w*)\"")
 CHOICES = re.compile(r"\.choice(?:_or)?\(\s*\"\w+\",\s*\{([^}]*)\}")
@@ -144,7 +183,7 @@ def check_keys(_, __):
 
 
 def main():
-    checks = {"words": check_words, "links": check_links, "keys": check_keys}
+    checks = {"words": check_words, "links": check_links, "keys": check_keys, "paper": check_paper, "made": check_made}
     if len(sys.argv) < 2 or sys.argv[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

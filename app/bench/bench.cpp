@@ -11,6 +11,7 @@
 #include "app/bench/bench_band.hpp"
 #include "app/bench/bench_page.hpp"
 #include "app/run/interrupt.hpp"
+#include "app/run/monitor_notes.hpp"
 #include "app/run/progress.hpp"
 #include "app/run/result_directory.hpp"
 #include "app/run/run.hpp"
@@ -36,6 +37,12 @@ BenchAxes axes_of(const BenchOptions& options, const coupler::Case& the_case) {
          "bench needs a monitor to go along and one to compare: list both under output: table, or "
          "name them with --x and --y"});
   }
+  const auto notes = monitor_notes(the_case);
+  const auto unit_of = [&](const std::string& name) {
+    return notes.contains(name) ? notes[name]["unit"].get<std::string>() : std::string();
+  };
+  axes.x_unit = unit_of(axes.x);
+  for (const std::string& y : axes.y) axes.y_units.push_back(unit_of(y));
   return axes;
 }
 

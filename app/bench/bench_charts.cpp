@@ -91,7 +91,8 @@ std::string curve_chart(std::size_t y, const BenchAxes& axes, const std::vector<
     series.push_back(std::move(line));
   }
   if (series.empty()) return "";
-  return chart({.title = axes.x}, {.title = axes.y[y]}, series, true);
+  return chart({.title = axes.x, .unit = axes.x_unit},
+               {.title = axes.y[y], .unit = y < axes.y_units.size() ? axes.y_units[y] : ""}, series, true);
 }
 
 }  // namespace polargrain::app

@@ -21,14 +21,14 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
                     "<p>Squares: packings that differ in size and seed, compared with {}; the large one is "
                     "the mean of a size. Broken lines: standard deviation between the packings of a size, "
                     "where it is largest along the curve. An error below the line of the case's own number "
-                    "of grains is less than what another packing would change.</p>\n",
+                    "of grains is smaller than the change by another packing.</p>\n",
                     escaped(reference_of_sizes(sizes)));
 }
 
 std::string table_of(const BenchTable& bench) {
   std::vector<TableRow> rows;
   for (const BenchRow& row : bench.rows) rows.push_back({cells_of(bench, row), row.on_front ? "front" : ""});
-  return table(titles_of(bench), rows);
+  return table(titles_of(bench), rows, TableOf::text);
 }
 
 }  // namespace

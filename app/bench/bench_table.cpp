@@ -92,7 +92,7 @@ void add_size(BenchTable& table, const BenchAxes& axes, const SizeScatter& size,
                 size.evaluations,
                 size.dem_steps,
                 {},
-                size.inclination.count > 0 ? "" : "in none of the packings",
+                size.inclination.count > 0 ? "" : "no packing has one",
                 false};
   BenchRow deviation = mean;
   deviation.what = "standard deviation";
@@ -157,7 +157,7 @@ std::vector<std::string> cells_of(const BenchTable& table, const BenchRow& row) 
     std::optional<double> value = row.figures[k];
     if (value) value = *value * column.scale;
     const bool says_none = column.name == "band_inclination" && !row.no_band.empty();
-    cells.push_back(says_none ? "none found" : number(value, column.pattern.c_str()));
+    cells.push_back(says_none ? "no band" : number(value, column.pattern.c_str()));
   }
   cells.emplace_back(row.on_front ? "x" : "");
   return cells;

@@ -14,6 +14,8 @@ struct BenchAxes {
   std::string x;               ///< monitor along the curves
   std::vector<std::string> y;  ///< monitors whose error counts
   bool band = false;           ///< whether shear bands were looked for
+  std::string x_unit = {};     ///< empty: without one, or not known
+  std::vector<std::string> y_units = {};
 };
 
 /// One figure of a row.

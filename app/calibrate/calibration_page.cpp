@@ -42,6 +42,40 @@ std::string curves_of(const Calibration& calibration, const std::vector<ElementR
          chart({.title = x}, {.title = y}, series, true);
 }
 
+/// The values of a parameter at the best point and at the ends of its 95 % interval.
+struct Interval {
+  std::string best;
+  std::string low;
+  std::string high;
+  bool is_at_bound;
+};
+
+Interval interval_of(const Calibration& calibration, const CalibrationResult& result, std::size_t k) {
+  const Parameter& parameter = calibration.parameters[k];
+  const double place = parameter.place_of(result.best.values[k]);
+  const double low = place - result.half_width[k];
+  const double high = place + result.half_width[k];
+  return {fmt::format("{:.5g}", result.best.values[k]),
+          low > 0.0 ? fmt::format("{:.5g}", parameter.value_at(low)) : "bound",
+          high < 1.0 ? fmt::format("{:.5g}", parameter.value_at(high)) : "bound",
+          place < 0.01 || place > 0.99};
+}
+
+std::string parameters_table(const Calibration& calibration, const CalibrationResult& result) {
+  std::vector<TableRow> rows;
+  for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
+    const Interval of = interval_of(calibration, result, k);
+    rows.push_back(
+        {{calibration.parameters[k].name, of.best, of.low, of.high}, of.is_at_bound ? "front" : ""});
+  }
+  return fmt::format(
+             "<p>{} evaluations; {}. Root mean square difference: {:.3g} reading errors, of {} points. Red: at "
+             "a bound of the search.</p>\n",
+             result.record.size(), escaped(result.end), std::sqrt(result.best.misfit),
+             calibration.points.size()) +
+         table({"parameter", "best", "95 % from", "to"}, rows);
+}
+
 }  // namespace
 
 std::string calibration_summary(const Calibration& calibration, const CalibrationResult& result) {
@@ -50,14 +84,9 @@ std::string calibration_summary(const Calibration& calibration, const Calibratio
                   result.record.size(), result.end, std::sqrt(result.best.misfit), calibration.points.size());
   text += fmt::format("{:<24} {:>12} {:>12} {:>12}\n", "parameter", "best", "95 % from", "to");
   for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
-    const Parameter& parameter = calibration.parameters[k];
-    const double place = parameter.place_of(result.best.values[k]);
-    const double low = place - result.half_width[k];
-    const double high = place + result.half_width[k];
-    text += fmt::format("{:<24} {:>12.5g} {:>12} {:>12}{}\n", parameter.name, result.best.values[k],
-                        low > 0.0 ? fmt::format("{:.5g}", parameter.value_at(low)) : "bound",
-                        high < 1.0 ? fmt::format("{:.5g}", parameter.value_at(high)) : "bound",
-                        place < 0.01 || place > 0.99 ? "   at a bound" : "");
+    const Interval of = interval_of(calibration, result, k);
+    text += fmt::format("{:<24} {:>12} {:>12} {:>12}{}\n", calibration.parameters[k].name, of.best, of.low,
+                        of.high, of.is_at_bound ? "   at a bound" : "");
   }
   if (calibration.parameters.size() > 1) {
     text += "\ncorrelations\n";
@@ -69,7 +98,7 @@ std::string calibration_summary(const Calibration& calibration, const Calibratio
       text += '\n';
     }
     text +=
-        "\nwhat the data tell, steepest last: half a 95 % interval (of the way between the bounds) along a direction\n";
+        "\ndirections, the best known last: half a 95 % interval, as a share of the way between the bounds\n";
     for (std::size_t d = 0; d < result.direction_half_width.size(); ++d) {
       text += fmt::format("{:>10.3g}  ", result.direction_half_width[d]);
       for (std::size_t p = 0; p < calibration.parameters.size(); ++p)
@@ -98,7 +127,9 @@ std::string calibration_summary(const Calibration& calibration, const Calibratio
 
 std::string calibration_page(const Calibration& calibration, const CalibrationResult& result,
                              const std::vector<ElementResult>& best) {
-  std::string body = "<pre>" + escaped(calibration_summary(calibration, result)) + "</pre>\n";
+  std::string body = parameters_table(calibration, result) +
+                     details("All figures, as text",
+                             "<pre>" + escaped(calibration_summary(calibration, result)) + "</pre>\n");
   std::set<std::tuple<std::size_t, std::string, std::string>> shown;
   for (const TargetPoint& point : calibration.points)
     if (point.where == TargetPoint::Where::along &&

@@ -57,7 +57,7 @@ Command add_bench(CLI::App& program, const Grains& grains) {
   command
       .add_option(
           "CASE", options->cases,
-          "Case whose settings are varied; further ones are compared with it [the demo, with packings]")
+          "Case whose settings are varied; further cases are compared with it [the demo, with packings]")
       ->expected(0, -1)
       ->transform(brought_along);
   command.add_flag("--quick", options->quick, "Fewer settings; some minutes where no case is named");

@@ -23,7 +23,8 @@ struct CheckOptions {
 
 void tell_cells(const coupler::Case& the_case, const PackingsAtRest& packings) {
   if (the_case.check_share > 0.0 && the_case.needs_workers())
-    tell(stdout, "{:.3g} % of the evaluations are made by two workers; with one worker nothing is checked\n",
+    tell(stdout,
+         "{:.3g} % of the evaluations are made by two workers; one worker alone checks no evaluation\n",
          100.0 * the_case.check_share);
   for (const auto& [name, packing] : packings)
     tell(stdout, "material '{}': moduli of the packing at rest: {}\n", name, packing.moduli.text());
@@ -57,8 +58,10 @@ Command add_check(CLI::App& program, const Grains& grains) {
   add_case(command, options->case_file);
   add_strict(command, options->strict);
   command.add_flag("--all", options->all, "Show all remarks, not the most serious alone");
-  command.add_option("--picture", options->picture,
-                     "Write a page with the mesh, supports, movements, loads and grains (FILE.html)");
+  command
+      .add_option("--picture", options->picture,
+                  "Write a page with the mesh, supports, movements, loads and grains")
+      ->type_name("FILE.html");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);
   return {&command, [options] { return check(*options); }};

@@ -91,15 +91,14 @@ Command add_layer(CLI::App& program, const Grains& grains) {
   command.add_flag("--quiet", options->quiet, "Print nothing but errors");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);
-  return {
-      &command, [options, elastic, &tools = grains.packing_tools] {
-        if (*elastic) options->plastic_lengths.clear();
-        check_candidates(options->internal_lengths, "--lc");
-        check_candidates(options->plastic_lengths, "--lp");
-        if (options->seeds.size() < 2)
-          throw InputError({"--seeds", 0, "one layer says nothing of the scatter; give two seeds at least"});
-        return measure_layer(*options, tools);
-      }};
+  return {&command, [options, elastic, &tools = grains.packing_tools] {
+            if (*elastic) options->plastic_lengths.clear();
+            check_candidates(options->internal_lengths, "--lc");
+            check_candidates(options->plastic_lengths, "--lp");
+            if (options->seeds.size() < 2)
+              throw InputError({"--seeds", 0, "one layer does not show the scatter; give two seeds or more"});
+            return measure_layer(*options, tools);
+          }};
 }
 
 }  // namespace polargrain::app

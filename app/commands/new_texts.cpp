@@ -265,7 +265,7 @@ std::string mesh_text(const NewCase& what, const fem::Mesh& mesh, const std::str
   if (mesh.boundaries.empty())
     throw InputError(
         {file, 0,
-         "the mesh names no boundary, so that nothing can be held or loaded: in the script for Gmsh "
+         "the mesh names no boundary, so that no support or load can be given: in the script for Gmsh "
          "give curves a name, for example Physical Curve(\"base\") = {1};"});
   Eigen::Vector2d least = mesh.nodes.front();
   Eigen::Vector2d largest = least;

@@ -82,11 +82,11 @@ Command add_report(CLI::App& program, const Grains& grains) {
   command.add_option("-o,--output", options->output, "File to write [report.html in DIR]")->type_name("FILE");
   command
       .add_option("--x", options->content.x,
-                  "Value along the curves [a monitor with 'strain' in its name, or time]")
+                  "Value along the curves [the strain or displacement that was moved, or time]")
       ->type_name("NAME");
   command
       .add_option("--field", options->content.fields,
-                  "Field to show on the mesh; may be repeated [the usual ones]")
+                  "Field to show on the mesh; may be repeated [a usual choice]")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command.add_flag("--live", options->live, "Write the page anew until the runs are done; it reloads itself");

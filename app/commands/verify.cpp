@@ -182,7 +182,7 @@ int verify(const VerifyOptions& options) {
           fmt::format("it was written by version {}; the last bits of cells may differ", sample.program));
     }
     const std::vector<SampledAnswer> answers = answers_of(sample);
-    if (answers.empty()) findings.note("no cell took part: nothing is evaluated again");
+    if (answers.empty()) findings.note("the run has no cells, so that no answer can be repeated");
     if (!answers.empty() && findings.good()) check_cells(the_case, answers, options, findings);
   }
   tell(stdout, "{}\n", findings.good() ? "all agrees" : "NOT all agrees");

@@ -11,7 +11,7 @@
 namespace polargrain::app {
 namespace {
 
-constexpr const char* kMeanColour = "#c33";
+constexpr const char* kMeanColour = "text";
 
 /// A chart of two columns. @param factors turn values into what is shown
 struct Picture {

@@ -218,10 +218,9 @@ void CellPathsRecord::write(int step, const fem::Solver& solver, const std::set<
 
 CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPathsFolder) {
   if (!fs::exists(folder_ / kCellsFile))
-    throw InputError(
-        {directory.string(), 0,
-         "holds nothing that grains could be made of again (cell_paths): its case has no material with "
-         "cells, the run has not committed a step, or an older version made it"});
+    throw InputError({directory.string(), 0,
+                      "has no records of its cells (cell_paths): its case has no material with "
+                      "cells, the run has not committed a step, or an older version made it"});
   read_content(folder_ / kCellsFile, [&](MemoryArchive& archive) {
     const std::vector<std::int64_t> count = archive.integers("count");
     cell_of_point_ = archive.integers("cell_of_point");

@@ -9,21 +9,32 @@ function colourOf(name) {
 }
 
 function short(value) {
-  return Number(value.toPrecision(4)).toString();
+  const rounded = Number(value.toPrecision(4));
+  const size = Math.abs(rounded);
+  return size > 0 && (size < 1e-4 || size >= 1e6) ? rounded.toExponential().replace("e+", "e") : String(rounded);
 }
 
-function axisOf(axis) {
+// Curves that begin at zero, or beside it, begin at the axis: no room behind zero.
+function beginsAtZero(values) {
+  const least = values.reduce((one, other) => Math.min(one, other), Infinity);
+  const most = values.reduce((one, other) => Math.max(one, other), -Infinity);
+  const near = 0.1 * (most - least);
+  return (least >= 0 && least <= near) || (most <= 0 && most >= -near);
+}
+
+function axisOf(axis, values) {
   const shown = (value) => (axis.percent ? short(100 * value) + " %" : short(value));
   return {
     type: axis.logarithmic ? "logarithmic" : "linear",
     grace: axis.logarithmic ? 0 : "3%",
+    beginAtZero: !axis.logarithmic && beginsAtZero(values),
     title: { display: true, text: axis.unit ? `${axis.title} (${axis.unit})` : axis.title, color: colourOf("--text") },
     grid: { color: colourOf("--faint") },
     ticks: {
       color: colourOf("--text"),
-      callback: (value) => {
-        // A logarithmic axis marks 1, 2 and 5 of each decade.
-        if (axis.logarithmic && ![1, 2, 5].includes(Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9))))
+      callback(value) {
+        // A logarithmic axis of more than a decade marks 1, 2 and 5 of each.
+        if (axis.logarithmic && this.max > 10 * this.min && ![1, 2, 5].includes(Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9))))
           return null;
         return shown(value);
       },
@@ -36,7 +47,7 @@ function axisOf(axis) {
 const dashes = [[], [8, 3], [2, 3]];
 
 function datasetOf(series, number) {
-  const colour = series.colour || palette[number % palette.length];
+  const colour = series.colour === "text" ? colourOf("--text") : series.colour || palette[number % palette.length];
   const dash = series.colour ? [] : dashes[Math.floor(number / palette.length) % dashes.length];
   return {
     label: series.name,
@@ -94,7 +105,9 @@ function makeZoomable(chart) {
     const box = canvas.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
-  canvas.addEventListener("pointerdown", (event) => (start = place(event)));
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.pointerType !== "touch") start = place(event); // fingers scroll
+  });
   canvas.addEventListener("pointermove", (event) => {
     if (!start) return;
     const now = place(event);
@@ -127,12 +140,22 @@ function makeZoomable(chart) {
   });
 }
 
+// Titles for the rows that a narrow page shows as lists (page.css).
+for (const table of document.querySelectorAll("table.text")) {
+  const titles = [...table.querySelectorAll("th")].map((cell) => cell.textContent);
+  for (const row of table.rows)
+    [...row.cells].forEach((cell, k) => {
+      if (cell.tagName === "TD" && titles[k] && row.cells.length === titles.length) cell.dataset.title = titles[k];
+    });
+}
+
 for (const figure of document.querySelectorAll("figure.chart")) {
   const content = JSON.parse(figure.querySelector("script").textContent);
   // A long legend gets room of its own; the curves keep theirs.
   if (content.legend && content.series.length > 6)
     figure.style.height = `calc(${getComputedStyle(figure).height} + ${Math.ceil(content.series.length / 2) * 1.2}em)`;
-  const scales = { x: axisOf(content.x), y: axisOf(content.y) };
+  const along = (k) => content.series.flatMap((series) => series.points.map((point) => point[k]));
+  const scales = { x: axisOf(content.x, along(0)), y: axisOf(content.y, along(1)) };
   const chart = new Chart(figure.querySelector("canvas"), {
     type: "scatter",
     data: { datasets: content.series.map(datasetOf) },

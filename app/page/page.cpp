@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -76,13 +77,19 @@ std::string table(const std::vector<std::string>& titles, const std::vector<Tabl
     return read.ec == std::errc() && (read.ptr == end || std::string_view(read.ptr, end) == " %");
   };
   std::string text = "<div class='table'>";
-  text += of == TableOf::text ? "<table class='text'>\n<tr>" : "<table>\n<tr>";
-  for (const std::string& title : titles) text += "<th>" + escaped(title) + "</th>";
-  text += "</tr>\n";
+  text += of == TableOf::text ? "<table class='text'>\n" : "<table>\n";
+  const bool has_titles = !std::ranges::all_of(titles, &std::string::empty);
+  if (has_titles) text += "<tr class='titles'>";
+  for (const std::string& title : titles)
+    if (has_titles) text += "<th>" + escaped(title) + "</th>";
+  if (has_titles) text += "</tr>\n";
   for (const TableRow& row : rows) {
     text += row.style.empty() ? "<tr>" : "<tr class='" + escaped(row.style) + "'>";
-    for (const std::string& cell : row.cells)
-      text += (is_number(cell) ? "<td class='number'>" : "<td>") + escaped(cell) + "</td>";
+    if (row.cells.size() == 1 && titles.size() > 1)
+      text += fmt::format("<td colspan='{}'>{}</td>", titles.size(), escaped(row.cells.front()));
+    else
+      for (const std::string& cell : row.cells)
+        text += (is_number(cell) ? "<td class='number'>" : "<td>") + escaped(cell) + "</td>";
     text += "</tr>\n";
   }
   return text + "</table></div>\n";

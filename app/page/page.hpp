@@ -27,7 +27,7 @@ struct ChartSeries {
   bool square = false;    ///< marks are squares, otherwise discs
   bool is_named = false;  ///< the name stands beside the first point too
   double size = 5.0;      ///< of a mark: half its width, pixels
-  std::string colour;     ///< fill of marks, of a line its colour; empty: the next of a list
+  std::string colour;     ///< fill of marks, of a line its colour; "text": as text; empty: the next of a list
 };
 
 /// A chart of a page: drawn in the reader's browser, values under the mouse, a part enlarged by drawing a rectangle
@@ -37,11 +37,11 @@ std::string chart(const ChartAxis& x, const ChartAxis& y, const std::vector<Char
 
 /// A row of a table.
 struct TableRow {
-  std::vector<std::string> cells;  ///< text, not HTML
+  std::vector<std::string> cells;  ///< text, not HTML; a single one takes the whole row
   std::string style = {};          ///< a class of page.css: "front", "group"; empty: plain
 };
 
-/// A table of figures, or of sentences, whose lines break.
+/// A table of figures, or of sentences, whose lines break. On a narrow page each row of sentences becomes a list.
 enum class TableOf { figures, text };
 
 /// A table that scrolls within the page where it is wider than that; numbers stand on the right.

@@ -19,6 +19,7 @@ namespace {
 
 /// Units of the drawing: pixels at its full size.
 constexpr double kLongerSide = 760.0;
+constexpr double kLeastScale = 0.6;  ///< its words can still be read; a narrower page scrolls
 constexpr double kMargin = 90.0;
 constexpr double kArrow = 46.0;
 constexpr double kSymbol = 11.0;
@@ -213,8 +214,8 @@ std::string scale_bar(const Frame& frame) {
   const double length = (wanted >= 5.0 * power ? 5.0 : wanted >= 2.0 * power ? 2.0 : 1.0) * power;
   const double y = frame.height() - 14.0;
   return fmt::format(
-      "<path d='M{0:.1f} {1:.1f}h{2:.1f}M{0:.1f} {3:.1f}v8M{4:.1f} {3:.1f}v8' stroke='currentColor' "
-      "stroke-width='2'/><text x='{5:.1f}' y='{6:.1f}' fill='currentColor'>{7}</text>\n",
+      "<path d='M{0:.1f} {1:.1f}h{2:.1f}M{0:.1f} {3:.1f}v8M{4:.1f} {3:.1f}v8' stroke='#222' "
+      "stroke-width='2'/><text x='{5:.1f}' y='{6:.1f}'>{7}</text>\n",
       8.0, y, frame.scale * length, y - 4.0, 8.0 + frame.scale * length, 16.0 + frame.scale * length, y + 5.0,
       metres(length));
 }
@@ -232,12 +233,12 @@ std::string drawing(const Scene& scene, const std::vector<PlaceConditions>& plac
   for (const PlaceConditions& place : places) drawn += symbols_of(place, scene, frame);
   drawn += weight_drawn(scene, frame) + names_drawn(places, scene, frame) + scale_bar(frame);
   return fmt::format(
-      "<figure class='grains'>\n<svg viewBox='0 0 {:.0f} {:.0f}' role='img' aria-label='mesh, supports and loads' "
-      "font-size='14' font-weight='bold' fill='#222'>\n{}</svg>\n<figcaption><span style='color:{}'>&#9650; held</span> (filled: "
-      "both displacements; a square: the micro-rotation), <span style='color:{}'>&#10140; moved</span>, <span "
-      "style='color:{}'>&#10140; loaded</span>, <span style='color:{}'>&#9476; free</span>. Arrows show directions alone.</figcaption>\n"
+      "<figure class='grains scene'>\n<div><svg viewBox='0 0 {0:.0f} {1:.0f}' style='min-width:{2:.0f}px' role='img' aria-label='mesh, supports and loads' "
+      "font-size='14' font-weight='bold' fill='#222'>\n{3}</svg></div>\n<figcaption><span class='held'>&#9650; held</span> (filled: "
+      "both displacements; a square: the micro-rotation), <span class='moved'>&#10140; moved</span>, <span "
+      "class='loaded'>&#10140; loaded</span>, <span class='free'>&#9476; free</span>. Arrows show directions alone.</figcaption>\n"
       "</figure>\n",
-      frame.width(), frame.height(), drawn, kSupport, kMovement, kLoad, kFree);
+      frame.width(), frame.height(), kLeastScale * frame.width(), drawn);
 }
 
 std::string places_table(const Scene& scene, const std::vector<PlaceConditions>& places) {
@@ -257,8 +258,8 @@ std::string places_table(const Scene& scene, const std::vector<PlaceConditions>&
          place.is_free() ? "front" : ""});
   if (const double length = length_of(""); length > 0.0)
     rows.push_back({{"(no name)", fmt::format("{:.4g}", length), "-", "free", "-", "-"}, "front"});
-  return table({"place", "length, m", "nodes", "held or moved", "load at the start", "load at the end"},
-               rows);
+  return table({"place", "length, m", "nodes", "held or moved", "load at the start", "load at the end"}, rows,
+               TableOf::text);
 }
 
 std::string regions_table(const Scene& scene) {
@@ -269,7 +270,8 @@ std::string regions_table(const Scene& scene) {
                      region.cell != nullptr ? fmt::format("{}", region.cell->packing.grains.size()) : "-",
                      pressure > 0.0 ? fmt::format("{:.4g}", 1e-3 * pressure) : "-"}});
   }
-  return table({"region", "material", "elements", "grains a cell", "pressure of the grains, kPa"}, rows);
+  return table({"region", "material", "elements", "grains a cell", "pressure of the grains, kPa"}, rows,
+               TableOf::text);
 }
 
 std::string packings(const Scene& scene) {
@@ -295,7 +297,7 @@ std::string remarks_table(const Remarks& remarks) {
   for (const Remark& remark : remarks)
     rows.push_back(
         {{name_of(remark.rank), fmt::format("line {}", remark.at.line), remark.at.message, remark.remedy}});
-  return "<h2>Remarks</h2>\n" + table({"rank", "where", "seen", "remedy"}, rows, TableOf::text);
+  return "<h2>Remarks</h2>\n" + table({"rank", "where", "finding", "remedy"}, rows, TableOf::text);
 }
 
 }  // namespace

@@ -124,8 +124,15 @@ Powers powers_of(coupler::Dimension dimension) {
   }
 }
 
+Powers powers_of(const coupler::Monitor& monitor) {
+  const bool angle = monitor.dof == fem::Dof::w;
+  if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
+  return angle ? Powers{1, 0, 0} : Powers{1, -1, 0};  // of a metre of thickness
+}
+
 std::string text_of(const Powers& powers) {
   if (powers == Powers{1, -2, 0}) return "Pa";
+  if (powers == Powers{1, -1, 0}) return "N/m";
   constexpr std::array kNames{"N", "m", "s"};
   std::string text;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "coupler/case/case.hpp"
 #include "coupler/case/quantity.hpp"
 
 namespace polargrain::app {
@@ -13,6 +14,8 @@ namespace polargrain::app {
 using Powers = std::array<int, 3>;
 
 Powers powers_of(coupler::Dimension dimension);
+/// @param monitor a reaction or a displacement
+Powers powers_of(const coupler::Monitor& monitor);
 /// "N/m", "Pa", "m", "1" and the like.
 std::string text_of(const Powers& powers);
 

@@ -119,7 +119,7 @@ std::string grain_figure(const GrainView& view, const std::string& name, const s
       largest_rotation > 0.0
           ? fmt::format("full blue clockwise, full red counter-clockwise by {:.3g} degrees and more",
                         largest_rotation * 180.0 / std::numbers::pi)
-          : std::string("none yet"),
+          : std::string("no grain has turned yet"),
       largest_force,
       view.dimension == 3 ? " (those above their mean); seen along the normal of the plane" : "");
   return fmt::format(

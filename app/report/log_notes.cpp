@@ -19,14 +19,16 @@ constexpr Kind kKinds[] = {
      "are good to that noise (force_noise in history.csv). To get below it: a smaller unbalanced_force_ratio of the material, "
      "or more grains."},
     {"nothing but rounding is left", NoteWeight::usual,
-     "The step is balanced to the last digits that numbers have; the tolerance asks for more than there are. Harmless; a "
-     "larger steps: tolerance makes it go away."},
+     "The step is balanced to the last digits of its numbers, and steps: tolerance asks for more. Harmless; give a larger "
+     "tolerance to avoid it."},
     {"asked for strains beyond", NoteWeight::usual,
-     "The tangent asked for a larger strain than steps: largest_strain allows and was not followed so far. Usual at a peak. "
-     "Where it happens in every step: smaller steps."},
+     "The correction asked for a larger strain than steps: largest_strain allows, and was shortened. Usual at a peak. If it "
+     "happens in every step, make the steps smaller."},
     {"jumps of the stresses were passed", NoteWeight::look,
      "Grains rearranged however small the step was made, and steps: jumps let the run go on; the step ended in balance. Each "
      "one is a place where the path is not the only possible one. Cells with more grains jump less."},
+    {"moduli of the packing at rest", NoteWeight::usual,
+     "The moduli and limits that the cells of this region take from their packing."},
     {"given up:", NoteWeight::usual,
      "A step found no balance and was tried again, smaller. Usual at a peak. Where many steps are cut: a larger count of steps, "
      "acceleration: 5 where the tangent is not true, or a tolerance above force_noise (history.csv)."},

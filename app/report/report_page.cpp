@@ -124,8 +124,8 @@ std::string convergence(const std::vector<RunResult>& results) {
   text += "</div>\n";
   if (!iterations.empty())
     text +=
-        "<p>Every iteration: those of a step stand between its number and the next, from the predictor on; attempts that were "
-        "cut are among them.</p>\n" +
+        "<p>All iterations, also of attempts that were cut. The iterations of a step stand between its number and the next "
+        "number; the first is the predictor.</p>\n" +
         chart({.title = "step"}, {.title = "residual of the iteration", .logarithmic = true}, iterations,
               true);
   return text;
@@ -289,9 +289,8 @@ std::string key_table(const std::vector<RunResult>& results, const std::vector<K
   latex_row(titles);
   latex += "\\hline\n";
   for (KeyRow row : rows) {
-    const bool begins_group = row.size() == 1;
+    cells.push_back({row, row.size() == 1 ? "group" : ""});
     row.resize(titles.size());
-    cells.push_back({row, begins_group ? "group" : ""});
     tabs += tab_row(row);
     latex_row(row);
   }
@@ -306,11 +305,13 @@ std::string settings(const RunResult& result) {
   const auto add = [&](const std::string& name, const std::string& value) {
     if (!value.empty()) rows.push_back({{name, value}});
   };
+  const auto begin_group = [&](const std::string& name) { rows.push_back({{name}, "group"}); };
+  begin_group("Run");
   add("title", result.title());
   add("directory", result.directory.string());
   if (!result.summary.is_object()) {
     add("log", result.head);
-    return table({"", ""}, rows);
+    return table({"", ""}, rows, TableOf::text);
   }
   const Json& summary = result.summary;
   add("program", figure(summary, "/program"));
@@ -321,22 +322,26 @@ std::string settings(const RunResult& result) {
   const Json files = proof.value("files", Json::object());
   for (const auto& [key, name] : files.items())
     add("file of " + key + ", XXH3", name.is_string() ? name.get<std::string>() : "");
-  add("processor", figure(proof, "/processor"));
+  begin_group("Processors");
+  add("master", figure(proof, "/processor"));
   const Json workers = proof.value("workers", Json::object());
   for (const auto& [worker, of] : workers.items())
     add(worker, fmt::format("{} evaluations, {}", figure(of, "/evaluations"), figure(of, "/processor")));
   const Json materials = summary.value("materials", Json::object());
-  for (const auto& [region, figures] : materials.items())
+  for (const auto& [region, figures] : materials.items()) {
+    const std::size_t before = rows.size();
+    begin_group(fmt::format("Region '{}': figures of its material that are not zero", region));
     for (const auto& [name, value] : figures.items())
-      add(fmt::format("region '{}': {}", region, name),
-          value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "");
-  std::string text = table({"", ""}, rows);
+      add(name, value.is_number() && value != 0.0 ? fmt::format("{:.6g}", value.get<double>()) : "");
+    if (rows.size() == before + 1) rows.pop_back();
+  }
+  std::string text = table({"", ""}, rows, TableOf::text);
   const std::string case_file = figure(summary, "/case");
   const std::string recorded = figure(proof, "/case_file");
   if (!recorded.empty() && name_of_file(case_file) == recorded)
     text += details("The case file", "<pre>" + escaped(coupler::content_of(case_file)) + "</pre>\n");
   else if (!case_file.empty())
-    text += "<p>The case file is not shown: it is not there any more as the run has read it.</p>\n";
+    text += "<p>The case file is not shown: it was changed or removed after the run.</p>\n";
   return text;
 }
 
@@ -363,6 +368,7 @@ std::string notes(const std::vector<RunResult>& results) {
     NoteWeight weight;
     TableRow row;
   };
+  const bool several = results.size() > 1;
   std::vector<Weighed> weighed;
   for (const RunResult& result : results) {
     for (const LogNote& note : notes_of(result.warnings)) {
@@ -370,17 +376,20 @@ std::string notes(const std::vector<RunResult>& results) {
                                     ? fmt::format("{}", note.first_step)
                                     : fmt::format("{} to {}", note.first_step, note.last_step);
       weighed.push_back({note.weight,
-                         {{name_of(note.weight), result.name, std::to_string(note.count),
+                         {{name_of(note.weight), std::to_string(note.count),
                            note.first_step < 0 ? "before the first" : steps, note.first, note.meaning},
                           note.weight == NoteWeight::serious ? "front" : ""}});
+      std::vector<std::string>& cells = weighed.back().row.cells;
+      if (several) cells.insert(cells.begin() + 1, result.name);
     }
   }
   if (weighed.empty()) return "<p>The run gave no warning.</p>\n";
   std::ranges::stable_sort(weighed, std::ranges::greater{}, &Weighed::weight);
   std::vector<TableRow> rows;
   for (Weighed& one : weighed) rows.push_back(std::move(one.row));
-  return table({"weight", "run", "how often", "steps", "the first of them", "meaning and remedy"}, rows,
-               TableOf::text);
+  std::vector<std::string> titles{"weight", "how often", "steps", "the first of them", "meaning and remedy"};
+  if (several) titles.insert(titles.begin() + 1, "run");
+  return table(titles, rows, TableOf::text);
 }
 
 }  // namespace

@@ -115,8 +115,8 @@ std::string without_stress(const fem::Solver& solver) {
   }
   if (!least) return {};
   return fmt::format(
-      "  {} of {} points carry next to nothing, least point {} of element {} at {} ({}): their grains have "
-      "parted, and a box of loose grains gives no direction to go in. Where that stops the run, some "
+      "  {} of {} points carry hardly any stress, least point {} of element {} at {} ({}): their grains have "
+      "parted, and the tangent of a box of loose grains gives no direction. If that stops the run, some "
       "pressure left on the free surface may help, and a weight raised slowly at first ('factor' of 'body')",
       lost, solver.points(), *least, solver.element_of_point(*least), at(solver.position_of_point(*least)),
       words_of(solver, values, *least));

@@ -2,7 +2,10 @@
 #include "app/run/monitor_notes.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
+
+#include "app/remarks/formula_units.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -10,8 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using coupler::Monitor;
 
-/// Of a plane problem: forces are those of a metre of thickness.
-std::string unit_of(const Monitor& monitor) {
+/// Of a plane problem: forces are per metre of thickness.
+std::string unit_of(const Monitor& monitor, const std::map<std::string, std::string>& formulas) {
   const bool turns = monitor.dof == fem::Dof::w;
   switch (monitor.kind) {
     case Monitor::Kind::reaction:
@@ -21,7 +24,8 @@ std::string unit_of(const Monitor& monitor) {
     case Monitor::Kind::formula:
       break;
   }
-  return "";
+  const auto found = formulas.find(monitor.name);
+  return found == formulas.end() ? "" : found->second;
 }
 
 std::string kind_of(const Monitor& monitor) {
@@ -36,6 +40,26 @@ std::string kind_of(const Monitor& monitor) {
   return "formula";
 }
 
+/// Units of the formulas whose numbers all have one.
+std::map<std::string, std::string> units_of_formulas(const coupler::Case& the_case) {
+  std::map<std::string, Powers> known{{"time", {}}, {"volume_strain", {}}};
+  std::map<std::string, std::string> units;
+  for (const Monitor& monitor : the_case.monitors) {
+    if (monitor.kind != Monitor::Kind::formula) {
+      known[monitor.name] = powers_of(monitor);
+      continue;
+    }
+    const auto is_known = [&](const std::string& name) { return known.contains(name); };
+    if (!std::ranges::all_of(monitor.formula->names(), is_known)) continue;
+    const FormulaUnits found =
+        units_of_formula(monitor.formula->text(), [&](const std::string& name) { return known[name]; });
+    if (!found.clash.empty() || !std::ranges::all_of(found.numbers, &FormulaNumber::has_unit)) continue;
+    known[monitor.name] = found.result;
+    if (found.result != Powers{}) units[monitor.name] = text_of(found.result);
+  }
+  return units;
+}
+
 std::string unit_of_built_in(const std::string& name) {
   return name.ends_with("_work") ? "J/m" : "";
 }
@@ -44,12 +68,13 @@ std::string unit_of_built_in(const std::string& name) {
 
 Json monitor_notes(const coupler::Case& the_case) {
   Json notes = Json::object();
+  const std::map<std::string, std::string> formulas = units_of_formulas(the_case);
   const auto add = [&](const std::string& name, bool in_table) {
     if (notes.contains(name)) return;
     const auto monitor = std::ranges::find(the_case.monitors, name, &Monitor::name);
     const bool own = monitor != the_case.monitors.end();
     notes[name] = {{"kind", own ? kind_of(*monitor) : "built-in"},
-                   {"unit", own ? unit_of(*monitor) : unit_of_built_in(name)},
+                   {"unit", own ? unit_of(*monitor, formulas) : unit_of_built_in(name)},
                    {"table", in_table}};
   };
   for (const std::string& name : the_case.table) add(name, true);

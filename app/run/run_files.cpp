@@ -156,7 +156,7 @@ std::vector<CommittedStep> steps_of_history(const std::string& history, const co
   std::istringstream lines(history);
   std::string line;
   std::getline(lines, line);
-  if (cells_of(line) != columns) throw RunError("the columns of history.csv are not those of the case");
+  if (cells_of(line) != columns) throw RunError("history.csv has other columns than the case");
   std::vector<CommittedStep> steps;
   while (std::getline(lines, line)) {
     const std::vector<std::string> cells = cells_of(line);

@@ -127,7 +127,7 @@ void AdaptiveMaterial::keep_audit() {
 
 std::string AdaptiveMaterial::doubt() const {
   if (options_.tolerance == 0.0 || step_ == 0) return {};
-  if (!audits()) return "without audits (audit: 0) nothing is known of the error of its stresses";
+  if (!audits()) return "without audits (audit: 0) the error of its stresses is unknown";
   if (bounds_.steps_beyond == 0.0) return {};
   return fmt::format(
       "its stresses cannot be vouched for: in {:.0f} of {} increments (a step that is cut, or passes jumps, takes several) "

@@ -405,7 +405,7 @@ void AdaptiveMaterial::notice_sharing(std::size_t cells) {
   shares_ = false;
   if (options_.tolerance == 0.0) return;
   notes_.push_back(fmt::format(
-      "{} of {} points have cells of their own: there is nothing left to share, and from here on no point "
+      "{} of {} points have cells of their own: no cells are left to share, and from here on no point "
       "is sent ahead of others",
       cells, points_.size()));
 }

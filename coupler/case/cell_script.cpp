@@ -105,7 +105,7 @@ CellScript read_cell_script(const std::string& key, Section& section, Faults& fa
     section.fault(
         key,
         fmt::format("{}: '{}' lies outside the folder of the case, and a script is a program; put it there, "
-                    "or say --trust-scripts when you know what it does",
+                    "or give --trust-scripts if you have read it",
                     key, part.lexically_normal().string()));
     return {};
   }

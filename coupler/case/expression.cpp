@@ -112,7 +112,7 @@ class ExpressionParser {
   int depth_ = 0;
 };
 
-Expression::Expression(const std::string& text) {
+Expression::Expression(const std::string& text) : text_(text) {
   ExpressionParser(text, *this);
 }
 

@@ -13,6 +13,8 @@ class Expression {
   /// @throws std::invalid_argument with the fault and its place
   explicit Expression(const std::string& text);
 
+  [[nodiscard]] const std::string& text() const { return text_; }
+
   /// Names that appear in it, each once, in order.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
@@ -27,6 +29,7 @@ class Expression {
     double number = 0.0;
     std::string name = {};
   };
+  std::string text_;
   std::vector<Step> steps_;
   std::vector<std::string> names_;
 };

@@ -126,8 +126,8 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
   item.finish();
   if (!tractions) parts.check_places(item, "on", places);
   if (!supports && !tractions && !forces && !tie && entry.kind == Entry::Kind::map) {
-    parts.faults.push_back(
-        entry.fault(name + ": does nothing; give fix, move, pressure, traction, node_force or tie"));
+    parts.faults.push_back(entry.fault(
+        name + ": has no support and no load; give fix, move, pressure, traction, node_force or tie"));
   }
 }
 

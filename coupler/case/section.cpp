@@ -301,7 +301,7 @@ std::vector<std::pair<double, double>> Section::pairs(const std::string& key, Di
     const double y = number_of(item.items[1], key, second, limit_of_second);
     if (!values.empty() && x <= values.back().first) {
       faults_.push_back(
-          item.fault(fmt::format("{}: {}: the first value of a pair must be larger than that of the "
+          item.fault(fmt::format("{}: {}: the first value of a pair must be larger than in the "
                                  "pair before, {}; found {}",
                                  name_, key, values.back().first, x)));
       continue;

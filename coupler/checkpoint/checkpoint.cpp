@@ -225,7 +225,7 @@ std::string advice(const std::filesystem::path& file) {
   const std::filesystem::path before = checkpoint_before(file);
   try {
     return fmt::format(
-        "the one before it, {}, is of step {} and can be read: to go on from there, "
+        "the checkpoint before it, {}, is of step {} and can be read: to go on from there, "
         "'mv {} {}' and run with --resume again",
         before.string(), read_whole(before).step, before.string(), file.string());
   } catch (const RunError&) {  // there is none, or it is no better

@@ -107,8 +107,8 @@ class HostedCells::Implementation {
   void call(const std::function<void(WorkingPool&)>& work, const IsWanted& is_wanted) {
     if (process_ != getpid())
       throw RunError(
-          "cells cannot be asked in a process that was forked from the one that made them; make them "
-          "there, or start that process anew (multiprocessing: method 'spawn')");
+          "a forked process cannot use the cells of its parent; make cells in "
+          "the child, or start it anew (multiprocessing: method 'spawn')");
     const std::lock_guard one_at_a_time(callers_);
     std::unique_lock lock(mutex_);
     if (!thread_.joinable()) {

@@ -94,8 +94,8 @@ std::string driver(const CellDefinition& definition, const Replay& replay) {
   std::string text = fmt::format(
       "# Replays a cell of the material '{}' as a coupled run evaluates it.\n"
       "#   {}\n"
-      "# The README beside this file says what it is and what to expect. Add dumps and thermo output as you\n"
-      "# like, behind the fix; they change nothing.\n\n"
+      "# The README beside this file explains it and names the results to expect. You may add dumps and thermo output behind\n"
+      "# the fix: they leave the results as they are.\n\n"
       "variable        packing index {}\n"
       "variable        neighbour_distance index {}\n"
       "include         {}\n\n",

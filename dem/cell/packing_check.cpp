@@ -218,7 +218,7 @@ std::string packing_fault(const PackingAtRest& packing, double unrest, const std
   if (fault.empty()) return {};
   return fmt::format(
       "Under {}: {} (coordination number {:.2f}, {} {:.3g}, mean overlap {:.2g} of the radius). The "
-      "script is not the one the packing was made with, or the grains were moved; bring it to rest with "
+      "packing was made with another script, or its grains were moved; bring it to rest with "
       "'polargrain pack --settle PACKING SCRIPT -o NEW.h5'",
       script, fault, rest.coordination_number, level, packing.stiffness_level, packing.overlaps.mean);
 }

@@ -255,8 +255,8 @@ class Search {
     if (wanted_ < dense.reached.void_ratio || wanted_ > loosest.reached.void_ratio)
       throw RunError(fmt::format(
           "a void ratio of {:.4g} is out of reach: friction from 0 to {:.4g} gives {:.4f} to {:.4f}; "
-          "ask for one in between, or raise friction (while the packing is made) for "
-          "looser ones",
+          "ask for a ratio in between, or raise friction (while the packing is made) for "
+          "looser packings",
           wanted_, specification_.friction, dense.reached.void_ratio, loosest.reached.void_ratio));
     // More friction while compressed leaves more voids, on the whole.
     const double slope = specification_.friction / (loosest.reached.void_ratio - dense.reached.void_ratio);

@@ -12,7 +12,7 @@ constexpr int kRestartValues = 2;  ///< their number, and the angle
 
 FixGrainRotation::FixGrainRotation(LAMMPS_NS::LAMMPS* lammps, int count, char** words)
     : Fix(lammps, count, words) {
-  if (count != 3) error->all(FLERR, "Illegal fix grain/rotation command: it takes nothing");
+  if (count != 3) error->all(FLERR, "Illegal fix grain/rotation command: it takes no arguments");
   if (!atom->omega_flag)
     error->all(FLERR, "Fix grain/rotation needs grains that rotate: atom_style granular");
   restart_peratom = 1;

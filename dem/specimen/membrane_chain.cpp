@@ -90,7 +90,7 @@ class Roller {
       grain = k;
     }
     if (!std::isfinite(least))
-      throw std::runtime_error("no grain is next to the bottom platen: there is nothing to hold");
+      throw std::runtime_error("no grain is next to the bottom platen: the membrane has no grain to hold");
     const Eigen::Vector2d probe(least, height);
     set_angle(grain, probe);
     return grain;

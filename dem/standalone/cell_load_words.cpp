@@ -34,7 +34,7 @@ void take_packing(LAMMPS_NS::LAMMPS& lammps, QuasiStatic& protocol, const MeanGr
     lammps.error->all(
         FLERR,
         "Fix cell/load: the packing carries no pressure at rest: its grains do not touch, or the "
-        "stiffness in the script is not the one the packing was made with");
+        "packing was made with another stiffness than the script has");
   StockLaws(lammps).complete(at_rest);
   protocol.take_scales(grain, at_rest, pressure);
   const std::string remark =

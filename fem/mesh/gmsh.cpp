@@ -162,7 +162,7 @@ class Reader {
     }
     if (mesh_.elements.empty())
       fail(
-          "it has no surface elements: where anything in the script for Gmsh has a physical name, Gmsh writes nothing else; "
+          "it has no surface elements: once the script for Gmsh gives a physical name, Gmsh writes named parts only; "
           "add Physical Surface(\"ground\") = {1}; with the number of the surface, and make the mesh again");
     std::vector<int>& all = mesh_.regions["all"];
     all.resize(mesh_.elements.size());

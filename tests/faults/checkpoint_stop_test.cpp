@@ -33,7 +33,7 @@ class StoppedRun : public ::testing::Test {
 
 /// Said where the last checkpoint of a run that was stopped behind its first steps cannot be used.
 const std::string kTheOneBefore =
-    "the one before it, out/checkpoint.before.h5, is of step 0 and can be read: to go on from there, "
+    "the checkpoint before it, out/checkpoint.before.h5, is of step 0 and can be read: to go on from there, "
     "'mv out/checkpoint.before.h5 out/checkpoint.h5' and run with --resume again\n";
 
 TEST_F(StoppedRun, SaysHowToGoOnAndGoesOnToTheSameBytes) {

@@ -254,7 +254,7 @@ TEST_F(CheckedRunsTest, CheckSaysWhatTheShareMeansAndRefusesMoreThanAll) {
   const testing::Outcome good = testing::run_in(scratch_.path(), check + "'1 %'");
   EXPECT_EQ(good.status, 0);
   EXPECT_NE(
-      good.out.find("1 % of the evaluations are made by two workers; with one worker nothing is checked"),
+      good.out.find("1 % of the evaluations are made by two workers; one worker alone checks no evaluation"),
       std::string::npos)
       << good.out;
   const testing::Outcome bad = testing::run_in(scratch_.path(), check + "1.5");

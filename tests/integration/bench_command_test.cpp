@@ -109,7 +109,7 @@ TEST(BenchTables, SayWhereThereIsNoBand) {
   };
   using Cells = std::vector<std::string>;
   EXPECT_EQ(cells(0), Cells({"55.0", "0.0", "40.0", "0.0", "3.00", "0.00", ""}));
-  EXPECT_EQ(cells(1), Cells({"none found", "", "", "", "", "", ""}));
+  EXPECT_EQ(cells(1), Cells({"no band", "", "", "", "", "", ""}));
   EXPECT_EQ(cells(2), Cells({"50.0", "-5.0", "50.0", "10.0", "", "", ""}));
 }
 
@@ -181,6 +181,7 @@ TEST_F(BenchCommandTest, MeasuresTheGridAndWritesItsPages) {
   }
   const std::string page = content(directory() / "out/bench.html");
   EXPECT_NE(page.find("<canvas"), std::string::npos);
+  EXPECT_NE(page.find("\"title\":\"force\",\"unit\":\"N/m\""), std::string::npos) << "curves have units";
   EXPECT_NE(page.find("Speed against error: Compression of a fake"), std::string::npos);
   EXPECT_EQ(page.find("src="), std::string::npos) << "the page must stand alone";
   EXPECT_NE(outcome.errors.find("run 2 of "), std::string::npos) << outcome.errors;
@@ -264,7 +265,7 @@ TEST_F(BenchCommandTest, BandsAreLookedForInEveryRun) {
   EXPECT_NE(rows.at("output.every,7").at("no_band").find("the fields nearest to 0.005 and 0.01 are of"),
             std::string::npos)
       << rows.at("output.every,7").at("no_band");
-  EXPECT_NE(outcome.out.find("none found"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("no band"), std::string::npos) << outcome.out;
 }
 
 TEST_F(BenchCommandTest, BandsAreThoseOfTheCommandBand) {

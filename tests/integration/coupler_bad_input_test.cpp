@@ -159,10 +159,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"MissingScript", "script: fake.in", "script: cells/fake.in",
                  "case.yaml:7: material 'sand': script: there is no file 'cells/fake.in', neither beside the "
                  "case nor below liggghts_inputs/; correct the path or put the file there"},
-        BadInput{
-            "TableOutOfOrder", "pressure: 100 kPa", "pressure: [[0, 0], [1, 100 kPa], [1, 50 kPa]]",
-            "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than that "
-            "of the pair before, 1; found 1"},
+        BadInput{"TableOutOfOrder", "pressure: 100 kPa", "pressure: [[0, 0], [1, 100 kPa], [1, 50 kPa]]",
+                 "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than in "
+                 "the pair before, 1; found 1"},
         BadInput{
             "TableWithoutPairs", "{u2: -4 mm}", "{u2: [0, -4 mm]}",
             "case.yaml:14: boundary item 3: move: u2: expected a pair of values, such as [0, 1], found '0'\n"
@@ -247,9 +246,10 @@ INSTANTIATE_TEST_SUITE_P(
             "boundaries are bottom, left, right, top"},
         BadInput{"UnknownDof", "fix: [u1]", "fix: [u3]",
                  "case.yaml:13: boundary item 2: fix: expected u1, u2 or w, found 'u3'; did you mean 'u1'?"},
-        BadInput{"BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
-                 "case.yaml:14: boundary item 3: does nothing; give fix, move, pressure, traction, "
-                 "node_force or tie"},
+        BadInput{
+            "BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
+            "case.yaml:14: boundary item 3: has no support and no load; give fix, move, pressure, traction, "
+            "node_force or tie"},
         BadInput{
             "TieToNothing", "on: top, move: {u2: -4 mm}", "on: left, tie: rihgt",
             "case.yaml:14: boundary item 3: tie: the mesh has no boundary or node set 'rihgt'; it has bottom, left, "

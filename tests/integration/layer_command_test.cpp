@@ -104,7 +104,7 @@ TEST(LayerCommand, MistakesAreFoundBeforeAnythingIsMade) {
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "layer-results")) << options;
     return outcome.errors;
   };
-  EXPECT_NE(errors_of("--seeds 1").find("one layer says nothing of the scatter"), std::string::npos);
+  EXPECT_NE(errors_of("--seeds 1").find("one layer does not show the scatter"), std::string::npos);
   EXPECT_NE(errors_of("--lc 0.4,0.2").find("candidates must grow"), std::string::npos);
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
   EXPECT_NE(errors_of("--set pressure=-1").find("pressure"), std::string::npos);

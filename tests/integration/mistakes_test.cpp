@@ -159,7 +159,7 @@ std::vector<Mistake> mistakes() {
       {"NoPacking", "packing: grains.h5", "packing: grain.h5",
        "there is no file 'grain.h5', neither beside the case nor below liggghts_inputs/"},
       {"PackingOfAnotherScript", "script: cell.in", "script: soft.in",
-       "The script is not the one the packing was made with, or the grains were moved; bring it to rest with "
+       "The packing was made with another script, or its grains were moved; bring it to rest with "
        "'polargrain pack --settle PACKING SCRIPT -o NEW.h5'"},
       {"UnknownContactModel", "script: cell.in", "script: typo.in",
        "pair_style gran model hertzz tangential history ERROR: Invalid model specified (check for typos"},

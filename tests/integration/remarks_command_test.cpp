@@ -123,7 +123,9 @@ TEST(Remarks, ARunTellsThemAndKeepsThem) {
   ASSERT_EQ(summary["remarks"].size(), 1u) << summary["remarks"];
   EXPECT_EQ(summary["remarks"][0]["rank"], "wrong");
   EXPECT_EQ(summary["remarks"][0]["line"], 12);
-  EXPECT_NE(content(at / "page.html").find("Remarks on the case"), std::string::npos);
+  const std::string page = content(at / "page.html");
+  EXPECT_NE(page.find("Remarks on the case"), std::string::npos);
+  EXPECT_NE(page.find("<td>case.yaml:12</td>"), std::string::npos) << "the name of the file, not its path";
 }
 
 // A pressure that pulls at grains: step 0 ends in its own bound, and says what helps.

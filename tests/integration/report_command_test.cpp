@@ -185,7 +185,8 @@ TEST_F(ReportTest, DrawsOverTheValueThatWasMovedAndFoldsAwayTheOthers) {
   const auto replace = [&text](const std::string& old, const std::string& by) {
     text.replace(text.find(old), old.size(), by);
   };
-  replace("  axial_strain: -shortening / 0.8 m\n", "");
+  replace("  axial_strain: -shortening / 0.8 m\n",
+          "  stress: top_force / 0.4 m\n  double_force: 2 * top_force\n");
   replace("output: {every: 2}", "output: {table: [top_force, shortening]}");
   write(directory() / "listed.yaml", text);
   ASSERT_EQ(polargrain("run listed.yaml -o listed --quiet").status, 0);
@@ -193,8 +194,10 @@ TEST_F(ReportTest, DrawsOverTheValueThatWasMovedAndFoldsAwayTheOthers) {
   const std::string shown = page("listed/report.html");
   const Json force = chart_of(shown, "shortening", "top_force");
   EXPECT_EQ(force["x"]["unit"], "m");
+  EXPECT_EQ(chart_of(shown, "shortening", "stress")["y"]["unit"], "Pa");
+  EXPECT_EQ(chart_of(shown, "shortening", "double_force")["y"]["unit"], "") << "a 2 may stand for any unit";
   EXPECT_NEAR(force["series"][0]["points"][5][0].get<double>(), -0.008, 1e-15);
-  const std::size_t folded = shown.find("<summary>3 further curves</summary>");
+  const std::size_t folded = shown.find("<summary>5 further curves</summary>");
   ASSERT_NE(folded, std::string::npos);
   EXPECT_LT(shown.find("top_force against shortening"), folded);
   EXPECT_GT(shown.find("volume_strain against shortening"), folded);

@@ -89,7 +89,7 @@ steps: {count: 8, cut: 3, iterations: 8}
 
   const Outcome outcome = run_in(at, kProgram + " run case.yaml -o out -w 1");
   EXPECT_EQ(outcome.status, 1);
-  const std::size_t place = outcome.errors.find("of 4 points carry next to nothing, least point ");
+  const std::size_t place = outcome.errors.find("of 4 points carry hardly any stress, least point ");
   ASSERT_NE(place, std::string::npos) << outcome.errors;
   EXPECT_NE(outcome.errors.find("coordination_number 0, rattlers 1", place), std::string::npos)
       << outcome.errors;

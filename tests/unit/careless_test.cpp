@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"MillimetresInAFormula", kGrains, "(0.2 m * 100 kPa)", "(0.2 mm * 100 kPa)",
                  "'0.2 mm' is far from every length"},
         Careless{"SumOfForceAndLength", kGrains, "-shortening / 0.4 m", "(shortening + top_force) / 0.4 m",
-                 "adds m and N m-1"}),
+                 "adds m and N/m"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -204,7 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Careless{"ToleranceOfALaw", kGround, "tolerance: 1e-6", "tolerance: 0.03",
                                "of the forces may be out of balance", Rank::doubtful},
                       Careless{"TensionNormalToThePlane", kGround, kInItsStress,
-                               "{stress: [-10 kPa, -10 kPa, 10 kPa, 0]}", "ground carries next to none"}),
+                               "{stress: [-10 kPa, -10 kPa, 10 kPa, 0]}",
+                               "ground carries hardly any tension"}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -12,12 +12,6 @@
 namespace polargrain::app {
 namespace {
 
-Powers powers_of_monitor(const coupler::Monitor& monitor) {
-  const bool angle = monitor.dof == fem::Dof::w;
-  if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
-  return angle ? Powers{1, 0, 0} : Powers{1, -1, 0};  // of a metre of thickness
-}
-
 /// Numbers that formulas hold without a unit for reasons of their own: counts, halves, conversions.
 bool is_innocent(double value) {
   for (const double known : {0.0, 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 0.57735,
@@ -131,7 +125,8 @@ void look_at_side(const Scene& scene, const coupler::Entry& place, const coupler
          place.fault(fmt::format(
              "monitor '{}': '{}' is the {} of the body, and {} is {:.4g} m", formula.name, number.text,
              is_about(other, height) ? "height" : "width",
-             reaction ? fmt::format("what '{}' acts on", monitor.name) : std::string("its height"), right)),
+             reaction ? fmt::format("the boundary of '{}'", monitor.name) : std::string("its height"),
+             right)),
          fmt::format("divide by {:.4g} m, if {} is meant", right, reaction ? "a stress" : "a strain")});
   }
 }
@@ -160,7 +155,7 @@ void formulas(const Scene& scene, Remarks& remarks) {
   std::map<std::string, Powers> known{{"external_work", {1, 0, 0}}, {"internal_work", {1, 0, 0}}};
   for (const coupler::Monitor& monitor : scene.the_case().monitors) {
     if (monitor.kind != coupler::Monitor::Kind::formula) {
-      known[monitor.name] = powers_of_monitor(monitor);
+      known[monitor.name] = powers_of(monitor);
       continue;
     }
     const coupler::Entry& place = scene.place({"monitors", monitor.name});

@@ -88,8 +88,8 @@ void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
        item.find("surface")->fault(fmt::format(
            "initial_stress: the surface is at {:.4g} m, and the highest point of the mesh at {:.4g} m: {}",
            *surface, scene.body().largest.y(),
-           over > 0.0 ? "the mesh begins under ground that nothing stands for"
-                      : "what lies above it is in tension")),
+           over > 0.0 ? "the ground above the mesh has no load in its place"
+                      : "the ground above the surface is in tension")),
        "give the height of the mesh's surface; for ground above it a surcharge, and a pressure on the surface"});
 }
 
@@ -112,7 +112,7 @@ void look_at_components(const Entry& item, Remarks& remarks) {
         {Rank::wrong, 50.0,
          stress->fault(fmt::format(
              "initial_stress: s11, s22 and s33 are {:.4g}, {:.4g} and {:.4g} kPa: stresses are positive in tension, and "
-             "ground carries next to none",
+             "ground carries hardly any tension",
              1e-3 * s[0], 1e-3 * s[1], 1e-3 * s[2])),
          "write all three with a minus: stress: [-100 kPa, -100 kPa, -100 kPa, 0]"});
   else if (s[2] == 0.0 && (s[0] != 0.0 || s[1] != 0.0))

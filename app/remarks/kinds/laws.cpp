@@ -151,7 +151,7 @@ void look_at_plain(const std::string& what, const coupler::Entry* entry, double 
        entry->fault(fmt::format(
            "{}: '{}' has no unit and is {:g} Pa, {:.2g} % of the stresses of this case ({:.4g} kPa)", what,
            text, value, 100.0 * value / scale, 1e-3 * scale)),
-       fmt::format("write '{0} kPa', or '{0} Pa' if that is what it is", text)});
+       fmt::format("write '{0} kPa', or '{0} Pa' if you mean pascals", text)});
 }
 
 }  // namespace

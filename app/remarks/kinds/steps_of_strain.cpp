@@ -81,7 +81,7 @@ void of_one_step(const Scene& scene, Remarks& remarks) {
          scene.place({"steps", "count"})
              .fault(
                  fmt::format("steps: 1 for all loads, and material '{}' yields: the curve has one point, and "
-                             "what happens on the way to it is not seen",
+                             "the way to that point stays unseen",
                              region.material)),
          "count: 10 or more"});
     return;

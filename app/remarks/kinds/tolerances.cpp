@@ -15,7 +15,7 @@ struct Bound {
 };
 
 constexpr const char* kOutOfBalance =
-    "of the forces may be out of balance at the end of a step, and what a monitor reads is off by as much";
+    "of the forces may be out of balance at the end of a step, and a monitor is wrong by as much";
 constexpr const char* kBalanceOfSteps =
     "1e-2 for cells, 1e-3 and less for laws; where a step fails, its advice says why";
 /// Grains answer with noise, laws do not.

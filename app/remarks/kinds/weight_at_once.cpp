@@ -40,7 +40,7 @@ void weight_at_once(const Scene& scene, Remarks& remarks) {
              1e-3 * weight, region.name,
              reads == monitors.end()
                  ? std::string()
-                 : fmt::format(", and monitor '{}' counts what it moves by that", reads->name))),
+                 : fmt::format(", and monitor '{}' counts this settlement too", reads->name))),
          "level ground: initial_stress: [{surface: HEIGHT, unit_weight: ..., K0: ...}]; else let the weight grow over "
          "steps, factor: [[0, 0], [1, 1]]"});
     return;

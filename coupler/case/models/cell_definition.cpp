@@ -90,10 +90,9 @@ void take_measured_length(Section& section, const CellDefinition& definition, co
                       "measure with these grains, or give a length",
                       file.filename().string(), 1e3 * measured.mean_diameter, 1e3 * diameter));
     if (!definition.script.empty() && measured.script != name_of_script(definition.script))
-      section.fault("lc",
-                    fmt::format("lc: measured: {} was measured under another contact law than the one in {}; "
-                                "measure with this script, or give a length",
-                                file.filename().string(), definition.script_file));
+      section.fault("lc", fmt::format("lc: measured: {} was measured under another contact law than {} has; "
+                                      "measure with this script, or give a length",
+                                      file.filename().string(), definition.script_file));
     choice.internal_length = measured.internal_length;
     // Lengths that were measured without a limit go without one.
     choice.plastic_length = {measured.plastic_length, !measured.plastic_length};
