@@ -2,6 +2,8 @@
 if(TARGET polargrain_dem)
   add_executable(sphere_bench sphere_bench.cpp)
   target_link_libraries(sphere_bench PRIVATE polargrain_dem fmt::fmt)
+  add_executable(sphere_tangent_bench sphere_tangent_bench.cpp)
+  target_link_libraries(sphere_tangent_bench PRIVATE polargrain_dem fmt::fmt)
 endif()
 add_executable(sphere_step_bench sphere_step_bench.cpp)
 target_link_libraries(sphere_step_bench PRIVATE polargrain_discs fmt::fmt)

@@ -31,8 +31,7 @@ SphereKernels::Pass pass_of(const SphereKernels& kernels, const DiscCombination&
 }
 
 SphereSettings settings_of(const LawSettings& on) {
-  return {on.damped,    on.limit_force,    on.rolling_force, on.rolling_force_damped,
-          on.symmetric, on.rolling_damped, on.torsion};
+  return {on.damped, on.limit_force, on.rolling_force, on.symmetric, on.torsion};
 }
 
 void put_matrix(double* nine, const Eigen::Matrix3d& matrix) {

@@ -60,18 +60,10 @@ Constants constants_of(const Spheres& spheres, int first, int second) {
   const bool is_li_chu = laws.rolling == RollingLaw::li_chu;
   const double radius =
       is_li_chu && laws.settings.mean_radius ? 0.5 * (spheres.radii[i] + spheres.radii[j]) : harmonic;
-  const double rolling = (is_li_chu ? p.rolling_stiffness : 1.0) * kt * radius * radius;
-  made[kRollingStiffness] = rolling;
+  made[kRollingStiffness] = (is_li_chu ? p.rolling_stiffness : 1.0) * kt * radius * radius;
   made[kRollingReach] = p.rolling_friction * radius;
-  const auto inertia = [&spheres](std::size_t k) {
-    return kSphereInertia * spheres.masses[k] * spheres.radii[k] * spheres.radii[k];
-  };
-  made[kRollingDashpot] = 2.0 * p.rolling_damping * std::sqrt(rolling * of_both(inertia(i), inertia(j)));
-
-  const double kr = p.rolling_force_stiffness * kt;
-  made[kForceStiffness] = kr;
+  made[kForceStiffness] = p.rolling_force_stiffness * kt;
   made[kForceFriction] = p.rolling_force_friction;
-  made[kForceDashpot] = 2.0 * p.rolling_force_damping * std::sqrt(kr * mass);
   made[kHarmonicRadius] = harmonic;
   return made;
 }
@@ -84,10 +76,8 @@ std::array<bool, kSphereConstants> constants_read(const DiscCombination& laws) {
   read[kNormalStiffness] = read[kTangentialStiffness] = read[kFriction] = true;
   read[kNormalDashpot] = read[kTangentialDashpot] = on.damped;
   read[kRollingStiffness] = read[kRollingReach] = rolls;
-  read[kRollingDashpot] = on.rolling_damped;
   read[kForceStiffness] = read[kHarmonicRadius] = on.rolling_force;
   read[kForceFriction] = on.rolling_force && !on.symmetric;
-  read[kForceDashpot] = on.rolling_force_damped;
   return read;
 }
 
@@ -96,7 +86,7 @@ std::array<bool, kSphereConstants> constants_read(const DiscCombination& laws) {
 bool is_bare(const DiscCombination& combination) {
   const LawSettings& on = combination.settings;
   const bool whole_spin = on.torsion && combination.rolling == RollingLaw::epsd2;
-  return !(on.damped || on.limit_force || on.rolling_force || on.rolling_damped || whole_spin);
+  return !(on.damped || on.limit_force || on.rolling_force || whole_spin);
 }
 
 int sphere_spring_count(const DiscCombination& combination) {

@@ -152,26 +152,23 @@ struct Law {
 
   POLARGRAIN_INLINE Vector<Number> with_rolling_force(const Meant<Number>& made, const Vector<Number>& s,
                                                       Vector<Number> elastic, Number limit) const {
-    const Number zero = all<Number>(0.0);
     const Number kt = made.tangential_stiffness;
     const Number kr = stiffness(kForceStiffness);
     const Number radius = constant(kHarmonicRadius);
-    const Vector<Number> rate = radius * cross(n, spin);  // of the rolling displacement
     const Number sliding_before = kt * length(s);
     Vector<Number> rolling{};
-    Number damping = pass.settings.rolling_force_damped ? dashpot(kForceDashpot) * touching : zero;
     bool coupled = false;
     if constexpr (Kind::bends) coupled = pass.settings.symmetric;
     if (coupled) {
       if constexpr (Kind::bends) rolling = (kr * radius) * cross(n, bending_ahead());
     } else {
+      const Vector<Number> rate = radius * cross(n, spin);  // of the rolling displacement
       const Vector<Number> rolled = turned(spring(kRollingDisplacement), n, twirl) + step * rate;
       const Number largest = constant(kForceFriction) * push;
       const Number before = kr * length(rolled);
       const Vector<Number> kept = cutting(before, largest) * rolled;
       keep(kRollingDisplacement, kept);
       rolling = kr * kept;
-      damping = select(before > largest, zero, damping);
     }
     elastic = elastic + rolling;
     const Number both = length(elastic);
@@ -184,7 +181,6 @@ struct Law {
     keep(kSliding, {given_way(elastic.x, rolling.x, s.x), given_way(elastic.y, rolling.y, s.y),
                     given_way(elastic.z, rolling.z, s.z)});
     Vector<Number> force = (-all<Number>(1.0)) * elastic;
-    force = force - select(slides, zero, damping) * rate;
     if (pass.settings.damped) force = force - viscous(made.tangential_dashpot, slides) * slip_rate;
     return cutting(length(force), limit) * force;
   }
@@ -216,12 +212,8 @@ struct Law {
     const Number one = all<Number>(1.0);
     const Number zero = all<Number>(0.0);
     const Number twist_rate = dot(spin, n);
-    Number damping = zero;
     bool coupled = false;
-    if constexpr (!Kind::bare) {
-      if (pass.settings.rolling_damped) damping = dashpot(kRollingDashpot) * touching;
-      coupled = pass.settings.symmetric;
-    }
+    if constexpr (!Kind::bare) coupled = pass.settings.symmetric;
     Vector<Number> bending = bending_ahead();
     Vector<Number> moment = stiff * bending;
     Vector<Number> coupling{zero, zero, zero};
@@ -230,7 +222,7 @@ struct Law {
       moment = moment - coupling;
     }
     const Number square = dot(moment, moment);
-    const auto at_limit = square > limit * limit;  // as the engine has it: a dashpot hangs on this
+    const auto at_limit = square > limit * limit;  // as the engine has it
     const Number factor = cutting(root(square), limit);
     moment = factor * moment;
     if (coupled) {
@@ -245,14 +237,12 @@ struct Law {
     }
     keep(kBending, bending);
     made.is_rolling = select(at_limit, one, zero);
-    if constexpr (!Kind::bare) moment = moment + select(at_limit, zero, damping) * (spin - twist_rate * n);
     if constexpr (Kind::twists) {
       const Number angle = springs[kTorsion] + step * twist_rate;
       const Number torque_before = magnitude(stiff * angle);
       springs[kTorsion] = cutting(torque_before, limit) * angle;
-      Number torque = stiff * springs[kTorsion];
+      const Number torque = stiff * springs[kTorsion];
       made.is_twisting = select(torque_before > limit, one, zero);
-      if constexpr (!Kind::bare) torque = torque + select(torque_before > limit, zero, damping) * twist_rate;
       moment = moment + torque * n;
     }
     return moment;

@@ -25,10 +25,8 @@ enum SphereConstant {
   kTangentialDashpot,  ///< N s/m
   kRollingStiffness,   ///< N m
   kRollingReach,       ///< the rolling moment at its limit over the normal force, m
-  kRollingDashpot,     ///< N m s
   kForceStiffness,     ///< of the rolling friction force of li_chu, N/m
   kForceFriction,      ///< mu_r
-  kForceDashpot,       ///< N s/m
   kHarmonicRadius,     ///< r_1 r_2 / (r_1 + r_2), m
   kSphereConstants
 };
@@ -60,8 +58,7 @@ enum SphereRecord {
 
 /// Settings that the kernels of general laws ask for as they run (LawSettings).
 struct SphereSettings {
-  bool damped = false, limit_force = false, rolling_force = false, rolling_force_damped = false;
-  bool symmetric = false, rolling_damped = false, torsion = false;
+  bool damped = false, limit_force = false, rolling_force = false, symmetric = false, torsion = false;
 };
 
 /// One pass over the candidates: forces from places, velocities and springs. Candidates stand in four zones, each

@@ -29,6 +29,12 @@ namespace {
 /// time step has room for a quarter (kStepShare).
 constexpr double kStiffer = 1.2;
 
+/// Spring that holds each grain in the tangent of an increment, over the mean normal stiffness. Networks whose contacts
+/// slide have motions with next to no stiffness, or a negative one; with kHold these can make the tangent several times
+/// too large. In the cell the damping against the affine flow holds the grains: its rate times the mean mass over the time
+/// of an increment is about this much. Chosen by differences of cells (bench/sphere_tangent_bench.cpp).
+constexpr double kHoldOnTheWay = 3e-3;
+
 /// @throws RunError when the places of its grains are none of a packing
 const CellDefinition& sound(const CellDefinition& definition) {
   if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
@@ -276,8 +282,8 @@ std::vector<SpaceSlip> SphereCell::slips(const CellIncrement& increment) const {
 
 Matrix18 SphereCell::tangent(std::span<const SpaceSlip> slips) {
   if (control_.tangent == CellTangent::none) return Matrix18::Zero();
-  const SpaceNetwork network{
-      grains_->contacts(), engine_.grains(), box().frame, box().volume(), kHold, slips};
+  const double hold = slips.empty() ? kHold : kHoldOnTheWay;
+  const SpaceNetwork network{grains_->contacts(), engine_.grains(), box().frame, box().volume(), hold, slips};
   if (control_.tangent == CellTangent::voigt)
     return controlled() ? voigt_cosserat_space_tangent(network) : voigt_space_tangent(network);
   if (control_.tangent == CellTangent::condensed && !controlled())

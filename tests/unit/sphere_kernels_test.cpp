@@ -31,10 +31,8 @@ PairParameters parameters(NormalLaw normal, double factor) {
   p.friction = 0.4 * factor;
   p.rolling_friction = 0.1 * factor;
   p.rolling_stiffness = 1.0;
-  p.rolling_damping = 0.05;
   p.rolling_force_friction = 0.1;
   p.rolling_force_stiffness = 0.2;
-  p.rolling_force_damping = 0.05;
   return p;
 }
 
@@ -46,7 +44,7 @@ struct Laws {
   LawSettings settings;
 };
 
-/// damped, absolute, limit, rolling force, its damping, symmetric, rolling damped, mean radius, torsion
+/// damped, absolute, limit, rolling force, its damping (never), symmetric, rolling damped (never), mean radius, torsion
 const std::vector<Laws> kLaws{
     {"history", NormalLaw::hooke_radii, TangentialLaw::history, RollingLaw::off, {}},
     {"history_damped",
@@ -68,7 +66,7 @@ const std::vector<Laws> kLaws{
      NormalLaw::hooke_radii,
      TangentialLaw::li_chu,
      RollingLaw::li_chu,
-     {true, false, false, true, true, false, true, true, true}},
+     {true, false, false, true, false, false, false, true, true}},
     {"symmetric",
      NormalLaw::hooke_radii,
      TangentialLaw::li_chu,
@@ -79,7 +77,7 @@ const std::vector<Laws> kLaws{
      NormalLaw::hertz,
      TangentialLaw::li_chu,
      RollingLaw::li_chu,
-     {true, false, true, true, true, false, true, false, true}}};
+     {true, false, true, true, false, false, false, false, true}}};
 
 Packing packing() {
   return read_packing("cases/spheres/packing1000.csv");
