@@ -12,6 +12,13 @@ namespace {
 /// Losses in one call after which the boxes themselves are taken to end their workers.
 constexpr int kMostLosses = 10;
 
+/// Steps that may be repeated for the sake of workers that have joined: those behind the start, or a read-out.
+constexpr std::size_t kFewSteps = 10;
+
+std::string repeated(std::size_t steps) {
+  return steps == 1 ? "1 step is repeated" : fmt::format("{} steps are repeated", steps);
+}
+
 }  // namespace
 
 ResidentCells::ResidentCells(Pool& pool, std::uint32_t definition, std::size_t most_recorded)
@@ -38,14 +45,14 @@ auto ResidentCells::with_all_there(const Call& call) {
       are_there_ = false;
       if (losses == kMostLosses) throw;
       const std::string text = lost.what();
-      pool_.tell(
-          fmt::format("{}{}all boxes go back to where they were read out last, and {} steps are repeated",
-                      text, text.ends_with('\n') ? "" : "; ", record_.count()));
+      pool_.tell(fmt::format("{}{}all boxes go back to where they were read out last, and {}", text,
+                             text.ends_with('\n') ? "" : "; ", repeated(record_.count())));
     }
   }
 }
 
 std::vector<ResidentAnswer> ResidentCells::go_on(int dem_steps, std::span<const CellIncrement> increments) {
+  if (record_.count() <= kFewSteps && team_.could_spread()) are_there_ = false;
   std::vector<ResidentAnswer> answers = with_all_there([&] { return team_.go_on(dem_steps, increments); });
   record_.add(dem_steps, increments);
   // By the steps alone, whoever has the boxes: a read-out has a part in their bits.

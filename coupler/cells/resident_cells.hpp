@@ -12,7 +12,7 @@ namespace polargrain::coupler {
 
 /// The resident boxes of one material, whatever becomes of their workers: keeps where they were read out last and the
 /// increments since. When a worker is lost all boxes move in there again and repeat those steps, which comes to the
-/// same bits; the user is told.
+/// same bits; the user is told. When workers have joined, boxes move to them where few steps are to be repeated.
 ///
 /// Order of calls: start, then any number of go_on and read_out; start again at any time.
 ///

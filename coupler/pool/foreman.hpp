@@ -35,6 +35,8 @@ class Foreman final : private CrewEvents {
   /// Waits until no process of our own is on its way. @returns the workers there are, at least one, by the numbers of
   /// their Members
   std::vector<std::uint64_t> gather();
+  /// Workers there were when this was last asked for anything.
+  [[nodiscard]] std::size_t present_count() const { return present_.size(); }
 
   StateBook& book() { return book_; }
   [[nodiscard]] const Switchboard& switchboard() const { return crew_.switchboard(); }

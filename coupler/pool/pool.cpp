@@ -207,6 +207,9 @@ void Pool::tell(const std::string& text) const {
 std::vector<std::uint64_t> Pool::gather() {
   return implementation_->foreman.gather();
 }
+std::size_t Pool::present_count() const {
+  return implementation_->foreman.present_count();
+}
 void Pool::serve(std::uint32_t definition, std::vector<ResidentWork>& works) {
   implementation_->serve(definition, works);
 }

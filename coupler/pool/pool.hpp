@@ -151,6 +151,7 @@ class Pool {
   friend class ResidentTeam;
   /// The workers there are; see Foreman::gather.
   std::vector<std::uint64_t> gather();
+  [[nodiscard]] std::size_t present_count() const;
   /// Has these messages about boxes of a definition answered, those of one worker in their order.
   /// @throws ResidentsLost when one of these workers is gone @throws RunError when one refuses its boxes
   void serve(std::uint32_t definition, std::vector<ResidentWork>& works);

@@ -24,6 +24,7 @@ void ResidentTeam::serve(std::vector<ResidentWork>& works) try {
 
 void ResidentTeam::move_in(std::span<const ResidentStart> starts) {
   const std::vector<std::uint64_t> workers = pool_.gather();
+  workers_ = workers.size();
   const std::size_t shares = std::min(workers.size(), starts.size());
   shares_.clear();
   for (std::size_t k = 0; k < shares; ++k) {
@@ -78,6 +79,10 @@ std::vector<ResidentReadOut> ResidentTeam::read_out() {
   boxes.reserve(count());
   for (ResidentWork& work : works) std::ranges::move(work.reply.read_outs, std::back_inserter(boxes));
   return boxes;
+}
+
+bool ResidentTeam::could_spread() const {
+  return pool_.present_count() > workers_ && count() > workers_;
 }
 
 std::size_t ResidentTeam::count() const {

@@ -30,6 +30,8 @@ class ResidentTeam {
   std::vector<ResidentAnswer> go_on(int dem_steps, std::span<const CellIncrement> increments);
   /// Everything about each box, with the bytes of its state; see ResidentBoxes::read_out.
   std::vector<ResidentReadOut> read_out();
+  /// Whether there are workers now that boxes could have moved to as well.
+  [[nodiscard]] bool could_spread() const;
   /// Boxes that have moved in.
   [[nodiscard]] std::size_t count() const;
 
@@ -48,6 +50,7 @@ class ResidentTeam {
   Pool& pool_;
   std::uint32_t definition_;
   std::vector<Share> shares_;
+  std::size_t workers_ = 0;  ///< there were when the boxes moved in
 };
 
 }  // namespace polargrain::coupler
