@@ -6,7 +6,8 @@
 namespace polargrain {
 
 std::unique_ptr<ResidentBoxes> CellService::residents() {
-  throw RunError("these cells can only be asked from one state to the next; explicit steps need boxes that stay");
+  throw RunError(
+      "these cells can only be asked from one state to the next; explicit steps need boxes that stay");
 }
 
 }  // namespace polargrain
