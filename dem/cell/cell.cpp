@@ -235,8 +235,13 @@ struct Cell::ResidentKind {
   void put(Box& box, const ResidentStart& start) const {
     box.restore_moving(start.state ? *start.state : *cell.initial_.state,
                        start.motion.gradient.topLeftCorner<2, 2>(), start.motion.spin.z());
+    // The torques that hold the mean rotation belong to the forces of the start: prescribed, it has the spin behind it.
+    if (cell.controlled())
+      box.go_on(BoxPath(box.box(), Eigen::Matrix2d::Zero(), 1, Pace::even), cell.protocol_.damping_rate(),
+                RotationLoading{});
     box.set_up();
     hold(box);
+    box.hold_rotation();
   }
   void go_on(Box& box, int steps, const CellIncrement& increment) const {
     if (const std::string fault = out_of_plane_fault(increment); !fault.empty()) throw RunError(fault);

@@ -240,8 +240,13 @@ struct SphereCell::ResidentKind {
   void put(Box& box, const ResidentStart& start) const {
     box.restore_moving(start.state ? *start.state : *cell.initial_.state, start.motion.gradient,
                        start.motion.spin);
+    // The torques that hold the mean rotation belong to the forces of the start: prescribed, it has the spin behind it.
+    if (cell.controlled())
+      box.go_on(SpacePath(box.box(), Eigen::Matrix3d::Zero(), 1, Pace::even), cell.protocol_.damping_rate(),
+                SpaceRotation{});
     box.set_up();
     hold(box);
+    box.hold_rotation();
     // Contacts that have stiffened since the packing was at rest ask for a shorter time step.
     const double stiffer =
         frequency_bound(box.contacts(), cell.inertia_) / (kStiffer * cell.frequency_bound_);
