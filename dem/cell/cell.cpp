@@ -227,6 +227,9 @@ struct Cell::ResidentKind {
     box->progress = cell.grains_->progress;
     return box;
   }
+  void alive() const {
+    if (cell.progress) cell.progress();
+  }
   void hold(Box& box) const {
     if (!cell.controlled()) return;
     const std::vector<double> weights = rotation_weights(box.contacts(), cell.driver_.grains());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -25,6 +27,7 @@ inline double quick_force_ratio(const Imbalance& imbalance, std::span<const Cont
 ///   make()                           a new one
 ///   put(box, state, motion)          state (null: the packing) and motion in place of what was there, forces set up
 ///   go_on(box, steps, increment)     see ResidentBoxes
+///   alive()                          tells whoever waits that there is work going on
 ///   answer(box), read(box)           after a step; `read` gives the state too, with the motion that belongs to it
 template <class Kind>
 class ResidentBoxesOf final : public ResidentBoxes {
@@ -35,6 +38,7 @@ class ResidentBoxesOf final : public ResidentBoxes {
 
   void move_in(std::span<const ResidentStart> starts) override {
     for (const ResidentStart& start : starts) {
+      kind_.alive();
       boxes_.push_back(kind_.make());
       kind_.put(*boxes_.back(), start);
     }
@@ -45,10 +49,13 @@ class ResidentBoxesOf final : public ResidentBoxes {
       throw RunError("resident boxes are asked for another number of increments than there are boxes");
     std::vector<ResidentAnswer> answers;
     answers.reserve(boxes_.size());
-    for (std::size_t k = 0; k < boxes_.size(); ++k) {
-      kind_.go_on(*boxes_[k], dem_steps, increments[k]);
-      answers.push_back(kind_.answer(*boxes_[k]));
-    }
+    for (std::size_t k = 0; k < boxes_.size(); ++k) try {
+        kind_.alive();
+        kind_.go_on(*boxes_[k], dem_steps, increments[k]);
+        answers.push_back(kind_.answer(*boxes_[k]));
+      } catch (const RunError& error) {
+        throw RunError(fmt::format("box {} of these {}: {}", k, boxes_.size(), error.what()));
+      }
     return answers;
   }
 
@@ -57,6 +64,7 @@ class ResidentBoxesOf final : public ResidentBoxes {
       throw RunError("resident boxes are asked for more boxes than there are");
     std::vector<ResidentReadOut> all;
     for (std::size_t k = first; k < first + count; ++k) {
+      kind_.alive();
       all.push_back(kind_.read(*boxes_[k]));
       kind_.put(*boxes_[k], {all.back().reply.state, all.back().motion});
     }

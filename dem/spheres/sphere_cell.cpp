@@ -234,6 +234,9 @@ struct SphereCell::ResidentKind {
     box->set_time_step(cell.time_step_);
     return box;
   }
+  void alive() const {
+    if (cell.progress) cell.progress();
+  }
   void hold(Box& box) const {
     if (cell.controlled()) box.set_rotation_weights(cell.weights(box));
   }
