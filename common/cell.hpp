@@ -175,6 +175,8 @@ void describe(Record& reply, Visit&& visit) {
   visit(FieldNotes{"state", "", "state after the increment"}, reply.state);
 }
 
+class ResidentBoxes;
+
 /// One engine that stands in for the cells of one definition. Its answer depends on its arguments alone,
 /// to the bit, so any engine made from an equal definition may take any request.
 class CellService {
@@ -185,6 +187,10 @@ class CellService {
   /// @throws RunError when the request cannot be served (a state of another definition, an increment
   /// that its grains cannot follow).
   virtual CellReply evaluate(const CellRequest& request) = 0;
+
+  /// Boxes of these grains that stay where they are and go on (common/resident_boxes.hpp); none at first. The service must
+  /// outlive them. @throws RunError when only the engine's own loop can step these grains
+  virtual std::unique_ptr<ResidentBoxes> residents();
 
   /// To be called now and then while the engine works, so that others know it is alive; may be empty.
   std::function<void()> progress;

@@ -159,7 +159,7 @@ class Run {
       log_.info("step {}", step);
       step_ = step;
       const fem::StepReport report =
-          step == 0 ? solver_->equilibrate() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
+          step == 0 ? begin() : take(case_.plan[static_cast<std::size_t>(step) - 1]);
       log_step(log_, report, case_.solver.largest_strain);
       // The committed part of a step that was not reached is shown, but is no place to go on from.
       const bool partly = !report.converged && step > 0 && report.substeps > 0;
@@ -192,7 +192,10 @@ class Run {
     return true;
   }
 
+  fem::StepReport begin() { return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate(); }
+
   fem::StepReport take(const coupler::StepTarget& target) {
+    if (target.explicit_steps > 0) return solver_->advance_explicit(target.amount, target.explicit_steps);
     switch (target.control) {
       case coupler::StepTarget::Control::measure:
         return solver_->advance_measure(target.measure, target.amount);

@@ -23,6 +23,12 @@ void log_step(spdlog::logger& log, const fem::StepReport& report, double largest
         "  {} jumps of the stresses were passed; the largest left a force residual of {:.3e}, let go since",
         report.jumps, report.jump_residual);
   }
+  if (report.explicit_steps > 0) {
+    log.info(
+        "  {} explicit steps, mean force residual {:.3e}, kinetic energy {:.2e} of the internal work, time {:.6g}",
+        report.explicit_steps, report.force_residual, report.kinetic_share, report.time);
+    return;
+  }
   log.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",
            report.converged ? "converged" : "NOT converged", report.iterations, report.cuts,
            report.evaluations, report.time);

@@ -40,6 +40,7 @@ struct StepTarget {
   Control control = Control::time;
   double amount = 0.0;  ///< the time itself; the growth; the length (m)
   fem::DisplacementMeasure measure;
+  int explicit_steps = 0;  ///< in so many explicit steps; 0: by Newton's method
 };
 
 /// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.
@@ -66,6 +67,8 @@ struct Case {
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }
   [[nodiscard]] bool needs_workers() const;
+  /// Whether it goes on in explicit steps.
+  [[nodiscard]] bool is_explicit() const { return !plan.empty() && plan.front().explicit_steps > 0; }
 };
 
 /// Reads and checks a case file; runs nothing and writes nothing.

@@ -12,6 +12,7 @@ namespace polargrain::coupler {
 struct CaseFiles {
   std::filesystem::path directory;  ///< of the case file
   ScriptRules scripts = {};
+  int dem_steps = 0;     ///< of an explicit step; 0: cells are asked by Newton's method
   bool cosserat = true;  ///< false: a classical continuum, which asks for no Gc and no lc
 };
 

@@ -46,4 +46,11 @@ void read_body_loads(const Entry& entry, CaseParts& parts);
 void read_initial_stress(const Entry& entry, CaseParts& parts);
 void read_steps(const Entry& entry, CaseParts& parts);
 
+/// DEM steps that an explicit step of the nodes has, unless the case says otherwise.
+inline constexpr int kDemSteps = 5;
+/// DEM steps an explicit step; 0 where the case asks for another method. Materials are read before the steps.
+int dem_steps_of(const Entry& document);
+/// Reads the keys of `method: explicit` and gives each step of the plan its explicit steps.
+void read_explicit(Section& steps, CaseParts& parts);
+
 }  // namespace polargrain::coupler

@@ -71,9 +71,10 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        case_.materials[member.key] = model.read(
-            member.key, section, faults_,
-            CaseFiles{parts_.directory, scripts_, case_.problem.continuum == fem::Continuum::cosserat});
+        case_.materials[member.key] =
+            model.read(member.key, section, faults_,
+                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_),
+                                 case_.problem.continuum == fem::Continuum::cosserat});
         section.finish();
       }
     }

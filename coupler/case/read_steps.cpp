@@ -116,6 +116,7 @@ void read_steps(const Entry& entry, CaseParts& parts) {
     }
     read_stages(*stages, parts);
   }
+  if (steps.choice_or("method", {"newton", "explicit"}, "newton") == "explicit") read_explicit(steps, parts);
   fem::SolverOptions& solver = parts.result.solver;
   solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);
   solver.most_iterations = steps.whole_or("iterations", 1, solver.most_iterations);

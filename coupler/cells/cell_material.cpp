@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/cells/cell_material.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
-#include "common/error.hpp"
 #include "common/record_archive.hpp"
-#include "common/record_table.hpp"
+#include "coupler/cells/cell_fields.hpp"
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cell_noise.hpp"
 
@@ -71,8 +65,7 @@ void CellMaterial::commit() {
 }
 
 LimitsReached CellMaterial::reached(const PointState& point) const {
-  if (cosserat_) return point.cosserat.reached(*cosserat_, packing_.least_pressure());
-  return {.parted = pressure_in_plane(point.cell.response.stress) <= packing_.least_pressure()};
+  return limits_reached(point.cell.response.stress, cosserat_, point.cosserat, packing_);
 }
 
 void CellMaterial::save(ArchiveWriter& archive) const {
@@ -87,13 +80,12 @@ void CellMaterial::restore(ArchiveReader& archive) {
 }
 
 std::vector<std::string> CellMaterial::field_names() const {
-  return joined_names(names_of_columns<CellDiagnostics>(), names_of_limit_fields(cosserat_.has_value()));
+  return names_of_cell_fields(cosserat_.has_value());
 }
 
 void CellMaterial::fields(std::size_t point, std::span<double> values) const {
   const PointState& state = committed_[point];
-  const auto rest = std::ranges::copy(values_of(state.cell.diagnostics), values.begin()).out;
-  write_limit_fields(reached(state), cosserat_, state.cosserat, rest);
+  write_cell_fields(state.cell.diagnostics, reached(state), cosserat_, state.cosserat, values);
 }
 
 }  // namespace polargrain::coupler

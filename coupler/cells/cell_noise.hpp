@@ -11,17 +11,20 @@ namespace polargrain::coupler {
 /// increments differ slightly scatter by as much (docs/performance.md). The same holds for the moments of a cell
 /// with controlled rotations: of the skew stress, and, times the mean radius, of the couple stress. Stresses that are not
 /// the grains' (skew and couple stress of CosseratParameters) count as exact.
-/// @param mean_radius of grains whose rotations are controlled, m; 0: they are free
-inline StressNoise noise_of(const PlaneReply& reply, double mean_radius) {
-  const CellDiagnostics& cell = reply.diagnostics;
+/// @param stress of the cell, Pa @param mean_radius of grains whose rotations are controlled, m; 0: they are free
+inline StressNoise noise_of(const Vector7& stress, const CellDiagnostics& cell, double mean_radius) {
   if (!(cell.coordination_number > 0.0) || cell.contacts == 0) return {};
   const double grains = 2.0 * static_cast<double>(cell.contacts) / cell.coordination_number;
-  const double pressure = 0.5 * std::abs(reply.response.stress(k11) + reply.response.stress(k22));
+  const double pressure = 0.5 * std::abs(stress(k11) + stress(k22));
   const double scale = pressure / std::sqrt(grains);
   const double of_moments = cell.unbalanced_moment_ratio * scale;
   return {.symmetric = cell.unbalanced_force_ratio * scale,
           .skew = mean_radius > 0.0 ? of_moments : 0.0,
           .couple = of_moments * mean_radius};
+}
+
+inline StressNoise noise_of(const PlaneReply& reply, double mean_radius) {
+  return noise_of(reply.response.stress, reply.diagnostics, mean_radius);
 }
 
 }  // namespace polargrain::coupler

@@ -76,13 +76,14 @@ void Foreman::work(std::vector<Task>& tasks) {
   const Clock::time_point start = Clock::now();
   tasks_ = &tasks;
   done_ = 0;
+  residents_lost_.clear();
   waiting_.clear();
   queue_.begin(tasks);
   for (std::size_t number = 0; number < tasks.size(); ++number) enqueue(number);
-  give_all();
+  if (residents_lost_.empty()) give_all();
   checked_ = start;
   Clock::time_point last = start;
-  while (done_ < tasks.size()) {
+  while (done_ < tasks.size() && residents_lost_.empty()) {
     crew_.listen(tick_);
     const Clock::time_point now = Clock::now();
     count_seconds(now - last);
@@ -94,10 +95,24 @@ void Foreman::work(std::vector<Task>& tasks) {
     if (progress && tasks.front().kind == Task::Kind::evaluate) progress(done_, tasks.size());
   }
   note_returned();
+  if (!residents_lost_.empty()) drop_jobs();
   tasks_ = nullptr;
   counts.bytes_sent = crew_.bytes_sent();
   counts.bytes_received = crew_.bytes_received();
   count_seconds(Clock::now() - last);
+  if (!residents_lost_.empty()) throw ResidentsLost(residents_lost_);
+}
+
+std::vector<std::uint64_t> Foreman::gather() {
+  Clock::time_point last = Clock::now();
+  while (crew_.members().empty() || crew_.is_filling()) {
+    crew_.listen(tick_);
+    const Clock::time_point now = Clock::now();
+    count_seconds(now - std::exchange(last, now));
+  }
+  std::vector<std::uint64_t> numbers;
+  for (const Member& member : crew_.members()) numbers.push_back(member.number);
+  return numbers;
 }
 
 void Foreman::count_seconds(Clock::duration passed) {
@@ -119,6 +134,8 @@ void Foreman::said(Member& member, const Message& message) {
     take_replies(member, *reply);
   } else if (const auto* states = std::get_if<States>(&message)) {
     take_states(member, *states);
+  } else if (const auto* residents = std::get_if<ResidentReply>(&message)) {
+    take_resident_reply(member, *residents);
   } else if (const auto* working = std::get_if<Working>(&message)) {
     for (Job& job : member.jobs) job.begun = job.begun || job.request == working->request;
   } else if (const auto* missing = std::get_if<Missing>(&message)) {
@@ -151,6 +168,10 @@ void Foreman::lost(Member& member, const Loss& loss) {
     return;
   }
   Task& first = first_of(had);
+  if (first.kind == Task::Kind::resident) {
+    residents_lost_ = text;
+    return;
+  }
   // A connection that closes before the work began says nothing about the cell.
   const bool counts_for_cell = !loss.from_outside || !member.address.remote || had.begun;
   if (had.tasks.size() == 1 && first.kind != Task::Kind::fetch && counts_for_cell) {
@@ -169,6 +190,11 @@ void Foreman::lost(Member& member, const Loss& loss) {
 
 void Foreman::enqueue(std::size_t number) {
   Task& next = task(number);
+  if (next.kind == Task::Kind::resident) {
+    if (present_.contains(next.residents->worker)) return queue_.add_for(next.residents->worker, number);
+    residents_lost_ = "the worker with the boxes of " + place_of(next) + " is gone";
+    return;
+  }
   if (next.kind == Task::Kind::fetch) {
     const std::uint64_t keeper = book_.home(next.wanted->name());
     if (present_.contains(keeper)) return queue_.add_for(keeper, number);
@@ -222,6 +248,16 @@ void Foreman::send(Member& member, const Job& job) {
   }
   if (member.defined.insert(first.definition).second) {
     crew_.send(member, Define{first.definition, definitions_[first.definition].cell});
+  }
+  if (first.kind == Task::Kind::resident) {
+    std::visit(
+        [&](auto message) {
+          message.request = job.request;
+          message.settled = job.request - 1;  // it is alone with its worker
+          crew_.send(member, std::move(message));
+        },
+        first.residents->message);
+    return;
   }
   if (first.kind == Task::Kind::rest) {
     crew_.send(member, InitialRequest{job.request, first.definition});
@@ -283,9 +319,11 @@ void Foreman::check_clocks() {
     if (member.jobs.empty()) continue;
     Job& job = member.jobs.front();
     const double silence = seconds_of(now - job.heard);
-    const double longest = definitions_[first_of(job).definition].longest;
-    const double limit = static_cast<double>(job.tasks.size()) *
-                         std::max(patience.cell_seconds, patience.times_longest * longest);
+    const Task& first = first_of(job);
+    const double longest = definitions_[first.definition].longest;
+    const std::size_t cells = first.residents ? first.residents->boxes : job.tasks.size();
+    const double limit =
+        static_cast<double>(cells) * std::max(patience.cell_seconds, patience.times_longest * longest);
     if (silence > patience.silence_seconds) {
       hung.emplace_back(&member,
                         fmt::format("it hangs: no sign of life for {:.3g} s", patience.silence_seconds));

@@ -29,13 +29,20 @@ class Foreman final : private CrewEvents {
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
 
   /// Returns when every task is done, with its reply; those of `fetch` and `again` have a state and no more.
-  /// @throws RunError when no worker is left, or nobody can do a task other than an evaluation
+  /// @throws RunError when no worker is left, or nobody can do a task other than an evaluation; ResidentsLost when a
+  /// worker is gone that a task is for: this alone ends nothing, the other tasks are dropped
   void work(std::vector<Task>& tasks);
+  /// Waits until no process of our own is on its way. @returns the workers there are, at least one, by the numbers of
+  /// their Members
+  std::vector<std::uint64_t> gather();
+  /// Workers there were when this was last asked for anything.
+  [[nodiscard]] std::size_t present_count() const { return present_.size(); }
 
   StateBook& book() { return book_; }
   [[nodiscard]] const Switchboard& switchboard() const { return crew_.switchboard(); }
   [[nodiscard]] int workers() const { return options_.workers; }
   [[nodiscard]] double check_share() const { return options_.check_share; }
+  void tell(const std::string& text) const;
 
   std::function<void(std::size_t, std::size_t)> progress;  ///< see Pool::on_progress
   PoolCounts counts;
@@ -93,8 +100,15 @@ class Foreman final : private CrewEvents {
   /// Answers returned now rest on one worker's word: noted, should it be found to answer falsely later.
   void note_returned();
 
+  // Messages about resident boxes.
+  void take_resident_reply(Member& member, const ResidentReply& reply);
+  /// @throws RunError
+  [[noreturn]] void end_refused(const Member& member, const Task& refused, const Refusal& refusal) const;
+
   // Tasks that cannot be finished.
   void put_back(const Job& job);
+  /// All that is at work comes to nothing; answers to it are late.
+  void drop_jobs();
   void end_attempt(Task& task, Attempt attempt);
   [[nodiscard]] bool may_take(const Member& member, const Task& task);
   [[nodiscard]] std::vector<Candidate> present();
@@ -107,7 +121,6 @@ class Foreman final : private CrewEvents {
   void excuse_all(Clock::duration time);
   void count_seconds(Clock::duration passed);
   void check_clocks();
-  void tell(const std::string& text) const;
 
   [[nodiscard]] Task& task(std::size_t number) { return (*tasks_)[number]; }
   [[nodiscard]] const Task& task(std::size_t number) const { return (*tasks_)[number]; }
@@ -129,6 +142,7 @@ class Foreman final : private CrewEvents {
   TaskQueue queue_;
   std::uint64_t last_request_ = 0;
   std::size_t done_ = 0;
+  std::string residents_lost_;  ///< how; empty: all of them are there
   Clock::time_point checked_;
 };
 

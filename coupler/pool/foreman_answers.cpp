@@ -31,7 +31,8 @@ void Foreman::take_replies(Member& member, const Reply& reply) {
   const auto found = find_job(member, reply.request);
   if (found == member.jobs.end()) return;
   const Task& first = first_of(*found);
-  if (first.kind == Task::Kind::fetch || reply.cells.size() != found->tasks.size()) {
+  if (first.kind == Task::Kind::fetch || first.kind == Task::Kind::resident ||
+      reply.cells.size() != found->tasks.size()) {
     throw FalseMessage("a reply that does not fit its request");
   }
   for (std::size_t c = 0; c < reply.cells.size(); ++c) {
@@ -176,6 +177,35 @@ void Foreman::take_states(Member& member, const States& answer) {
   give_next(member, kJobsAtHand);
 }
 
+void Foreman::take_resident_reply(Member& member, const ResidentReply& reply) {
+  const auto found = find_job(member, reply.request);
+  if (found == member.jobs.end()) return;
+  Task& done = first_of(*found);
+  if (done.kind != Task::Kind::resident) throw FalseMessage("a reply that does not fit its request");
+  ResidentWork& work = *done.residents;
+  const auto* const step = std::get_if<GoOn>(&work.message);
+  const bool reads = std::holds_alternative<ReadOut>(work.message);
+  if (reply.answers.size() != (step != nullptr ? work.boxes : 0) ||
+      reply.read_outs.size() != (reads ? work.boxes : 0)) {
+    throw FalseMessage("a reply that does not fit its request");
+  }
+  for (const ResidentReadOut& box : reply.read_outs) check_state(done, box.reply.state);
+  finished(member, reply.request);
+  counts.engine_seconds += reply.seconds;
+  counts.states_fetched += static_cast<std::int64_t>(reply.read_outs.size());
+  WorkerRecord& record = records[member.name];
+  record.processor = member.processor;
+  if (step != nullptr) {
+    const auto boxes = static_cast<std::int64_t>(work.boxes);
+    counts.evaluations += boxes;
+    counts.dem_steps += boxes * step->dem_steps;
+    record.evaluations += boxes;
+  }
+  work.reply = reply;
+  ++done_;
+  give_next(member, kJobsAtHand);
+}
+
 Job Foreman::finished(Member& member, std::uint64_t request) {
   const auto found = find_job(member, request);
   Job job = std::move(*found);
@@ -217,9 +247,11 @@ void Foreman::supply(Member& member, const Missing& missing) {
 void Foreman::take_refusal(Member& member, const Refusal& refusal) {
   const auto found = find_job(member, refusal.request);
   if (found == member.jobs.end()) return;
-  if (refusal.place >= found->tasks.size() || first_of(*found).kind == Task::Kind::fetch) {
+  const Task& first = first_of(*found);
+  const std::size_t places = first.residents ? first.residents->boxes + 1 : found->tasks.size();
+  if (refusal.place >= places || first.kind == Task::Kind::fetch)
     throw FalseMessage("a refusal that does not fit its request");
-  }
+  if (first.residents) end_refused(member, first, refusal);
   Job job = finished(member, refusal.request);
   Task& refused = task(job.tasks[refusal.place]);
   job.tasks.erase(job.tasks.begin() + refusal.place);
@@ -236,6 +268,21 @@ void Foreman::put_back(const Job& job) {
     if (task(*number).kind == Task::Kind::fetch) task(*number).kind = Task::Kind::again;
     queue_.add_first(*number);
   }
+}
+
+void Foreman::drop_jobs() {
+  for (Member& member : crew_.members()) member.jobs.clear();
+  queue_.clear();
+}
+
+void Foreman::end_refused(const Member& member, const Task& refused, const Refusal& refusal) const {
+  Task place = refused;
+  ResidentWork& boxes = *place.residents;
+  if (refusal.place < boxes.boxes) {
+    boxes.first += refusal.place;
+    boxes.boxes = 1;
+  }
+  throw RunError(fmt::format("{} refuses {}: {}", member.name, place_of(place), refusal.message));
 }
 
 /// Somebody could not carry a task to its end.
@@ -281,7 +328,13 @@ void Foreman::say_again(const std::string& text, std::size_t cells) const {
 
 std::string Foreman::place_of(const Task& at) const {
   const CellDefinition& cell = definitions_[at.definition].cell;
-  const std::string what = at.point ? fmt::format("point {}", *at.point) : "a cell";
+  if (at.residents && at.residents->boxes > 1) {
+    const std::size_t first = at.residents->first;
+    return fmt::format("points {} to {} of material '{}' ({})", first, first + at.residents->boxes - 1,
+                       cell.name, cell.script_file);
+  }
+  const std::optional<std::size_t> point = at.residents ? at.residents->first : at.point;
+  const std::string what = point ? fmt::format("point {}", *point) : "a cell";
   return fmt::format("{} of material '{}' ({})", what, cell.name, cell.script_file);
 }
 

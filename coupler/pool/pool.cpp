@@ -126,6 +126,18 @@ class Pool::Implementation {
     return std::move(tasks.front().reply);
   }
 
+  void serve(std::uint32_t definition, std::vector<ResidentWork>& works) {
+    std::vector<Task> tasks(works.size());
+    for (std::size_t k = 0; k < works.size(); ++k) {
+      tasks[k].kind = Task::Kind::resident;
+      tasks[k].definition = definition;
+      tasks[k].alone = true;
+      tasks[k].residents = std::move(works[k]);
+    }
+    foreman.work(tasks);
+    for (std::size_t k = 0; k < works.size(); ++k) works[k] = std::move(*tasks[k].residents);
+  }
+
   Foreman foreman;
   std::optional<CellFailure> failure;
   std::function<void(std::span<const PoolRequest>, std::span<const CellReply>)> on_answers;
@@ -188,6 +200,18 @@ std::size_t Pool::refused() const {
 }
 int Pool::workers() const {
   return implementation_->foreman.workers();
+}
+void Pool::tell(const std::string& text) const {
+  implementation_->foreman.tell(text);
+}
+std::vector<std::uint64_t> Pool::gather() {
+  return implementation_->foreman.gather();
+}
+std::size_t Pool::present_count() const {
+  return implementation_->foreman.present_count();
+}
+void Pool::serve(std::uint32_t definition, std::vector<ResidentWork>& works) {
+  implementation_->serve(definition, works);
 }
 
 }  // namespace polargrain::coupler

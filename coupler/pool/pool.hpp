@@ -14,6 +14,7 @@
 #include "common/state_check.hpp"
 #include "coupler/pool/listening.hpp"
 #include "coupler/pool/patience.hpp"
+#include "coupler/pool/resident_work.hpp"
 #include "coupler/pool/worker.hpp"
 
 namespace polargrain::coupler {
@@ -98,7 +99,7 @@ struct WorkerRecord {
 /// first the requests that start from a state that it has.
 ///
 /// Order of calls: construct (starts the workers), define each material's cell, then any number of initial,
-/// evaluate and collect. After an exception the pool can only be destroyed. One thread.
+/// evaluate and collect. After an exception other than ResidentsLost the pool can only be destroyed. One thread.
 ///
 /// A share of the evaluations, drawn by their order from a fixed seed, is done by two workers, who must
 /// come to the same bits; a third decides. A worker found alone is sent away, and its other answers in the same
@@ -143,8 +144,18 @@ class Pool {
   [[nodiscard]] std::size_t refused() const;
   /// Local workers, as asked for.
   [[nodiscard]] int workers() const;
+  /// Gives the user a sentence; see PoolOptions::tell.
+  void tell(const std::string& text) const;
 
  private:
+  friend class ResidentTeam;
+  /// The workers there are; see Foreman::gather.
+  std::vector<std::uint64_t> gather();
+  [[nodiscard]] std::size_t present_count() const;
+  /// Has these messages about boxes of a definition answered, those of one worker in their order.
+  /// @throws ResidentsLost when one of these workers is gone @throws RunError when one refuses its boxes
+  void serve(std::uint32_t definition, std::vector<ResidentWork>& works);
+
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

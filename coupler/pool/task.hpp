@@ -8,6 +8,7 @@
 #include "coupler/pool/attempts.hpp"
 #include "coupler/pool/evidence.hpp"
 #include "coupler/pool/opinions.hpp"
+#include "coupler/pool/resident_work.hpp"
 
 namespace polargrain::coupler {
 
@@ -17,18 +18,21 @@ struct Task {
     rest,      ///< the packing at rest
     evaluate,  ///< a cell
     fetch,     ///< the bytes of a state on trial, from the worker that keeps it
-    again      ///< those bytes from anybody: the cell is evaluated again from where it was
+    again,     ///< those bytes from anybody: the cell is evaluated again from where it was
+    resident   ///< a message about resident boxes, to the worker that has them
   };
   Kind kind = Kind::evaluate;
   std::uint32_t definition = 0;
   CellRequest cell = {};  ///< its state is here, or null
   std::optional<std::size_t> point = {};
-  StatePointer wanted = {};  ///< fetch, again: the state on trial
+  StatePointer wanted = {};                    ///< fetch, again: the state on trial
+  std::optional<ResidentWork> residents = {};  ///< resident
 
   std::uint64_t home = 0;  ///< the worker that should have the state the cell starts from; 0: not known
 
   CellReply reply = {};
-  bool alone = false;  ///< was with a worker that was lost, beside others: the next worker has nothing else
+  bool alone =
+      false;  ///< the worker has nothing else meanwhile: a worker with this and others was lost, or it is `resident`
   Attempts attempts = {};  ///< that came to nothing
 
   // rest, evaluate: who answered, where that can be checked

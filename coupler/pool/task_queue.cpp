@@ -6,7 +6,11 @@
 namespace polargrain::coupler {
 
 void TaskQueue::begin(const std::vector<Task>& tasks) {
+  clear();
   tasks_ = &tasks;
+}
+
+void TaskQueue::clear() {
   common_.clear();
   own_.clear();
   size_ = 0;
@@ -55,7 +59,9 @@ std::vector<std::size_t> TaskQueue::take_all_of(std::uint64_t worker) {
 TaskQueue::Queue* TaskQueue::longest() {
   Queue* longest = nullptr;
   for (auto& [worker, queue] : own_) {
-    if (queue.empty() || (*tasks_)[queue.back()].kind == Task::Kind::fetch) continue;
+    if (queue.empty()) continue;
+    const Task::Kind kind = (*tasks_)[queue.back()].kind;
+    if (kind == Task::Kind::fetch || kind == Task::Kind::resident) continue;
     if (longest == nullptr || queue.size() > longest->size()) longest = &queue;
   }
   return longest;

@@ -17,6 +17,7 @@ class TaskQueue {
  public:
   /// @param tasks which the numbers below count
   void begin(const std::vector<Task>& tasks);
+  void clear();
   void add(std::size_t task) { put_in(common_, task, false); }
   void add_first(std::size_t task) { put_in(common_, task, true); }
   void add_for(std::uint64_t worker, std::size_t task) { put_in(own_[worker], task, false); }

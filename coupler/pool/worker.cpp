@@ -13,10 +13,12 @@
 #include "common/error.hpp"
 #include "common/processor.hpp"
 #include "common/record_values.hpp"
+#include "common/resident_boxes.hpp"
 #include "common/seconds.hpp"
 #include "coupler/pool/connection.hpp"
 #include "coupler/pool/state_cache.hpp"
 #include "coupler/protocol/messages.hpp"
+#include "coupler/protocol/resident_records.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -60,8 +62,21 @@ class Desk {
       return served(*initial, session, [&] { return at_rest(*initial); });
     }
     if (const auto* evaluate = std::get_if<EvaluateRequest>(&message)) {
-      settle(*evaluate);
+      for (const ContentName& name : evaluate->released) cache_.forget(name);
+      settle(evaluate->settled);
       return served(*evaluate, session, [&] { return evaluated(*evaluate); });
+    }
+    if (const auto* move_in = std::get_if<MoveIn>(&message)) {
+      settle(move_in->settled);
+      return served(*move_in, session, [&] { return moved_in(*move_in); });
+    }
+    if (const auto* go_on = std::get_if<GoOn>(&message)) {
+      settle(go_on->settled);
+      return served(*go_on, session, [&] { return gone_on(*go_on); });
+    }
+    if (const auto* read_out = std::get_if<ReadOut>(&message)) {
+      settle(read_out->settled);
+      return served(*read_out, session, [&] { return read(*read_out); });
     }
     if (const auto* fetch = std::get_if<FetchRequest>(&message)) return encode(fetched(*fetch), session);
     throw ProtocolError("a message that only workers send");
@@ -118,10 +133,57 @@ class Desk {
     return found;
   }
 
+  Message moved_in(const MoveIn& request) {
+    const Clock::time_point start = Clock::now();
+    ResidentBoxes& all = boxes(request.definition);
+    if (request.first == 0) all.clear();
+    require_count(all, request.first);
+    all.move_in(request.starts);
+    return ResidentReply{request.request, seconds_since(start), {}, {}};
+  }
+
+  Message gone_on(const GoOn& request) {
+    const auto count = static_cast<std::uint32_t>(request.increments.size());
+    try {
+      const Clock::time_point start = Clock::now();
+      ResidentBoxes& all = boxes(request.definition);
+      require_count(all, count);
+      ResidentReply reply{request.request, 0.0, all.go_on(request.dem_steps, request.increments), {}};
+      reply.seconds = seconds_since(start);
+      for (std::uint32_t k = 0; k < count; ++k)
+        if (!is_finite(reply.answers[k])) return not_finite(request.request, k);
+      return reply;
+    } catch (const std::exception& error) {
+      return Refusal{request.request, count, error.what()};  // any of them
+    }
+  }
+
+  Message read(const ReadOut& request) {
+    const Clock::time_point start = Clock::now();
+    ResidentReply reply{
+        request.request, 0.0, {}, boxes(request.definition).read_out(request.first, request.count)};
+    reply.seconds = seconds_since(start);
+    for (std::uint32_t k = 0; k < request.count; ++k) {
+      const ResidentReadOut& box = reply.read_outs[k];
+      if (!is_finite(box.motion) || honest(box.reply).response.quality == Quality::failed)
+        return not_finite(request.request, k);
+    }
+    return reply;
+  }
+
+  static Refusal not_finite(std::uint64_t request, std::uint32_t place) {
+    return {request, place, "the answer of the box holds numbers that are not finite"};
+  }
+
+  /// Boxes that the coordinator does not know of, or lacks, would give answers in the place of others.
+  static void require_count(const ResidentBoxes& all, std::size_t count) {
+    if (all.count() != count)
+      throw RunError(fmt::format("the worker has {} boxes instead of {}", all.count(), count));
+  }
+
   /// Drops what nobody is going to ask for.
-  void settle(const EvaluateRequest& request) {
-    for (const ContentName& name : request.released) cache_.forget(name);
-    settled_ = std::max(settled_, request.settled);
+  void settle(std::uint64_t settled) {
+    settled_ = std::max(settled_, settled);
     answers_.erase(answers_.begin(), answers_.upper_bound(settled_));
   }
 
@@ -153,11 +215,18 @@ class Desk {
     return *service;
   }
 
+  ResidentBoxes& boxes(std::uint32_t definition) {
+    std::unique_ptr<ResidentBoxes>& boxes = boxes_[definition];
+    if (!boxes) boxes = service(definition).residents();
+    return *boxes;
+  }
+
   const CellServiceFactory& make_service_;
   std::function<void(std::uint64_t)> heartbeat_;
   StateCache cache_;
   std::map<std::uint32_t, CellDefinition> definitions_;
   std::map<std::uint32_t, std::unique_ptr<CellService>> services_;
+  std::map<std::uint32_t, std::unique_ptr<ResidentBoxes>> boxes_;  ///< they use the services
   std::uint64_t at_work_ = 0;
   std::uint64_t settled_ = 0;
   std::map<std::uint64_t, std::string> answers_;  ///< to requests that are not settled, by their numbers

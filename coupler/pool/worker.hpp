@@ -24,8 +24,8 @@ struct ServeOptions {
 };
 
 /// The life of a worker: connects to a coordinator, says Hello until it is welcomed, answers requests one at
-/// a time until it is told to stop. Keeps the engines of the definitions it was sent and a bounded cache of
-/// states, nothing else. While an engine works it says so at every heartbeat. Messages that are lost,
+/// a time until it is told to stop. Keeps the engines of the definitions it was sent, their resident boxes and a bounded
+/// cache of states, nothing else. While an engine works it says so at every heartbeat. Messages that are lost,
 /// doubled, out of order or broken on their way do no harm: a request is served once, its answer kept and
 /// sent again when it is asked again.
 /// @param url the coordinator's endpoint, for example ipc:///tmp/polargrain-a1b2c3/coordinator

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <msgpack.hpp>
 
 #include "common/plain_text.hpp"
@@ -66,8 +67,26 @@ void write(ArrayWriter& writer, const Working& m) {
 void write(ArrayWriter& writer, const Refusal& m) {
   writer.whole(m.request).whole(m.place).text(m.message);
 }
+void write(ArrayWriter& writer, const MoveIn& m) {
+  writer.whole(m.request).whole(m.definition).whole(m.settled).whole(m.first);
+  ArrayWriter starts = writer.part();
+  for (const ResidentStart& start : m.starts) write(starts.part(), start);
+}
+void write(ArrayWriter& writer, const GoOn& m) {
+  writer.whole(m.request).whole(m.definition).whole(m.settled).whole(static_cast<std::uint64_t>(m.dem_steps));
+  write(writer, std::span(m.increments));
+}
+void write(ArrayWriter& writer, const ReadOut& m) {
+  writer.whole(m.request).whole(m.definition).whole(m.settled).whole(m.first).whole(m.count);
+}
+void write(ArrayWriter& writer, const ResidentReply& m) {
+  writer.whole(m.request).numbers({&m.seconds, 1});
+  write(writer, std::span(m.answers));
+  ArrayWriter boxes = writer.part();
+  for (const ResidentReadOut& box : m.read_outs) write(boxes.part(), box);
+}
 
-/// Bytes of the states in a message, so that the memory for it is taken once.
+/// Bytes of the states in a message, and of the numbers of boxes, so that the memory for it is taken once.
 template <class T>
 std::size_t bytes_of_states(const T&) {
   return 0;
@@ -88,6 +107,19 @@ std::size_t bytes_of_states(const Reply& m) {
 std::size_t bytes_of_states(const States& m) {
   std::size_t bytes = 0;
   for (const StatePointer& state : m.states) bytes += 16 + bytes_of(state);
+  return bytes;
+}
+std::size_t bytes_of_states(const MoveIn& m) {
+  std::size_t bytes = 0;
+  for (const ResidentStart& start : m.starts) bytes += 128 + bytes_of(start.state);
+  return bytes;
+}
+std::size_t bytes_of_states(const GoOn& m) {
+  return m.increments.size() * sizeof(CellIncrement);
+}
+std::size_t bytes_of_states(const ResidentReply& m) {
+  std::size_t bytes = m.answers.size() * sizeof(ResidentAnswer);
+  for (const ResidentReadOut& box : m.read_outs) bytes += 4096 + bytes_of(box.reply.state);
   return bytes;
 }
 
@@ -149,6 +181,52 @@ States read_states(ArrayReader& reader) {
                                            [](ArrayReader& states) { return states.state(); })};
 }
 
+MoveIn read_move_in(ArrayReader& reader) {
+  MoveIn m;
+  m.request = reader.whole();
+  m.definition = reader.whole32();
+  m.settled = reader.whole();
+  m.first = reader.whole32();
+  m.starts = read_list<ResidentStart>(reader.part(), "a list of boxes",
+                                      [](ArrayReader& starts) { return read_start(starts.part()); });
+  return m;
+}
+
+GoOn read_go_on(ArrayReader& reader) {
+  GoOn m;
+  m.request = reader.whole();
+  m.definition = reader.whole32();
+  m.settled = reader.whole();
+  const std::uint64_t dem_steps = reader.whole();
+  if (dem_steps < 1 || dem_steps > std::numeric_limits<int>::max())
+    throw ProtocolError("a count of DEM steps is out of range");
+  m.dem_steps = static_cast<int>(dem_steps);
+  m.increments = read_increments(reader);
+  return m;
+}
+
+ReadOut read_read_out_request(ArrayReader& reader) {
+  ReadOut m;
+  m.request = reader.whole();
+  m.definition = reader.whole32();
+  m.settled = reader.whole();
+  m.first = reader.whole32();
+  m.count = reader.whole32();
+  if (m.count < 1 || m.count > kMostStatesOfBoxes)
+    throw ProtocolError("a count of boxes to read out is out of range");
+  return m;
+}
+
+ResidentReply read_resident_reply(ArrayReader& reader) {
+  ResidentReply m;
+  m.request = reader.whole();
+  m.seconds = read_seconds(reader);
+  m.answers = read_answers(reader);
+  m.read_outs = read_list<ResidentReadOut>(reader.part(), "a list of boxes",
+                                           [](ArrayReader& boxes) { return read_read_out(boxes.part()); });
+  return m;
+}
+
 /// A name that goes into messages to the user and into file names.
 std::string read_host(ArrayReader& reader) {
   std::string host = reader.text();
@@ -203,6 +281,14 @@ Message read_message(ArrayReader& reader, std::uint64_t kind) {
     }
     case kind_of<States>():
       return read_states(reader);
+    case kind_of<MoveIn>():
+      return read_move_in(reader);
+    case kind_of<GoOn>():
+      return read_go_on(reader);
+    case kind_of<ReadOut>():
+      return read_read_out_request(reader);
+    case kind_of<ResidentReply>():
+      return read_resident_reply(reader);
     default:
       throw ProtocolError("no such kind of message");
   }

@@ -8,14 +8,19 @@
 #include <vector>
 
 #include "common/cell.hpp"
+#include "common/resident_boxes.hpp"
 
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 9;
+inline constexpr std::uint32_t kProtocolVersion = 10;
 
 /// A request asks for no more cells or states.
 inline constexpr std::size_t kMostInRequest = 64;
+
+/// A message moves so many resident boxes in, or reads out so many: their states travel with it.
+inline constexpr std::size_t kMostStatesOfBoxes = 16;
+static_assert(kMostStatesOfBoxes <= kMostInRequest);
 
 /// No message is longer; longer ones are refused before they are read.
 inline constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
@@ -115,18 +120,54 @@ struct Working {
   std::uint64_t request = 0;
 };
 
-/// Worker to coordinator: one of the cells of a request cannot be served, and why; the others were not tried
+/// Worker to coordinator: one of the cells or boxes of a request cannot be served, and why; the others were not tried
 /// or their answers are dropped.
 struct Refusal {
   std::uint64_t request = 0;
-  std::uint32_t place = 0;  ///< of that cell in the request
+  std::uint32_t place = 0;  ///< of that cell in the request; their number when any of its boxes may be meant
   std::string message;
+};
+
+/// Coordinator to worker: ResidentBoxes::move_in for the cells of a definition.
+struct MoveIn {
+  std::uint64_t request = 0;
+  std::uint32_t definition = 0;
+  std::uint64_t settled = 0;          ///< as in EvaluateRequest
+  std::uint32_t first = 0;            ///< boxes moved in before these; 0: all that the worker has go first
+  std::vector<ResidentStart> starts;  ///< at most kMostStatesOfBoxes
+};
+
+/// Coordinator to worker: ResidentBoxes::go_on for all boxes of a definition that the worker has.
+struct GoOn {
+  std::uint64_t request = 0;
+  std::uint32_t definition = 0;
+  std::uint64_t settled = 0;
+  int dem_steps = 1;
+  std::vector<CellIncrement> increments;  ///< one a box
+};
+
+/// Coordinator to worker: ResidentBoxes::read_out.
+struct ReadOut {
+  std::uint64_t request = 0;
+  std::uint32_t definition = 0;
+  std::uint64_t settled = 0;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;  ///< 1 to kMostStatesOfBoxes
+};
+
+/// Worker to coordinator: the answer to a MoveIn (without answers or read-outs), GoOn (answers) or ReadOut (read-outs,
+/// whose states come with their bytes).
+struct ResidentReply {
+  std::uint64_t request = 0;
+  double seconds = 0.0;  ///< of wall time, inside the engine
+  std::vector<ResidentAnswer> answers;
+  std::vector<ResidentReadOut> read_outs;
 };
 
 /// Hello and Stop keep their places and their first members for ever: by them versions talk to each
 /// other.
 using Message = std::variant<Hello, Stop, Welcome, Define, InitialRequest, EvaluateRequest, Reply, Missing,
-                             Working, Refusal, FetchRequest, States>;
+                             Working, Refusal, FetchRequest, States, MoveIn, GoOn, ReadOut, ResidentReply>;
 
 /// A message and the session it belongs to: a number that each coordinator draws for itself, so that nothing
 /// meant for another run, or recorded from one, is taken for an answer. 0 in a Hello, which comes before any

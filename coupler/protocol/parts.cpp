@@ -8,6 +8,7 @@
 
 #include "common/plain_text.hpp"
 #include "coupler/protocol/record_message.hpp"
+#include "coupler/protocol/resident_records.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -45,6 +46,31 @@ void require_possible(const CellDiagnostics& d) {
   }
 }
 
+/// Of records that hold doubles alone.
+template <Described Record>
+void write_numbers(ArrayWriter& writer, std::span<const Record> records) {
+  RecordValues values;
+  for (const Record& record : records) append(values, record, true);
+  writer.numbers(values.numbers);
+}
+
+template <Described Record>
+std::vector<Record> read_numbers(ArrayReader& reader, const char* what) {
+  RecordValues one;
+  append(one, Record{}, true);
+  RecordValues values;
+  values.numbers = reader.all_numbers();
+  if (values.numbers.size() % one.numbers.size() != 0) {
+    throw ProtocolError(
+        fmt::format("{}: {} doubles are no multiple of {}", what, values.numbers.size(), one.numbers.size()));
+  }
+  require_finite(values.numbers, what);
+  RecordReader fields(values, what, true);
+  std::vector<Record> records(values.numbers.size() / one.numbers.size());
+  for (Record& record : records) record = fields.read<Record>();
+  return records;
+}
+
 }  // namespace
 
 void write(ArrayWriter&& writer, const CellIncrement& increment) {
@@ -55,6 +81,21 @@ void write(ArrayWriter&& writer, const CellDefinition& cell) {
 }
 void write(ArrayWriter&& writer, const CellReply& reply) {
   write_record(writer, reply);
+}
+
+void write(ArrayWriter&& writer, const ResidentStart& start) {
+  writer.state(start.state);
+  write_numbers(writer, std::span(&start.motion, 1));
+}
+void write(ArrayWriter&& writer, const ResidentReadOut& box) {
+  write(writer.part(), box.reply);
+  write_numbers(writer, std::span(&box.motion, 1));
+}
+void write(ArrayWriter& writer, std::span<const CellIncrement> increments) {
+  write_numbers(writer, increments);
+}
+void write(ArrayWriter& writer, std::span<const ResidentAnswer> answers) {
+  write_numbers(writer, answers);
 }
 
 CellIncrement read_increment(const msgpack::object& object) {
@@ -87,6 +128,52 @@ CellReply read_cell_reply(const msgpack::object& object) {
   require_finite({response.tangent.data(), 324}, "a tangent");
   if (!reply.state) throw FalseMessage("a reply that did not fail has no state");
   return reply;
+}
+
+namespace {
+ResidentMotion read_motion(ArrayReader& reader) {
+  const std::vector<ResidentMotion> motions = read_numbers<ResidentMotion>(reader, "the motion of a box");
+  if (motions.size() != 1) throw ProtocolError("a box does not have one motion");
+  return motions.front();
+}
+}  // namespace
+
+ResidentStart read_start(const msgpack::object& object) {
+  ArrayReader reader(object, "the start of a box");
+  ResidentStart start;
+  start.state = reader.state();
+  start.motion = read_motion(reader);
+  reader.end();
+  return start;
+}
+
+ResidentReadOut read_read_out(const msgpack::object& object) {
+  ArrayReader reader(object, "the read-out of a box");
+  ResidentReadOut box;
+  box.reply = read_cell_reply(reader.part());
+  box.motion = read_motion(reader);
+  reader.end();
+  if (box.reply.response.quality == Quality::failed || !box.reply.state || !box.reply.state->is_here())
+    throw FalseMessage("the read-out of a box has no state");
+  return box;
+}
+
+std::vector<CellIncrement> read_increments(ArrayReader& reader) {
+  return read_numbers<CellIncrement>(reader, "a list of increments");
+}
+
+std::vector<ResidentAnswer> read_answers(ArrayReader& reader) {
+  std::vector<ResidentAnswer> answers = read_numbers<ResidentAnswer>(reader, "a list of answers of boxes");
+  for (const ResidentAnswer& answer : answers)
+    if (answer.coordination_number < 0.0 || answer.unbalanced_force_ratio < 0.0)
+      throw FalseMessage("the answer of a box holds an impossible number");
+  return answers;
+}
+
+double read_seconds(ArrayReader& reader) {
+  const double seconds = reader.finite_numbers<1>()[0];
+  if (seconds < 0.0 || seconds > kMostSeconds) throw FalseMessage("a reply took an impossible time");
+  return seconds;
 }
 
 }  // namespace polargrain::coupler

@@ -54,8 +54,8 @@ Eigen::Vector2d Box::folded(Eigen::Vector2d place) const {
   return place;
 }
 
-BoxPath::BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps)
-    : start_(start), steps_(steps) {
+BoxPath::BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps, Pace pace)
+    : start_(start), steps_(steps), pace_(pace) {
   const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() + displacement_gradient;
   // In the plane R has the direction of the part of I + h that is a rotation times a number.
   rotation_ = arc_tangent(whole(1, 0) - whole(0, 1), whole.trace());
@@ -72,6 +72,7 @@ double BoxPath::fraction(int step) const {
   if (step <= 0) return 0.0;
   if (step >= steps_) return 1.0;
   const double time = static_cast<double>(step) / steps_;
+  if (pace_ == Pace::even) return time;
   return time - sine(2.0 * std::numbers::pi * time) / (2.0 * std::numbers::pi);
 }
 

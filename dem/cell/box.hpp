@@ -24,16 +24,22 @@ struct Box {
   [[nodiscard]] Eigen::Vector2d folded(Eigen::Vector2d place) const;
 };
 
+/// How a path is gone in time.
+enum class Pace {
+  smooth,  ///< starts and ends at rest and sends no waves: the fraction grows as t - sin(2 pi t) / (2 pi)
+  even     ///< at one rate, for boxes that come moving and go on (ResidentBoxes)
+};
+
 /// A box carried along by a displacement gradient h of the laboratory. With the polar decomposition I + h = R
 /// U and R a rotation by w, its base vectors at the fraction s of the way are
 ///   F(s) H_start,   F(s) = R(s w) (I + s (U - I)),
-/// so that a rotation turns it and does nothing else. The velocity of the way is smooth, so that the box
-/// starts and ends at rest and sends no waves: s grows as t - sin(2 pi t) / (2 pi), t in [0, 1].
+/// so that a rotation turns it and does nothing else. s grows from 0 to 1 as the pace says.
 class BoxPath {
  public:
   BoxPath() = default;
   /// @param steps number of DEM steps, at least 1. @throws RunError when the box would lose its area.
-  BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps);
+  BoxPath(const Box& start, const Eigen::Matrix2d& displacement_gradient, int steps,
+          Pace pace = Pace::smooth);
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] double rotation() const { return rotation_; }               ///< w of the whole way, rad
@@ -54,6 +60,7 @@ class BoxPath {
   double rotation_ = 0.0;                              // w, rad
   Eigen::Matrix2d stretch_ = Eigen::Matrix2d::Zero();  // U - I, in the laboratory
   int steps_ = 0;
+  Pace pace_ = Pace::smooth;
 };
 
 }  // namespace polargrain::dem

@@ -20,6 +20,19 @@ Eigen::Matrix2d inverse(const Box& box) {
 BoxMotion::BoxMotion(const BoxPath& path, std::optional<RotationLoading> rotation, double time_step)
     : path_(path), rotation_(std::move(rotation)), time_step_(time_step), box_(path.at(0)), before_(box_) {}
 
+void BoxMotion::go_on(const BoxPath& path, std::optional<RotationLoading> rotation) {
+  path_ = path;
+  rotation_ = std::move(rotation);
+  box_ = before_ = path.at(0);
+  step_ = 0;
+}
+
+void BoxMotion::set_rates(const Eigen::Matrix2d& gradient, double spin) {
+  rate_ = gradient * box_.base_vectors();
+  gradient_ = gradient;
+  spin_ = spin;
+}
+
 Eigen::Matrix2d BoxMotion::gradient_before() const {
   return rate_ * inverse(before_);
 }

@@ -26,6 +26,10 @@ class BoxMotion {
   BoxMotion() = default;
   BoxMotion(const BoxPath& path, std::optional<RotationLoading> rotation, double time_step);
 
+  /// Takes a new path from the box as it is, and keeps the rates of the step behind it.
+  void go_on(const BoxPath& path, std::optional<RotationLoading> rotation);
+  /// Gives the box, as it is, the rates of a step behind it. @param gradient Hdot H^-1, 1/s @param spin rad/s
+  void set_rates(const Eigen::Matrix2d& gradient, double spin);
   /// Goes on by one step.
   void advance();
 

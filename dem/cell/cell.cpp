@@ -17,6 +17,7 @@
 #include "dem/cell/grains_in_laboratory.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/cell/resident_boxes_of.hpp"
 #include "dem/cell/tangents.hpp"
 #include "dem/discs/disc_box.hpp"
 #include "dem/discs/disc_state.hpp"
@@ -32,10 +33,12 @@ class Cell final : public CellOfGrains {
   explicit Cell(const CellDefinition& definition);
   CellReply initial() override;
   CellReply evaluate(const CellRequest& request) override;
+  std::unique_ptr<ResidentBoxes> residents() override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return grains_->contacts(); }
   [[nodiscard]] GrainView view() override;
 
  private:
+  struct ResidentKind;
   /// Within the plane of the discs. @param start null: the packing
   CellReply follow(const StatePointer& start, const Increment& increment);
   [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
@@ -51,10 +54,10 @@ class Cell final : public CellOfGrains {
   void renew_weights();
   [[nodiscard]] double increment_size(const Increment& increment) const;
   [[nodiscard]] double volume() const { return grains_->box().area() * thickness_; }
-  [[nodiscard]] Equilibrium equilibrium() const;
-  [[nodiscard]] CellDiagnostics measure() const;
+  [[nodiscard]] Equilibrium equilibrium(const GrainBox& grains) const;
+  [[nodiscard]] CellDiagnostics measure(const GrainBox& grains) const;
   /// Stress of the recorded contacts, in the laboratory frame.
-  [[nodiscard]] CellResponse respond(const Matrix7& tangent) const;
+  [[nodiscard]] CellResponse respond(const GrainBox& grains, const Matrix7& tangent) const;
   /// Tangent of the recorded contacts, in the laboratory frame. @param strain size of the increment that led to them
   [[nodiscard]] Matrix7 tangent(double strain);
 
@@ -95,10 +98,10 @@ Cell::Cell(const CellDefinition& definition)
   // The forces of the start are there; setting them up twice would fold the grains back twice, to other last bits.
   if (controlled()) renew_weights();
 
-  initial_.response = respond(tangent(0.0));
+  initial_.response = respond(*grains_, tangent(0.0));
   initial_.response.message =
       remarks_at_rest(remark, control_, "the loop over discs", disc_combination(lammps));
-  initial_.diagnostics = measure();
+  initial_.diagnostics = measure(*grains_);
   const double pressure = -0.5 * (initial_.response.stress(0, 0) + initial_.response.stress(1, 1));
   check(packing, pressure, definition.script_file);
   const double density = driver_.grains() * driver_.mean_mass() / (driver_.grain_area() * packing.thickness);
@@ -123,7 +126,7 @@ void Cell::check(const Packing& packing, double pressure, const std::string& scr
   PackingAtRest found{pressure,
                       packing.pressure,
                       0.0,
-                      equilibrium(),
+                      equilibrium(*grains_),
                       overlaps_of(grains_->contacts(), inertia_.radii),
                       !controlled() || !grains_->weights().empty()};
   if (pressure > 0.0)
@@ -156,14 +159,14 @@ CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
   // Taken while the box still moves: the contacts that slide now are those that slide along the increment. At
   // rest most of them have just come off their limit, and the tangent would be that of unloading.
   const Matrix7 loading_tangent = tangent(protocol_.size());
-  Equilibrium rest = equilibrium();
+  Equilibrium rest = equilibrium(*grains_);
   while (!protocol_.ended(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
     run();
-    rest = equilibrium();
+    rest = equilibrium(*grains_);
   }
   CellReply reply;
-  reply.diagnostics = measure();
-  reply.response = respond(loading_tangent);
+  reply.diagnostics = measure(*grains_);
+  reply.response = respond(*grains_, loading_tangent);
   judge(reply.response, reply.diagnostics, protocol_, control_, rest, grains_->contacts(), inertia_,
         driver_.strain().time_step(), kMostVoidRatio);
   reply.diagnostics.dem_steps = protocol_.done();
@@ -214,6 +217,68 @@ void Cell::set_up() {
   grains_->hold_rotation();
 }
 
+struct Cell::ResidentKind {
+  using Box = DiscBox;
+  Cell& cell;
+  DiscBox::Definition discs;
+
+  [[nodiscard]] std::unique_ptr<Box> make() const {
+    auto box = std::make_unique<Box>(discs);
+    box->progress = cell.grains_->progress;
+    return box;
+  }
+  void alive() const {
+    if (cell.progress) cell.progress();
+  }
+  void hold(Box& box) const {
+    if (!cell.controlled()) return;
+    const std::vector<double> weights = rotation_weights(box.contacts(), cell.driver_.grains());
+    if (!weights.empty()) box.set_rotation_weights(weights);
+  }
+  void put(Box& box, const ResidentStart& start) const {
+    box.restore_moving(start.state ? *start.state : *cell.initial_.state,
+                       start.motion.gradient.topLeftCorner<2, 2>(), start.motion.spin.z());
+    // The torques that hold the mean rotation belong to the forces of the start: prescribed, it has the spin behind it.
+    if (cell.controlled())
+      box.go_on(BoxPath(box.box(), Eigen::Matrix2d::Zero(), 1, Pace::even), cell.protocol_.damping_rate(),
+                RotationLoading{});
+    box.set_up();
+    hold(box);
+    box.hold_rotation();
+  }
+  void go_on(Box& box, int steps, const CellIncrement& increment) const {
+    if (const std::string fault = out_of_plane_fault(increment); !fault.empty()) throw RunError(fault);
+    const Increment plane = in_plane(increment);
+    box.go_on(BoxPath(box.box(), plane.displacement_gradient, steps, Pace::even),
+              cell.protocol_.damping_rate(), cell.protocol_.rotation_of(plane));
+    box.run(steps);
+    hold(box);
+  }
+  [[nodiscard]] ResidentAnswer answer(const Box& box) const {
+    const CellResponse response = cell.respond(box, Matrix7::Zero());
+    return {response.stress, response.couple_stress,
+            quick_force_ratio(box.imbalance(), box.contacts(), cell.protocol_.least_force()),
+            2.0 * static_cast<double>(box.contacts().size()) / cell.driver_.grains()};
+  }
+  [[nodiscard]] ResidentReadOut read(Box& box) const {
+    ResidentReadOut all;
+    all.reply.response = cell.respond(box, Matrix7::Zero());
+    all.reply.diagnostics = cell.measure(box);
+    all.motion.gradient.topLeftCorner<2, 2>() = box.motion().gradient();
+    all.motion.spin.z() = box.motion().spin();
+    all.reply.state = box.save_moving();
+    return all;
+  }
+};
+
+std::unique_ptr<ResidentBoxes> Cell::residents() {
+  LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
+  const DiscSelection selection = disc_combination(lammps);
+  if (!selection.combination) throw RunError(no_residents(selection));
+  return std::make_unique<ResidentBoxesOf<ResidentKind>>(
+      ResidentKind{*this, disc_definition(lammps, *selection.combination, thickness_)});
+}
+
 void Cell::renew_weights() {
   const std::vector<double> weights = rotation_weights(grains_->contacts(), driver_.grains());
   if (!weights.empty()) grains_->set_rotation_weights(weights);
@@ -226,9 +291,9 @@ void Cell::run() {
   if (controlled()) renew_weights();
 }
 
-Equilibrium Cell::equilibrium() const {
-  return equilibrium_of(grains_->contacts(), grains_->imbalance(), driver_.mean_radius(),
-                        protocol_.least_force(), grains_->box().area(), driver_.grain_area());
+Equilibrium Cell::equilibrium(const GrainBox& grains) const {
+  return equilibrium_of(grains.contacts(), grains.imbalance(), driver_.mean_radius(), protocol_.least_force(),
+                        grains.box().area(), driver_.grain_area());
 }
 
 double Cell::increment_size(const Increment& increment) const {
@@ -236,28 +301,28 @@ double Cell::increment_size(const Increment& increment) const {
                    increment.curvature.norm() * 2.0 * driver_.mean_radius()});
 }
 
-CellDiagnostics Cell::measure() const {
-  const std::span<const Contact> contacts = grains_->contacts();
-  CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, inertia_.radii,
+CellDiagnostics Cell::measure(const GrainBox& grains) const {
+  const std::span<const Contact> contacts = grains.contacts();
+  CellDiagnostics diagnostics = diagnostics_of(equilibrium(grains), contacts, inertia_.radii,
                                                [](const Contact& contact) { return contact.sliding(); });
-  diagnostics.multiplier = grains_->multiplier();
-  const Eigen::Matrix2d frame = grains_->box().frame();
+  diagnostics.multiplier = grains.multiplier();
+  const Eigen::Matrix2d frame = grains.box().frame();
   const Eigen::Matrix2d fabric = frame * fabric_tensor(contacts) * frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
 
-  const std::span<const double> rotations = grains_->rotations();
+  const std::span<const double> rotations = grains.rotations();
   if (rotations.empty()) return diagnostics;
-  const auto grains = static_cast<double>(rotations.size());
-  for (const double rotation : rotations) diagnostics.mean_rotation += rotation / grains;
+  const auto number = static_cast<double>(rotations.size());
+  for (const double rotation : rotations) diagnostics.mean_rotation += rotation / number;
   double variance = 0.0;
   for (const double rotation : rotations)
-    variance += std::pow(rotation - diagnostics.mean_rotation, 2) / grains;
+    variance += std::pow(rotation - diagnostics.mean_rotation, 2) / number;
   diagnostics.rotation_spread = std::sqrt(variance);
   return diagnostics;
 }
 
-CellResponse Cell::respond(const Matrix7& tangent) const {
-  Response response = protocol_.read_out(grains_->contacts(), grains_->box(), thickness_);
+CellResponse Cell::respond(const GrainBox& grains, const Matrix7& tangent) const {
+  Response response = protocol_.read_out(grains.contacts(), grains.box(), thickness_);
   response.tangent = tangent;
   return in_space(response, KnownComponents::plane);
 }

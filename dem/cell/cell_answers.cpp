@@ -83,6 +83,13 @@ std::string remarks_at_rest(const std::string& remark, const CellControl& contro
   return remark.empty() ? note : remark + "\n" + note;
 }
 
+std::string no_residents(const DiscSelection& selection) {
+  return fmt::format(
+      "explicit steps need the program's own loop over the grains, and it does not take this script: {}; use the models "
+      "and settings it knows (docs/contact_models.md), or `method: newton`",
+      selection.reason);
+}
+
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
                                std::span<const double> radii, bool (*slides)(const Contact&)) {
   CellDiagnostics diagnostics;

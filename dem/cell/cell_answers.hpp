@@ -52,6 +52,9 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
                             const DiscSelection& selection, std::string_view instructions = {});
 
+/// Why a scene cannot be stepped by resident boxes, and what to do.
+std::string no_residents(const DiscSelection& selection);
+
 /// Diagnostics from the contacts of a cell, but for fabric and rotations.
 /// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,

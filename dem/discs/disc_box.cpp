@@ -102,6 +102,23 @@ void DiscBox::check(const DiscSnapshot& snapshot) const {
   }
 }
 
+void DiscBox::restore_moving(const State& state, const Eigen::Matrix2d& gradient, double spin) {
+  restore(state);
+  motion_.set_rates(gradient, spin);
+}
+
+StatePointer DiscBox::save_moving() {
+  DiscSnapshot snapshot = decode_discs(*save());
+  const Eigen::Matrix2d& gradient = motion_.gradient();
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    DiscSnapshot::Motion& disc = snapshot.discs[k];
+    const Eigen::Vector2d change = gradient * Eigen::Vector2d(disc.x - discs_[k].x, disc.y - discs_[k].y);
+    disc.vx += change.x();
+    disc.vy += change.y();
+  }
+  return encode(snapshot);
+}
+
 StatePointer DiscBox::save() {
   const Box box = motion_.box();
   DiscSnapshot snapshot;
@@ -184,6 +201,11 @@ void DiscBox::begin(const BoxPath& path, double damping_rate, std::optional<Rota
   damping_rate_ = damping_rate;
   multiplier_ = 0.0;
   weights_.clear();  // those of another path say nothing of this one
+}
+
+void DiscBox::go_on(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
+  motion_.go_on(path, rotation);
+  damping_rate_ = damping_rate;
 }
 
 void DiscBox::compute_forces(bool advance, bool record) {

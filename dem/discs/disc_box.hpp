@@ -35,6 +35,14 @@ class DiscBox final : public GrainBox {
   void restore(const DiscSnapshot& snapshot);
   [[nodiscard]] StatePointer save() override;
   void begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) override;
+  /// As begin, but discs and box keep their velocities (ResidentBoxes); the weights of the rotation stay too.
+  void go_on(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation);
+  /// The box as it is with the rates of the step behind it.
+  [[nodiscard]] const BoxMotion& motion() const { return motion_; }
+  /// As restore, and the discs come with the affine motion `gradient`, `spin` of their box in the step behind them.
+  void restore_moving(const State& state, const Eigen::Matrix2d& gradient, double spin);
+  /// As save, but a disc that is folded back into the box takes the affine velocity of its new place.
+  [[nodiscard]] StatePointer save_moving();
   void set_up() override;
   void run(int steps) override;
 

@@ -121,6 +121,12 @@ void SphereBox::begin(const SpacePath& path, double damping_rate,
   weights_.clear();  // those of another path say nothing of this one
 }
 
+void SphereBox::go_on(const SpacePath& path, double damping_rate,
+                      const std::optional<SpaceRotation>& rotation) {
+  motion_.go_on(path, rotation, time_step_);
+  damping_rate_ = damping_rate;
+}
+
 void SphereBox::compute_forces(bool advance, bool record) {
   SpherePass pass{};
   pass.grains = grains_.data();

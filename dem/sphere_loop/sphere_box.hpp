@@ -30,6 +30,15 @@ class SphereBox final : public SpaceGrainBox {
   [[nodiscard]] StatePointer save() override;
   void begin(const SpacePath& path, double damping_rate, const std::optional<SpaceRotation>& rotation,
              double time_step) override;
+  /// As begin, but spheres and box keep their velocities (ResidentBoxes); the weights of the rotation stay too.
+  void go_on(const SpacePath& path, double damping_rate, const std::optional<SpaceRotation>& rotation);
+  void set_time_step(double seconds) { time_step_ = seconds; }
+  /// The box as it is with the rates of the step behind it.
+  [[nodiscard]] const SpaceMotion& motion() const { return motion_; }
+  /// As restore, and the spheres come with the affine motion `gradient`, `spin` of their box in the step behind them.
+  void restore_moving(const State& state, const Eigen::Matrix3d& gradient, const Eigen::Vector3d& spin);
+  /// As save, but a sphere that is folded back into the box takes the affine velocity of its new place.
+  [[nodiscard]] StatePointer save_moving();
   void set_up() override;
   void run(int steps) override;
 

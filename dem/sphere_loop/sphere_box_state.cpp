@@ -50,6 +50,22 @@ void SphereBox::restore(const SphereSnapshot& snapshot) {
   find_candidates();
 }
 
+void SphereBox::restore_moving(const State& state, const Eigen::Matrix3d& gradient,
+                               const Eigen::Vector3d& spin) {
+  restore(state);
+  motion_.set_rates(gradient, spin);
+}
+
+StatePointer SphereBox::save_moving() {
+  SphereSnapshot snapshot = decode_spheres(*save());
+  for (std::size_t k = 0; k < snapshot.spheres.size(); ++k) {
+    SphereSnapshot::Motion& sphere = snapshot.spheres[k];
+    const Eigen::Vector3d folded = ConstPlace(sphere.place.data()) - ConstPlace(&grains_[k * kGrainStride]);
+    Place(sphere.velocity.data()) += motion_.gradient() * folded;
+  }
+  return encode(snapshot);
+}
+
 StatePointer SphereBox::save() {
   const Eigen::Matrix3d& old_base = motion_.box().base;
   SphereSnapshot snapshot;

@@ -44,8 +44,9 @@ Eigen::Vector3d SpaceBox::folded(Eigen::Vector3d place) const {
   return place;
 }
 
-SpacePath::SpacePath(const SpaceBox& start, const Eigen::Matrix3d& displacement_gradient, int steps)
-    : start_(start), steps_(steps) {
+SpacePath::SpacePath(const SpaceBox& start, const Eigen::Matrix3d& displacement_gradient, int steps,
+                     Pace pace)
+    : start_(start), steps_(steps), pace_(pace) {
   const Eigen::Matrix3d whole = Eigen::Matrix3d::Identity() + displacement_gradient;
   // The determinant is a cubic in the fraction; a fold shows at the end or on the way.
   for (int part = 1; part <= 16; ++part) {
@@ -64,6 +65,7 @@ double SpacePath::fraction(int step) const {
   if (step <= 0) return 0.0;
   if (step >= steps_) return 1.0;
   const double time = static_cast<double>(step) / steps_;
+  if (pace_ == Pace::even) return time;
   return time - sine(2.0 * std::numbers::pi * time) / (2.0 * std::numbers::pi);
 }
 
@@ -102,6 +104,23 @@ SpaceMotion::SpaceMotion(const SpacePath& path, const std::optional<SpaceRotatio
     : path_(path), rotation_(rotation), time_step_(time_step), box_(path.at(0)) {
   if (rotation) against_ = rotation->against(path);
   stretched_frame_ = box_.frame;
+}
+
+void SpaceMotion::go_on(const SpacePath& path, const std::optional<SpaceRotation>& rotation,
+                        double time_step) {
+  path_ = path;
+  rotation_ = rotation;
+  against_ = rotation ? rotation->against(path) : Eigen::Vector3d::Zero();
+  box_ = path.at(0);
+  stretched_frame_ = box_.frame;
+  time_step_ = time_step;
+  step_ = 0;
+}
+
+void SpaceMotion::set_rates(const Eigen::Matrix3d& gradient, const Eigen::Vector3d& spin) {
+  rate_ = gradient * box_.base;
+  gradient_ = gradient;
+  spin_ = spin;
 }
 
 void SpaceMotion::advance() {

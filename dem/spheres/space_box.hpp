@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "dem/cell/box.hpp"
+
 namespace polargrain::dem {
 
 /// The periodic box of a cell of spheres. The engine wants its base vectors upper triangular, so the box (and the
@@ -24,12 +26,13 @@ struct SpaceBox {
 /// A box carried along by a displacement gradient h of the laboratory, as BoxPath does it in the plane: with the
 /// polar decomposition I + h = R U and R a rotation by the vector w, base vectors at the fraction s of the way are
 ///   F(s) H_start,   F(s) = R(s w) (I + s (U - I)),
-/// so that a rotation turns the box and does nothing else; s grows as t - sin(2 pi t) / (2 pi), t in [0, 1].
+/// so that a rotation turns the box and does nothing else; s grows from 0 to 1 as the pace says.
 class SpacePath {
  public:
   SpacePath() = default;
   /// @param steps number of DEM steps; 0 stands still. @throws RunError when the box would lose its volume.
-  SpacePath(const SpaceBox& start, const Eigen::Matrix3d& displacement_gradient, int steps);
+  SpacePath(const SpaceBox& start, const Eigen::Matrix3d& displacement_gradient, int steps,
+            Pace pace = Pace::smooth);
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] const Eigen::Vector3d& rotation() const { return rotation_; }  ///< w of the whole way, rad
@@ -51,6 +54,7 @@ class SpacePath {
   Eigen::Matrix3d stretch_ = Eigen::Matrix3d::Zero();          // U - I, in the laboratory
   Eigen::Matrix3d stretch_of_base_ = Eigen::Matrix3d::Zero();  // frame^T (U - I) frame base
   int steps_ = 0;
+  Pace pace_ = Pace::smooth;
 };
 
 /// The largest principal strain of a path, its magnitude.
@@ -79,6 +83,10 @@ class SpaceMotion {
   /// @param rotation prescribed mean rotation; nothing: the affine spin is that of the continuum
   SpaceMotion(const SpacePath& path, const std::optional<SpaceRotation>& rotation, double time_step);
 
+  /// Takes a new path from the box as it is, and keeps the rates of the step behind it.
+  void go_on(const SpacePath& path, const std::optional<SpaceRotation>& rotation, double time_step);
+  /// Gives the box, as it is, the rates of a step behind it. @param gradient Hdot H^-1, 1/s @param spin rad/s
+  void set_rates(const Eigen::Matrix3d& gradient, const Eigen::Vector3d& spin);
   /// Goes on by one step.
   void advance();
 

@@ -13,6 +13,7 @@
 #include "dem/cell/grains_in_laboratory.hpp"
 #include "dem/cell/packing_check.hpp"
 #include "dem/cell/quasi_static.hpp"
+#include "dem/cell/resident_boxes_of.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/sphere_loop/engine_sphere_box.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
@@ -46,10 +47,12 @@ class SphereCell final : public CellOfGrains {
   explicit SphereCell(const CellDefinition& definition);
   CellReply initial() override { return initial_; }
   CellReply evaluate(const CellRequest& request) override;
+  std::unique_ptr<ResidentBoxes> residents() override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return grains_->contacts(); }
   [[nodiscard]] GrainView view() override;
 
  private:
+  struct ResidentKind;
   CellReply follow(const StatePointer& start, const CellIncrement& increment);
   /// The same with the time step as it is; nothing, when the contacts have stiffened beyond it and it was shortened.
   std::optional<CellReply> attempt(const StatePointer& start, const CellIncrement& increment);
@@ -62,14 +65,15 @@ class SphereCell final : public CellOfGrains {
   void set_up();
   void run();
   /// Weights of the grains in the mean rotation from the recorded contacts; none when no grain could be turned.
-  [[nodiscard]] std::vector<double> weights() const {
-    return rotation_weights(grains_->contacts(), engine_.grains(), space_normal_force);
+  [[nodiscard]] std::vector<double> weights() const { return weights(*grains_); }
+  [[nodiscard]] std::vector<double> weights(const SpaceGrainBox& grains) const {
+    return rotation_weights(grains.contacts(), engine_.grains(), space_normal_force);
   }
   [[nodiscard]] const SpaceBox& box() const { return grains_->box(); }
-  [[nodiscard]] Equilibrium equilibrium() const;
-  [[nodiscard]] CellDiagnostics measure() const;
+  [[nodiscard]] Equilibrium equilibrium(const SpaceGrainBox& grains) const;
+  [[nodiscard]] CellDiagnostics measure(const SpaceGrainBox& grains) const;
   /// Stress and, with controlled rotations, couple stress of the recorded contacts, in the laboratory.
-  [[nodiscard]] CellResponse respond(const Matrix18& tangent) const;
+  [[nodiscard]] CellResponse respond(const SpaceGrainBox& grains, const Matrix18& tangent) const;
   [[nodiscard]] bool wants_slips() const { return control_.tangent == CellTangent::condensed; }
   /// Of the recorded contacts since the set-up of the increment; none where no tangent asks for them.
   [[nodiscard]] std::vector<SpaceSlip> slips(const CellIncrement& increment) const;
@@ -107,11 +111,11 @@ SphereCell::SphereCell(const CellDefinition& definition)
     if (progress) progress();
   };
   frequency_bound_ = frequency_bound(grains_->contacts(), inertia_);
-  initial_.response = respond(tangent());
+  initial_.response = respond(*grains_, tangent());
   initial_.response.message =
       remarks_at_rest(remark, control_, "the loop over spheres", sphere_combination(engine_.lammps()),
                       name_of(best_instruction_set()));
-  initial_.diagnostics = measure();
+  initial_.diagnostics = measure(*grains_);
   const double pressure = -initial_.response.stress.trace() / 3.0;
   check(definition.packing, pressure, definition.script_file);
   const double density = engine_.grains() * engine_.mean_mass() / grain_volume_;
@@ -136,7 +140,7 @@ void SphereCell::check(const Packing& packing, double pressure, const std::strin
   PackingAtRest found{pressure,
                       packing.pressure,
                       0.0,
-                      equilibrium(),
+                      equilibrium(*grains_),
                       overlaps_of(grains_->contacts(), inertia_.radii),
                       !controlled() || !weights().empty(),
                       true};
@@ -186,14 +190,14 @@ std::optional<CellReply> SphereCell::attempt(const StatePointer& start, const Ce
   while (!protocol_.loaded()) run();
   // Taken while the box still moves: see the cell of discs.
   const Matrix18 loading_tangent = tangent(slips(increment));
-  Equilibrium rest = equilibrium();
+  Equilibrium rest = equilibrium(*grains_);
   while (!protocol_.ended(rest.unbalanced_force_ratio, rest.unbalanced_moment_ratio)) {
     run();
-    rest = equilibrium();
+    rest = equilibrium(*grains_);
   }
   CellReply reply;
-  reply.diagnostics = measure();
-  reply.response = respond(loading_tangent);
+  reply.diagnostics = measure(*grains_);
+  reply.response = respond(*grains_, loading_tangent);
   judge(reply.response, reply.diagnostics, protocol_, control_, rest, grains_->contacts(), inertia_,
         engine_.strain().time_step(), kMostVoidRatioInSpace);
   if (reply.response.quality == Quality::unreliable &&
@@ -224,6 +228,73 @@ GrainView SphereCell::view() {
   return view;
 }
 
+struct SphereCell::ResidentKind {
+  using Box = SphereBox;
+  SphereCell& cell;
+  Spheres spheres;
+  const SphereKernels& kernels;
+
+  [[nodiscard]] std::unique_ptr<Box> make() const {
+    auto box = std::make_unique<Box>(spheres, kernels);
+    box->progress = cell.grains_->progress;
+    box->set_time_step(cell.time_step_);
+    return box;
+  }
+  void alive() const {
+    if (cell.progress) cell.progress();
+  }
+  void hold(Box& box) const {
+    if (cell.controlled()) box.set_rotation_weights(cell.weights(box));
+  }
+  void put(Box& box, const ResidentStart& start) const {
+    box.restore_moving(start.state ? *start.state : *cell.initial_.state, start.motion.gradient,
+                       start.motion.spin);
+    // The torques that hold the mean rotation belong to the forces of the start: prescribed, it has the spin behind it.
+    if (cell.controlled())
+      box.go_on(SpacePath(box.box(), Eigen::Matrix3d::Zero(), 1, Pace::even), cell.protocol_.damping_rate(),
+                SpaceRotation{});
+    box.set_up();
+    hold(box);
+    box.hold_rotation();
+    // Contacts that have stiffened since the packing was at rest ask for a shorter time step.
+    const double stiffer =
+        frequency_bound(box.contacts(), cell.inertia_) / (kStiffer * cell.frequency_bound_);
+    box.set_time_step(cell.time_step_ / std::max(1.0, stiffer));
+  }
+  void go_on(Box& box, int steps, const CellIncrement& increment) const {
+    std::optional<SpaceRotation> rotation;
+    if (cell.controlled()) rotation = SpaceRotation{increment.rotation, increment.curvature};
+    box.go_on(SpacePath(box.box(), increment.displacement_gradient, steps, Pace::even),
+              cell.protocol_.damping_rate(), rotation);
+    box.run(steps);
+    hold(box);
+  }
+  [[nodiscard]] ResidentAnswer answer(const Box& box) const {
+    const CellResponse response = cell.respond(box, Matrix18::Zero());
+    return {response.stress, response.couple_stress,
+            quick_force_ratio(box.imbalance(), box.contacts(), cell.protocol_.least_force()),
+            2.0 * static_cast<double>(box.contacts().size()) / cell.engine_.grains()};
+  }
+  [[nodiscard]] ResidentReadOut read(Box& box) const {
+    ResidentReadOut all;
+    all.reply.response = cell.respond(box, Matrix18::Zero());
+    all.reply.diagnostics = cell.measure(box);
+    all.motion.gradient = box.motion().gradient();
+    all.motion.spin = box.motion().spin();
+    all.reply.state = box.save_moving();
+    return all;
+  }
+};
+
+std::unique_ptr<ResidentBoxes> SphereCell::residents() {
+  LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
+  const DiscSelection selection = sphere_combination(lammps);
+  if (!selection.combination) throw RunError(no_residents(selection));
+  return std::make_unique<ResidentBoxesOf<ResidentKind>>(
+      ResidentKind{*this, spheres_of(lammps, *selection.combination),
+                   sphere_kernels(best_instruction_set(), control_.loop == CellLoop::plain)});
+}
+
 void SphereCell::set_up() {
   grains_->set_up();
   if (!controlled()) return;
@@ -239,36 +310,37 @@ void SphereCell::run() {
   if (controlled()) grains_->set_rotation_weights(weights());
 }
 
-Equilibrium SphereCell::equilibrium() const {
-  return equilibrium_of(grains_->contacts(), grains_->imbalance(), engine_.mean_radius(),
-                        protocol_.least_force(), box().volume(), grain_volume_);
+Equilibrium SphereCell::equilibrium(const SpaceGrainBox& grains) const {
+  return equilibrium_of(grains.contacts(), grains.imbalance(), engine_.mean_radius(), protocol_.least_force(),
+                        grains.box().volume(), grain_volume_);
 }
 
-CellDiagnostics SphereCell::measure() const {
-  const std::span<const Contact> contacts = grains_->contacts();
-  CellDiagnostics diagnostics = diagnostics_of(equilibrium(), contacts, inertia_.radii, slides_in_space);
-  const Eigen::Matrix3d fabric = box().frame * space_fabric(contacts) * box().frame.transpose();
+CellDiagnostics SphereCell::measure(const SpaceGrainBox& grains) const {
+  const std::span<const Contact> contacts = grains.contacts();
+  CellDiagnostics diagnostics =
+      diagnostics_of(equilibrium(grains), contacts, inertia_.radii, slides_in_space);
+  const Eigen::Matrix3d fabric = grains.box().frame * space_fabric(contacts) * grains.box().frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
-  diagnostics.multiplier = grains_->multiplier().z();
+  diagnostics.multiplier = grains.multiplier().z();
 
-  const std::span<const double> rotations = grains_->rotations();
+  const std::span<const double> rotations = grains.rotations();
   if (rotations.empty()) return diagnostics;
-  const auto grains = static_cast<Eigen::Index>(rotations.size() / 3);
-  const Eigen::Map<const Eigen::Matrix3Xd> turned(rotations.data(), 3, grains);
+  const auto number = static_cast<Eigen::Index>(rotations.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xd> turned(rotations.data(), 3, number);
   diagnostics.mean_rotation = turned.row(2).mean();
   diagnostics.rotation_spread =
       std::sqrt((turned.row(2).array() - diagnostics.mean_rotation).square().mean());
   return diagnostics;
 }
 
-CellResponse SphereCell::respond(const Matrix18& tangent) const {
+CellResponse SphereCell::respond(const SpaceGrainBox& grains, const Matrix18& tangent) const {
   CellResponse response;
   response.known = KnownComponents::all;
-  const Eigen::Matrix3d& frame = box().frame;
-  response.stress = frame * space_stress(grains_->contacts(), box().volume()) * frame.transpose();
+  const Eigen::Matrix3d& frame = grains.box().frame;
+  response.stress = frame * space_stress(grains.contacts(), grains.box().volume()) * frame.transpose();
   if (controlled())
     response.couple_stress =
-        frame * space_couple_stress(grains_->contacts(), box().volume()) * frame.transpose();
+        frame * space_couple_stress(grains.contacts(), grains.box().volume()) * frame.transpose();
   response.tangent = tangent;
   return response;
 }

@@ -57,6 +57,10 @@ class Material {
   /// iteration of the step goes on with them, and confirm is asked again when they are balanced.
   [[nodiscard]] virtual bool confirm() { return true; }
 
+  /// Asked at the end of a row of explicit steps, when results are about to be written: a material whose points go on
+  /// without being looked at looks at them now.
+  virtual void settle() {}
+
   virtual void commit() = 0;
   virtual void revert() = 0;
 

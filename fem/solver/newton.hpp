@@ -11,6 +11,7 @@
 #include "fem/solver/discretisation.hpp"
 #include "fem/solver/linear_solver.hpp"
 #include "fem/solver/loads.hpp"
+#include "fem/solver/nodal_masses.hpp"
 #include "fem/solver/point_materials.hpp"
 #include "fem/solver/residual.hpp"
 #include "fem/solver/solver.hpp"
@@ -61,6 +62,15 @@ class Newton {
   /// is held by fictive forces until attempts let it go (StepGoal::jump_let_go). Leaves the committed state
   /// alone when a material does not stand by its answer.
   [[nodiscard]] Attempt pass_jump(StepReport& report);
+  /// Moves the free nodal values by `moved` (in the order of the equations), the given ones to `time`, evaluates and commits,
+  /// in balance or not: an explicit step. @param released see StepGoal
+  [[nodiscard]] Attempt go_on(double time, double released, const Eigen::VectorXd& moved, StepReport& report);
+  /// Loads less internal forces of the committed state.
+  [[nodiscard]] Eigen::VectorXd unbalanced() const;
+  /// nodal_masses of the committed state.
+  [[nodiscard]] Eigen::VectorXd stable_masses(double safety);
+  /// Share that committed steps have let go of the forces held back at the start.
+  [[nodiscard]] double released() const { return released_; }
   /// Where the attempt that has just failed was out of balance; to be asked before revert().
   [[nodiscard]] Trouble trouble(const std::string& reason, const StepReport& report) const;
   /// Drops the trial states.
@@ -69,6 +79,8 @@ class Newton {
   void move_to_committed();
   /// Largest residual over its tolerance: balanced when not above 1.
   [[nodiscard]] double excess(const Residual& residual) const;
+  /// Nodal forces over the references of the run.
+  [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
 
   Problem problem;
   SolverOptions options;
@@ -95,7 +107,6 @@ class Newton {
   [[nodiscard]] Eigen::VectorXd loads_at(double time, double released, double jump_let_go) const;
   /// The base of the tangent at the last evaluation, or at the committed state.
   [[nodiscard]] Linearisation linearised(const std::vector<Response>& answers) const;
-  [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
   [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
   /// Where the iteration of a step starts, and the forces that its first correction balances.
   struct Predictor {

@@ -77,6 +77,10 @@ bool PointMaterials::confirm() {
   return all;
 }
 
+void PointMaterials::settle() {
+  for (Batch& batch : batches_) batch.material->settle();
+}
+
 void PointMaterials::commit() {
   for (Batch& batch : batches_) batch.material->commit();
 }

@@ -24,6 +24,7 @@ class PointMaterials {
   [[nodiscard]] double moment_length(double otherwise) const;
   /// Whether all materials stand by their answers (Material::confirm).
   [[nodiscard]] bool confirm();
+  void settle();
   void commit();
   void revert();
   /// The committed states of all materials, each under a number of its own.

@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
 #include "fem/element/dofs.hpp"
+#include "fem/solver/explicit_pace.hpp"
 #include "fem/solver/jump_watch.hpp"
 #include "fem/solver/left_out.hpp"
 #include "fem/solver/newton.hpp"
@@ -211,6 +212,72 @@ StepReport Solver::advance_arc_length(double length) {
     return StepGoal{.measure = weighted / std::sqrt(weighted.dot(state().last_increment)),
                     .amount = share * length};
   });
+}
+
+StepReport Solver::begin_explicit() {
+  Implementation& self = *implementation_;
+  StepReport report;
+  report.time = self.state.time;
+  if (const Attempt start = self.evaluate_initial_state(report); !start.converged) {
+    report.message = start.reason;
+    return report;
+  }
+  const Residual residual = self.initial_residual();
+  report.force_residual = residual.force;
+  report.moment_residual = residual.moment;
+  self.withhold_imbalance();
+  self.materials.settle();
+  report.converged = true;
+  return report;
+}
+
+StepReport Solver::advance_explicit(double time, int steps, const ExplicitOptions& options) {
+  Implementation& self = *implementation_;
+  SolverState& state = self.state;
+  StepReport report;
+  const bool from_rest = state.velocity.size() == 0;
+  if (from_rest) {
+    state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
+    state.velocity = Eigen::VectorXd::Zero(self.constraints.unknowns());
+  } else if (state.velocity.size() != self.constraints.unknowns() ||
+             state.mass.size() != state.velocity.size()) {
+    throw RunError("the checkpoint holds explicit steps of another problem");
+  }
+  const ExplicitPace pace(state.time, time, steps, from_rest ? options.ramp : 0);
+  const Eigen::VectorXd damping = damping_of_rotations(self.problem, self.constraints, options);
+  Eigen::VectorXd forces = self.constraints.restrict_to_free(self.unbalanced());
+  Residual sum;
+  double kinetic = 0.0;
+  for (int step = 1; step <= pace.steps(); ++step) {
+    state.velocity =
+        ((1.0 - 0.5 * damping.array()) * state.velocity.array() + forces.array() / state.mass.array()) /
+        (1.0 + 0.5 * damping.array());
+    const double released = from_rest ? pace.fraction(step) : self.released();
+    const Attempt went = self.go_on(pace.time(step), released, state.velocity, report);
+    if (!went.converged) {
+      self.last_trouble = self.trouble(went.reason, report);
+      report.message = fmt::format("explicit step {} of {}: {}", step, pace.steps(), went.reason);
+      report.time = state.time;
+      return report;
+    }
+    ++report.explicit_steps;
+    const Eigen::VectorXd unbalanced = self.unbalanced();
+    forces = self.constraints.restrict_to_free(unbalanced);
+    const Residual residual = self.relative(unbalanced);
+    sum.force += residual.force / pace.steps();
+    sum.moment += residual.moment / pace.steps();
+    if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
+      self.observer->iterated({state.time, 0, step, residual.force, residual.moment});
+    kinetic = std::max(kinetic, 0.5 * state.velocity.cwiseAbs2().dot(state.mass));
+  }
+  self.materials.settle();
+  report.converged = true;
+  report.substeps = 1;
+  report.time = state.time;
+  report.force_residual = sum.force;
+  report.moment_residual = sum.moment;
+  if (state.internal_work != 0.0) report.kinetic_share = kinetic / std::abs(state.internal_work);
+  return report;
 }
 
 const Trouble& Solver::trouble() const {

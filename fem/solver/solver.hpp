@@ -55,6 +55,13 @@ struct SolverOptions {
   double jump_residual = 0.05;
 };
 
+/// How explicit steps are taken (docs/theory/explicit.md).
+struct ExplicitOptions {
+  double safety = 0.6;            ///< a step over the critical one; stiffness may grow by 1 / safety^2
+  double rotation_damping = 1.0;  ///< share of the speed of a micro-rotation that a step takes away
+  int ramp = 20;                  ///< steps over which the first of them come to their speed
+};
+
 /// After one evaluation of all materials.
 struct IterationReport {
   double time = 0.0;             ///< that the step is to reach
@@ -81,7 +88,9 @@ struct StepReport {
   int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
   int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
   int jumps = 0;            ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
-  double jump_residual = 0.0;           ///< the largest force residual that one of them left, let go since
+  int explicit_steps = 0;   ///< that it took; 0 where it was balanced by iterations
+  double kinetic_share = 0.0;  ///< of explicit steps: largest kinetic energy over the internal work so far
+  double jump_residual = 0.0;  ///< the largest force residual that one of them left, let go since
   std::vector<double> force_residuals;  ///< by iteration, of the last attempt
   std::vector<double> moment_residuals;
   double material_seconds = 0.0;
@@ -127,6 +136,9 @@ struct SolverState {
   double next_step = 0.0;           ///< after a cut: share of a step to try next; 0: as asked for
   double external_work = 0.0;       ///< J per m of thickness, loads and reactions, trapezoidal, since time 0
   double internal_work = 0.0;       ///< the same from stress and strain
+  // Of explicit steps, in the order of the equations; empty before the first of them.
+  Eigen::VectorXd mass;      ///< nodal_masses
+  Eigen::VectorXd velocity;  ///< nodal values a step
 };
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
@@ -162,6 +174,14 @@ class Solver {
   /// control).
   /// @throws RunError before the first substep has been committed.
   StepReport advance_arc_length(double length);
+
+  /// In place of equilibrate, before explicit steps: evaluates the initial state. What is out of balance then, and the
+  /// displacements given at time 0, come in smoothly over the first advance_explicit.
+  StepReport begin_explicit();
+  /// Goes on to `time` in `steps` explicit steps at one rate: central differences with nodal masses that make each step stable.
+  /// The residuals of the report are means over these steps, unbalanced forces of the nodes with their inertia.
+  /// @returns not converged when a step moves too far, or a material fails; steps before it stand
+  StepReport advance_explicit(double time, int steps, const ExplicitOptions& options = {});
 
   /// Of the last attempt of the last step that failed; empty when no step has failed.
   [[nodiscard]] const Trouble& trouble() const;

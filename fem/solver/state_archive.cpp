@@ -28,6 +28,8 @@ void write_state(ArchiveWriter& archive, const SolverState& state) {
   archive.write("time_reference_force_next_step_works", std::span<const double>(scalars));
   archive.write("displacement", values_of(state.displacement));
   archive.write("last_increment", values_of(state.last_increment));
+  archive.write("mass", values_of(state.mass));
+  archive.write("velocity", values_of(state.velocity));
   std::vector<double> strain;
   for (const Vector7& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
@@ -48,6 +50,8 @@ SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t po
   if (const std::vector<double> last = archive.doubles("last_increment"); !last.empty()) {
     state.last_increment = vector_of(read_lists(archive, "last_increment", nodes, 3));
   }
+  state.mass = vector_of(archive.doubles("mass"));
+  state.velocity = vector_of(archive.doubles("velocity"));
   const std::vector<double> strain = read_lists(archive, "strain", points, 7);
   state.strain.resize(points);
   for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[7 * i], 7, state.strain[i].data());

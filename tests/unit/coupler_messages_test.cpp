@@ -314,6 +314,128 @@ TEST(Messages, RefusesAStateThatIsNotWhatItsNameSays) {
             "the bytes of a state do not have its name");
 }
 
+ResidentMotion some_motion() {
+  ResidentMotion motion;
+  motion.gradient << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, -0.0;
+  motion.spin << 10.0, 11.0, 12.0;
+  return motion;
+}
+
+MoveIn some_move_in() {
+  return {21, 3, 20, 16, {{nullptr, {}}, {some_state(33), some_motion()}}};
+}
+
+GoOn some_go_on(std::size_t boxes) {
+  GoOn m{22, 3, 21, 40, std::vector<CellIncrement>(boxes)};
+  CellIncrement& last = m.increments.back();
+  last.displacement_gradient << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0;
+  last.rotation << 10.0, 11.0, 12.0;
+  last.curvature << 13.0, 14.0, 15.0, 16.0, 17.0, 18.0, 19.0, 20.0, 21.0;
+  return m;
+}
+
+ResidentReply some_answers(std::size_t boxes) {
+  ResidentReply m{23, 0.5, std::vector<ResidentAnswer>(boxes), {}};
+  ResidentAnswer& last = m.answers.back();
+  last.stress << -1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0;
+  last.couple_stress << 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0;
+  last.unbalanced_force_ratio = 19.0;
+  last.coordination_number = 20.0;
+  return m;
+}
+
+ResidentReply some_read_outs() {
+  const CellReply reply = some_reply().cells[0];
+  return {24, 0.25, {}, {{reply, {}}, {reply, some_motion()}}};
+}
+
+TEST(Messages, ResidentBoxesMoveIn) {
+  const MoveIn back = round_trip(some_move_in());
+  EXPECT_EQ(back.request, 21u);
+  EXPECT_EQ(back.definition, 3u);
+  EXPECT_EQ(back.settled, 20u);
+  EXPECT_EQ(back.first, 16u);
+  ASSERT_EQ(back.starts.size(), 2u);
+  EXPECT_EQ(back.starts[0].state, nullptr);
+  EXPECT_EQ(back.starts[1].state->name(), some_state(33)->name());
+  EXPECT_EQ(back.starts[1].motion.gradient, some_motion().gradient);
+  EXPECT_TRUE(std::signbit(back.starts[1].motion.gradient(2, 2)));
+  EXPECT_EQ(back.starts[1].motion.spin, some_motion().spin);
+}
+
+/// More boxes than a message has members, and few bytes for each.
+TEST(Messages, ResidentBoxesGoOn) {
+  const GoOn sent = some_go_on(1000);
+  EXPECT_LT(encode(sent).size(), 1000 * 168 + 100u);
+  const GoOn back = round_trip(sent);
+  EXPECT_EQ(back.request, 22u);
+  EXPECT_EQ(back.settled, 21u);
+  EXPECT_EQ(back.dem_steps, 40);
+  ASSERT_EQ(back.increments.size(), 1000u);
+  EXPECT_EQ(back.increments[999].displacement_gradient, sent.increments[999].displacement_gradient);
+  EXPECT_EQ(back.increments[999].rotation, sent.increments[999].rotation);
+  EXPECT_EQ(back.increments[999].curvature, sent.increments[999].curvature);
+  const ResidentReply answers = round_trip(some_answers(1000));
+  EXPECT_LT(encode(answers).size(), 1000 * 160 + 100u);
+  EXPECT_EQ(answers.request, 23u);
+  EXPECT_EQ(answers.seconds, 0.5);
+  ASSERT_EQ(answers.answers.size(), 1000u);
+  EXPECT_EQ(answers.answers[999].stress, some_answers(1).answers[0].stress);
+  EXPECT_EQ(answers.answers[999].couple_stress, some_answers(1).answers[0].couple_stress);
+  EXPECT_EQ(answers.answers[999].unbalanced_force_ratio, 19.0);
+  EXPECT_EQ(answers.answers[999].coordination_number, 20.0);
+}
+
+TEST(Messages, ResidentBoxesAreReadOut) {
+  const ReadOut back = round_trip(ReadOut{24, 3, 23, 32, 16});
+  EXPECT_EQ(back.definition, 3u);
+  EXPECT_EQ(back.settled, 23u);
+  EXPECT_EQ(back.first, 32u);
+  EXPECT_EQ(back.count, 16u);
+  const ResidentReply reply = round_trip(some_read_outs());
+  ASSERT_EQ(reply.read_outs.size(), 2u);
+  EXPECT_EQ(reply.read_outs[1].motion.gradient, some_motion().gradient);
+  EXPECT_EQ(reply.read_outs[1].reply.state->name(), some_state(100)->name());
+  EXPECT_TRUE(reply.answers.empty());
+}
+
+TEST(Messages, RefusesWhatResidentBoxesCannotSay) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  MoveIn move_in = some_move_in();
+  move_in.starts[1].motion.spin(1) = none;
+  EXPECT_EQ(error_of(encode(move_in)), "the motion of a box holds a number that is not finite");
+  GoOn go_on = some_go_on(3);
+  go_on.increments[1].rotation(0) = none;
+  EXPECT_EQ(error_of(encode(go_on)), "a list of increments holds a number that is not finite");
+  go_on = some_go_on(3);
+  go_on.dem_steps = 0;
+  EXPECT_EQ(error_of(encode(go_on)), "a count of DEM steps is out of range");
+  go_on.dem_steps = -1;
+  EXPECT_EQ(error_of(encode(go_on)), "a count of DEM steps is out of range");
+  EXPECT_EQ(error_of(encode(ReadOut{1, 0, 0, 0, 0})), "a count of boxes to read out is out of range");
+  EXPECT_EQ(error_of(encode(ReadOut{1, 0, 0, 0, 17})), "a count of boxes to read out is out of range");
+  ResidentReply answers = some_answers(2);
+  answers.answers[0].couple_stress(1, 1) = none;
+  EXPECT_EQ(error_of(encode(answers)), "a list of answers of boxes holds a number that is not finite");
+  answers = some_answers(2);
+  answers.answers[0].coordination_number = -1.0;
+  EXPECT_EQ(error_of(encode(answers)), "the answer of a box holds an impossible number");
+  answers = some_answers(2);
+  answers.seconds = -1.0;
+  EXPECT_EQ(error_of(encode(answers)), "a reply took an impossible time");
+  ResidentReply boxes = some_read_outs();
+  boxes.read_outs[0].reply.state = nullptr;
+  EXPECT_EQ(error_of(encode(boxes)), "a reply that did not fail has no state");
+  boxes.read_outs[0].reply.response.quality = Quality::failed;
+  EXPECT_EQ(error_of(encode(boxes)), "the read-out of a box has no state");
+  boxes = some_read_outs();
+  boxes.read_outs[0].reply.state = std::make_shared<const State>(some_state(9)->name(), 9);
+  EXPECT_EQ(error_of(encode(boxes)), "the read-out of a box has no state");
+  boxes = some_read_outs();
+  boxes.read_outs[1].motion.gradient(0, 0) = none;
+  EXPECT_EQ(error_of(encode(boxes)), "the motion of a box holds a number that is not finite");
+}
+
 TEST(Messages, RefusesABrokenPacking) {
   Define define{0, some_definition()};
   define.cell.packing.grains[1].id = 0;
@@ -343,10 +465,16 @@ TEST(Messages, RefusesWrongShapes) {
 
 TEST(Messages, SurvivesEveryCutAndManyFlippedBits) {
   Reply reply = some_reply();
-  const std::vector<std::string> originals{encode(reply), encode(Define{1, some_definition()}),
+  const std::vector<std::string> originals{encode(reply),
+                                           encode(Define{1, some_definition()}),
                                            encode(request_with(some_state(10)->name(), some_state(10))),
                                            encode(States{2, {some_state(20), nullptr}}),
-                                           encode(FetchRequest{2, {some_state(20)->name()}})};
+                                           encode(FetchRequest{2, {some_state(20)->name()}}),
+                                           encode(some_move_in()),
+                                           encode(some_go_on(3)),
+                                           encode(ReadOut{24, 3, 23, 32, 16}),
+                                           encode(some_answers(3)),
+                                           encode(some_read_outs())};
   std::mt19937_64 generator(2);
   int refused = 0;
   for (const std::string& original : originals) {
@@ -359,7 +487,8 @@ TEST(Messages, SurvivesEveryCutAndManyFlippedBits) {
       refused += error_of(broken) != "accepted";
     }
   }
-  std::cout << "[figure] messages with one flipped bit refused: " << refused << " of 100000\n";
+  std::cout << "[figure] messages with one flipped bit refused: " << refused << " of "
+            << 20000 * originals.size() << '\n';
   EXPECT_GT(refused, 0);
 }
 

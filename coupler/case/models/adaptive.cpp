@@ -44,6 +44,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
         "tangent: an adaptive material carries stresses along the tangent, and the affine one is no "
         "derivative of the stress once contacts slide; leave the key out");
   }
+  refuse_explicit_steps(section, files);
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) options.mean_diameter = 2.0 * definition.packing.mean_radius();
   return std::make_unique<AdaptiveRecipe>(std::move(definition), cosserat, options);

@@ -65,6 +65,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                     section.find("lp") != nullptr ? "lp" : "the lp that comes with 'lc: measured'"));
   }
   read_adaptivity_options(section);  // checked, and no more: see there
+  refuse_explicit_steps(section, files);
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
   return std::make_unique<InformedRecipe>(std::move(definition), parameters, cosserat);

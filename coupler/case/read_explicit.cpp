@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// steps: method: explicit (docs/theory/explicit.md)
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/case/parts.hpp"
+#include "fem/element/kinematics.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Movement of the fastest boundary in a step over the smallest element: at half of it curves before the peak change by some
+/// 0.5 % (docs/theory/explicit.md).
+constexpr double kPace = 1.5e-4;
+
+/// A step has at least so many DEM steps: one is unstable.
+constexpr int kLeastDemSteps = 2;
+
+/// Explicit steps of a case: more would not end.
+constexpr double kMostExplicitSteps = 1e8;
+
+double smallest_element(const fem::Mesh& mesh) {
+  double least = HUGE_VAL;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    double volume = 0.0;
+    for (const fem::PointGeometry& point :
+         fem::point_geometries(*mesh.elements[e].type, mesh.element_positions(static_cast<int>(e))))
+      volume += point.volume;
+    least = std::min(least, volume);
+  }
+  return std::sqrt(least);
+}
+
+/// The longest way of a boundary between two times, m.
+double longest_way(const fem::Problem& problem, double start, double end) {
+  double longest = 0.0;
+  for (const fem::PrescribedDof& item : problem.prescribed) {
+    if (item.dof == fem::Dof::w || !problem.mesh.has_nodes_on(item.on)) continue;
+    double factor = item.profile ? 0.0 : 1.0;
+    if (item.profile)
+      for (const int node : problem.mesh.nodes_on(item.on))
+        factor = std::max(factor, std::abs(item.profile(problem.mesh.nodes[static_cast<std::size_t>(node)])));
+    longest = std::max(longest, factor * std::abs(item.value.at(end) - item.value.at(start)));
+  }
+  return longest;
+}
+
+}  // namespace
+
+int dem_steps_of(const Entry& document) {
+  const Entry* const steps = document.find("steps");
+  const Entry* const method = steps == nullptr ? nullptr : steps->find("method");
+  if (method == nullptr || method->text != "explicit") return 0;
+  Faults faults;  // read once more, with its faults, by read_explicit
+  Section section(*steps, "steps", faults);
+  return section.whole_or("dem_steps", kLeastDemSteps, kDemSteps);
+}
+
+void read_explicit(Section& steps, CaseParts& parts) {
+  Case& result = parts.result;
+  static_cast<void>(steps.whole_or("dem_steps", kLeastDemSteps, kDemSteps));
+  const double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
+  steps.require_below("pace", 0.01, "a boundary would run into its elements like a hammer");
+  const int given = steps.whole_or("explicit_steps", 0, 0);
+  if (given > 0 && steps.find("pace") != nullptr)
+    steps.fault("pace", "pace: `explicit_steps` says it already; leave one of them out");
+  const double end = result.plan.empty() ? 0.0 : result.plan.back().amount;
+  const double size = parts.has_mesh ? smallest_element(result.problem.mesh) : 1.0;
+  double time = 0.0;
+  double all = 0.0;
+  for (StepTarget& target : result.plan) {
+    if (target.control != StepTarget::Control::time) {
+      steps.fault("method", "method: explicit steps follow the time; give the stages `until`, or use newton");
+      return;
+    }
+    const double way = longest_way(result.problem, time, target.amount);
+    const double wanted =
+        given > 0 ? std::round(given * (target.amount - time) / end) : std::ceil(way / (pace * size));
+    if (given == 0 && way == 0.0 && parts.has_mesh) {
+      steps.fault(
+          "method",
+          fmt::format("method: no boundary moves between times {:.4g} and {:.4g}, so the number of explicit "
+                      "steps cannot follow from the pace; give `explicit_steps: N`, for all of the run",
+                      time, target.amount));
+      return;
+    }
+    all += wanted;
+    target.explicit_steps = static_cast<int>(std::clamp(wanted, 1.0, kMostExplicitSteps));
+    time = target.amount;
+  }
+  if (all > kMostExplicitSteps)
+    steps.fault("method", fmt::format("method: {:.2g} explicit steps would not end; at most {:.0g} are taken",
+                                      all, kMostExplicitSteps));
+}
+
+}  // namespace polargrain::coupler

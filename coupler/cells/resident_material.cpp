@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupler/cells/resident_material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/record_archive.hpp"
+#include "coupler/cells/cell_fields.hpp"
+#include "coupler/cells/cell_increment.hpp"
+#include "coupler/cells/cell_noise.hpp"
+
+namespace polargrain::coupler {
+
+ResidentMaterial::ResidentMaterial(Pool& pool, std::uint32_t definition,
+                                   const std::optional<CosseratParameters>& cosserat, int dem_steps,
+                                   const std::string& note)
+    : calls_(calls_of(pool, definition)),
+      cells_(pool, definition),
+      dem_steps_(dem_steps),
+      grains_(static_cast<double>(pool.definition(definition).packing.grains.size())),
+      cosserat_(cosserat),
+      at_limits_(cosserat.has_value()) {
+  if (dem_steps < 1) throw RunError(fmt::format("dem_steps must be at least 1, found {}", dem_steps));
+  if (!note.empty()) notes_.push_back(note);
+  const CellDefinition& cell = pool.definition(definition);
+  if (cell.control.rotations == CellRotations::controlled) mean_radius_ = cell.packing.mean_radius();
+}
+
+void ResidentMaterial::allocate(std::size_t points) {
+  at_rest_ = packing_at_rest(calls_, notes_);
+  packing_ = PackingAtStart(at_rest_);
+  points_.assign(points,
+                 {at_rest_.response.stress, at_rest_.diagnostics, at_rest_.state, {}, packing_.part()});
+  start();
+}
+
+void ResidentMaterial::start() {
+  std::vector<ResidentStart> starts;
+  for (const PointState& point : points_) {
+    const bool at_rest = point.state->name() == at_rest_.state->name();  // its bytes need not travel
+    starts.push_back({at_rest ? nullptr : point.state, point.motion});
+  }
+  cells_.start(starts);
+  has_moved_ = false;
+  is_settled_ = true;
+}
+
+void ResidentMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+  if (has_moved_) throw RunError("an explicit step is evaluated twice: resident boxes cannot go back");
+  const bool rest = std::ranges::all_of(increments, is_zero);
+  if (!rest) {
+    std::vector<CellIncrement> of_boxes;
+    for (const Increment& increment : increments)
+      of_boxes.push_back(
+          in_space(cosserat_ ? increment_for_free_cell(increment) : increment_for_cell(increment)));
+    has_moved_ = true;
+    is_settled_ = false;
+    const std::vector<ResidentAnswer> answers = cells_.go_on(dem_steps_, of_boxes);
+    for (std::size_t p = 0; p < answers.size(); ++p) take(points_[p], answers[p]);
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    PointState& point = points_[p];
+    Response& response = responses[p];
+    response = at_rest_.response;
+    response.stress = point.stress;
+    if (cosserat_) {
+      response =
+          rest ? point.cosserat.joined_to(response, *cosserat_)
+               : point.cosserat.follow(increments[p], response, *cosserat_, packing_.kept(point.diagnostics));
+    }
+    response.noise = noise_of(point.stress, point.diagnostics, mean_radius_);
+  }
+}
+
+void ResidentMaterial::take(PointState& point, const ResidentAnswer& answer) const {
+  CellResponse response;
+  response.stress = answer.stress;
+  response.couple_stress = answer.couple_stress;
+  response.known = at_rest_.knows_s33 ? KnownComponents::all : KnownComponents::plane;
+  point.stress = in_plane(response).stress;
+  point.diagnostics.unbalanced_force_ratio = answer.unbalanced_force_ratio;
+  point.diagnostics.coordination_number = answer.coordination_number;
+  point.diagnostics.contacts = std::llround(0.5 * answer.coordination_number * grains_);
+}
+
+void ResidentMaterial::commit() {
+  has_moved_ = false;
+  std::vector<LimitsReached> reached_limits;
+  for (const PointState& point : points_) reached_limits.push_back(reached(point));
+  at_limits_.count(reached_limits);
+}
+
+void ResidentMaterial::revert() {
+  if (has_moved_) throw RunError("an explicit step cannot be reverted: resident boxes cannot go back");
+}
+
+void ResidentMaterial::settle() {
+  if (has_moved_) throw RunError("resident boxes cannot be read out between evaluate and commit");
+  if (is_settled_) return;
+  std::vector<ResidentReadOut> boxes = cells_.read_out();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    points_[p].diagnostics = boxes[p].reply.diagnostics;
+    points_[p].state = std::move(boxes[p].reply.state);
+    points_[p].motion = boxes[p].motion;
+  }
+  is_settled_ = true;
+}
+
+void ResidentMaterial::save(ArchiveWriter& archive) const {
+  if (!is_settled_) throw RunError("resident boxes must be read out (settle) before they are saved");
+  write_records(archive, "points", std::span<const PointState>(points_));
+  at_limits_.save(archive);
+}
+
+void ResidentMaterial::restore(ArchiveReader& archive) {
+  points_ = read_records<PointState>(archive, "points", points_.size());
+  for (const PointState& point : points_)
+    if (!point.state) throw RunError("'points' lacks the state of a resident box");
+  at_limits_.restore(archive);
+  start();
+}
+
+LimitsReached ResidentMaterial::reached(const PointState& point) const {
+  return limits_reached(point.stress, cosserat_, point.cosserat, packing_);
+}
+
+std::vector<std::string> ResidentMaterial::field_names() const {
+  return names_of_cell_fields(cosserat_.has_value());
+}
+
+void ResidentMaterial::fields(std::size_t point, std::span<double> values) const {
+  const PointState& state = points_[point];
+  write_cell_fields(state.diagnostics, reached(state), cosserat_, state.cosserat, values);
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/error.hpp"
+#include "common/resident_boxes.hpp"
+#include "dem/cell/averages.hpp"
+#include "dem/cell/quasi_static.hpp"
+
+namespace polargrain::dem {
+
+/// Mean unbalanced force on the grains over the mean contact force, from sums alone: no list of touched grains is made.
+/// @param least_force see unbalanced(), N
+inline double quick_force_ratio(const Imbalance& imbalance, std::span<const Contact> contacts,
+                                double least_force) {
+  const double force = std::max(mean_contact_force(contacts), least_force);
+  return contacts.empty() ? 0.0 : imbalance.force / imbalance.grains / force;
+}
+
+/// The resident boxes of a cell. `Kind` says how one box is made, led and read:
+///   Box                              the type of a box
+///   make()                           a new one
+///   put(box, state, motion)          state (null: the packing) and motion in place of what was there, forces set up
+///   go_on(box, steps, increment)     see ResidentBoxes
+///   alive()                          tells whoever waits that there is work going on
+///   answer(box), read(box)           after a step; `read` gives the state too, with the motion that belongs to it
+template <class Kind>
+class ResidentBoxesOf final : public ResidentBoxes {
+ public:
+  explicit ResidentBoxesOf(Kind kind) : kind_(std::move(kind)) {}
+
+  void clear() override { boxes_.clear(); }
+
+  void move_in(std::span<const ResidentStart> starts) override {
+    for (const ResidentStart& start : starts) {
+      kind_.alive();
+      boxes_.push_back(kind_.make());
+      kind_.put(*boxes_.back(), start);
+    }
+  }
+
+  std::vector<ResidentAnswer> go_on(int dem_steps, std::span<const CellIncrement> increments) override {
+    if (increments.size() != boxes_.size() || dem_steps < 1)
+      throw RunError("resident boxes are asked for another number of increments than there are boxes");
+    std::vector<ResidentAnswer> answers;
+    answers.reserve(boxes_.size());
+    for (std::size_t k = 0; k < boxes_.size(); ++k) try {
+        kind_.alive();
+        kind_.go_on(*boxes_[k], dem_steps, increments[k]);
+        answers.push_back(kind_.answer(*boxes_[k]));
+      } catch (const RunError& error) {
+        throw RunError(fmt::format("box {} of these {}: {}", k, boxes_.size(), error.what()));
+      }
+    return answers;
+  }
+
+  std::vector<ResidentReadOut> read_out(std::size_t first, std::size_t count) override {
+    if (first > boxes_.size() || count > boxes_.size() - first)
+      throw RunError("resident boxes are asked for more boxes than there are");
+    std::vector<ResidentReadOut> all;
+    for (std::size_t k = first; k < first + count; ++k) {
+      kind_.alive();
+      all.push_back(kind_.read(*boxes_[k]));
+      kind_.put(*boxes_[k], {all.back().reply.state, all.back().motion});
+    }
+    return all;
+  }
+
+  [[nodiscard]] std::size_t count() const override { return boxes_.size(); }
+
+ private:
+  Kind kind_;
+  std::vector<std::unique_ptr<typename Kind::Box>> boxes_;
+};
+
+}  // namespace polargrain::dem

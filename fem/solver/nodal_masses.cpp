@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/nodal_masses.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "fem/element/dofs.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+/// Volumes that belong to the nodes of an element: the diagonal of the integral of N_a N_b, scaled to the whole volume.
+Eigen::VectorXd shares_of_nodes(const Discretisation& discretisation, std::size_t e) {
+  Eigen::VectorXd shares =
+      Eigen::VectorXd::Zero(discretisation.point(discretisation.first_point(e)).shape.size());
+  double volume = 0.0;
+  for (std::size_t i = discretisation.first_point(e); i < discretisation.first_point(e + 1); ++i) {
+    const PointGeometry& point = discretisation.point(i);
+    shares += point.volume * point.shape.cwiseAbs2();
+    volume += point.volume;
+  }
+  return shares * (volume / shares.sum());
+}
+
+double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+/// M^(-1/2) K M^(-1/2).
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& masses) {
+  const Eigen::VectorXd root = masses.cwiseSqrt().cwiseInverse();
+  return root.asDiagonal() * stiffness * root.asDiagonal();
+}
+
+}  // namespace
+
+Eigen::VectorXd nodal_masses(const Discretisation& discretisation, const Linearisation& of, double safety) {
+  // Central differences are stable up to an eigenvalue of 4 with steps of 1.
+  const double allowed = 4.0 * safety * safety;
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(discretisation.nodal_size());
+  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    const Eigen::MatrixXd tangent = discretisation.element_tangent(e, of);
+    const Eigen::MatrixXd stiffness = 0.5 * (tangent + tangent.transpose());
+    const Eigen::VectorXd shares = shares_of_nodes(discretisation, e);
+    Eigen::VectorXd own = Eigen::VectorXd::Ones(stiffness.rows());
+    for (const bool rotary : {false, true}) {
+      Eigen::VectorXd weights = Eigen::VectorXd::Zero(stiffness.rows());
+      std::vector<Eigen::Index> entries;
+      for (Eigen::Index entry = 0; entry < stiffness.rows(); ++entry) {
+        if ((entry % kDofsOfNode == static_cast<Eigen::Index>(Dof::w)) == rotary) entries.push_back(entry);
+        weights(entry) = shares(entry / kDofsOfNode);
+      }
+      const double largest =
+          largest_eigenvalue(scaled(stiffness(entries, entries), Eigen::VectorXd(weights(entries))));
+      if (!rotary && !(largest > 0.0))
+        throw RunError(
+            fmt::format("element {} has no stiffness that explicit steps could find its mass by", e));
+      // Where nothing resists the rotation, any inertia will do.
+      const double density = largest > 0.0 ? largest / allowed : 1.0;
+      for (const Eigen::Index entry : entries) own(entry) = density * weights(entry);
+    }
+    // Displacements and rotations together may be faster than either alone: by a factor of two at most.
+    const double together = largest_eigenvalue(scaled(stiffness, own)) / allowed;
+    masses(discretisation.element_dofs(e)) += std::max(1.0, together) * own;
+  }
+  return masses;
+}
+
+}  // namespace polargrain::fem

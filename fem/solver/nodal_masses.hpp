@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+
+#include "fem/solver/discretisation.hpp"
+
+namespace polargrain::fem {
+
+/// Masses of explicit steps, chosen and not true: each element gets a density and a rotary inertia of its own, such that its
+/// largest eigenfrequency is stable in steps of one unit of time. The largest of the elements bounds that of the mesh
+/// (Irons and Treharne 1971), so one step is safe everywhere, and no element is slower than it must be.
+/// @param of the tangents, of which the symmetric parts count
+/// @param safety step over the critical one, 0 to 1
+/// @return nodal vector, N/m per unit of (length over step squared), and the like for rotations; lumped by the diagonal of the
+/// consistent matrix, scaled to the mass of the element (Hinton, Rock and Zienkiewicz 1976)
+/// @throws RunError when an element has no stiffness at all
+Eigen::VectorXd nodal_masses(const Discretisation& discretisation, const Linearisation& of, double safety);
+
+}  // namespace polargrain::fem

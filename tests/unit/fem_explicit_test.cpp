@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Explicit steps against Newton's method and closed forms (docs/theory/explicit.md).
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "common/memory_archive.hpp"
+#include "fem/material/elastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/explicit_pace.hpp"
+#include "fem/solver/nodal_masses.hpp"
+#include "fem/solver/solver.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+constexpr double kPressure = 100e3;
+
+ElasticParameters sand() {
+  ElasticParameters parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
+  for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -kPressure;
+  return parameters;
+}
+
+std::shared_ptr<Material> elastic() {
+  return std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(sand()));
+}
+
+/// Compression between rough plates, so that the stress is not uniform.
+Problem biaxial(Deformation deformation = Deformation::small, double shortening = 0.0008) {
+  Problem problem;
+  problem.mesh = rectangle({{0.04, 0.08}, {2, 4}});
+  problem.deformation = deformation;
+  problem.materials["all"] = elastic();
+  const TimeTable zero = TimeTable::constant(0.0);
+  problem.prescribed = {{"bottom", Dof::u1, zero, {}},
+                        {"bottom", Dof::u2, zero, {}},
+                        {"top", Dof::u1, zero, {}},
+                        {"top", Dof::u2, TimeTable::ramp(-shortening), {}}};
+  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(kPressure)},
+                        {.on = "right", .pressure = TimeTable::constant(kPressure)}};
+  return problem;
+}
+
+double force_on_top(const Solver& solver) {
+  return solver.reaction("top")(1);
+}
+
+TEST(explicit_pace, comes_to_its_speed_evenly_and_ends_where_it_should) {
+  const ExplicitPace pace(2.0, 3.0, 100, 20);
+  EXPECT_EQ(pace.steps(), 110);
+  EXPECT_EQ(pace.time(0), 2.0);
+  EXPECT_EQ(pace.time(110), 3.0);
+  const double rate = pace.time(110) - pace.time(109);
+  EXPECT_NEAR(pace.time(50) - pace.time(49), rate, 1e-12);
+  EXPECT_NEAR(pace.time(1) - pace.time(0), rate / 20.0, 1e-12);
+  EXPECT_NEAR(rate, 1.0 / 100.0, 1e-4);  // that of the rows to follow
+  const ExplicitPace moving(0.0, 1.0, 4, 0);
+  for (int step = 0; step <= 4; ++step) EXPECT_DOUBLE_EQ(moving.time(step), step / 4.0);
+}
+
+// Every element type: the largest eigenvalue of the whole mesh, supports left out, is at most 4 safety^2, and not far below.
+TEST(nodal_masses, make_steps_of_one_stable_and_not_much_slower) {
+  for (const char* const type : {"Q4", "Q8", "Q8R", "T6"}) {
+    const Mesh mesh = rectangle({{0.04, 0.06}, {2, 3}}, type);
+    const Discretisation discretisation(mesh, Continuum::cosserat);
+    std::vector<Response> answers(discretisation.points());
+    for (Response& answer : answers) answer.tangent = elastic_stiffness(sand());
+    const Linearisation of{answers};
+    const Eigen::VectorXd masses = nodal_masses(discretisation, of, 0.6);
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses.size(), masses.size());
+    for (std::size_t e = 0; e < discretisation.elements(); ++e)
+      stiffness(discretisation.element_dofs(e), discretisation.element_dofs(e)) +=
+          discretisation.element_tangent(e, of);
+    const Eigen::VectorXd root = masses.cwiseSqrt().cwiseInverse();
+    const double largest =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(root.asDiagonal() * stiffness * root.asDiagonal())
+            .eigenvalues()
+            .maxCoeff();
+    EXPECT_LE(largest, 4.0 * 0.36 * (1.0 + 1e-12)) << type;
+    EXPECT_GE(largest, 4.0 * 0.36 * 0.5) << type;
+  }
+}
+
+// The mean over a row of steps is compared: waves come and go.
+TEST(explicit_steps, agree_with_newton_where_they_are_slow) {
+  for (const Deformation deformation : {Deformation::small, Deformation::large}) {
+    Solver newton(biaxial(deformation), {});
+    ASSERT_TRUE(newton.equilibrate().converged);
+    ASSERT_TRUE(newton.advance(1.0).converged);
+    for (const int steps : {500, 4000}) {
+      Solver slow(biaxial(deformation), {});
+      ASSERT_TRUE(slow.begin_explicit().converged);
+      const StepReport report = slow.advance_explicit(1.0, steps);
+      ASSERT_TRUE(report.converged) << report.message;
+      EXPECT_EQ(report.time, 1.0);
+      const double added = force_on_top(newton) + kPressure * 0.04;
+      const double error = std::abs((force_on_top(slow) - force_on_top(newton)) / added);
+      EXPECT_LT(error, steps == 500 ? 0.03 : 0.005);
+      // What the supports and the loads have done is in the stresses, or moves.
+      const double work = slow.state().internal_work;
+      EXPECT_NEAR(slow.state().external_work, work, 0.01 * std::abs(work) * (steps == 500 ? 3.0 : 1.0));
+    }
+  }
+}
+
+// A bar, one element wide, is hit at one end: the front runs at sqrt(M / rho), rho from the masses.
+TEST(explicit_steps, send_waves_at_the_speed_of_the_modulus) {
+  Problem problem;
+  problem.mesh = rectangle({{1.0, 0.02}, {50, 1}});
+  problem.continuum = Continuum::cauchy;
+  ElasticParameters parameters = sand();
+  parameters.initial_stress.setZero();
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  const TimeTable zero = TimeTable::constant(0.0);
+  problem.prescribed = {{"bottom", Dof::u2, zero, {}},
+                        {"top", Dof::u2, zero, {}},
+                        {"right", Dof::u1, zero, {}},
+                        {"left", Dof::u1, TimeTable::ramp(0.02), {}}};
+  Solver solver(problem, {});
+  ASSERT_TRUE(solver.begin_explicit().converged);
+  constexpr int kSteps = 140;
+  ASSERT_TRUE(solver.advance_explicit(1.0, kSteps, {.ramp = 20}).converged);
+  const Discretisation discretisation(problem.mesh, problem.continuum);
+  std::vector<Response> answers(discretisation.points());
+  for (Response& answer : answers) answer.tangent = elastic_stiffness(parameters);
+  const double mass =
+      nodal_masses(discretisation, {answers}, 0.6).sum();  // of two directions, and nothing else
+  double volume = 0.0;
+  for (std::size_t i = 0; i < discretisation.points(); ++i) volume += discretisation.point(i).volume;
+  double rotary = 0.0;
+  const Eigen::VectorXd all = nodal_masses(discretisation, {answers}, 0.6);
+  for (Eigen::Index entry = 2; entry < all.size(); entry += 3) rotary += all(entry);
+  const double density = (mass - rotary) / 2.0 / volume;
+  const double speed = std::sqrt(elastic_stiffness(parameters)(k11, k11) / density);  // m a step
+  // Where the strain has half of its height behind the front: the ramp of 20 steps puts the middle of the front 10 steps back.
+  const double height = 0.02 / (kSteps * speed);
+  double front = 0.0;
+  for (std::size_t i = 0; i < solver.points(); ++i)
+    if (-solver.state().strain[i](k11) > 0.5 * height)
+      front = std::max(front, solver.position_of_point(i).x());
+  EXPECT_NEAR(front / (speed * (kSteps + 10 - 10)), 1.0, 0.02);
+}
+
+// Whoever takes steps that are too long hears of it.
+TEST(explicit_steps, tell_when_they_are_unstable) {
+  SolverOptions options;
+  options.largest_strain = 0.05;
+  Solver solver(biaxial(), options);
+  ASSERT_TRUE(solver.begin_explicit().converged);
+  const StepReport report = solver.advance_explicit(1.0, 3000, {.safety = 1.2});
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.message.find("the nodes move too fast"), std::string::npos) << report.message;
+  EXPECT_LT(report.time, 1.0);
+}
+
+// Forces that are out of balance at time 0 come in, and do not hit.
+TEST(explicit_steps, let_imbalance_in_slowly) {
+  Problem problem = biaxial(Deformation::small, 0.0);
+  problem.edge_loads[0].pressure = problem.edge_loads[1].pressure = TimeTable::constant(0.5 * kPressure);
+  Solver newton(problem, {});
+  ASSERT_TRUE(newton.equilibrate().converged);
+  problem.materials["all"] = elastic();
+  Solver solver(problem, {});
+  ASSERT_TRUE(solver.begin_explicit().converged);
+  ASSERT_TRUE(solver.advance_explicit(1.0, 4000).converged);
+  EXPECT_NEAR(force_on_top(solver), force_on_top(newton), 0.005 * std::abs(force_on_top(newton)));
+}
+
+TEST(explicit_steps, go_on_from_an_archive_to_the_same_bits) {
+  Solver through(biaxial(), {});
+  ASSERT_TRUE(through.begin_explicit().converged);
+  ASSERT_TRUE(through.advance_explicit(0.5, 200).converged);
+  MemoryArchive archive;
+  through.save(archive);
+  ASSERT_TRUE(through.advance_explicit(1.0, 200).converged);
+  Solver again(biaxial(), {});
+  again.restore(archive);
+  ASSERT_TRUE(again.advance_explicit(1.0, 200).converged);
+  EXPECT_EQ(again.state().displacement, through.state().displacement);
+  EXPECT_EQ(again.state().velocity, through.state().velocity);
+}
+
+}  // namespace

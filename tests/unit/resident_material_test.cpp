@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <cmath>
+
+#include "common/memory_archive.hpp"
+#include "coupler/cells/resident_material.hpp"
+#include "tests/unit/resident_fixture.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+constexpr CosseratParameters kCosserat{40e6, 10e6, 0.02};
+constexpr std::size_t kPoints = 20;
+
+std::vector<Increment> increments_of_step(int step) {
+  std::vector<Increment> increments(kPoints);
+  for (std::size_t p = 0; p < kPoints; ++p) {
+    Increment& increment = increments[p];
+    increment.displacement_gradient << 1e-3 * std::sin(0.3 * static_cast<double>(p) + step), 2e-4, -1e-4,
+        -5e-4;
+    increment.micro_rotation = 1e-4 * static_cast<double>(p);
+    increment.curvature << 0.01, -0.02;
+  }
+  return increments;
+}
+
+std::vector<Response> step(ResidentMaterial& sand, int number) {
+  std::vector<Response> responses(kPoints);
+  sand.evaluate(increments_of_step(number), responses);
+  sand.commit();
+  return responses;
+}
+
+void expect_same(const std::vector<Response>& a, const std::vector<Response>& b) {
+  for (std::size_t p = 0; p < kPoints; ++p)
+    EXPECT_EQ(std::memcmp(a[p].stress.data(), b[p].stress.data(), sizeof(Vector7)), 0) << p;
+}
+
+class ResidentMaterialTest : public ResidentTest {
+ protected:
+  ResidentMaterial material(Pool& pool, const std::string& script = "",
+                            const std::optional<CosseratParameters>& cosserat = kCosserat) {
+    ResidentMaterial made(pool, pool.define(testing::resident_definition(script)), cosserat, 5);
+    made.allocate(kPoints);
+    return made;
+  }
+};
+
+TEST_F(ResidentMaterialTest, TheStressAtTheStartAsksNobody) {
+  Pool pool(options(1));
+  ResidentMaterial sand = material(pool);
+  std::vector<Response> responses(kPoints);
+  sand.evaluate(std::vector<Increment>(kPoints), responses);
+  sand.revert();
+  EXPECT_EQ(pool.counts().evaluations, 1);  // the packing
+  EXPECT_EQ(responses[3].stress[k11], testing::kRestStress);
+  EXPECT_EQ(responses[3].tangent(k11, k11), 1e7);
+  EXPECT_EQ(responses[3].tangent(kCurvature1, kCurvature1), kCosserat.couple_modulus());
+}
+
+TEST_F(ResidentMaterialTest, BoxesAndTheCosseratPartAnswer) {
+  Pool pool(options(2));
+  ResidentMaterial sand = material(pool);
+  const std::vector<Response> first = step(sand, 0);
+  const std::vector<Response> second = step(sand, 1);
+  testing::LineService service(testing::resident_definition(""));
+  const std::unique_ptr<ResidentBoxes> line = service.residents();
+  line->move_in(std::vector<ResidentStart>(1));
+  const Increment increment = increments_of_step(0)[7];
+  CellIncrement symmetric;
+  symmetric.displacement_gradient(0, 0) = increment.displacement_gradient(0, 0);
+  symmetric.displacement_gradient(1, 1) = -5e-4;
+  symmetric.displacement_gradient(0, 1) = symmetric.displacement_gradient(1, 0) = 5e-5;
+  const ResidentAnswer answer = line->go_on(5, {&symmetric, 1}).front();
+  EXPECT_EQ(first[7].stress[k22], answer.stress(1, 1));
+  const Vector7 strain = increment.strain();
+  // A.4: s21 - s12 = 2 Gc (eps21 - eps12), m = 2 G lc^2 kappa; sums of doubles of 1e5 Pa.
+  EXPECT_NEAR(first[7].stress[k21] - first[7].stress[k12], 2.0 * 10e6 * (strain[k21] - strain[k12]), 1e-8);
+  EXPECT_NEAR(first[7].stress[kCurvature1], kCosserat.couple_modulus() * 0.01, 1e-9);
+  // The second step goes with the contacts that are left.
+  const double contacts = std::llround(0.5 * answer.coordination_number * testing::kResidentGrains);
+  const double kept = contacts / (0.5 * testing::kRestCoordination * testing::kResidentGrains);
+  EXPECT_NEAR(second[7].stress[kCurvature1] - first[7].stress[kCurvature1],
+              kept * kCosserat.couple_modulus() * 0.01, 1e-9);
+}
+
+TEST_F(ResidentMaterialTest, AStepCannotBeTakenBack) {
+  Pool pool(options(1));
+  ResidentMaterial sand = material(pool);
+  std::vector<Response> responses(kPoints);
+  sand.evaluate(increments_of_step(0), responses);
+  EXPECT_THROW(sand.revert(), RunError);
+  EXPECT_THROW(sand.evaluate(increments_of_step(0), responses), RunError);
+  EXPECT_THROW(sand.settle(), RunError);
+  sand.commit();
+  sand.revert();
+  MemoryArchive archive;
+  EXPECT_THROW(sand.save(archive), RunError);
+  sand.settle();
+  sand.save(archive);
+  EXPECT_THROW(ResidentMaterial(pool, 0, kCosserat, 0), RunError);
+}
+
+TEST_F(ResidentMaterialTest, AReadOutBringsDiagnosticsAndGrains) {
+  Pool pool(options(2));
+  ResidentMaterial sand = material(pool);
+  const StatePointer packing = sand.grains_of(4);
+  step(sand, 0);
+  EXPECT_EQ(sand.grains_of(4), packing);
+  sand.settle();
+  EXPECT_NE(sand.grains_of(4)->name(), packing->name());
+  EXPECT_TRUE(sand.grains_of(4)->is_here());
+  const std::vector<std::string> names = sand.field_names();
+  std::vector<double> values(names.size());
+  sand.fields(4, values);
+  const auto at = [&](const std::string& name) {
+    return values.at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
+  };
+  EXPECT_NE(at("void_ratio"), 0.2);
+  EXPECT_NEAR(at("void_ratio"), 0.2, 0.01);
+  EXPECT_EQ(at("parted"), 0.0);
+  const std::int64_t fetched = pool.counts().states_fetched;
+  sand.settle();  // nobody has moved
+  EXPECT_EQ(pool.counts().states_fetched, fetched);
+}
+
+TEST_F(ResidentMaterialTest, ARunGoesOnFromItsCheckpointToTheSameBits) {
+  Pool pool(options(2));
+  for (const int steps : {0, 3}) {
+    ResidentMaterial sand = material(pool);
+    for (int k = 0; k < steps; ++k) step(sand, k);
+    sand.settle();
+    MemoryArchive archive;
+    sand.save(archive);
+    Pool other(options(3));
+    ResidentMaterial again = material(other, ends_once("ends_in_step " + std::to_string(steps + 2)));
+    again.restore(archive);
+    EXPECT_EQ(again.grains_of(2)->name(), sand.grains_of(2)->name());
+    for (int k = steps; k < steps + 4; ++k) expect_same(step(again, k), step(sand, k));
+    EXPECT_EQ(other.counts().workers_lost, 1);
+  }
+}
+
+TEST_F(ResidentMaterialTest, ControlledBoxesAnswerWhole) {
+  Pool pool(options(1));
+  ResidentMaterial sand = material(pool, "", std::nullopt);
+  const std::vector<Response> responses = step(sand, 0);
+  EXPECT_EQ(responses[2].stress[kCurvature1], 0.0);
+  EXPECT_NE(responses[2].stress[k12], 0.0);
+  EXPECT_EQ(responses[2].stress[k21], 0.0);
+  EXPECT_EQ(sand.field_names().back(), "parted");
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
