@@ -17,6 +17,7 @@ void ground_stress(const Scene& scene, Remarks& remarks);
 void weight(const Scene& scene, Remarks& remarks);
 void free_sides(const Scene& scene, Remarks& remarks);
 void movement(const Scene& scene, Remarks& remarks);
+void pulled_apart(const Scene& scene, Remarks& remarks);
 void times_of_loads(const Scene& scene, Remarks& remarks);
 void idle_steps(const Scene& scene, Remarks& remarks);
 void steps_of_strain(const Scene& scene, Remarks& remarks);

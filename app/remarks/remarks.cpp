@@ -22,7 +22,7 @@ constexpr RemarkKind kOthers[] = {movement,        times_of_loads,    idle_steps
                                   size_of_grains,  unread_properties, contact_numbers,  neighbours,
                                   tolerances,      softening_cauchy,  strength_of_laws, monitors,
                                   measures,        formulas,          output,           cost,
-                                  moduli,          node_forces,       weight_at_once};
+                                  moduli,          node_forces,       weight_at_once,   pulled_apart};
 
 std::string with_number(std::size_t count) {
   return fmt::format("{} remark{}", count, count == 1 ? "" : "s");

@@ -110,6 +110,12 @@ constexpr OtherName kOtherNames[] = {{"dilation_angle", "dilatancy_angle"},
                                      {"theta", "w"},
                                      {"rotation", "w"}};
 
+std::string with_words(Dimension dimension, const std::vector<std::string>& words) {
+  std::string expected = expectation(dimension);
+  for (const std::string& word : words) expected += ", or '" + word + "'";
+  return expected;
+}
+
 std::string in_small_letters(std::string word) {
   std::ranges::transform(word, word.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -179,14 +185,16 @@ std::string Section::scalar(const Entry& entry, const std::string& key, const st
 }
 
 double Section::number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit,
-                          const std::string& or_word) {
-  const std::string expected = expectation(dimension) + or_word;
+                          const std::vector<std::string>& words) {
+  const std::string expected = with_words(dimension, words);
   const std::string text = scalar(entry, key, expected);
   if (text.empty()) return 1.0;
   const std::optional<double> value = parse_quantity(text, dimension);
   if (!value) {
-    faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'{}", name_, key, expected, text,
-                                              has_decimal_comma(text) ? kDecimalComma : "")));
+    const std::string guess = nearest(text, words);
+    faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'{}{}", name_, key, expected,
+                                              text, has_decimal_comma(text) ? kDecimalComma : "",
+                                              guess.empty() ? "" : "; did you mean '" + guess + "'?")));
     return 1.0;
   }
   if (std::abs(*value) > largest_of(dimension)) {
@@ -222,12 +230,11 @@ double Section::quantity_or(const std::string& key, Dimension dimension, Limit l
 }
 
 std::optional<double> Section::quantity_or_word(const std::string& key, Dimension dimension, Limit limit,
-                                                const std::string& word) {
-  const std::string or_word = fmt::format(", or '{}'", word);
-  const Entry* entry = require(key, expectation(dimension) + or_word);
+                                                const std::vector<std::string>& words) {
+  const Entry* entry = require(key, with_words(dimension, words));
   if (entry == nullptr) return 1.0;
-  if (entry->kind == Entry::Kind::scalar && entry->text == word) return {};
-  return number_of(*entry, key, dimension, limit, or_word);
+  if (entry->kind == Entry::Kind::scalar && std::ranges::find(words, entry->text) != words.end()) return {};
+  return number_of(*entry, key, dimension, limit, words);
 }
 
 int Section::whole_of(const Entry& entry, const std::string& key, int least) {

@@ -38,9 +38,9 @@ class Section {
 
   double quantity(const std::string& key, Dimension dimension, Limit limit);
   double quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise);
-  /// A quantity, or nothing where the value is that word.
+  /// A quantity, or nothing where the value is one of the words.
   std::optional<double> quantity_or_word(const std::string& key, Dimension dimension, Limit limit,
-                                         const std::string& word);
+                                         const std::vector<std::string>& words);
   int whole(const std::string& key, int least);
   int whole_or(const std::string& key, int least, int otherwise);
   /// A list of so many quantities, or of so many whole numbers.
@@ -85,9 +85,9 @@ class Section {
   void find_forgotten_units();
   std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
   const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
-  /// @param or_word a word that may stand there instead, for messages; or empty
+  /// @param words that may stand there instead, for messages
   double number_of(const Entry& entry, const std::string& key, Dimension dimension, Limit limit,
-                   const std::string& or_word = {});
+                   const std::vector<std::string>& words = {});
   int whole_of(const Entry& entry, const std::string& key, int least);
   std::string choice_of(const Entry& entry, const std::string& key, const std::vector<std::string>& words);
 

@@ -14,8 +14,10 @@ target_compile_definitions(request_sharing_test PRIVATE FAKE_WORKER="$<TARGET_FI
 add_dependencies(request_sharing_test fake_worker)
 
 if(TARGET polargrain)
-  polargrain_test(own_weight_test integration integration/own_weight_test.cpp LIBS polargrain_options)
-  target_compile_definitions(own_weight_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+  foreach(topic own_weight large_shear)
+    polargrain_test(${topic}_test integration integration/${topic}_test.cpp LIBS polargrain_options)
+    target_compile_definitions(${topic}_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                      POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
-  add_dependencies(own_weight_test polargrain)
+    add_dependencies(${topic}_test polargrain)
+  endforeach()
 endif()

@@ -126,6 +126,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"NoNumber", "G: 40 MPa", "G: stiff",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
                  "kPa, MPa, GPa, or 'from packing', found 'stiff'"},
+        BadInput{"NoNumberAndNoWordOfTwo", "lc: 10 mm}\n  plate", "lc: 10 mm, lp: some}\n  plate",
+                 "case.yaml:7: material 'sand': lp: expected a length in m, or with one of the units m, mm, "
+                 "cm, um, km, or 'from packing', or 'none', found 'some'"},
+        BadInput{
+            "NearlyAWord", "lc: 10 mm}\n  plate", "lc: 10 mm, skew_limit: non}\n  plate",
+            "case.yaml:7: material 'sand': skew_limit: expected a number without a unit (% is allowed), or 'from "
+            "packing', or 'none', found 'non'; did you mean 'none'?"},
+        BadInput{"NoLength", "lc: 10 mm", "lc: short",
+                 "case.yaml:7: material 'sand': lc: expected a length in m, or with one of the units m, mm, "
+                 "cm, um, km, or 'from packing', or 'measured', found 'short'"},
         BadInput{"NotFinite", "G: 40 MPa", "G: inf",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
                  "kPa, MPa, GPa, or 'from packing', found 'inf'"},

@@ -65,6 +65,22 @@ INSTANTIATE_TEST_SUITE_P(
                  Rank::doubtful},
         Careless{"CoarseElements", kGrains, "elements: [10, 20]", "elements: [2, 4]",
                  "12.5 times lc (at most 2.5)", Rank::doubtful},
+        Careless{
+            "PulledForPushed", kGrains, "-8 mm", "8 mm",
+            "'top' pulls the body apart: at the end it is 2 % longer along 2, 6.4 elastic strains of 'sand' (0.31 "
+            "%); the title speaks of compression; to compress, write 'move: {u2: -8 mm}'"},
+        Careless{
+            "PulledSideways", replaced(kGrains, "title: Compression of b", "title: B"), kTop + kSides,
+            "  - {on: left, fix: [u1]}\n  - {on: right, move: {u1: 8 mm}}\n  - {on: top, pressure: 100 kPa}\n",
+            "'right' pulls the body apart: at the end it is 4 % longer along 1", Rank::doubtful},
+        Careless{"PulledBetweenHeldSides", replaced(kGrains, "{u2: -8 mm}", "{u2: 8 mm}"),
+                 "{on: [left, right], pressure: 100 kPa}", "{on: [left, right], fix: [u1]}",
+                 "and its other sides are held: nothing is left of its stress"},
+        Careless{"LawPulledForPushed", replaced(kGrains, "-8 mm", "8 mm"),
+                 "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
+                 "{model: elastoplastic, E: 30 MPa, nu: 0.25, Gc: 12 MPa, lc: 8 mm, friction_angle: 30 deg, "
+                 "dilatancy_angle: 0, cohesion: 0, confining: 100 kPa}",
+                 "4.8 elastic strains of 'sand' (0.42 %)"},
         Careless{"OneStep", kGrains, "count: 20", "count: 1", "elastic strains of the packing",
                  Rank::doubtful},
         Careless{"ManyPerCentInSmallDeformation", kGrains, "-8 mm", "-80 mm", "in small deformation",

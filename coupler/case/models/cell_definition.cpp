@@ -107,24 +107,25 @@ void take_measured_length(Section& section, const CellDefinition& definition, co
 LimitChoice read_limit(Section& section, const char* key, Dimension dimension, Limit limit) {
   const Entry* const entry = section.find(key);
   if (entry == nullptr) return {};
-  if (entry->kind == Entry::Kind::scalar && entry->text == "none") return {.none = true};
-  return {section.quantity_or_word(key, dimension, limit, "from packing")};
+  const auto value = section.quantity_or_word(key, dimension, limit, {"from packing", "none"});
+  return {value, !value && entry->text == "none"};
 }
 
 CosseratChoice read_cosserat_choice(Section& section, const CellDefinition& definition,
                                     const CaseFiles& files) {
-  const auto value = [&section](const char* key, Dimension dimension) -> std::optional<double> {
-    return section.quantity_or_word(key, dimension, Limit::positive, "from packing");
+  const auto modulus = [&section](const char* key) -> std::optional<double> {
+    return section.quantity_or_word(key, Dimension::pressure, Limit::positive, {"from packing"});
   };
   CosseratChoice choice;
-  if (section.find("G") != nullptr) choice.shear_modulus = value("G", Dimension::pressure);
-  if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = value("Gc", Dimension::pressure);
+  if (section.find("G") != nullptr) choice.shear_modulus = modulus("G");
+  if (section.find("Gc") != nullptr) choice.cosserat_shear_modulus = modulus("Gc");
   // A classical continuum has no curvature: its length is of no effect.
   const Entry* const length = section.find("lc");
   if (length != nullptr && length->text == "measured")
     take_measured_length(section, definition, files, choice);
   else if (files.cosserat || length != nullptr)
-    choice.internal_length = value("lc", Dimension::length);
+    choice.internal_length =
+        section.quantity_or_word("lc", Dimension::length, Limit::positive, {"from packing", "measured"});
   if (section.find("lp") != nullptr)
     choice.plastic_length = read_limit(section, "lp", Dimension::length, Limit::positive);
   choice.skew_limit = read_limit(section, "skew_limit", Dimension::number, Limit::not_negative);
