@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <initializer_list>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "app/remarks/in_units.hpp"
@@ -19,12 +20,11 @@ namespace {
 constexpr double kMostElastic = 4.0;
 
 /// Parts of words in a title.
-constexpr std::initializer_list<std::string_view> kExtension{
-    "exten", "elong", "stretch", "pull", "tensi", "unload", "lift", "heav", "swell", "expan", "cycl"};
-constexpr std::initializer_list<std::string_view> kCompression{"compres", "kompres", "squeez", "shorten",
-                                                               "oedomet"};
+constexpr std::string_view kExtension[] = {"exten", "elong", "stretch", "pull",  "tensi", "unload",
+                                           "lift",  "heav",  "swell",   "expan", "cycl"};
+constexpr std::string_view kCompression[] = {"compres", "kompres", "squeez", "shorten", "oedomet"};
 
-bool speaks_of(std::string title, std::initializer_list<std::string_view> words) {
+bool speaks_of(std::string title, std::span<const std::string_view> words) {
   for (char& letter : title) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   return std::ranges::any_of(words,
                              [&](std::string_view word) { return title.find(word) != std::string::npos; });
