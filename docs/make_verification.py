@@ -107,23 +107,15 @@ SUMMARY = [
     ("C.9 lattices of spheres, stresses of each strain", "closed form", "2e-3", "sphere_lattice_test", rf"stress {N}"),
     ("C.9 Rowe's packings of spheres", "closed form", "2e-4", "sphere_rowe_test", rf"within {N} of"),
     ("rotation by 0.25 rad on top of a strain, 500 spheres", "0", "1e-9", "sphere_cell_test", rf"0\.25 rad on top: .*by {N}"),
-    ("the same lattice by other base vectors", "0", "1e-5", "sphere_cell_test", rf"another description.*differs by {N}"),
-    ("a spin of 0.8 rad in four increments", "0", "2e-3", "sphere_cell_test", rf"0\.8 rad: stress differs by {N}"),
     ("C.9 mode 2: 1, 8 and 27 cells of lattices, moduli", "closed form", "1e-3", "sphere_cosserat_test", rf"moduli {N} from closed"),
-    ("C.9 mode 2: the same, sizes apart", "one cell", "1e-7", "sphere_cosserat_test", rf"form, {N} from those"),
     ("C.9 mode 2: rotation by 0.2 rad on top", "0", "1e-8", "sphere_cosserat_test", rf"on top: stress {N}, couple stress {N}"),
     ("C.9 skew stress over (3 pi / 4) mu p", "1", "5e-2", "sphere_cosserat_test", rf"0\.08: {N}", 1),
     ("C.9 couple stress over its limit, without and with torsion", "1", "1e-1", "sphere_cosserat_test", rf"torsion \w+: {N}", 1),
-    ("C.4 virtual work, spheres", "work of the stress", "1e-6", "sphere_cosserat_test", rf"that of the stress: {N}"),
-    ("work over stored energy without slip, spheres", "1", "1e-2", "sphere_cosserat_test", rf"contacts stored: {N}", 1),
     ("C.9 condensed tangent at rest, Hertz", "central differences", "2e-2", "sphere_tangent_test", rf"Hertz.*tangent {N} of"),
-    ("C.9 condensed tangent at a strain of 2e-3", "central differences", "1.2e-1", "sphere_tangent_test",
-     rf"1,000 spheres.*tangent {N} of"),
     ("C.9 mode 2: condensed tangent at rest", "central differences", "2e-2", "sphere_tangent_test",
      rf"at rest, controlled.*tangent {N} of .*forces, {N} in the couples, {N} mixed"),
     ("C.9 tangent with sliding, rolling and torsion", "dense solution", "1e-9", "sphere_tangent_test",
      rf"forces {N}, couples {N} from the dense"),
-    ("C.9 spring that has slid", "carried along in steps", "5e-4", "sphere_tangent_test", rf"slid: {N} from"),
     ("contact forces of 1,000 spheres, sum of differences, %", "independent code", "1", "sphere_paths_test", rf"forces {N} % of their"),
 ]
 
@@ -142,7 +134,7 @@ def run(executable):
 
 
 def summary_table(results):
-    rows = ["| problem | reference | error asked for | largest error | test |", "|---|---|---|---|---|"]
+    rows = ["| problem | reference | error asked for | largest error |", "|---|---|---|---|"]
     for what, reference, asked, name, expression, *exact in SUMMARY:
         if name not in results:
             continue
@@ -150,7 +142,7 @@ def summary_table(results):
         if not found:
             sys.exit(f"no figure of {name} matches {expression}")
         error = max(abs(float(value) - sum(exact)) for value in found)
-        rows.append(f"| {what} | {reference} | {asked} | {error:.2g} | `{name}` |")
+        rows.append(f"| {what} | {reference} | {asked} | {error:.2g} |")
     return rows
 
 
