@@ -51,9 +51,8 @@ TEST_F(ScriptTrust, CheckFindsWithFileAndLineWhatARunWouldDo) {
     const Outcome outcome = polargrain(command);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.errors,
-              "bad.in:2: the command 'shell' is not among those that set up a cell; remove it, or say "
-              "--trust-scripts when "
-              "you know what this script does\n");
+              "bad.in:2: the command 'shell' is not among those that set up a cell; remove it, or give "
+              "--trust-scripts if you have read this script\n");
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
   // The script is run then, to see what the packing resists with; the simulated engine does not know the command.

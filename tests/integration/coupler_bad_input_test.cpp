@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:18: steps: unknown key 'tolerence'; did you mean 'tolerance'?"},
         BadInput{
             "UnknownKeyFarFromAll", "  count: 4", "  count: 4\n  colour: red",
-            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, cut, iterations, "
+            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, method, cut, iterations, "
             "tolerance, moment_tolerance, noise, jumps, jump_residual, acceleration, largest_strain, line_search"},
         BadInput{"KeyByItsMeaning", "  count: 4", "  count: 4\n  tol: 1e-3",
                  "case.yaml:18: steps: unknown key 'tol'; did you mean 'tolerance'?"},
@@ -126,11 +126,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"NoNumber", "G: 40 MPa", "G: stiff",
                  "case.yaml:7: material 'sand': G: expected a pressure in Pa, or with one of the units Pa, "
                  "kPa, MPa, GPa, or 'from packing', found 'stiff'"},
-        BadInput{"NoNumberAndNoWordOfTwo", "lc: 10 mm}\n  plate", "lc: 10 mm, lp: some}\n  plate",
+        BadInput{"NoNumberAndNoWordOfTwo", "lc: 10 mm", "lc: 10 mm, lp: unlimited",
                  "case.yaml:7: material 'sand': lp: expected a length in m, or with one of the units m, mm, "
-                 "cm, um, km, or 'from packing', or 'none', found 'some'"},
+                 "cm, um, km, or 'from packing', or 'none', found 'unlimited'"},
         BadInput{
-            "NearlyAWord", "lc: 10 mm}\n  plate", "lc: 10 mm, skew_limit: non}\n  plate",
+            "NearlyAWord", "lc: 10 mm", "lc: 10 mm, skew_limit: non",
             "case.yaml:7: material 'sand': skew_limit: expected a number without a unit (% is allowed), or 'from "
             "packing', or 'none', found 'non'; did you mean 'none'?"},
         BadInput{"NoLength", "lc: 10 mm", "lc: short",

@@ -167,7 +167,7 @@ std::vector<Mistake> mistakes() {
        "'jump' makes loops and jumps, and the script of a cell is read once, from its first line to its last: write "
        "the lines out one by one"},
       {"CommandThatIsNotForCells", "script: cell.in", "script: shell.in",
-       "the command 'shell' is not among those that set up a cell; remove it, or say --trust-scripts"},
+       "the command 'shell' is not among those that set up a cell; remove it, or give --trust-scripts"},
       {"NoInternalLength", ", lc: 8 mm", "", "the key 'lc' is missing; give a length in m"},
       {"CosseratPartTwice", "lc: 8 mm", "lc: 8 mm, rotations: controlled",
        "lc: with 'rotations: controlled' the grains give the skew stress and the couple stresses themselves; leave lc "

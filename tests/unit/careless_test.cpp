@@ -70,7 +70,10 @@ INSTANTIATE_TEST_SUITE_P(
             "'top' pulls the body apart: at the end it is 2 % longer along 2, 6.4 elastic strains of 'sand' (0.31 "
             "%); the title speaks of compression; to compress, write 'move: {u2: -8 mm}'"},
         Careless{
-            "PulledSideways", replaced(kGrains, "title: Compression of b", "title: B"), kTop + kSides,
+            "PulledSideways",
+            replaced(replaced(kGrains, "title: Compression of b", "title: B"), "bottom, fix: [u1, u2]",
+                     "bottom, fix: [u2]"),
+            kTop + kSides,
             "  - {on: left, fix: [u1]}\n  - {on: right, move: {u1: 8 mm}}\n  - {on: top, pressure: 100 kPa}\n",
             "'right' pulls the body apart: at the end it is 4 % longer along 1", Rank::doubtful},
         Careless{"PulledBetweenHeldSides", replaced(kGrains, "{u2: -8 mm}", "{u2: 8 mm}"),

@@ -116,9 +116,8 @@ TEST(script, faults_name_what_is_known_and_repeat_nothing_else) {
   const std::vector<Fault> known = script_faults("units si\nshell touch x\n", "cell.in", {});
   ASSERT_EQ(known.size(), 1u);
   EXPECT_EQ(known.front().text(),
-            "cell.in:2: the command 'shell' is not among those that set up a cell; remove it, or say "
-            "--trust-scripts when "
-            "you know what this script does");
+            "cell.in:2: the command 'shell' is not among those that set up a cell; remove it, or give "
+            "--trust-scripts if you have read this script");
   const std::string secret = "root:$6$secret:19000:0:99999:7:::\nunits secret\nsecret words\n";
   for (const bool trusted : {false, true}) {
     for (const Fault& fault : script_faults(secret, "shadow", {trusted, {}})) {
