@@ -158,11 +158,17 @@ CellToEvaluate read_cell_to_evaluate(ArrayReader& cells) {
   return cell;
 }
 
-EvaluateRequest read_evaluate(ArrayReader& reader) {
-  EvaluateRequest m;
+/// The numbers that every request for cells or boxes begins with.
+template <class Request>
+void read_head(ArrayReader& reader, Request& m) {
   m.request = reader.whole();
   m.definition = reader.whole32();
   m.settled = reader.whole();
+}
+
+EvaluateRequest read_evaluate(ArrayReader& reader) {
+  EvaluateRequest m;
+  read_head(reader, m);
   m.bring = reader.truth();
   m.released = reader.names();
   m.cells = read_list<CellToEvaluate>(reader.part(), "a list of cells", read_cell_to_evaluate);
@@ -183,9 +189,7 @@ States read_states(ArrayReader& reader) {
 
 MoveIn read_move_in(ArrayReader& reader) {
   MoveIn m;
-  m.request = reader.whole();
-  m.definition = reader.whole32();
-  m.settled = reader.whole();
+  read_head(reader, m);
   m.first = reader.whole32();
   m.starts = read_list<ResidentStart>(reader.part(), "a list of boxes",
                                       [](ArrayReader& starts) { return read_start(starts.part()); });
@@ -194,9 +198,7 @@ MoveIn read_move_in(ArrayReader& reader) {
 
 GoOn read_go_on(ArrayReader& reader) {
   GoOn m;
-  m.request = reader.whole();
-  m.definition = reader.whole32();
-  m.settled = reader.whole();
+  read_head(reader, m);
   const std::uint64_t dem_steps = reader.whole();
   if (dem_steps < 1 || dem_steps > std::numeric_limits<int>::max())
     throw ProtocolError("a count of DEM steps is out of range");
@@ -207,9 +209,7 @@ GoOn read_go_on(ArrayReader& reader) {
 
 ReadOut read_read_out_request(ArrayReader& reader) {
   ReadOut m;
-  m.request = reader.whole();
-  m.definition = reader.whole32();
-  m.settled = reader.whole();
+  read_head(reader, m);
   m.first = reader.whole32();
   m.count = reader.whole32();
   if (m.count < 1 || m.count > kMostStatesOfBoxes)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "common/error.hpp"
@@ -33,6 +34,10 @@ struct Solver::Implementation : Newton {
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
   void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
 
+  /// Evaluates the initial state. @returns its residual, which is in the report too; nothing, with a message there, where a
+  /// material cannot begin
+  std::optional<Residual> start(StepReport& report);
+
   /// The outcome of a jump.
   struct Passing {
     bool passed = false;  ///< else nothing was committed
@@ -51,6 +56,18 @@ void Solver::Implementation::tell_cut(double tried, const std::string& reason, d
   if (!observer) return;
   observer->cut(tried, reason, next);
   if (report.cuts == 2) observer->struggles(last_trouble);
+}
+
+std::optional<Residual> Solver::Implementation::start(StepReport& report) {
+  report.time = state.time;
+  if (const Attempt begun = evaluate_initial_state(report); !begun.converged) {
+    report.message = begun.reason;
+    return {};
+  }
+  const Residual residual = initial_residual();
+  report.force_residual = residual.force;
+  report.moment_residual = residual.moment;
+  return residual;
 }
 
 Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, double largest,
@@ -156,17 +173,11 @@ void Solver::set_observer(Observer* observer) {
 StepReport Solver::equilibrate() {
   Implementation& self = *implementation_;
   StepReport report;
-  report.time = self.state.time;
-  if (const Attempt start = self.evaluate_initial_state(report); !start.converged) {
-    report.message = start.reason;
-    return report;
-  }
-  const Residual residual = self.initial_residual();
-  report.force_residual = residual.force;
-  report.moment_residual = residual.moment;
+  const std::optional<Residual> residual = self.start(report);
+  if (!residual) return report;
   Eigen::VectorXd given = self.state.displacement;
   self.constraints.apply(self.state.time, given);
-  report.converged = given == self.state.displacement && self.excess(residual) <= 1.0;
+  report.converged = given == self.state.displacement && self.excess(*residual) <= 1.0;
   if (report.converged) return report;
   self.withhold_imbalance();
   // The imbalance of the stress at time zero and the loads is no step of the user's: no shorter one helps.
@@ -217,14 +228,7 @@ StepReport Solver::advance_arc_length(double length) {
 StepReport Solver::begin_explicit() {
   Implementation& self = *implementation_;
   StepReport report;
-  report.time = self.state.time;
-  if (const Attempt start = self.evaluate_initial_state(report); !start.converged) {
-    report.message = start.reason;
-    return report;
-  }
-  const Residual residual = self.initial_residual();
-  report.force_residual = residual.force;
-  report.moment_residual = residual.moment;
+  if (!self.start(report)) return report;
   self.withhold_imbalance();
   self.materials.settle();
   report.converged = true;
