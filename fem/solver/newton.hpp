@@ -67,6 +67,8 @@ class Newton {
   [[nodiscard]] Attempt go_on(double time, double released, const Eigen::VectorXd& moved, StepReport& report);
   /// Loads less internal forces of the committed state.
   [[nodiscard]] Eigen::VectorXd unbalanced() const;
+  /// The same of the last evaluation, which go_on has committed.
+  [[nodiscard]] const Eigen::VectorXd& last_unbalanced() const { return unbalanced_; }
   /// nodal_masses of the committed state.
   [[nodiscard]] Eigen::VectorXd stable_masses(double safety);
   /// Share that committed steps have let go of the forces held back at the start.

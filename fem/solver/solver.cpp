@@ -265,7 +265,7 @@ StepReport Solver::advance_explicit(double time, int steps, const ExplicitOption
       return report;
     }
     ++report.explicit_steps;
-    const Eigen::VectorXd unbalanced = self.unbalanced();
+    const Eigen::VectorXd& unbalanced = self.last_unbalanced();
     forces = self.constraints.restrict_to_free(unbalanced);
     const Residual residual = self.relative(unbalanced);
     sum.force += residual.force / pace.steps();
