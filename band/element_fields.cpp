@@ -18,8 +18,8 @@ struct Nodes {
   Eigen::VectorXd rotations;
 };
 
-void add_points(const fem::ElementType& type, const Nodes& nodes, Frame& frame) {
-  for (const fem::PointGeometry& point : fem::point_geometries(type, nodes.places)) {
+void add_points(const fem::ElementType<2>& type, const Nodes& nodes, Frame& frame) {
+  for (const fem::PointGeometry<2>& point : fem::point_geometries(type, nodes.places)) {
     frame.positions.push_back(point.position);
     frame.displacements.emplace_back(nodes.displacements.transpose() * point.shape);
     frame.strains.emplace_back(nodes.displacements.transpose() * point.gradient);
@@ -55,7 +55,7 @@ Frame read_element_fields(const std::filesystem::path& path) {
         {path.string(), 0, "a field file of `polargrain run` was expected: there are no displacements"});
   Frame frame;
   for (std::size_t e = 0; e < file.mesh.elements.size(); ++e) {
-    const fem::Element& element = file.mesh.elements[e];
+    const fem::Element<2>& element = file.mesh.elements[e];
     const auto count = static_cast<Eigen::Index>(element.nodes.size());
     Nodes nodes{file.mesh.element_positions(static_cast<int>(e)), Eigen::MatrixX2d(count, 2),
                 Eigen::VectorXd::Zero(count)};

@@ -49,8 +49,8 @@ void measure(const char* what, std::size_t points, double spread) {
   constexpr int kSteps = 10;
   AdaptiveMaterial sand(calls(), CosseratParameters{16e6, 14e6, 0.02}, {0.02, 0.0, 1});
   sand.allocate(points);
-  std::vector<Increment> increments(points);
-  std::vector<Response> responses(points);
+  std::vector<Increment<2>> increments(points);
+  std::vector<Response<2>> responses(points);
   double first = 0.0;
   double later = 0.0;
   for (int step = 0; step < kSteps; ++step) {

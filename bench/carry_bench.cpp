@@ -100,7 +100,7 @@ std::string volume_of(const std::string& script, const std::vector<std::string>&
     coupler::Departure turned;
     turned.length = 1.0;
     const auto both = [&](const DrivenCell::Vector& direction) {
-      const Increment offset = coupler::increment_of(DrivenCell::gradient(size * direction));
+      const Increment<2> offset = coupler::increment_of(DrivenCell::gradient(size * direction));
       return fmt::format("{:.4f} ({:.4f})", missed(cell, size * direction),
                          estimate.of(cell.at().response, turned, offset) / kPressure);
     };

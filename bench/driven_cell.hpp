@@ -31,10 +31,10 @@ class DrivenCell {
   DrivenCell(const CellDefinition& definition, coupler::PlaneReply at)
       : cell_(dem::make_cell_service(definition)), at_(std::move(at)) {}
 
-  static Vector stress(const Response& response) {
+  static Vector stress(const Response<2>& response) {
     return {response.stress(k11), response.stress(k22), 0.5 * (response.stress(k12) + response.stress(k21))};
   }
-  static Matrix tangent(const Response& response) {
+  static Matrix tangent(const Response<2>& response) {
     constexpr std::array<int, 3> kRows{k11, k22, k12};
     Matrix made;
     for (int i = 0; i < 3; ++i) {

@@ -11,8 +11,8 @@ using namespace polargrain;
 using namespace polargrain::fem;
 
 /// Dense sand under 100 kPa whose friction, dilatancy and cohesion soften.
-ElastoplasticLaw sand(const InvariantWeights& weights) {
-  ElastoplasticParameters parameters;
+ElastoplasticLaw<2> sand(const InvariantWeights& weights) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic.young_modulus = 40e6;
   parameters.elastic.poisson_ratio = 0.3;
   parameters.elastic.cosserat_shear_modulus = 10e6;
@@ -22,16 +22,16 @@ ElastoplasticLaw sand(const InvariantWeights& weights) {
   parameters.cone = hardening_cone_from_plane_strain({PiecewiseLinear::ramp(40.0, 32.0, 0.1),
                                                       PiecewiseLinear::ramp(10.0, 0.0, 0.1),
                                                       PiecewiseLinear::ramp(1e3, 0.5e3, 0.1)});
-  return ElastoplasticLaw(parameters);
+  return ElastoplasticLaw<2>(parameters);
 }
 
-void run(benchmark::State& bench, const InvariantWeights& weights, const Increment& increment,
+void run(benchmark::State& bench, const InvariantWeights& weights, const Increment<2>& increment,
          Regime expected) {
-  const ElastoplasticLaw law = sand(weights);
-  const ElastoplasticState start = law.initial_state();
-  ElastoplasticState trial;
+  const ElastoplasticLaw<2> law = sand(weights);
+  const ElastoplasticState<2> start = law.initial_state();
+  ElastoplasticState<2> trial;
   for (auto _ : bench) {
-    Response response = law.integrate(start, increment, trial);
+    Response<2> response = law.integrate(start, increment, trial);
     benchmark::DoNotOptimize(response);
   }
   if (trial.regime != expected) {
@@ -41,16 +41,16 @@ void run(benchmark::State& bench, const InvariantWeights& weights, const Increme
       benchmark::Counter(static_cast<double>(bench.iterations()), benchmark::Counter::kIsRate);
 }
 
-Increment compression(double size) {
-  Increment increment;
+Increment<2> compression(double size) {
+  Increment<2> increment;
   increment.displacement_gradient << 0.4 * size, 0.3 * size, 0.0, -size;
   increment.micro_rotation = 0.1 * size;
   increment.curvature << 50.0 * size, -20.0 * size;
   return increment;
 }
 
-Increment tension(double size) {
-  Increment increment = compression(0.1 * size);
+Increment<2> tension(double size) {
+  Increment<2> increment = compression(0.1 * size);
   increment.displacement_gradient.diagonal().array() += size;
   return increment;
 }

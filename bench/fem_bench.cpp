@@ -18,18 +18,18 @@ namespace {
 
 constexpr double kConfining = 100e3;
 
-std::shared_ptr<Material> sand() {
-  ElastoplasticParameters parameters;
+std::shared_ptr<Material<2>> sand() {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {40e6, 0.3, 10e6, 1e-3, Vector7::Zero()};
   for (const int i : {k11, k22, k33}) parameters.elastic.initial_stress(i) = -kConfining;
   parameters.cone = hardening_cone_from_plane_strain({PiecewiseLinear::ramp(30.0, 38.0, 0.1), 5.0, 1e3});
-  return std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
 }
 
 /// Compression between rough plates: dead corners that stay elastic, and plastic flow elsewhere.
-Problem block(int columns) {
+Problem<2> block(int columns) {
   const TimeTable zero = TimeTable::constant(0.0);
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {columns, 2 * columns}});
   problem.materials["all"] = sand();
   problem.prescribed = {{"bottom", Dof::u1, zero, {}},
@@ -37,7 +37,7 @@ Problem block(int columns) {
                         {"top", Dof::u1, zero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.08, 1000.0), {}}};
   for (const char* side : {"left", "right"}) {
-    problem.edge_loads.push_back({.on = side, .pressure = TimeTable::constant(kConfining)});
+    problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::constant(kConfining)});
   }
   return problem;
 }
@@ -52,7 +52,7 @@ double peak_memory_mib() {
 /// processor seconds an iteration, shared out in the proportion of the wall times of the parts, so that other
 /// work on the machine does not count.
 void newton_step(benchmark::State& state) {
-  Solver solver(block(static_cast<int>(state.range(0))), {});
+  Solver<2> solver(block(static_cast<int>(state.range(0))), {});
   solver.equilibrate();
   double time = 10.0;  // 1 % of strain: most of the block flows
   for (int step = 1; step <= 4; ++step) solver.advance(time * step / 4);

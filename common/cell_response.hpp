@@ -6,12 +6,10 @@
 
 #include <Eigen/Core>
 
+#include "common/cosserat.hpp"
 #include "common/response.hpp"
 
 namespace polargrain {
-
-using Vector18 = Eigen::Matrix<double, 18, 1>;
-using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 /// Which components of stress and couple stress a cell can tell.
 enum class KnownComponents {

@@ -2,14 +2,13 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "common/cell_increment.hpp"
+#include "common/cosserat.hpp"
 #include "common/record.hpp"
 
 namespace polargrain {
 
-using Vector7 = Eigen::Matrix<double, 7, 1>;
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
-
-/// Order of the components of every strain and stress vector (mechanics A.4, but unscaled: curvatures in 1/m,
+/// Order of the components of every strain and stress vector of the plane (mechanics A.4, but unscaled: curvatures in 1/m,
 /// couple stresses in N/m). First index of a stress: normal of the face; second: direction of the force.
 enum Component : int { k11 = 0, k22 = 1, k33 = 2, k12 = 3, k21 = 4, kCurvature1 = 5, kCurvature2 = 6 };
 
@@ -21,7 +20,11 @@ enum class Configuration {
 };
 
 /// The change over a load step that a material point feels, counted from the start of the step.
-struct Increment {
+template <int dim>
+struct Increment;
+
+template <>
+struct Increment<2> {
   /// h(i,j) = d u_i / d x_j, dimensionless.
   Eigen::Matrix2d displacement_gradient = Eigen::Matrix2d::Zero();
   /// Change of the micro-rotation about e_3, counter-clockwise positive, in rad.
@@ -42,7 +45,27 @@ struct Increment {
   }
 };
 
-template <RecordOf<Increment> Record, class Visit>
+/// In space it holds the members of a cell's increment.
+template <>
+struct Increment<3> : CellIncrement {
+  Configuration configuration = Configuration::fixed;
+
+  /// Cosserat strain: eps_ij = h_ji - e_ijk w_k, then kappa_ij = d w_j / d x_i (Cosserat<3>).
+  [[nodiscard]] Vector18 strain() const {
+    using Space = Cosserat<3>;
+    Vector18 e;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        double skew = 0.0;
+        for (int k = 0; k < 3; ++k) skew += permutation(i, j, k) * rotation(k);
+        e(Space::stress_place(i, j)) = displacement_gradient(j, i) - skew;
+        e(Space::couple_place(i, j)) = curvature(j, i);
+      }
+    return e;
+  }
+};
+
+template <RecordOf<Increment<2>> Record, class Visit>
 void describe(Record& increment, Visit&& visit) {
   visit(FieldNotes{"h", "1", "displacement gradient, h_ij = d u_i / d x_j", "11 12 21 22"},
         increment.displacement_gradient);

@@ -11,7 +11,7 @@ constexpr std::array<int, 7> kPlaces{0, 4, 8, 1, 3, 11, 14};
 
 }  // namespace
 
-CellIncrement in_space(const Increment& increment) {
+CellIncrement in_space(const Increment<2>& increment) {
   CellIncrement made;
   made.displacement_gradient.topLeftCorner<2, 2>() = increment.displacement_gradient;
   made.rotation(2) = increment.micro_rotation;
@@ -19,8 +19,8 @@ CellIncrement in_space(const Increment& increment) {
   return made;
 }
 
-Increment in_plane(const CellIncrement& increment) {
-  Increment made;
+Increment<2> in_plane(const CellIncrement& increment) {
+  Increment<2> made;
   made.displacement_gradient = increment.displacement_gradient.topLeftCorner<2, 2>();
   made.micro_rotation = increment.rotation(2);
   made.curvature = increment.curvature.row(2).head<2>().transpose();
@@ -39,7 +39,7 @@ std::string out_of_plane_fault(const CellIncrement& increment) {
   return {};
 }
 
-CellResponse in_space(const Response& response, KnownComponents known) {
+CellResponse in_space(const Response<2>& response, KnownComponents known) {
   CellResponse made;
   Vector18 all = Vector18::Zero();
   all(kPlaces) = response.stress;
@@ -50,8 +50,8 @@ CellResponse in_space(const Response& response, KnownComponents known) {
   return made;
 }
 
-Response in_plane(const CellResponse& response) {
-  Response made;
+Response<2> in_plane(const CellResponse& response) {
+  Response<2> made;
   made.stress = response.components()(kPlaces);
   made.tangent = response.tangent(kPlaces, kPlaces);
   static_cast<Trust&>(made) = response;

@@ -13,19 +13,19 @@ namespace polargrain {
 // moves along it, and rotations are about it.
 
 /// The increment of a point of the plane as its cell takes it. The increment is about the start of the step already.
-CellIncrement in_space(const Increment& increment);
+CellIncrement in_space(const Increment<2>& increment);
 
 /// The part of an increment that lies in the plane.
-Increment in_plane(const CellIncrement& increment);
+Increment<2> in_plane(const CellIncrement& increment);
 
 /// Why discs cannot follow an increment; nothing when it lies in their plane.
 std::string out_of_plane_fault(const CellIncrement& increment);
 
 /// @param known the worth of the components outside of the plane: all, when they are zero or s33; plane, when nothing
 /// is known of them
-CellResponse in_space(const Response& response, KnownComponents known);
+CellResponse in_space(const Response<2>& response, KnownComponents known);
 
 /// The components of the plane, s33 among them; zero where the cell does not know it.
-Response in_plane(const CellResponse& response);
+Response<2> in_plane(const CellResponse& response);
 
 }  // namespace polargrain

@@ -2,7 +2,8 @@
 #pragma once
 #include <string>
 
-#include "common/increment.hpp"
+#include "common/cosserat.hpp"
+#include "common/record.hpp"
 
 namespace polargrain {
 
@@ -65,15 +66,24 @@ inline Trust& trust_of(Trust& answer) {
 }
 
 /// The answer of a material at one point.
+template <int dim>
 struct Response : Trust {
-  /// s11, s22, s33, s12, s21 in Pa and couple stresses m1, m2 in N/m.
-  Vector7 stress = Vector7::Zero();
+  /// Stresses in Pa and couple stresses in N/m, in the order of Cosserat<dim>.
+  typename Cosserat<dim>::Vector stress = Cosserat<dim>::Vector::Zero();
   /// d stress / d strain (Increment::strain), consistent with the increment evaluated; need not be symmetric. In large
   /// deformation stress and strain are both in the axes of the end of the step, along which the stretch has turned.
-  Matrix7 tangent = Matrix7::Zero();
+  typename Cosserat<dim>::Matrix tangent = Cosserat<dim>::Matrix::Zero();
 };
 
-template <RecordOf<Response> Record, class Visit>
+template <RecordOf<Response<3>> Record, class Visit>
+void describe(Record& response, Visit&& visit) {
+  visit(FieldNotes{"", "Pa, N/m", "stress s_ij (i: normal of the face, tension positive), then couple stress m_ij"},
+        response.stress);
+  visit(FieldNotes{"tangent", "Pa, N", "d stress / d strain, both in the order of the stress"}, response.tangent);
+  describe(trust_of(response), visit);
+}
+
+template <RecordOf<Response<2>> Record, class Visit>
 void describe(Record& response, Visit&& visit) {
   visit(
       FieldNotes{"", "Pa, N/m", "stress s_ij (i: normal of the face, tension positive) and couple stress m_i",

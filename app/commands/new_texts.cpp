@@ -214,7 +214,7 @@ std::string shapes(const NewCase& what) {
   return what.spheres ? "spheres" : "discs";
 }
 
-double mean_height(const fem::Mesh& mesh, const std::string& boundary) {
+double mean_height(const fem::Mesh<2>& mesh, const std::string& boundary) {
   double sum = 0.0;
   const std::vector<int> nodes = mesh.nodes_on(boundary);
   for (const int node : nodes) sum += mesh.nodes[node].y();
@@ -261,7 +261,7 @@ std::string element_text(const NewCase& what) {
                                {"PRESSURE", pascals(what.pressure)}});
 }
 
-std::string mesh_text(const NewCase& what, const fem::Mesh& mesh, const std::string& file) {
+std::string mesh_text(const NewCase& what, const fem::Mesh<2>& mesh, const std::string& file) {
   if (mesh.boundaries.empty())
     throw InputError(
         {file, 0,

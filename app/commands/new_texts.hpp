@@ -32,6 +32,6 @@ std::string element_text(const NewCase& what);
 /// Text of a case on a mesh of the user's own: the lowest boundary is held, all others carry the pressure of the
 /// packing, which rises on the highest one. @param file name of the mesh, beside the case
 /// @throws InputError when the mesh has no named boundary
-std::string mesh_text(const NewCase& what, const fem::Mesh& mesh, const std::string& file);
+std::string mesh_text(const NewCase& what, const fem::Mesh<2>& mesh, const std::string& file);
 
 }  // namespace polargrain::app

@@ -28,11 +28,11 @@
 namespace polargrain::app {
 namespace {
 
-const std::vector<std::string> kPathColumns = names_of_columns<Increment>();
+const std::vector<std::string> kPathColumns = names_of_columns<Increment<2>>();
 
-Increment increment_of(const std::vector<double>& numbers) {
+Increment<2> increment_of(const std::vector<double>& numbers) {
   const RecordValues values{numbers, {}, {}, {}};
-  return RecordReader(values, "an increment", true).read<Increment>();
+  return RecordReader(values, "an increment", true).read<Increment<2>>();
 }
 
 /// Where each column of a path file goes in the order of kPathColumns.
@@ -80,7 +80,7 @@ class AnswerTable {
     }
   }
 
-  void answer(std::size_t increment, const Response& response, const std::vector<double>& fields) {
+  void answer(std::size_t increment, const Response<2>& response, const std::vector<double>& fields) {
     std::vector<std::string> cells{std::to_string(increment)};
     for (const double value : response.stress) cells.push_back(exact(value));
     cells.push_back(status_of(response.quality));
@@ -100,21 +100,21 @@ class AnswerTable {
 };
 
 /// The rows as the case deforms: in large deformation each counts from the shape at its start, and stresses turn.
-std::vector<Increment> path_for(const coupler::Case& the_case, const std::filesystem::path& file) {
-  std::vector<Increment> path = read_path(file);
+std::vector<Increment<2>> path_for(const coupler::Case& the_case, const std::filesystem::path& file) {
+  std::vector<Increment<2>> path = read_path(file);
   if (the_case.problem.deformation == fem::Deformation::small) return path;
-  for (Increment& increment : path) increment.configuration = Configuration::start;
+  for (Increment<2>& increment : path) increment.configuration = Configuration::start;
   return path;
 }
 
 /// @returns whether every increment was answered
-bool follow(fem::Material& material, const std::vector<Increment>& path, AnswerTable& table) {
+bool follow(fem::Material<2>& material, const std::vector<Increment<2>>& path, AnswerTable& table) {
   material.allocate(1);
   for (const std::string& note : material.take_notes()) tell(stderr, "note: {}\n", note);
   std::vector<double> fields(material.field_names().size());
   for (std::size_t i = 0; i <= path.size(); ++i) {
-    const Increment increment = i == 0 ? Increment{} : path[i - 1];
-    Response response;
+    const Increment<2> increment = i == 0 ? Increment<2>{} : path[i - 1];
+    Response<2> response;
     material.evaluate({&increment, 1}, {&response, 1});
     if (response.quality != Quality::failed) {
       material.commit();
@@ -160,14 +160,14 @@ coupler::Case case_for(const PointOptions& options) {
 
 }  // namespace
 
-std::vector<Increment> read_path(const std::filesystem::path& file) {
+std::vector<Increment<2>> read_path(const std::filesystem::path& file) {
   coupler::Faults faults;
   const CsvTable table(file, &faults);
   coupler::Faults of_columns;
   const std::vector<std::size_t> columns =
       columns_of(table.names(), {file.string(), table.line_of_names(), ""}, of_columns);
   if (!of_columns.empty()) throw InputError(of_columns);  // rows of unknown columns say nothing
-  std::vector<Increment> increments;
+  std::vector<Increment<2>> increments;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     std::vector<double> values(kPathColumns.size(), 0.0);
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -193,7 +193,7 @@ std::vector<Increment> read_path(const std::filesystem::path& file) {
 
 int point(const PointOptions& options) {
   const coupler::Case the_case = case_for(options);
-  const std::vector<Increment> path = path_for(the_case, options.path_file);
+  const std::vector<Increment<2>> path = path_for(the_case, options.path_file);
   const auto recipe = the_case.materials.find(options.material);
   if (recipe == the_case.materials.end()) {
     std::vector<std::string> names;
@@ -204,7 +204,7 @@ int point(const PointOptions& options) {
   }
   const CellDefinition* const cell = recipe->second->cell();
   coupler::Replay replay{nullptr, {}, {}, fmt::format("The path {}.", options.path_file.string())};
-  for (const Increment& increment : path)
+  for (const Increment<2>& increment : path)
     replay.increments.push_back(in_space(coupler::increment_for_cell(increment)));
   if (!options.replay.empty()) {
     if (cell == nullptr)
@@ -224,7 +224,7 @@ int point(const PointOptions& options) {
     logs.keep();  // until the end is known: a dead worker's log must be there to be read
     pool.emplace(pool_options);
   }
-  const std::shared_ptr<fem::Material> material = recipe->second->make(pool ? &*pool : nullptr);
+  const std::shared_ptr<fem::Material<2>> material = recipe->second->make(pool ? &*pool : nullptr);
   AnswerTable table(options.output, material->field_names());
   const bool done = follow(*material, path, table);
   if (!options.replay.empty()) {

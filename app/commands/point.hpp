@@ -22,7 +22,7 @@ struct PointOptions {
 /// Reads a path: a line of column names out of h11,h12,h21,h22,w,k1,k2 in any order (columns left out are
 /// zero), then an increment a line. Lines that start with '#' and empty ones are skipped.
 /// @throws InputError with all faults
-std::vector<Increment> read_path(const std::filesystem::path& file);
+std::vector<Increment<2>> read_path(const std::filesystem::path& file);
 
 /// Takes one point of a material of a case along a path and writes its answers (docs/file_formats.md). An
 /// answer that is not good is written with its status; after a failed one the path ends. A replay is written

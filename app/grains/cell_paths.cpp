@@ -141,9 +141,10 @@ void CellPathsRecord::take(std::span<const coupler::PoolRequest> requests,
   }
 }
 
-void CellPathsRecord::write_cells(const fem::Solver& solver) {
+template <int dim>
+void CellPathsRecord::write_cells(const fem::Solver<dim>& solver) {
   std::vector<CellDefinition> cells;
-  std::map<const fem::Material*, std::int64_t> numbers;
+  std::map<const fem::Material<dim>*, std::int64_t> numbers;
   for (const auto& [region, material] : solver.problem().materials) {
     const CellDefinition* const cell = case_.materials.at(case_.regions.at(region))->grains();
     if (cell == nullptr || dynamic_cast<const coupler::GrainsOfPoints*>(material.get()) == nullptr) continue;
@@ -167,7 +168,8 @@ void CellPathsRecord::write_cells(const fem::Solver& solver) {
   write_file_of(directory_ / kCellPathsFolder / kCellsFile, std::move(archive));
 }
 
-void CellPathsRecord::write(int step, const fem::Solver& solver, const std::set<std::size_t>& whole_states) {
+template <int dim>
+void CellPathsRecord::write(int step, const fem::Solver<dim>& solver, const std::set<std::size_t>& whole_states) {
   if (!case_.needs_workers()) return;
   const fs::path folder = directory_ / kCellPathsFolder;
   std::error_code error;
@@ -215,6 +217,9 @@ void CellPathsRecord::write(int step, const fem::Solver& solver, const std::set<
   archive.write("states", std::span<const StatePointer>(whole));
   write_file_of(step_file(folder, step), std::move(archive));
 }
+
+template void CellPathsRecord::write<2>(int step, const fem::Solver<2>& solver, const std::set<std::size_t>& whole_states);
+template void CellPathsRecord::write<3>(int step, const fem::Solver<3>& solver, const std::set<std::size_t>& whole_states);
 
 CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPathsFolder) {
   if (!fs::exists(folder_ / kCellsFile))

@@ -37,10 +37,12 @@ class CellPathsRecord {
   /// Records how a committed step came about. @param whole_states points whose states are kept whole
   /// too, which shortens the way to the grains of later steps
   /// @throws RunError when it cannot be written
-  void write(int step, const fem::Solver& solver, const std::set<std::size_t>& whole_states = {});
+  template <int dim>
+  void write(int step, const fem::Solver<dim>& solver, const std::set<std::size_t>& whole_states = {});
 
  private:
-  void write_cells(const fem::Solver& solver);
+  template <int dim>
+  void write_cells(const fem::Solver<dim>& solver);
 
   const coupler::Case& case_;
   std::filesystem::path directory_;

@@ -155,7 +155,7 @@ std::string elements_drawn(const Scene& scene, const Frame& frame) {
     drawn += fmt::format("<g fill='{}' stroke='#777' stroke-width='.6'>\n",
                          kRegionColours[r % kRegionColours.size()]);
     for (const int number : scene.regions()[r].elements) {
-      const fem::Element& element = scene.mesh().elements[static_cast<std::size_t>(number)];
+      const fem::Element<2>& element = scene.mesh().elements[static_cast<std::size_t>(number)];
       std::string corners;
       for (int k = 0; k < element.type->corners; ++k) {
         const int node = element.nodes[static_cast<std::size_t>(k)];
@@ -182,7 +182,7 @@ std::string edges_drawn(const Scene& scene, const Frame& frame, const std::strin
 std::string weight_drawn(const Scene& scene, const Frame& frame) {
   std::string drawn;
   const Eigen::Vector2d middle = 0.5 * (scene.body().least + scene.body().largest);
-  for (const fem::BodyLoad& load : scene.problem().body_loads) {
+  for (const fem::BodyLoad<2>& load : scene.problem().body_loads) {
     const Eigen::Vector2d force = load.density(middle).head<2>();
     if (!(force.norm() > 0.0)) continue;
     const Eigen::Vector2d from = frame.at(middle);

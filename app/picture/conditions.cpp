@@ -11,14 +11,14 @@
 namespace polargrain::app {
 namespace {
 
-constexpr std::array<const char*, fem::kDofsOfNode> kNames{"u1", "u2", "w"};
+constexpr std::array<const char*, Cosserat<2>::dofs> kNames{"u1", "u2", "w"};
 
 void add(std::string& list, const std::string& text) {
   list += (list.empty() ? "" : "; ") + text;
 }
 
-void add_prescribed(PlaceConditions& place, const fem::PrescribedDof& item, double end) {
-  const auto k = static_cast<std::size_t>(item.dof);
+void add_prescribed(PlaceConditions& place, const fem::PrescribedDof<2>& item, double end) {
+  const auto k = static_cast<std::size_t>(fem::place_of<2>(item.dof));
   if (item.value.largest_magnitude() == 0.0) {
     place.held[k] = true;
     add(place.supports, fmt::format("{} held", kNames[k]));
@@ -33,18 +33,18 @@ void add_prescribed(PlaceConditions& place, const fem::PrescribedDof& item, doub
                           : fmt::format("{} moved by {:.4g} mm{}", kNames[k], 1e3 * way, profile));
 }
 
-void add_loads(PlaceConditions& place, const fem::EdgeLoad& load, double time, std::string& words) {
+void add_loads(PlaceConditions& place, const fem::BoundaryLoad<2>& load, double time, std::string& words) {
   if (const double p = load.pressure.at(time); p != 0.0) {
     place.pressed = true;
     place.pressure_sign = p > 0.0 ? 1.0 : -1.0;
     add(words, fmt::format("pressure {}", pascals(p)));
   }
-  const Eigen::Vector2d traction(load.traction1.at(time), load.traction2.at(time));
+  const Eigen::Vector2d traction(load.traction[0].at(time), load.traction[1].at(time));
   if (traction.norm() > 0.0) {
     place.pull = traction.normalized();
     add(words, fmt::format("traction ({}, {})", pascals(traction.x()), pascals(traction.y())));
   }
-  if (const double couple = load.couple_traction.at(time); couple != 0.0)
+  if (const double couple = load.couple_traction[0].at(time); couple != 0.0)
     add(words, fmt::format("couple traction {:.4g} N/m", couple));
 }
 
@@ -55,10 +55,10 @@ void add_load(PlaceConditions& place, const fem::NodeLoad& load, double time, st
     add(words, fmt::format("moment of {:.4g} N at each node", value));
     return;
   }
-  place.pull = (place.pull + Eigen::Vector2d::Unit(static_cast<int>(load.dof)) * (value > 0.0 ? 1.0 : -1.0))
+  place.pull = (place.pull + Eigen::Vector2d::Unit(fem::place_of<2>(load.dof)) * (value > 0.0 ? 1.0 : -1.0))
                    .normalized();
   add(words,
-      fmt::format("force {} of {:.4g} N/m at each node", kNames[static_cast<std::size_t>(load.dof)], value));
+      fmt::format("force {} of {:.4g} N/m at each node", kNames[static_cast<std::size_t>(fem::place_of<2>(load.dof))], value));
 }
 
 }  // namespace
@@ -68,11 +68,11 @@ bool PlaceConditions::is_free() const {
 }
 
 std::vector<PlaceConditions> conditions_of(const Scene& scene) {
-  const fem::Problem& problem = scene.problem();
+  const fem::Problem<2>& problem = scene.problem();
   const double end = scene.end_time().value_or(1.0);
   std::set<std::string> names;
   for (const auto& [name, edges] : problem.mesh.boundaries) names.insert(name);
-  for (const fem::PrescribedDof& item : problem.prescribed) names.insert(item.on);
+  for (const fem::PrescribedDof<2>& item : problem.prescribed) names.insert(item.on);
   for (const fem::NodeLoad& load : problem.node_loads) names.insert(load.on);
   for (const fem::Tie& tie : problem.ties) names.insert({tie.on, tie.to});
   std::vector<PlaceConditions> places;
@@ -82,9 +82,9 @@ std::vector<PlaceConditions> conditions_of(const Scene& scene) {
     place.is_boundary = problem.mesh.boundaries.contains(name);
     place.nodes = problem.mesh.nodes_on(name);
     for (const fem::Dof dof : {fem::Dof::u1, fem::Dof::u2, fem::Dof::w})
-      for (const fem::PrescribedDof& item : problem.prescribed)
+      for (const fem::PrescribedDof<2>& item : problem.prescribed)
         if (item.on == name && item.dof == dof) add_prescribed(place, item, end);
-    for (const fem::EdgeLoad& load : problem.edge_loads) {
+    for (const fem::BoundaryLoad<2>& load : problem.boundary_loads) {
       if (load.on != name) continue;
       add_loads(place, load, 0.0, place.loads_at_start);
       add_loads(place, load, end, place.loads_at_end);

@@ -14,8 +14,8 @@ struct PlaceConditions {
   std::string name;
   bool is_boundary = true;
   std::vector<int> nodes;                      ///< each once
-  std::array<bool, fem::kDofsOfNode> held{};   ///< u1, u2, w: prescribed and zero throughout
-  std::array<bool, fem::kDofsOfNode> moved{};  ///< u1, u2, w: prescribed and not always zero
+  std::array<bool, Cosserat<2>::dofs> held{};   ///< u1, u2, w: prescribed and zero throughout
+  std::array<bool, Cosserat<2>::dofs> moved{};  ///< u1, u2, w: prescribed and not always zero
   Eigen::Vector2d movement{0.0, 0.0};          ///< m, from the start to the end
   bool pressed = false;                        ///< by a pressure, at the start or at the end
   double pressure_sign = 1.0;                  ///< -1: it pulls

@@ -11,8 +11,8 @@
 namespace polargrain::app {
 namespace {
 
-OutlineEdge outline_edge(const fem::Mesh& mesh, const fem::Edge& edge) {
-  OutlineEdge out{edge.element, mesh.edge_nodes(edge), {}, {}, 0.0};
+OutlineEdge outline_edge(const fem::Mesh<2>& mesh, const fem::BoundarySide& edge) {
+  OutlineEdge out{edge.element, mesh.side_nodes(edge), {}, {}, 0.0};
   const Eigen::Vector2d& from = mesh.nodes[static_cast<std::size_t>(out.nodes[0])];
   const Eigen::Vector2d& to = mesh.nodes[static_cast<std::size_t>(out.nodes[1])];
   const Eigen::Vector2d way = to - from;
@@ -23,23 +23,23 @@ OutlineEdge outline_edge(const fem::Mesh& mesh, const fem::Edge& edge) {
 }
 
 /// All edges of the mesh that belong to one element only.
-std::vector<fem::Edge> outline(const fem::Mesh& mesh) {
-  std::map<std::pair<int, int>, std::vector<fem::Edge>> edges;
+std::vector<fem::BoundarySide> outline(const fem::Mesh<2>& mesh) {
+  std::map<std::pair<int, int>, std::vector<fem::BoundarySide>> edges;
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
     const int sides = mesh.elements[static_cast<std::size_t>(e)].type->corners;
     for (int side = 0; side < sides; ++side) {
-      const std::vector<int> nodes = mesh.edge_nodes({e, side});
+      const std::vector<int> nodes = mesh.side_nodes({e, side});
       edges[std::minmax(nodes[0], nodes[1])].push_back({e, side});
     }
   }
-  std::vector<fem::Edge> alone;
+  std::vector<fem::BoundarySide> alone;
   for (const auto& [nodes, of] : edges)
     if (of.size() == 1) alone.push_back(of.front());
   return alone;
 }
 
-double area_of(const fem::Mesh& mesh, int element) {
-  const fem::Element& e = mesh.elements[static_cast<std::size_t>(element)];
+double area_of(const fem::Mesh<2>& mesh, int element) {
+  const fem::Element<2>& e = mesh.elements[static_cast<std::size_t>(element)];
   double twice = 0.0;
   for (int k = 0; k < e.type->corners; ++k) {
     const Eigen::Vector2d& a = mesh.nodes[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])];
@@ -52,7 +52,7 @@ double area_of(const fem::Mesh& mesh, int element) {
 
 }  // namespace
 
-Body body_of(const fem::Mesh& mesh) {
+Body body_of(const fem::Mesh<2>& mesh) {
   Body body{mesh.nodes.front(), mesh.nodes.front(), {}};
   for (const Eigen::Vector2d& node : mesh.nodes) {
     body.least = body.least.cwiseMin(node);
@@ -68,23 +68,23 @@ Body body_of(const fem::Mesh& mesh) {
   return body;
 }
 
-std::vector<OutlineEdge> edges_of(const fem::Mesh& mesh, const std::string& boundary) {
+std::vector<OutlineEdge> edges_of(const fem::Mesh<2>& mesh, const std::string& boundary) {
   std::vector<OutlineEdge> edges;
   if (!boundary.empty()) {
-    for (const fem::Edge& edge : mesh.boundaries.at(boundary)) edges.push_back(outline_edge(mesh, edge));
+    for (const fem::BoundarySide& edge : mesh.boundaries.at(boundary)) edges.push_back(outline_edge(mesh, edge));
     return edges;
   }
   std::set<std::pair<int, int>> named;
   for (const auto& [name, of] : mesh.boundaries)
-    for (const fem::Edge& edge : of) named.insert({edge.element, edge.side});
-  for (const fem::Edge& edge : outline(mesh))
+    for (const fem::BoundarySide& edge : of) named.insert({edge.element, edge.side});
+  for (const fem::BoundarySide& edge : outline(mesh))
     if (!named.contains({edge.element, edge.side})) edges.push_back(outline_edge(mesh, edge));
   return edges;
 }
 
-std::vector<std::array<bool, 2>> held_nodes(const fem::Problem& problem) {
+std::vector<std::array<bool, 2>> held_nodes(const fem::Problem<2>& problem) {
   std::vector<std::array<bool, 2>> held(problem.mesh.nodes.size(), {false, false});
-  for (const fem::PrescribedDof& item : problem.prescribed) {
+  for (const fem::PrescribedDof<2>& item : problem.prescribed) {
     if (item.dof == fem::Dof::w || !problem.mesh.has_nodes_on(item.on)) continue;
     for (const int node : problem.mesh.nodes_on(item.on))
       held[static_cast<std::size_t>(node)][item.dof == fem::Dof::u1 ? 0 : 1] = true;

@@ -19,7 +19,7 @@ struct Body {
   [[nodiscard]] double smaller_side() const { return size().minCoeff(); }
 };
 
-Body body_of(const fem::Mesh& mesh);
+Body body_of(const fem::Mesh<2>& mesh);
 
 /// An edge of the outline.
 struct OutlineEdge {
@@ -31,10 +31,10 @@ struct OutlineEdge {
 };
 
 /// The edges of a boundary; of the parts of the outline that are in no boundary where the name is empty.
-std::vector<OutlineEdge> edges_of(const fem::Mesh& mesh, const std::string& boundary);
+std::vector<OutlineEdge> edges_of(const fem::Mesh<2>& mesh, const std::string& boundary);
 
 /// By node: whether u1 and u2 are prescribed there, by a support or a movement.
-std::vector<std::array<bool, 2>> held_nodes(const fem::Problem& problem);
+std::vector<std::array<bool, 2>> held_nodes(const fem::Problem<2>& problem);
 
 /// Which of the normal and the two displacements no edge leaves free: u1, u2 of every node of all edges, and the
 /// displacement along the normal of each edge.

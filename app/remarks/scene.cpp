@@ -76,7 +76,7 @@ std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
     return stress;
   }
   std::optional<Vector7> given;
-  for (const fem::InitialStress& item : problem().initial_stresses)
+  for (const fem::InitialStress<2>& item : problem().initial_stresses)
     if (item.region.empty() || item.region == region.name) given = item.stress(position);
   if (given) return given;
   const auto confining = quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure);
@@ -96,7 +96,7 @@ std::optional<double> Scene::end_time() const {
 
 double Scene::largest_movement() const {
   double largest = 0.0;
-  for (const fem::PrescribedDof& item : problem().prescribed) {
+  for (const fem::PrescribedDof<2>& item : problem().prescribed) {
     if (item.dof == fem::Dof::w) continue;
     const auto end = end_time();
     largest = std::max(largest, end ? std::abs(item.value.at(*end)) : item.value.largest_magnitude());
@@ -109,7 +109,7 @@ double Scene::largest_movement() const {
 
 double Scene::strain_between(double before, double after) const {
   double largest = 0.0;
-  for (const fem::PrescribedDof& item : problem().prescribed) {
+  for (const fem::PrescribedDof<2>& item : problem().prescribed) {
     if (item.dof == fem::Dof::w) continue;
     // A movement along 1 shears the height or shortens the width.
     const double side = item.dof == fem::Dof::u2 ? body_.size().y() : body_.smaller_side();

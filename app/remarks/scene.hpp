@@ -31,8 +31,8 @@ class Scene {
   Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings);
 
   [[nodiscard]] const coupler::Case& the_case() const { return case_; }
-  [[nodiscard]] const fem::Problem& problem() const { return case_.problem; }
-  [[nodiscard]] const fem::Mesh& mesh() const { return case_.problem.mesh; }
+  [[nodiscard]] const fem::Problem<2>& problem() const { return case_.problem; }
+  [[nodiscard]] const fem::Mesh<2>& mesh() const { return case_.problem.mesh; }
   [[nodiscard]] const coupler::Entry& document() const { return document_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const std::vector<SceneRegion>& regions() const { return regions_; }

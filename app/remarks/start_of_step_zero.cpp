@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t kMostElements = 20000;  // a second or two
 
-std::optional<fem::ElasticParameters> elastic_of(const Scene& scene, const SceneRegion& region) {
+std::optional<fem::ElasticParameters<2>> elastic_of(const Scene& scene, const SceneRegion& region) {
   const auto key = [&](const char* name, coupler::Dimension dimension) {
     return scene.quantity({"materials", region.material, name}, dimension);
   };
-  fem::ElasticParameters elastic;
+  fem::ElasticParameters<2> elastic;
   const double length = key("lc", coupler::Dimension::length).value_or(0.0);
   if (region.cell == nullptr) {
     const auto young = key("E", coupler::Dimension::pressure);
@@ -46,11 +46,11 @@ std::optional<fem::ElasticParameters> elastic_of(const Scene& scene, const Scene
 }
 
 /// Null where a modulus is not known. A solver wants one of its own.
-std::shared_ptr<fem::Material> elastic_material(const Scene& scene, const std::string& name) {
+std::shared_ptr<fem::Material<2>> elastic_material(const Scene& scene, const std::string& name) {
   const auto region = std::ranges::find(scene.regions(), name, &SceneRegion::name);
   const auto elastic = elastic_of(scene, *region);
   if (!elastic || !fem::faults(*elastic).empty()) return nullptr;
-  return std::make_shared<fem::LocalMaterial<fem::ElasticLaw>>(fem::ElasticLaw(*elastic));
+  return std::make_shared<fem::LocalMaterial<fem::ElasticLaw<2>>>(fem::ElasticLaw<2>(*elastic));
 }
 
 /// Norm of the stress in the plane, forces only.
@@ -60,9 +60,9 @@ double square_of(const Vector7& stress) {
   return sum;
 }
 
-StartOfStepZero judged(fem::Solver& solver, const Scene& scene) {
+StartOfStepZero judged(fem::Solver<2>& solver, const Scene& scene) {
   StartOfStepZero start;
-  const fem::SolverState& state = solver.state();
+  const fem::SolverState<2>& state = solver.state();
   for (Eigen::Index k = 0; k + 2 < state.displacement.size(); k += 3)
     start.largest_displacement =
         std::max(start.largest_displacement, state.displacement.segment<2>(k).norm());
@@ -85,7 +85,7 @@ StartOfStepZero judged(fem::Solver& solver, const Scene& scene) {
 
 std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
   if (scene.mesh().elements.size() > kMostElements) return {};
-  fem::Problem problem = scene.problem();
+  fem::Problem<2> problem = scene.problem();
   problem.deformation = fem::Deformation::small;
   for (auto& [name, material] : problem.materials) {
     material = elastic_material(scene, name);
@@ -97,11 +97,11 @@ std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
   try {
     // Tolerances without end: the state is only looked at, never corrected.
     options.force_tolerance = options.moment_tolerance = 1e300;
-    fem::Solver looking(problem, options);
+    fem::Solver<2> looking(problem, options);
     const double out_of_balance = looking.equilibrate().force_residual;
     for (auto& [name, material] : problem.materials) material = elastic_material(scene, name);
     options.force_tolerance = options.moment_tolerance = 1e-6;
-    fem::Solver solver(std::move(problem), options);
+    fem::Solver<2> solver(std::move(problem), options);
     if (!solver.equilibrate().converged) return {};
     StartOfStepZero start = judged(solver, scene);
     start.out_of_balance = out_of_balance;

@@ -35,7 +35,7 @@ const std::vector<std::string> kUsualFields{"deviatoric_strain",
                                             "error_estimate"};
 
 /// Corners and middle nodes of an element, around it.
-std::vector<int> outline_of(const fem::Element& element) {
+std::vector<int> outline_of(const fem::Element<2>& element) {
   std::vector<int> around;
   const int corners = element.type->corners;
   for (int side = 0; side < corners; ++side) {
@@ -62,7 +62,7 @@ std::vector<double> element_values(const fem::FieldFile& file, const std::string
   if (const fem::Field* const of_elements = fem::find_field(file.fields.cells, name)) {
     for (std::size_t e = 0; e < file.mesh.elements.size(); ++e) values.push_back(value_at(*of_elements, e));
   } else if (const fem::Field* const of_nodes = fem::find_field(file.fields.points, name)) {
-    for (const fem::Element& element : file.mesh.elements) {
+    for (const fem::Element<2>& element : file.mesh.elements) {
       double sum = 0.0;
       for (int k = 0; k < element.type->corners; ++k)
         sum += value_at(*of_nodes, static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(k)]));
@@ -118,7 +118,7 @@ MeshPicture picture_of(const RunResult& result, const std::vector<std::string>& 
     }
   }
   for (const Eigen::Vector2d& node : last.mesh.nodes) picture.nodes.emplace_back(node(0), node(1));
-  for (const fem::Element& element : last.mesh.elements) picture.outlines.push_back(outline_of(element));
+  for (const fem::Element<2>& element : last.mesh.elements) picture.outlines.push_back(outline_of(element));
   const std::map<int, double> times = times_of(result);
   const std::size_t of_frame = 2 * picture.nodes.size() + names.size() * picture.outlines.size();
   const std::size_t most = std::min(kMostFrames, std::max<std::size_t>(1, kMostNumbers / of_frame));

@@ -15,12 +15,15 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string at(const Eigen::Vector2d& position) {
-  return fmt::format("({:.4g}, {:.4g})", position(0), position(1));
+template <int dim>
+std::string at(const Eigen::Matrix<double, dim, 1>& position) {
+  if constexpr (dim == 2) return fmt::format("({:.4g}, {:.4g})", position(0), position(1));
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", position(0), position(1), position(dim - 1));
 }
 
 /// Boundaries and sets that a node lies on, `all` left out.
-Lines places_of(const fem::Mesh& mesh, int node) {
+template <int dim>
+Lines places_of(const fem::Mesh<dim>& mesh, int node) {
   Lines places;
   for (const std::string& name : mesh.boundary_and_node_set_names()) {
     if (name == "all") continue;
@@ -30,7 +33,8 @@ Lines places_of(const fem::Mesh& mesh, int node) {
   return places;
 }
 
-Lines elements_at(const fem::Mesh& mesh, int node) {
+template <int dim>
+Lines elements_at(const fem::Mesh<dim>& mesh, int node) {
   Lines elements;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     if (std::ranges::find(mesh.elements[e].nodes, node) != mesh.elements[e].nodes.end())
@@ -38,12 +42,13 @@ Lines elements_at(const fem::Mesh& mesh, int node) {
   return elements;
 }
 
-std::string where(const fem::Trouble& trouble, const fem::Mesh& mesh) {
+template <int dim>
+std::string where(const fem::Trouble& trouble, const fem::Mesh<dim>& mesh) {
   Lines nodes;
   double share = 0.0;
   for (const fem::Trouble::Node& node : trouble.nodes) {
     const Lines places = places_of(mesh, node.number);
-    nodes.push_back(fmt::format("{}{}{}, of {} {}", at(mesh.nodes[static_cast<std::size_t>(node.number)]),
+    nodes.push_back(fmt::format("{}{}{}, of {} {}", at<dim>(mesh.nodes[static_cast<std::size_t>(node.number)]),
                                 places.empty() ? "" : " on ", fmt::join(places, " and "),
                                 elements_at(mesh, node.number).size() == 1 ? "element" : "elements",
                                 fmt::join(elements_at(mesh, node.number), ", ")));
@@ -54,10 +59,18 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh& mesh) {
                      fmt::join(nodes, "; "));
 }
 
+/// Pressure in the plane, in space the mean pressure, Pa.
+double pressure_of(const Vector7& stress) {
+  return -0.5 * (stress(k11) + stress(k22));
+}
+double pressure_of(const Vector18& stress) {
+  return -(stress(0) + stress(4) + stress(8)) / 3.0;
+}
+
 /// The values of a cell or a law at a point, in the words of the fields of the result.
-std::string words_of(const fem::Solver& solver, fem::MaterialValues& values, std::size_t point) {
-  const Vector7& stress = solver.state().responses[point].stress;
-  Lines words{fmt::format("p {:.3g} kPa", -0.5e-3 * (stress(k11) + stress(k22)))};
+template <int dim>
+std::string words_of(const fem::Solver<dim>& solver, fem::MaterialValues<dim>& values, std::size_t point) {
+  Lines words{fmt::format("p {:.3g} kPa", 1e-3 * pressure_of(solver.state().responses[point].stress))};
   for (const char* const name : {"sliding_fraction", "coordination_number", "rattlers", "source",
                                  "error_estimate", "stress_mismatch", "plastic_shear"})
     if (const std::optional<double> value = values.at(point, name))
@@ -66,11 +79,12 @@ std::string words_of(const fem::Solver& solver, fem::MaterialValues& values, std
 }
 
 /// One point of every element at the worst node, as last committed.
-std::string neighbours(const fem::Trouble& trouble, const fem::Solver& solver) {
+template <int dim>
+std::string neighbours(const fem::Trouble& trouble, const fem::Solver<dim>& solver) {
   if (trouble.nodes.empty()) return {};
-  const fem::Mesh& mesh = solver.problem().mesh;
+  const fem::Mesh<dim>& mesh = solver.problem().mesh;
   const int node = trouble.nodes.front().number;
-  const Eigen::Vector2d& position = mesh.nodes[static_cast<std::size_t>(node)];
+  const typename Cosserat<dim>::Place& position = mesh.nodes[static_cast<std::size_t>(node)];
   std::map<int, std::size_t> nearest;  // element: its point next to the node
   for (std::size_t point = 0; point < solver.points(); ++point) {
     const int element = solver.element_of_point(point);
@@ -81,7 +95,7 @@ std::string neighbours(const fem::Trouble& trouble, const fem::Solver& solver) {
         (solver.position_of_point(place->second) - position).norm())
       place->second = point;
   }
-  fem::MaterialValues values(solver);
+  fem::MaterialValues<dim> values(solver);
   std::string text = "  values there, before this step:";
   for (const auto& [element, point] : nearest)
     text += fmt::format("\n    element {}, point {}: {}", element, point, words_of(solver, values, point));
@@ -95,12 +109,12 @@ constexpr double kNothing = 1.0;  // Pa
 
 /// Cells that carry next to nothing, as last committed: their grains touch no longer, and their tangent says nothing of
 /// where they go.
-std::string without_stress(const fem::Solver& solver) {
+template <int dim>
+std::string without_stress(const fem::Solver<dim>& solver) {
   const auto pressure = [&](std::size_t point) {
-    const Vector7& stress = solver.state().responses[point].stress;
-    return -0.5 * (stress(k11) + stress(k22));
+    return pressure_of(solver.state().responses[point].stress);
   };
-  fem::MaterialValues values(solver);
+  fem::MaterialValues<dim> values(solver);
   double mean = 0.0;
   for (std::size_t point = 0; point < solver.points(); ++point)
     mean += pressure(point) / static_cast<double>(solver.points());
@@ -118,16 +132,17 @@ std::string without_stress(const fem::Solver& solver) {
       "  {} of {} points carry hardly any stress, least point {} of element {} at {} ({}): their grains have "
       "parted, and the tangent of a box of loose grains gives no direction. If that stops the run, some "
       "pressure left on the free surface may help, and a weight raised slowly at first ('factor' of 'body')",
-      lost, solver.points(), *least, solver.element_of_point(*least), at(solver.position_of_point(*least)),
+      lost, solver.points(), *least, solver.element_of_point(*least), at<dim>(solver.position_of_point(*least)),
       words_of(solver, values, *least));
 }
 
-std::string points_without_answer(const fem::Trouble& trouble, const fem::Solver& solver) {
+template <int dim>
+std::string points_without_answer(const fem::Trouble& trouble, const fem::Solver<dim>& solver) {
   if (trouble.points.empty()) return {};
   std::string text = fmt::format("  {} of {} points have no good answer:", trouble.not_good, solver.points());
   for (const fem::Trouble::Point& point : trouble.points)
     text += fmt::format("\n    point {} of element {} at {}: {}", point.number,
-                        solver.element_of_point(point.number), at(solver.position_of_point(point.number)),
+                        solver.element_of_point(point.number), at<dim>(solver.position_of_point(point.number)),
                         point.message);
   return text;
 }
@@ -171,11 +186,12 @@ Lines keys_of(const fem::Trouble& trouble, const coupler::Case& the_case) {
 }
 
 /// A node between two boundaries of which one moves: no mesh makes the stress there finite.
-std::string corner(const fem::Trouble& trouble, const fem::Problem& problem) {
+template <int dim>
+std::string corner(const fem::Trouble& trouble, const fem::Problem<dim>& problem) {
   if (trouble.nodes.empty()) return {};
   const int node = trouble.nodes.front().number;
   bool moves = false;
-  for (const fem::PrescribedDof& item : problem.prescribed) {
+  for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
     if (item.value.largest_magnitude() == 0.0) continue;
     const std::vector<int> nodes = problem.mesh.nodes_on(item.on);
     moves = moves || std::ranges::binary_search(nodes, node);
@@ -185,7 +201,7 @@ std::string corner(const fem::Trouble& trouble, const fem::Problem& problem) {
   return fmt::format(
       "  {} is an end of the moving part ({}): strains have no bound there, whatever the mesh; a finer one makes "
       "it harder",
-      at(problem.mesh.nodes[static_cast<std::size_t>(node)]), fmt::join(places, " and "));
+      at<dim>(problem.mesh.nodes[static_cast<std::size_t>(node)]), fmt::join(places, " and "));
 }
 
 /// A residual that no tolerance should cover.
@@ -197,7 +213,8 @@ std::string far_from_balance(const fem::Trouble& trouble) {
       trouble.least_force_residual);
 }
 
-Lines what_is_seen(const fem::Trouble& trouble, const fem::Solver& solver) {
+template <int dim>
+Lines what_is_seen(const fem::Trouble& trouble, const fem::Solver<dim>& solver) {
   const bool good = trouble.not_good == 0;
   return {good ? where(trouble, solver.problem().mesh) : "", points_without_answer(trouble, solver),
           good ? neighbours(trouble, solver) : "", good ? corner(trouble, solver.problem()) : "",
@@ -206,7 +223,8 @@ Lines what_is_seen(const fem::Trouble& trouble, const fem::Solver& solver) {
 
 }  // namespace
 
-std::string advice(const fem::Trouble& trouble, const fem::Solver& solver, const coupler::Case& the_case) {
+template <int dim>
+std::string advice(const fem::Trouble& trouble, const fem::Solver<dim>& solver, const coupler::Case& the_case) {
   const Lines keys = keys_of(trouble, the_case);
   Lines parts = what_is_seen(trouble, solver);
   parts.push_back(far_from_balance(trouble));
@@ -215,7 +233,8 @@ std::string advice(const fem::Trouble& trouble, const fem::Solver& solver, const
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
 
-std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver& solver, const Remarks& remarks) {
+template <int dim>
+std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver<dim>& solver, const Remarks& remarks) {
   Lines parts = what_is_seen(trouble, solver);
   parts.emplace_back(
       "  step 0 brings the stress at time zero (of the packings, or initial_stress) into balance with the loads and supports at "
@@ -227,5 +246,10 @@ std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver& solv
   std::erase(parts, "");
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
+
+template std::string advice<2>(const fem::Trouble& trouble, const fem::Solver<2>& solver, const coupler::Case& the_case);
+template std::string advice<3>(const fem::Trouble& trouble, const fem::Solver<3>& solver, const coupler::Case& the_case);
+template std::string advice_at_start<2>(const fem::Trouble& trouble, const fem::Solver<2>& solver, const Remarks& remarks);
+template std::string advice_at_start<3>(const fem::Trouble& trouble, const fem::Solver<3>& solver, const Remarks& remarks);
 
 }  // namespace polargrain::app

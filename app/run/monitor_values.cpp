@@ -14,13 +14,14 @@ double value_of(const MonitorValues& values, const std::string& name) {
   return place->second;
 }
 
-MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, const fem::Solver& solver) {
+template <int dim>
+MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, const fem::Solver<dim>& solver) {
   MonitorValues values{{"time", solver.state().time},
                        {"volume_strain", solver.volume_strain()},
                        {"external_work", solver.state().external_work},
                        {"internal_work", solver.state().internal_work}};
   for (const coupler::Monitor& monitor : monitors) {
-    const auto dof = static_cast<Eigen::Index>(monitor.dof);
+    const auto dof = fem::place_of<dim>(monitor.dof);
     double value = 0.0;
     switch (monitor.kind) {
       case coupler::Monitor::Kind::reaction:
@@ -36,5 +37,8 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
   }
   return values;
 }
+
+template MonitorValues monitor_values<2>(const std::vector<coupler::Monitor>& monitors, const fem::Solver<2>& solver);
+template MonitorValues monitor_values<3>(const std::vector<coupler::Monitor>& monitors, const fem::Solver<3>& solver);
 
 }  // namespace polargrain::app

@@ -13,7 +13,8 @@ namespace polargrain::app {
 /// Reactions in N per m of thickness (rotations: N), displacements in m (rotations: rad), works in J per m.
 using MonitorValues = std::vector<std::pair<std::string, double>>;
 
-MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, const fem::Solver& solver);
+template <int dim>
+MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, const fem::Solver<dim>& solver);
 
 /// The value of that name, which must be there.
 double value_of(const MonitorValues& values, const std::string& name);

@@ -33,7 +33,8 @@
 namespace polargrain::app {
 namespace {
 
-/// One run: its parts in the order they are made.
+/// One run in the plane or in space: its parts in the order they are made.
+template <int dim>
 class Run {
  public:
   /// @param from where to go on; null for a run from the start
@@ -134,11 +135,13 @@ class Run {
       log_.info("{} workers started, logs in {}", record_.workers, (directory_ / "logs").string());
       if (!pool_->listening_url().empty()) log_.info("workers may join at {}", pool_->listening_url());
     }
-    for (auto& [region, material] : case_.problem.materials) {
+    for (auto& [region, material] : problem().materials) {
       // Every region has a material of its own: a fem::Material holds the states of one region's points.
-      material = case_.materials.at(case_.regions.at(region))->make(pool_ ? &*pool_ : nullptr);
+      const coupler::MaterialRecipe& recipe = *case_.materials.at(case_.regions.at(region));
+      material = recipe.make_for<dim>(pool_ ? &*pool_ : nullptr);
+      if (const std::string note = recipe.note(); !note.empty()) warn(note);
     }
-    solver_.emplace(case_.problem, case_.solver);
+    solver_.emplace(problem(), case_.solver);
     solver_->set_observer(&observer_);
     observer_.on_struggle = [this](const fem::Trouble& trouble) {
       warn(fmt::format("this step has been cut twice: {}\n{}", trouble.reason, advice_on(trouble)));
@@ -289,6 +292,8 @@ class Run {
                      coupler::log_excerpt(log)));
   }
 
+  [[nodiscard]] fem::Problem<dim>& problem() { return case_.template problem_of<dim>(); }
+
   [[nodiscard]] std::string advice_on(const fem::Trouble& trouble) const {
     return step_ == 0 ? advice_at_start(trouble, *solver_, record_.remarks)
                       : advice(trouble, *solver_, case_);
@@ -315,7 +320,7 @@ class Run {
   }
 
   void log_notes(int step) {
-    for (auto& [region, material] : case_.problem.materials) {
+    for (auto& [region, material] : problem().materials) {
       for (const std::string& note : material->take_notes()) {
         if (note.starts_with(kSteppingNote)) {
           log_.info("  region '{}': {}", region, note);
@@ -403,7 +408,7 @@ class Run {
 
   void finish() {
     add_lap({});
-    for (const auto& [region, material] : case_.problem.materials) {
+    for (const auto& [region, material] : problem().materials) {
       if (material == nullptr) continue;
       if (auto figures = material->figures(); !figures.empty()) record_.figures[region] = std::move(figures);
       note_limits(region, dynamic_cast<const coupler::GrainsOfPoints*>(material.get()));
@@ -444,9 +449,26 @@ class Run {
   bool soft_contacts_ = false;         ///< it was said that contacts are soft for the stress
   coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
-  std::optional<fem::Solver> solver_;
+  std::optional<fem::Solver<dim>> solver_;
   Sample sample_;
 };
+
+/// Takes all steps and tells of their end. @returns as run
+template <int dim>
+int go(const RunOptions& options, coupler::Case the_case, const std::filesystem::path& directory, const DirectoryLock& lock,
+       std::optional<coupler::Listening> listening, std::unique_ptr<coupler::Checkpoint> from, Remarks remarks) {
+  Run<dim> the_run(options, std::move(the_case), directory, lock, std::move(listening), std::move(from),
+              std::move(remarks));
+  const bool done = the_run.go();
+  const RunRecord& record = the_run.record();
+  if (!options.quiet) {
+    tell(stdout, "\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
+         table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
+         directory.string());
+  }
+  if (!done) tell(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
+  return done ? 0 : 1;
+}
 
 }  // namespace
 
@@ -475,17 +497,11 @@ int run(const RunOptions& options) {
     if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());
   }
   if (!options.quiet && !remarks.empty()) tell(stderr, "{}", text_of(remarks));
-  Run the_run(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from),
-              std::move(remarks));
-  const bool done = the_run.go();
-  const RunRecord& record = the_run.record();
-  if (!options.quiet) {
-    tell(stdout, "\n{}\n{}{}results: {} (history.csv, fields.pvd, summary.json, run.log)\n",
-         table_text(the_run.the_case(), record), costs_text(record), figures_text(record),
-         directory.string());
-  }
-  if (!done) tell(stderr, "error: {}\nlog: {}\n", record.message, (directory / "run.log").string());
-  return done ? 0 : 1;
+  return the_case.dimension() == 3
+             ? go<3>(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from),
+                     std::move(remarks))
+             : go<2>(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from),
+                     std::move(remarks));
 }
 
 }  // namespace polargrain::app

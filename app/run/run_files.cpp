@@ -125,7 +125,8 @@ void RunFiles::add(int step, const Costs& costs, const coupler::PoolCounts& coun
   costs_.add(row);
 }
 
-void RunFiles::write(const CommittedStep& step, const fem::Solver& solver) {
+template <int dim>
+void RunFiles::write(const CommittedStep& step, const fem::Solver<dim>& solver) {
   write_rows();
   if (has_fields(step.step) || !step.report.converged) write_fields(step.step, solver);
 }
@@ -135,14 +136,15 @@ void RunFiles::write_rows() {
   costs_.write();
 }
 
-void RunFiles::write_fields(int step, const fem::Solver& solver) {
+template <int dim>
+void RunFiles::write_fields(int step, const fem::Solver<dim>& solver) {
   std::error_code error;
   // Not the result directory itself: when that was removed, somebody has to be told.
   std::filesystem::create_directory(directory_ / "fields", error);  // write_vtu says when it is not there
   fem::Fields fields = fem::collect_fields(solver);
   name_units(fields.points);
   name_units(fields.cells);
-  fem::write_vtu(directory_ / fields_file(step), case_.problem.mesh, fields);
+  fem::write_vtu(directory_ / fields_file(step), solver.problem().mesh, fields);
   collection_.add(solver.state().time, fields_file(step));
   if (!case_.output_points) return;
   fem::PlacedFields at_points = fem::collect_point_fields(solver);
@@ -150,6 +152,9 @@ void RunFiles::write_fields(int step, const fem::Solver& solver) {
   fem::write_vtu(directory_ / points_file(step), at_points);
   points_collection_.add(solver.state().time, points_file(step));
 }
+
+template void RunFiles::write<2>(const CommittedStep& step, const fem::Solver<2>& solver);
+template void RunFiles::write<3>(const CommittedStep& step, const fem::Solver<3>& solver);
 
 std::vector<CommittedStep> steps_of_history(const std::string& history, const coupler::Case& the_case) {
   const std::vector<std::string> columns = history_columns(the_case);

@@ -24,11 +24,13 @@ class RunFiles {
   /// Adds a row to costs.csv, in memory.
   void add(int step, const Costs& costs, const coupler::PoolCounts& counts);
   /// Writes the rows added, and the fields where they are due. @throws RunError
-  void write(const CommittedStep& step, const fem::Solver& solver);
+  template <int dim>
+  void write(const CommittedStep& step, const fem::Solver<dim>& solver);
   /// Writes the rows added. @throws RunError
   void write_rows();
   /// Writes the fields of a step, at the integration points too where the case wants them. @throws RunError
-  void write_fields(int step, const fem::Solver& solver);
+  template <int dim>
+  void write_fields(int step, const fem::Solver<dim>& solver);
 
   /// Whether fields are written of a step that was reached.
   [[nodiscard]] bool has_fields(int step) const;

@@ -7,8 +7,10 @@
 #include "fem/output/material_values.hpp"
 
 namespace polargrain::app {
-std::string soft_contacts(const fem::Solver& solver) {
-  fem::MaterialValues values(solver);
+
+template <int dim>
+std::string soft_contacts(const fem::Solver<dim>& solver) {
+  fem::MaterialValues<dim> values(solver);
   double mean = 0.0;
   double largest = 0.0;
   std::size_t at = 0;
@@ -26,5 +28,8 @@ std::string soft_contacts(const fem::Solver& solver) {
       "that the run ends; a stiffer contact model goes further",
       solver.element_of_point(at), 100.0 * mean, 100.0 * largest, 100.0 * kMostMeanOverlap);
 }
+
+template std::string soft_contacts<2>(const fem::Solver<2>& solver);
+template std::string soft_contacts<3>(const fem::Solver<3>& solver);
 
 }  // namespace polargrain::app

@@ -21,7 +21,7 @@ constexpr std::size_t kFollowedLeast = 6;
 constexpr double kMuchRoom = 0.5;
 constexpr double kShare = 0.95;
 
-bool are_equal(const Increment& a, const Increment& b) {
+bool are_equal(const Increment<2>& a, const Increment<2>& b) {
   return a.displacement_gradient == b.displacement_gradient && a.micro_rotation == b.micro_rotation &&
          a.curvature == b.curvature;
 }
@@ -52,7 +52,7 @@ void AdaptiveMaterial::run_followed() {
   std::vector<std::size_t> points;
   std::vector<Followed*> running;
   for (Followed& followed : followed_) {
-    const Increment increment = increment_of_step(followed.point);
+    const Increment<2> increment = increment_of_step(followed.point);
     if (followed.reply.state && are_equal(increment, followed.increment)) continue;
     followed.increment = increment;
     requests.push_back({followed.state, increment});

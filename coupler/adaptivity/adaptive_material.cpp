@@ -18,7 +18,7 @@ namespace polargrain::coupler {
 namespace {
 
 /// Of a cell with free rotations only the symmetric part of stress and tangent is meant.
-void keep_symmetric(Response& response) {
+void keep_symmetric(Response<2>& response) {
   response.stress = symmetric_part(response.stress);
   response.tangent = symmetric_tangent(response.tangent);
 }
@@ -89,7 +89,7 @@ void AdaptiveMaterial::begin_step() {
   excursions_.resize(points_.size());
 }
 
-void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+void AdaptiveMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
   const Clock::time_point start = Clock::now();
   const double cells_before = seconds_of_cells_;
   if (branches_.empty()) begin_step();
@@ -109,17 +109,17 @@ void AdaptiveMaterial::evaluate(std::span<const Increment> increments, std::span
   seconds_ += seconds_since(start) - (seconds_of_cells_ - cells_before);
 }
 
-Increment AdaptiveMaterial::increment_of_step(std::size_t point) const {
-  const Increment whole = increment_for_cell(increments_[point]);
+Increment<2> AdaptiveMaterial::increment_of_step(std::size_t point) const {
+  const Increment<2> whole = increment_for_cell(increments_[point]);
   // Grains whose rotations are free feel no micro-rotation and no curvature.
   if (measure_.controlled()) return whole;
-  Increment of_box = increment_of(whole.displacement_gradient);
+  Increment<2> of_box = increment_of(whole.displacement_gradient);
   of_box.configuration = whole.configuration;
   return of_box;
 }
 
-Increment AdaptiveMaterial::farthest(std::size_t point) const {
-  Increment place = points_[point].farthest;
+Increment<2> AdaptiveMaterial::farthest(std::size_t point) const {
+  Increment<2> place = points_[point].farthest;
   place.configuration = target_[point].configuration;  // no checkpoint keeps it
   return place;
 }
@@ -203,7 +203,7 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
   });
 }
 
-std::size_t AdaptiveMaterial::enter(Branch moved, std::size_t start, const Increment& increment) {
+std::size_t AdaptiveMaterial::enter(Branch moved, std::size_t start, const Increment<2>& increment) {
   const std::size_t number = branches_.size();
   if (moved.answer.response.quality != Quality::failed) {
     Branch& from = branches_[start];
@@ -253,7 +253,7 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
   std::vector<PlaneRequest> requests;
   for (std::size_t k = 0; k < leaders.size(); ++k) {
     const Branch& start = branches_[starts[k]];
-    const Increment& target = target_[leaders[k]];
+    const Increment<2>& target = target_[leaders[k]];
     requests.push_back({start.answer.state, start.was_run ? offset_between(start.place, target) : target});
   }
   std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
@@ -295,11 +295,11 @@ Vector7 AdaptiveMaterial::stress_of_cells(std::size_t point) const {
   return linearised_stress(branch.answer.response, offset_between(branch.place, target_[point]));
 }
 
-Response AdaptiveMaterial::answer_to(std::size_t point, CosseratPart& part) const {
+Response<2> AdaptiveMaterial::answer_to(std::size_t point, CosseratPart& part) const {
   const Branch& branch = branches_[branch_of_point_[point]];
   const PlaneReply& answer = branch.answer;
   if (answer.response.quality == Quality::failed) return answer.response;
-  Response response = with_tangent_turned(answer.response, offset_between(branch.place, target_[point]));
+  Response<2> response = with_tangent_turned(answer.response, offset_between(branch.place, target_[point]));
   response.stress = stress_of_cells(point);
   if (cosserat_)
     return part.follow(increments_[point], response, *cosserat_, packing_.kept(answer.diagnostics));

@@ -60,7 +60,7 @@ constexpr Choices choices_of(Source) {
 /// Some points, drawn by chance, are followed by cells of their own from the first step on. What they miss bounds the mean
 /// error of all points (error_bound.hpp), and a step whose bound exceeds the tolerance is answered anew, with a
 /// smaller tolerance for estimates, before it is committed.
-class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
+class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param cosserat of cells with free rotations; nothing: they are controlled, and options.mean_diameter is that of
@@ -70,7 +70,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
                    const AdaptivityOptions& options, const std::string& note = {});
 
   void allocate(std::size_t points) override;
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
   /// Brings all estimates within the tolerance and measures the error of the step; where its bound exceeds the tolerance,
   /// tightens the one that estimates are held to, as long as that helps.
   [[nodiscard]] bool confirm() override;
@@ -106,8 +106,8 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   };
   struct Point {
     std::uint32_t cell = 0;
-    Increment offset;    ///< from the cell to the point
-    Increment farthest;  ///< place along the cell's last loading since its last run, from the cell
+    Increment<2> offset;    ///< from the cell to the point
+    Increment<2> farthest;  ///< place along the cell's last loading since its last run, from the cell
     CosseratPart cosserat;
     double estimate = 0.0;  ///< of its error, Pa
     Source source = Source::tangent;
@@ -125,7 +125,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   /// A cell during the step: where it was, or run onward to a point. The first branches are the cells.
   struct Branch {
     std::size_t cell = 0;    ///< it comes from
-    Increment place = {};    ///< from that cell to here
+    Increment<2> place = {};    ///< from that cell to here
     std::size_t leader = 0;  ///< point it was run to
     PlaneReply answer = {};
     Departure departure = {};
@@ -138,7 +138,7 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
     std::size_t point;
     StatePointer state;
     PlaneReply reply = {};  ///< to the increment below, of the step at work
-    Increment increment = {};
+    Increment<2> increment = {};
   };
 
   void begin_step();
@@ -158,17 +158,17 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   std::vector<std::size_t> run_turns(const std::vector<std::size_t>& leaders);
   /// Enters what a run over an increment from the branch of number `start` has made, and what it has shown.
   /// @returns the number of the new branch
-  std::size_t enter(Branch moved, std::size_t start, const Increment& increment);
+  std::size_t enter(Branch moved, std::size_t start, const Increment<2>& increment);
   /// Farthest place of a point at the start of the step.
-  [[nodiscard]] Increment farthest(std::size_t point) const;
+  [[nodiscard]] Increment<2> farthest(std::size_t point) const;
   [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
                                             std::span<const std::size_t> points, std::int64_t& steps);
   /// The increment that takes the cell of a point through the step.
-  [[nodiscard]] Increment increment_of_step(std::size_t point) const;
+  [[nodiscard]] Increment<2> increment_of_step(std::size_t point) const;
   /// Size of an error of a stress, as a share of the reference pressure.
   [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / reference_; }
   /// @param part skew and couple stress of the point at the start of the step; goes along to its end
-  Response answer_to(std::size_t point, CosseratPart& part) const;
+  Response<2> answer_to(std::size_t point, CosseratPart& part) const;
   /// The stress of the cells at a point, carried to it; without the Cosserat part of the case.
   [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * reference_; }
@@ -215,10 +215,10 @@ class AdaptiveMaterial : public fem::Material, public GrainsOfPoints {
   std::vector<Branch> branches_;
   std::vector<std::vector<std::size_t>> branches_of_cell_;
   std::vector<std::size_t> branch_of_point_;
-  std::vector<Increment> target_;             ///< from the cell's place to the point's
+  std::vector<Increment<2>> target_;             ///< from the cell's place to the point's
   std::vector<Excursion> excursions_;         ///< of the points, at their targets
   std::map<std::size_t, std::size_t> turns_;  ///< branches at the farthest places of leaders, by leader
-  std::vector<Increment> increments_;
+  std::vector<Increment<2>> increments_;
 
   std::vector<Followed> followed_;  ///< in the order they were drawn
   MeasuredErrors errors_;           ///< of the points followed, shares of the reference pressure

@@ -28,7 +28,7 @@ double Departure::over(double size) const {
   return error * (x <= 1.0 ? x * std::sqrt(x) : x * x);
 }
 
-double ErrorEstimate::of(const Response& answer, const Departure& departure, const Increment& offset) const {
+double ErrorEstimate::of(const Response<2>& answer, const Departure& departure, const Increment<2>& offset) const {
   const double size = measure_.size(offset);
   if (size == 0.0) return 0.0;
   if (!departure.known()) return HUGE_VAL;
@@ -38,11 +38,11 @@ double ErrorEstimate::of(const Response& answer, const Departure& departure, con
   return departure.over(size) + kShareOfElastic * measure_.stress(apart);
 }
 
-double ErrorEstimate::onward(const Departure& departure, const Increment& offset) const {
+double ErrorEstimate::onward(const Departure& departure, const Increment<2>& offset) const {
   return onward_of(measure_.strain(offset), departure);
 }
 
-double ErrorEstimate::of_history(const Response& answer, const Departure& departure, const Excursion& point,
+double ErrorEstimate::of_history(const Response<2>& answer, const Departure& departure, const Excursion& point,
                                  const Excursion& cell) const {
   // Two that have not turned back differ in their places alone, which is no matter of history.
   const double missed = std::min(std::abs(point.depth - cell.depth), std::max(point.back, cell.back));
@@ -51,7 +51,7 @@ double ErrorEstimate::of_history(const Response& answer, const Departure& depart
   return kShareOfElastic * measure_.stress(apart);
 }
 
-Departure ErrorEstimate::learn(const Response& start, const Response& end, const Increment& offset,
+Departure ErrorEstimate::learn(const Response<2>& start, const Response<2>& end, const Increment<2>& offset,
                                Departure& at_start) const {
   const double size = measure_.size(offset);
   const Vector7 strain = measure_.strain(offset);

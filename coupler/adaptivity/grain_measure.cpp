@@ -14,7 +14,7 @@ constexpr double kVolume = 0.35;
 
 }  // namespace
 
-Vector7 GrainMeasure::strain(const Increment& increment) const {
+Vector7 GrainMeasure::strain(const Increment<2>& increment) const {
   Vector7 strain = fem::stretch_and_turn(increment).stretch.strain();
   if (!controlled()) return symmetric_part(strain);
   strain.tail<2>() *= diameter_;
@@ -27,7 +27,7 @@ Vector7 GrainMeasure::unmeasured(const Vector7& strain) const {
   return plain;
 }
 
-double GrainMeasure::size(const Increment& offset) const {
+double GrainMeasure::size(const Increment<2>& offset) const {
   Vector7 deviator = strain(offset);
   const double volume = 0.5 * (deviator[k11] + deviator[k22]);
   deviator[k11] -= volume;

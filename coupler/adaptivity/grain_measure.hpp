@@ -17,12 +17,12 @@ class GrainMeasure {
   [[nodiscard]] bool controlled() const { return diameter_ > 0.0; }
   /// Strain of an increment with the curvatures times d; free rotations: the symmetric part alone. In large deformation
   /// the strain of its stretch, in the axes of its start.
-  [[nodiscard]] Vector7 strain(const Increment& increment) const;
+  [[nodiscard]] Vector7 strain(const Increment<2>& increment) const;
   /// The strain (Increment::strain) whose measured one this is.
   [[nodiscard]] Vector7 unmeasured(const Vector7& strain) const;
   /// The size of an offset: the norm of deviatoric and skew strain and of the curvatures, and a third of its
   /// volume change, to which a packing answers with far less curvature. A rotation of both box and grains does not count.
-  [[nodiscard]] double size(const Increment& offset) const;
+  [[nodiscard]] double size(const Increment<2>& offset) const;
   /// Norm of a stress, Pa: sqrt(s11^2 + s22^2 + s12^2 + s21^2 + (m1^2 + m2^2) / d^2); free rotations: of its
   /// symmetric part in the plane.
   [[nodiscard]] double stress(const Vector7& stress) const;

@@ -5,16 +5,16 @@
 
 namespace polargrain::coupler {
 
-Increment increment_of(const Eigen::Matrix2d& displacement_gradient) {
-  Increment increment;
+Increment<2> increment_of(const Eigen::Matrix2d& displacement_gradient) {
+  Increment<2> increment;
   increment.displacement_gradient = displacement_gradient;
   return increment;
 }
 
-Vector7 linearised_stress(const Response& answer, const Increment& offset) {
+Vector7 linearised_stress(const Response<2>& answer, const Increment<2>& offset) {
   if (offset.configuration != Configuration::fixed) {
-    const fem::StretchAndTurn step = fem::stretch_and_turn(offset);
-    return fem::rotated(Vector7(answer.stress + answer.tangent * step.stretch.strain()), step.angle);
+    const fem::StretchAndTurn<2> step = fem::stretch_and_turn(offset);
+    return fem::rotated(Vector7(answer.stress + answer.tangent * step.stretch.strain()), step.turn);
   }
   Vector7 stress = answer.stress + answer.tangent * offset.strain();
   const Eigen::Matrix2d& h = offset.displacement_gradient;
@@ -30,7 +30,7 @@ Vector7 linearised_stress(const Response& answer, const Increment& offset) {
   return stress;
 }
 
-Response with_tangent_turned(Response answer, const Increment& offset) {
+Response<2> with_tangent_turned(Response<2> answer, const Increment<2>& offset) {
   if (offset.configuration != Configuration::fixed)
     answer.tangent = fem::rotated(answer.tangent, fem::rotation_angle(offset));
   return answer;

@@ -50,7 +50,9 @@ struct Case {
   double checkpoint_minutes = 10.0;  ///< least time between two checkpoints
   std::string title;
   /// Mesh, supports and loads; its materials are null until a run makes them from the recipes.
-  fem::Problem problem;
+  fem::Problem<2> problem;
+  /// The same of a body in space, in the place of `problem`; nothing: the case is of the plane.
+  std::optional<fem::Problem<3>> space;
   std::map<std::string, std::shared_ptr<const MaterialRecipe>> materials;  ///< by name
   std::map<std::string, std::string> regions;                              ///< region: name of its material
   std::vector<StepTarget> plan;                                            ///< the steps, in their order
@@ -63,6 +65,30 @@ struct Case {
   std::set<std::size_t> output_grains;
   PatienceLimits patience;   ///< with workers
   double check_share = 0.0;  ///< of the evaluations: made by two workers, 0 to 1
+
+  [[nodiscard]] int dimension() const { return space ? 3 : 2; }
+  /// The problem of the dimension that the case has.
+  template <int dim>
+  [[nodiscard]] auto& problem_of() {
+    if constexpr (dim == 2) {
+      return problem;
+    } else {
+      return *space;
+    }
+  }
+  template <int dim>
+  [[nodiscard]] const fem::Problem<dim>& problem_of() const {
+    return const_cast<Case&>(*this).problem_of<dim>();
+  }
+  /// Calls visit(problem) with the problem that the case has.
+  template <class Visit>
+  decltype(auto) with_problem(Visit visit) {
+    return space ? visit(*space) : visit(problem);
+  }
+  template <class Visit>
+  decltype(auto) with_problem(Visit visit) const {
+    return space ? visit(*space) : visit(problem);
+  }
 
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }

@@ -17,7 +17,19 @@ class MaterialRecipe {
  public:
   virtual ~MaterialRecipe() = default;
   /// @param pool never null when needs_workers(); must outlive the material
-  [[nodiscard]] virtual std::shared_ptr<fem::Material> make(Pool* pool) const = 0;
+  [[nodiscard]] virtual std::shared_ptr<fem::Material<2>> make(Pool* pool) const = 0;
+  /// The same for elements in space. @throws RunError where the model has no such material (MaterialModel::in_space)
+  [[nodiscard]] virtual std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const;
+  template <int dim>
+  [[nodiscard]] std::shared_ptr<fem::Material<dim>> make_for(Pool* pool) const {
+    if constexpr (dim == 2) {
+      return make(pool);
+    } else {
+      return make_in_space(pool);
+    }
+  }
+  /// A sentence on the material that a user should read before a run; empty: there is none.
+  [[nodiscard]] virtual std::string note() const { return {}; }
   /// The cells that the material asks; null when it has no cells.
   [[nodiscard]] virtual const CellDefinition* grains() const { return nullptr; }
   [[nodiscard]] bool needs_workers() const { return grains() != nullptr; }
@@ -41,6 +53,7 @@ struct MaterialModel {
   /// @returns null only when there were faults
   std::unique_ptr<MaterialRecipe> (*read)(const std::string& material, Section& section, Faults& faults,
                                           const CaseFiles& files);
+  bool in_space = false;  ///< whether elements in space can be made of it
 };
 
 /// All models, in the order of the help.

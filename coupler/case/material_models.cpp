@@ -10,6 +10,10 @@ MaterialModel elastic_model();
 MaterialModel elastoplastic_model();
 MaterialModel informed_model();
 
+std::shared_ptr<fem::Material<3>> MaterialRecipe::make_in_space(Pool*) const {
+  throw RunError("this model has no material for elements in space");
+}
+
 const std::vector<MaterialModel>& material_models() {
   static const std::vector<MaterialModel> models{elastic_model(), elastoplastic_model(), cell_model(),
                                                  informed_model(), adaptive_model()};

@@ -7,18 +7,31 @@
 
 namespace polargrain::coupler {
 
-const std::vector<std::string>& dof_names() {
-  static const std::vector<std::string> names{"u1", "u2", "w"};
+namespace {
+
+template <int dim>
+std::vector<std::string> names_of_dofs() {
+  std::vector<std::string> names;
+  for (const fem::Dof dof : fem::node_dofs<dim>()) names.emplace_back(fem::name_of<dim>(dof));
   return names;
 }
 
+}  // namespace
+
+const std::vector<std::string>& dof_names(int dimension) {
+  static const std::vector<std::string> plane = names_of_dofs<2>();
+  static const std::vector<std::string> space = names_of_dofs<3>();
+  return dimension == 2 ? plane : space;
+}
+
 fem::Dof dof_of(const std::string& name) {
-  const auto place = std::find(dof_names().begin(), dof_names().end(), name);
-  return static_cast<fem::Dof>(place - dof_names().begin());
+  for (const fem::Dof dof : fem::node_dofs<3>())
+    if (fem::name_of<3>(dof) == name) return dof;
+  return fem::Dof::w;
 }
 
 Dimension dimension_of(fem::Dof dof) {
-  return dof == fem::Dof::w ? Dimension::angle : Dimension::length;
+  return fem::is_rotation(dof) ? Dimension::angle : Dimension::length;
 }
 
 namespace {
@@ -36,29 +49,32 @@ std::string no_groups(const std::string& kind, const std::string& name) {
 void CaseParts::check_places(Section& section, const std::string& key, const std::vector<std::string>& places,
                              const std::string& edge_load) {
   if (!has_mesh) return;
-  const fem::Mesh& mesh = result.problem.mesh;
-  for (const std::string& place : places) {
-    if (!mesh.has_nodes_on(place)) {
-      const std::vector<std::string> known = mesh.boundary_and_node_set_names();
-      const std::string guess = nearest(place, known);
-      section.fault(key, fmt::format("{}: the mesh has no boundary or node set '{}'; {}", key, place,
-                                     !guess.empty()            ? "did you mean '" + guess + "'?"
-                                     : mesh.boundaries.empty() ? no_groups("Curve", place)
-                                                               : "it has " + listed(known)));
-    } else if (!edge_load.empty() && !mesh.boundaries.contains(place)) {
-      section.fault(key, fmt::format("{}: {} needs a boundary, '{}' is a set of nodes; boundaries are {}",
-                                     key, edge_load, place, names_of(mesh.boundaries)));
+  result.with_problem([&](const auto& problem) {
+    const auto& mesh = problem.mesh;
+    for (const std::string& place : places) {
+      if (!mesh.has_nodes_on(place)) {
+        const std::vector<std::string> known = mesh.boundary_and_node_set_names();
+        const std::string guess = nearest(place, known);
+        section.fault(key, fmt::format("{}: the mesh has no boundary or node set '{}'; {}", key, place,
+                                       !guess.empty()            ? "did you mean '" + guess + "'?"
+                                       : mesh.boundaries.empty() ? no_groups("Curve", place)
+                                                                 : "it has " + listed(known)));
+      } else if (!edge_load.empty() && !mesh.boundaries.contains(place)) {
+        section.fault(key, fmt::format("{}: {} needs a boundary, '{}' is a set of nodes; boundaries are {}",
+                                       key, edge_load, place, names_of(mesh.boundaries)));
+      }
     }
-  }
+  });
 }
 
 std::string CaseParts::region(Section& section, const std::string& key) {
   if (section.find(key) == nullptr) return {};
   std::string name = section.text(key, "the name of a region");
-  if (has_mesh && !name.empty() && !result.problem.mesh.regions.contains(name)) {
+  result.with_problem([&](const auto& problem) {
+    if (!has_mesh || name.empty() || problem.mesh.regions.contains(name)) return;
     section.fault(key, fmt::format("{}: the mesh has no region '{}'; it has {}", key, name,
-                                   names_of(result.problem.mesh.regions)));
-  }
+                                   names_of(problem.mesh.regions)));
+  });
   return name;
 }
 

@@ -9,8 +9,8 @@
 
 namespace polargrain::coupler {
 
-/// u1, u2, w
-const std::vector<std::string>& dof_names();
+/// u1, u2, w; in space u1, u2, u3, w1, w2, w3
+const std::vector<std::string>& dof_names(int dimension);
 /// @param name one of dof_names()
 fem::Dof dof_of(const std::string& name);
 /// Of a prescribed value: a length, or an angle.

@@ -19,7 +19,7 @@ struct Unit {
   bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 28> kUnits{{
+constexpr std::array<Unit, 30> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -39,6 +39,8 @@ constexpr std::array<Unit, 28> kUnits{{
     {Dimension::angle, "mrad", 1e-3},
     {Dimension::force, "N", 1.0},
     {Dimension::force, "kN", 1e3},
+    {Dimension::moment, "Nm", 1.0},
+    {Dimension::moment, "kNm", 1e3},
     {Dimension::force_per_length, "N/m", 1.0},
     {Dimension::force_per_length, "kN/m", 1e3},
     {Dimension::force_per_length, "MN/m", 1e6},
@@ -79,6 +81,8 @@ std::string expectation(Dimension dimension) {
       return "an angle in rad, or with one of the units " + units;
     case Dimension::force:
       return "a force in N, or with one of the units " + units;
+    case Dimension::moment:
+      return "a moment in N m, or with one of the units " + units;
     case Dimension::force_per_length:
       return "a force per thickness in N/m, or with one of the units " + units;
     case Dimension::duration:

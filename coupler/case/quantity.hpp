@@ -14,6 +14,7 @@ enum class Dimension {
   pressure,
   angle,
   force,             ///< also a moment per thickness
+  moment,
   force_per_length,  ///< per thickness
   unit_weight,
   duration

@@ -33,13 +33,13 @@ class CaseReader {
     while (case_.title.ends_with('\n')) case_.title.pop_back();  // of a text in lines of its own
     if (!control_character_in(case_.title).empty())
       top.fault("title", "title: must be one line without control characters; write the rest as comments");
-    case_.problem.continuum = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy"
-                                  ? fem::Continuum::cauchy
-                                  : fem::Continuum::cosserat;
-    case_.problem.deformation = top.choice_or("deformation", {"small", "large"}, "small") == "large"
-                                    ? fem::Deformation::large
-                                    : fem::Deformation::small;
+    const bool cauchy = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy";
+    const bool large = top.choice_or("deformation", {"small", "large"}, "small") == "large";
     if (const Entry* entry = top.require("mesh", "a map with the mesh")) read_mesh(*entry, parts_);
+    case_.with_problem([&](auto& problem) {
+      problem.continuum = cauchy ? fem::Continuum::cauchy : fem::Continuum::cosserat;
+      problem.deformation = large ? fem::Deformation::large : fem::Deformation::small;
+    });
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
     if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
     boundary_ = top.require("boundary", "a list of supports and loads");
@@ -71,10 +71,16 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
+        if (case_.dimension() == 3 && !model.in_space) {
+          section.fault("model", fmt::format("model: '{}' has no elements in space yet; there are {}", name,
+                                             listed(models_in_space())));
+          for (const Entry::Member& key : member.value.members) section.find(key.key);
+          continue;
+        }
         case_.materials[member.key] =
             model.read(member.key, section, faults_,
-                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_),
-                                 case_.problem.continuum == fem::Continuum::cosserat});
+                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), case_.dimension(),
+                                 !is_classical()});
         section.finish();
       }
     }
@@ -84,15 +90,31 @@ class CaseReader {
     }
   }
 
+  [[nodiscard]] bool is_classical() const {
+    return case_.with_problem([](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
+  }
+
+  static std::vector<std::string> models_in_space() {
+    std::vector<std::string> names;
+    for (const MaterialModel& model : material_models())
+      if (model.in_space) names.push_back(model.name);
+    return names;
+  }
+
+  [[nodiscard]] std::map<std::string, std::vector<int>> regions_of_mesh() const {
+    return case_.with_problem([](const auto& problem) { return problem.mesh.regions; });
+  }
+
   void read_regions(const Entry& entry) {
+    const std::map<std::string, std::vector<int>> known = regions_of_mesh();
     Section regions(entry, "regions", faults_);
     std::set<std::string> used;
     for (const Entry::Member& member : entry.members) {
       const std::string material = regions.text(member.key, "the name of a material");
-      if (parts_.has_mesh && !case_.problem.mesh.regions.contains(member.key)) {
+      if (parts_.has_mesh && !known.contains(member.key)) {
         faults_.push_back(
             member.value.fault(fmt::format("regions: the mesh has no region '{}'; it has {}", member.key,
-                                           CaseParts::names_of(case_.problem.mesh.regions))));
+                                           CaseParts::names_of(known))));
       }
       if (!material.empty() && !material_lines_.contains(material)) {
         const std::string guess = nearest(material, keys_of(material_lines_));
@@ -101,7 +123,7 @@ class CaseReader {
                                                             : "did you mean '" + guess + "'?"));
       }
       case_.regions[member.key] = material;
-      case_.problem.materials[member.key] = nullptr;
+      case_.with_problem([&](auto& problem) { problem.materials[member.key] = nullptr; });
       used.insert(material);
     }
     regions.finish();
@@ -116,11 +138,17 @@ class CaseReader {
 
   /// A cell brings the stress of its packing.
   void check_initial_stress(const Entry& entry) {
-    for (const fem::InitialStress& initial : case_.problem.initial_stresses) {
+    case_.with_problem([&](const auto& problem) {
+      for (const auto& initial : problem.initial_stresses) check_initial_stress(entry, initial.region);
+    });
+  }
+
+  void check_initial_stress(const Entry& entry, const std::string& initial_region) {
+    {
       for (const auto& [region, material] : case_.regions) {
         const auto recipe = case_.materials.find(material);
         if (recipe == case_.materials.end() || !recipe->second || !recipe->second->needs_workers()) continue;
-        if (!initial.region.empty() && initial.region != region) continue;
+        if (!initial_region.empty() && initial_region != region) continue;
         faults_.push_back(entry.fault(fmt::format(
             "initial_stress: region '{}' is made of cells, which bring the stress of their packing; "
             "name another region",
@@ -183,11 +211,11 @@ class CaseReader {
     const bool displacement = section.find("displacement") != nullptr;
     if (reaction == displacement && entry.kind == Entry::Kind::map) {
       faults_.push_back(
-          entry.fault(section.name() +
-                      ": expected either 'reaction' or 'displacement', each one of u1, u2, w, or a formula"));
+          entry.fault(section.name() + ": expected either 'reaction' or 'displacement', each one of " +
+                      listed(dof_names(case_.dimension())) + ", or a formula"));
     } else {
       monitor.kind = reaction ? Monitor::Kind::reaction : Monitor::Kind::displacement;
-      const std::string dof = section.choice(reaction ? "reaction" : "displacement", dof_names());
+      const std::string dof = section.choice(reaction ? "reaction" : "displacement", dof_names(case_.dimension()));
       if (!dof.empty()) monitor.dof = dof_of(dof);
     }
     section.finish();
@@ -221,9 +249,13 @@ class CaseReader {
     const std::vector<std::string> words =
         output.words("grains", "a list of numbers of integration points, or of regions with cells");
     if (!parts_.has_mesh) return;
-    const fem::Mesh& mesh = case_.problem.mesh;
+    if (case_.dimension() == 3) {
+      output.fault("grains", "grains: grains of points in space cannot be shown yet; leave it out");
+      return;
+    }
+    const fem::Mesh<2>& mesh = case_.problem.mesh;
     std::vector<std::size_t> first{0};  // point of each element, and behind the last one the number of all
-    for (const fem::Element& element : mesh.elements)
+    for (const fem::Element<2>& element : mesh.elements)
       first.push_back(first.back() + element.type->quadrature.size());
     const auto add_points = [&first](const std::vector<int>& elements, std::set<std::size_t>& points) {
       for (const int element : elements)
@@ -278,22 +310,24 @@ class CaseReader {
 
   /// Without Gc nothing ties the micro-rotations to the continuum: a uniform one costs nothing.
   void check_micro_rotations() {
-    if (case_.problem.continuum == fem::Continuum::cauchy) return;
-    for (const fem::PrescribedDof& item : case_.problem.prescribed) {
-      if (item.dof == fem::Dof::w) return;
-    }
+    if (is_classical()) return;
+    const bool fixed = case_.with_problem([](const auto& problem) {
+      return std::ranges::any_of(problem.prescribed, [](const auto& item) { return fem::is_rotation(item.dof); });
+    });
+    if (fixed) return;
     for (const auto& [name, recipe] : case_.materials) {
       if (recipe->holds_micro_rotations()) return;
     }
     faults_.push_back(document_.find("materials")
-                          ->fault("materials: Gc is zero everywhere and no boundary fixes w, so nothing "
-                                  "holds the micro-rotations; "
-                                  "set 'continuum: cauchy', give Gc, or fix w"));
+                          ->fault(fmt::format(
+                              "materials: Gc is zero everywhere and no boundary fixes {0}, so nothing "
+                              "holds the micro-rotations; set 'continuum: cauchy', give Gc, or fix {0}",
+                              case_.dimension() == 2 ? "w" : "w1, w2 or w3")));
   }
 
   /// The faults that the finite elements find in the whole.
   void check_whole() {
-    for (const std::string& message : fem::faults(case_.problem)) {
+    for (const std::string& message : case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
       faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));
     }
   }

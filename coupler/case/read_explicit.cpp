@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/elementary_functions.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/element/kinematics.hpp"
 
@@ -21,23 +22,26 @@ constexpr int kLeastDemSteps = 2;
 /// Explicit steps of a case: more would not end.
 constexpr double kMostExplicitSteps = 1e8;
 
-double smallest_element(const fem::Mesh& mesh) {
+/// Length of the side of a square or a cube as large as the smallest element, m.
+template <int dim>
+double smallest_element(const fem::Mesh<dim>& mesh) {
   double least = HUGE_VAL;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     double volume = 0.0;
-    for (const fem::PointGeometry& point :
-         fem::point_geometries(*mesh.elements[e].type, mesh.element_positions(static_cast<int>(e))))
+    for (const fem::PointGeometry<dim>& point :
+         fem::point_geometries<dim>(*mesh.elements[e].type, mesh.element_positions(static_cast<int>(e))))
       volume += point.volume;
     least = std::min(least, volume);
   }
-  return std::sqrt(least);
+  return dim == 2 ? std::sqrt(least) : power(least, 1.0 / 3.0);
 }
 
 /// The longest way of a boundary between two times, m.
-double longest_way(const fem::Problem& problem, double start, double end) {
+template <int dim>
+double longest_way(const fem::Problem<dim>& problem, double start, double end) {
   double longest = 0.0;
-  for (const fem::PrescribedDof& item : problem.prescribed) {
-    if (item.dof == fem::Dof::w || !problem.mesh.has_nodes_on(item.on)) continue;
+  for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
+    if (fem::is_rotation(item.dof) || !problem.mesh.has_nodes_on(item.on)) continue;
     double factor = item.profile ? 0.0 : 1.0;
     if (item.profile)
       for (const int node : problem.mesh.nodes_on(item.on))
@@ -67,7 +71,8 @@ void read_explicit(Section& steps, CaseParts& parts) {
   if (given > 0 && steps.find("pace") != nullptr)
     steps.fault("pace", "pace: `explicit_steps` says it already; leave one of them out");
   const double end = result.plan.empty() ? 0.0 : result.plan.back().amount;
-  const double size = parts.has_mesh ? smallest_element(result.problem.mesh) : 1.0;
+  const double size =
+      parts.has_mesh ? result.with_problem([](const auto& problem) { return smallest_element(problem.mesh); }) : 1.0;
   double time = 0.0;
   double all = 0.0;
   for (StepTarget& target : result.plan) {
@@ -75,7 +80,8 @@ void read_explicit(Section& steps, CaseParts& parts) {
       steps.fault("method", "method: explicit steps follow the time; give the stages `until`, or use newton");
       return;
     }
-    const double way = longest_way(result.problem, time, target.amount);
+    const double way = result.with_problem(
+        [&](const auto& problem) { return longest_way(problem, time, target.amount); });
     const double wanted =
         given > 0 ? std::round(given * (target.amount - time) / end) : std::ceil(way / (pace * size));
     if (given == 0 && way == 0.0 && parts.has_mesh) {

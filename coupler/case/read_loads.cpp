@@ -31,14 +31,14 @@ fem::TimeTable time_table(Section& section, const std::string& key, Dimension di
   return points.empty() ? fem::TimeTable::constant(0.0) : fem::TimeTable(std::move(points));
 }
 
-/// Calls take(dof, table) for each of u1, u2, w that the map below `key` gives. @returns whether it is there
+/// Calls take(dof, table) for each unknown of a node that the map below `key` gives. @returns whether it is there
 bool dof_tables(Section& section, const std::string& key, const std::function<Dimension(fem::Dof)>& dimension,
-                Single single, Faults& faults,
+                Single single, CaseParts& parts,
                 const std::function<void(fem::Dof, const fem::TimeTable&)>& take) {
   const Entry* entry = section.find(key);
   if (entry == nullptr) return false;
-  Section values(*entry, section.name() + ": " + key, faults);
-  for (const std::string& name : dof_names()) {
+  Section values(*entry, section.name() + ": " + key, parts.faults);
+  for (const std::string& name : dof_names(parts.result.dimension())) {
     if (values.find(name) == nullptr) continue;
     const fem::Dof dof = dof_of(name);
     take(dof, time_table(values, name, dimension(dof), single));
@@ -48,16 +48,18 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
 }
 
 bool read_supports(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
-  std::vector<fem::PrescribedDof>& prescribed = parts.result.problem.prescribed;
   const auto prescribe = [&](fem::Dof dof, const fem::TimeTable& value) {
-    for (const std::string& place : places) prescribed.push_back({place, dof, value, {}});
+    parts.result.with_problem([&](auto& problem) {
+      for (const std::string& place : places) problem.prescribed.push_back({place, dof, value, {}});
+    });
   };
-  bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts.faults, prescribe);
+  bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts, prescribe);
   if (item.find("fix") == nullptr) return found;
-  for (const std::string& name : item.words("fix", "a list of u1, u2, w")) {
-    if (std::find(dof_names().begin(), dof_names().end(), name) == dof_names().end()) {
-      const std::string guess = nearest(name, dof_names());
-      item.fault("fix", fmt::format("fix: expected u1, u2 or w, found '{}'{}", name,
+  const std::vector<std::string>& known = dof_names(parts.result.dimension());
+  for (const std::string& name : item.words("fix", "a list of " + listed(known))) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string guess = nearest(name, known);
+      item.fault("fix", fmt::format("fix: expected one of {}, found '{}'{}", listed(known), name,
                                     guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     } else {
       prescribe(dof_of(name), fem::TimeTable::constant(0.0));
@@ -66,37 +68,39 @@ bool read_supports(Section& item, const std::vector<std::string>& places, CasePa
   return true;
 }
 
+template <int dim>
 bool read_tractions(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
-  fem::EdgeLoad load;
+  fem::BoundaryLoad<dim> load;
   const bool pressure = item.find("pressure") != nullptr;
   if (pressure) load.pressure = time_table(item, "pressure", Dimension::pressure, Single::constant);
   const auto dimension = [](fem::Dof dof) {
-    return dof == fem::Dof::w ? Dimension::force_per_length : Dimension::pressure;
+    return fem::is_rotation(dof) ? Dimension::force_per_length : Dimension::pressure;
   };
-  const bool traction = dof_tables(item, "traction", dimension, Single::constant, parts.faults,
-                                   [&](fem::Dof dof, const fem::TimeTable& value) {
-                                     (dof == fem::Dof::u1   ? load.traction1
-                                      : dof == fem::Dof::u2 ? load.traction2
-                                                            : load.couple_traction) = value;
-                                   });
+  const bool traction =
+      dof_tables(item, "traction", dimension, Single::constant, parts, [&](fem::Dof dof, const fem::TimeTable& value) {
+        const auto place = static_cast<std::size_t>(fem::place_of<dim>(dof));
+        (fem::is_rotation(dof) ? load.couple_traction[place - dim] : load.traction[place]) = value;
+      });
   if (!pressure && !traction) return false;
   for (const std::string& place : places) {
     load.on = place;
-    parts.result.problem.edge_loads.push_back(load);
+    parts.result.problem_of<dim>().boundary_loads.push_back(load);
   }
   parts.check_places(item, "on", places, pressure ? "a pressure" : "a traction");
   return true;
 }
 
 bool read_node_forces(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
-  const auto dimension = [](fem::Dof dof) {
-    return dof == fem::Dof::w ? Dimension::force : Dimension::force_per_length;
+  const bool space = parts.result.dimension() == 3;
+  const auto dimension = [space](fem::Dof dof) {
+    if (space) return fem::is_rotation(dof) ? Dimension::moment : Dimension::force;
+    return fem::is_rotation(dof) ? Dimension::force : Dimension::force_per_length;
   };
-  return dof_tables(item, "node_force", dimension, Single::constant, parts.faults,
+  return dof_tables(item, "node_force", dimension, Single::constant, parts,
                     [&](fem::Dof dof, const fem::TimeTable& value) {
-                      for (const std::string& place : places) {
-                        parts.result.problem.node_loads.push_back({place, dof, value});
-                      }
+                      parts.result.with_problem([&](auto& problem) {
+                        for (const std::string& place : places) problem.node_loads.push_back({place, dof, value});
+                      });
                     });
 }
 
@@ -107,11 +111,13 @@ bool read_tie(Section& item, const std::vector<std::string>& places, CaseParts& 
   if (places.size() > 1) item.fault("on", "on: a tie joins one boundary to one other; give one name");
   if (places.size() != 1 || to.empty() || !parts.has_mesh) return true;
   const fem::Tie tie{places.front(), to};
-  if (const std::string message = tied_nodes(parts.result.problem.mesh, tie).fault; !message.empty()) {
-    item.fault("tie", "tie: " + message);
-  } else {
-    parts.result.problem.ties.push_back(tie);
-  }
+  parts.result.with_problem([&](auto& problem) {
+    if (const std::string message = fem::tied_nodes(problem.mesh, tie).fault; !message.empty()) {
+      item.fault("tie", "tie: " + message);
+    } else {
+      problem.ties.push_back(tie);
+    }
+  });
   return true;
 }
 
@@ -120,7 +126,8 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
   const std::vector<std::string> places =
       item.words("on", "the name of a boundary or node set, or a list of them");
   const bool supports = read_supports(item, places, parts);
-  const bool tractions = read_tractions(item, places, parts);
+  const bool tractions =
+      parts.result.space ? read_tractions<3>(item, places, parts) : read_tractions<2>(item, places, parts);
   const bool forces = read_node_forces(item, places, parts);
   const bool tie = read_tie(item, places, parts);
   item.finish();
@@ -138,6 +145,7 @@ bool is_list(const Entry& entry, const std::string& key, const std::string& exam
   return false;
 }
 
+template <int dim>
 void read_body_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
   const std::string region = parts.region(item, "region");
@@ -152,16 +160,25 @@ void read_body_item(const Entry& entry, const std::string& name, CaseParts& part
         ": expected either 'unit_weight', for example 18 kN/m3, or 'force', a list of its two components"));
   } else if (weight) {
     const double value = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
-    parts.result.problem.body_loads.push_back(fem::gravity(value, factor, region));
+    parts.result.problem_of<dim>().body_loads.push_back(fem::gravity<dim>(value, factor, region));
   } else {
-    const std::vector<double> b = item.quantities("force", 2, Dimension::unit_weight, Limit::any);
-    const Eigen::Vector3d density(b[0], b[1], 0.0);
-    parts.result.problem.body_loads.push_back(
-        {[density](const Eigen::Vector2d&) { return density; }, factor, region});
+    const std::vector<double> b = item.quantities("force", dim, Dimension::unit_weight, Limit::any);
+    typename Cosserat<dim>::NodeValues density = Cosserat<dim>::NodeValues::Zero();
+    for (int i = 0; i < dim; ++i) density(i) = b[static_cast<std::size_t>(i)];
+    parts.result.problem_of<dim>().body_loads.push_back(
+        {[density](const typename Cosserat<dim>::Place&) { return density; }, factor, region});
   }
   item.finish();
 }
 
+/// Indices of the components of a given initial stress, in their order.
+template <int dim>
+std::vector<std::pair<int, int>> given_components() {
+  if constexpr (dim == 2) return {{0, 0}, {1, 1}, {2, 2}, {0, 1}};
+  return {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+}
+
+template <int dim>
 void read_initial_stress_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
   const std::string region = parts.region(item, "region");
@@ -171,21 +188,27 @@ void read_initial_stress_item(const Entry& entry, const std::string& name, CaseP
     parts.faults.push_back(entry.fault(name + ": expected either 'stress', a list of s11, s22, s33, s12, or "
                                               "'surface', the height of level ground"));
   } else if (given) {
-    const std::vector<double> s = item.quantities("stress", 4, Dimension::pressure, Limit::any);
-    Vector7 stress = Vector7::Zero();
-    stress(k11) = s[0];
-    stress(k22) = s[1];
-    stress(k33) = s[2];
-    stress(k12) = stress(k21) = s[3];
-    parts.result.problem.initial_stresses.push_back(
-        {[stress](const Eigen::Vector2d&) { return stress; }, region});
+    using Counts = Cosserat<dim>;
+    const auto components = given_components<dim>();
+    const std::vector<double> s = item.quantities("stress", components.size(), Dimension::pressure, Limit::any);
+    typename Counts::Vector stress = Counts::Vector::Zero();
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      const auto [i, j] = components[k];
+      if (i == 2 && dim == 2) {
+        stress(k33) = s[k];
+        continue;
+      }
+      stress(Counts::stress_place(i, j)) = stress(Counts::stress_place(j, i)) = s[k];
+    }
+    parts.result.problem_of<dim>().initial_stresses.push_back(
+        {[stress](const typename Counts::Place&) { return stress; }, region});
   } else {
     fem::Ground level;
     level.surface_height = item.quantity("surface", Dimension::length, Limit::any);
     level.unit_weight = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
     level.earth_pressure_ratio = item.quantity("K0", Dimension::number, Limit::not_negative);
     level.surcharge = item.quantity_or("surcharge", Dimension::pressure, Limit::any, 0.0);
-    parts.result.problem.initial_stresses.push_back(fem::geostatic_stress(level, region));
+    parts.result.problem_of<dim>().initial_stresses.push_back(fem::geostatic_stress<dim>(level, region));
   }
   item.finish();
 }
@@ -199,9 +222,10 @@ void read_boundary(const Entry& entry, CaseParts& parts) {
     read_boundary_item(entry.items[i], fmt::format("boundary item {}", i + 1), parts);
   }
   if (!parts.has_mesh || parts.faults.size() != faults_before) return;
-  const fem::Problem& problem = parts.result.problem;
-  for (const std::string& motion :
-       fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {
+  const std::vector<std::string> motions = parts.result.with_problem([](const auto& problem) {
+    return fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties);
+  });
+  for (const std::string& motion : motions) {
     parts.faults.push_back(
         entry.fault(fmt::format("boundary: nothing holds the body against a rigid motion ({}); fix or move a "
                                 "displacement that stops it",
@@ -212,7 +236,8 @@ void read_boundary(const Entry& entry, CaseParts& parts) {
 void read_body_loads(const Entry& entry, CaseParts& parts) {
   if (!is_list(entry, "body", "{unit_weight: 18 kN/m3}", parts.faults)) return;
   for (std::size_t i = 0; i < entry.items.size(); ++i) {
-    read_body_item(entry.items[i], fmt::format("body item {}", i + 1), parts);
+    const std::string name = fmt::format("body item {}", i + 1);
+    parts.result.space ? read_body_item<3>(entry.items[i], name, parts) : read_body_item<2>(entry.items[i], name, parts);
   }
 }
 
@@ -220,7 +245,9 @@ void read_initial_stress(const Entry& entry, CaseParts& parts) {
   const std::string example = "{surface: 10 m, unit_weight: 18 kN/m3, K0: 0.5}";
   if (!is_list(entry, "initial_stress", example, parts.faults)) return;
   for (std::size_t i = 0; i < entry.items.size(); ++i) {
-    read_initial_stress_item(entry.items[i], fmt::format("initial_stress item {}", i + 1), parts);
+    const std::string name = fmt::format("initial_stress item {}", i + 1);
+    parts.result.space ? read_initial_stress_item<3>(entry.items[i], name, parts)
+                       : read_initial_stress_item<2>(entry.items[i], name, parts);
   }
 }
 

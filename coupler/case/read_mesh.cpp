@@ -5,17 +5,19 @@
 
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/parts.hpp"
+#include "fem/mesh/box.hpp"
 #include "fem/mesh/gmsh.hpp"
 #include "fem/mesh/rectangle.hpp"
 
 namespace polargrain::coupler {
 namespace {
 
-/// Divides the elements into the region `patch`, whose centres lie within `size` of the lower left corner,
-/// and the region `rest`.
-void make_patch(const Eigen::Vector2d& size, Section& section, fem::Mesh& mesh) {
+/// Divides the elements into the region `patch`, whose centres lie within `size` of the lower left corner (in space: and
+/// front), and the region `rest`.
+template <int dim>
+void make_patch(const typename Cosserat<dim>::Place& size, Section& section, fem::Mesh<dim>& mesh) {
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
-    const Eigen::Vector2d centre = mesh.element_positions(e).colwise().mean();
+    const typename Cosserat<dim>::Place centre = mesh.element_positions(e).colwise().mean();
     mesh.regions[(centre.array() < size.array()).all() ? "patch" : "rest"].push_back(e);
   }
   if (mesh.regions.count("patch") == 0 || mesh.regions.count("rest") == 0) {
@@ -27,7 +29,7 @@ void make_patch(const Eigen::Vector2d& size, Section& section, fem::Mesh& mesh) 
 
 /// Makes node sets of the rows of nodes at given heights.
 void make_levels(const Entry& entry, CaseParts& parts) {
-  fem::Mesh& mesh = parts.result.problem.mesh;
+  fem::Mesh<2>& mesh = parts.result.problem.mesh;
   Section levels(entry, "mesh.rectangle.levels", parts.faults);
   for (const Entry::Member& member : entry.members) {
     const double height = levels.quantity(member.key, Dimension::length, Limit::not_negative);
@@ -84,9 +86,41 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   check_number(section, specification);
   if (parts.faults.size() == faults_before && !element.empty()) {
     parts.result.problem.mesh = fem::rectangle(specification, element);
-    if (has_patch) make_patch(patch, section, parts.result.problem.mesh);
+    if (has_patch) make_patch<2>(patch, section, parts.result.problem.mesh);
     if (levels != nullptr) make_levels(*levels, parts);
   }
+}
+
+/// The same of a box: a million elements H20R would never be solved on one machine.
+constexpr double kMostElementsInSpace = 1e5;
+constexpr double kBytesOfElementInSpace = 1e6;
+
+void read_box(const Entry& entry, const std::string& element, CaseParts& parts) {
+  const std::size_t faults_before = parts.faults.size();
+  Section section(entry, "mesh.box", parts.faults);
+  fem::BoxSpecification specification{};
+  const std::vector<double> size = section.quantities("size", 3, Dimension::length, Limit::positive);
+  const std::vector<int> elements = section.wholes("elements", 3, 1);
+  double count = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    specification.size[i] = size[i];
+    specification.elements[i] = elements[i];
+    count *= elements[i];
+  }
+  Eigen::Vector3d patch = Eigen::Vector3d::Zero();
+  const bool has_patch = section.find("patch") != nullptr;
+  if (has_patch) {
+    const std::vector<double> corner = section.quantities("patch", 3, Dimension::length, Limit::positive);
+    patch << corner[0], corner[1], corner[2];
+  }
+  section.finish();
+  if (count > kMostElementsInSpace)
+    section.fault("elements",
+                  fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken",
+                              count, 1e-9 * kBytesOfElementInSpace * count, kMostElementsInSpace));
+  if (parts.faults.size() != faults_before || element.empty()) return;
+  parts.result.space->mesh = fem::box(specification, element);
+  if (has_patch) make_patch<3>(patch, section, parts.result.space->mesh);
 }
 
 void read_file(Section& mesh, const std::string& element, CaseParts& parts) {
@@ -121,18 +155,24 @@ void read_file(Section& mesh, const std::string& element, CaseParts& parts) {
 void read_mesh(const Entry& entry, CaseParts& parts) {
   const std::size_t faults_before = parts.faults.size();
   Section mesh(entry, "mesh", parts.faults);
-  const std::string element = mesh.choice_or("element", fem::element_names(), "Q8R");
   const Entry* rectangle = mesh.find("rectangle");
+  const Entry* box = mesh.find("box");
+  if (box != nullptr) parts.result.space.emplace();
+  const std::string element =
+      box != nullptr ? mesh.choice_or("element", fem::element_names<3>(), fem::element_names<3>().front())
+                     : mesh.choice_or("element", fem::element_names<2>(), fem::element_names<2>().front());
   const bool file = mesh.find("file") != nullptr;
-  if (rectangle != nullptr && file) {
-    mesh.fault("file", "either a file or a rectangle; remove one of them");
+  if ((rectangle != nullptr) + (box != nullptr) + file > 1) {
+    mesh.fault(file ? "file" : "box", "give one of a rectangle, a box and a file; remove the others");
+  } else if (box != nullptr) {
+    read_box(*box, element, parts);
   } else if (rectangle != nullptr) {
     read_rectangle(*rectangle, element, parts);
   } else if (file) {
     read_file(mesh, element, parts);
   } else if (entry.kind == Entry::Kind::map) {
     parts.faults.push_back(
-        entry.fault("mesh: the key 'rectangle' is missing; give a map with size and elements, or a 'file'"));
+        entry.fault("mesh: the key 'rectangle' is missing; give a map with size and elements, a 'box' in space, or a 'file'"));
   }
   mesh.finish();
   parts.has_mesh = parts.faults.size() == faults_before;

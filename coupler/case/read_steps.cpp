@@ -31,14 +31,15 @@ fem::DisplacementMeasure read_measure(const Entry& entry, const std::string& nam
   fem::DisplacementMeasure measure;
   const std::string on = section.text("on", "the name of a boundary or node set");
   const std::string from = section.text_or("from", "");
-  const std::string dof = section.choice("displacement", dof_names());
+  const std::string dof = section.choice("displacement", dof_names(parts.result.dimension()));
   section.finish();
-  const fem::Mesh& mesh = parts.result.problem.mesh;
   const auto add_mean = [&](const std::string& key, const std::string& place, double sign) {
     if (place.empty()) return;
     parts.check_places(section, key, {place});
-    if (!parts.has_mesh || !mesh.has_nodes_on(place) || dof.empty()) return;
-    const std::vector<int> nodes = mesh.nodes_on(place);
+    const bool known = parts.result.with_problem([&](const auto& problem) { return problem.mesh.has_nodes_on(place); });
+    if (!parts.has_mesh || !known || dof.empty()) return;
+    const std::vector<int> nodes =
+        parts.result.with_problem([&](const auto& problem) { return problem.mesh.nodes_on(place); });
     for (const int node : nodes) {
       measure.terms.push_back({node, dof_of(dof), sign / static_cast<double>(nodes.size())});
     }

@@ -3,23 +3,23 @@
 
 namespace polargrain::coupler {
 
-bool is_zero(const Increment& increment) {
+bool is_zero(const Increment<2>& increment) {
   return increment.displacement_gradient.isZero(0.0) && increment.micro_rotation == 0.0 &&
          increment.curvature.isZero(0.0);
 }
 
-Increment increment_for_cell(const Increment& of_point) {
+Increment<2> increment_for_cell(const Increment<2>& of_point) {
   if (of_point.configuration == Configuration::start) return of_point;
   const Eigen::Matrix2d& h = of_point.displacement_gradient;
   const double rotation = 0.5 * (h(1, 0) - h(0, 1));
-  Increment straight = of_point;
+  Increment<2> straight = of_point;
   straight.displacement_gradient = 0.5 * (h + h.transpose());
   straight.micro_rotation -= rotation;
   return straight;
 }
 
-Increment increment_for_free_cell(const Increment& of_point) {
-  Increment felt;
+Increment<2> increment_for_free_cell(const Increment<2>& of_point) {
+  Increment<2> felt;
   felt.displacement_gradient = increment_for_cell(of_point).displacement_gradient;
   felt.configuration = of_point.configuration;
   return felt;

@@ -4,16 +4,16 @@
 
 namespace polargrain::coupler {
 
-bool is_zero(const Increment& increment);
+bool is_zero(const Increment<2>& increment);
 
 /// The increment that the cell of a point follows. In large deformation the increment as it is: the box turns, and its stress
 /// with it. In small deformation no stress turns with the continuum, so the box
 /// gets the symmetric part of the gradient, and its grains the micro-rotation against the rotation left out
 /// (docs/theory/solver.md, small and large deformation).
-Increment increment_for_cell(const Increment& of_point);
+Increment<2> increment_for_cell(const Increment<2>& of_point);
 
 /// The same for a cell whose grains turn as they like: they feel no micro-rotation and no curvature, which may go far where
 /// nothing resists them.
-Increment increment_for_free_cell(const Increment& of_point);
+Increment<2> increment_for_free_cell(const Increment<2>& of_point);
 
 }  // namespace polargrain::coupler

@@ -71,7 +71,7 @@ struct Pushed {
 
 /// @param going the ways to go
 Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
-              const std::array<Increment, kWays>& increments, std::vector<std::size_t> going) {
+              const std::array<Increment<2>, kWays>& increments, std::vector<std::size_t> going) {
   Pushed found;
   std::vector<PlaneReply> at(kWays, packing);
   for (int k = 0; k < kIncrements && !going.empty(); ++k) {
@@ -83,7 +83,7 @@ Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
     for (std::size_t r = 0; r < going.size(); ++r) {
       const std::size_t way = going[r];
       at[way] = std::move(replies[r]);
-      const Response& response = at[way].response;
+      const Response<2>& response = at[way].response;
       if (response.quality == Quality::failed) {
         found.fault[way] = response.message;
         continue;
@@ -98,8 +98,8 @@ Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
   return found;
 }
 
-std::array<Increment, kWays> increments_to_limits(double mean_diameter) {
-  std::array<Increment, kWays> increments;
+std::array<Increment<2>, kWays> increments_to_limits(double mean_diameter) {
+  std::array<Increment<2>, kWays> increments;
   increments[kSheared].displacement_gradient << kCompression, 0.0, 0.0, -kCompression;
   increments[kTurned].micro_rotation = kRotation;
   if (mean_diameter > 0.0) increments[kBent].curvature << kBending / mean_diameter, 0.0;
@@ -110,7 +110,7 @@ std::array<Increment, kWays> increments_to_limits(double mean_diameter) {
 
 CellLimits limits_without_bending(const CellCalls& to_shear, const PlaneReply& at_rest,
                                   const CellCalls& to_turn, const PlaneReply& at_rest_to_turn) {
-  const std::array<Increment, kWays> increments = increments_to_limits(0.0);
+  const std::array<Increment<2>, kWays> increments = increments_to_limits(0.0);
   const Pushed sheared = pushed(to_shear, at_rest, increments, {kSheared});
   const Pushed turned = pushed(to_turn, at_rest_to_turn, increments, {kTurned});
   const auto why_not = [](const Pushed& found, std::size_t way) -> std::string {

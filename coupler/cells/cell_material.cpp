@@ -25,7 +25,7 @@ void CellMaterial::allocate(std::size_t points) {
   trial_ = committed_;
 }
 
-void CellMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+void CellMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
   std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {

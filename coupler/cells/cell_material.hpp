@@ -19,7 +19,7 @@ namespace polargrain::coupler {
 /// A material whose stress comes from boxes of grains, one a point, evaluated by the workers of a pool. Cells
 /// with free rotations give the symmetric stress; skew stress and couple stresses are those of the Cosserat
 /// part (cosserat_part.hpp). Cells with controlled rotations give everything.
-class CellMaterial : public fem::Material, public GrainsOfPoints {
+class CellMaterial : public fem::Material<2>, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -31,7 +31,7 @@ class CellMaterial : public fem::Material, public GrainsOfPoints {
   void allocate(std::size_t points) override;
   /// Sends the increments of all points to the pool at once. A point whose increment is zero keeps its
   /// committed answer: nothing has happened to its grains.
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
   /// Collects the states of the cells.
   void commit() override;
   void revert() override { trial_ = committed_; }

@@ -25,7 +25,7 @@ Matrix7 symmetric_tangent(const Matrix7& cell) {
   return tangent;
 }
 
-bool limit_skew(Response& response, double skew_limit, double modulus) {
+bool limit_skew(Response<2>& response, double skew_limit, double modulus) {
   const double pressure = pressure_in_plane(response.stress);
   const double limit = skew_limit * std::max(0.0, pressure);
   const double trial = response.stress[k21] - response.stress[k12];
@@ -49,7 +49,7 @@ bool limit_skew(Response& response, double skew_limit, double modulus) {
 namespace {
 
 /// The same of the couple stress.
-void limit_couple(Response& response, double length, double modulus) {
+void limit_couple(Response<2>& response, double length, double modulus) {
   const double pressure = pressure_in_plane(response.stress);
   const double limit = length * std::max(0.0, pressure);
   const Eigen::Vector2d couple_stress = response.stress.tail<2>();
@@ -75,16 +75,16 @@ double share_of_limit(double stress, std::optional<double> limit, double pressur
 
 }  // namespace
 
-Response CosseratPart::follow(const Increment& increment, const Response& cell,
+Response<2> CosseratPart::follow(const Increment<2>& increment, const Response<2>& cell,
                               const CosseratParameters& cosserat, double kept) {
-  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increment);
   const Vector7 strain = step.stretch.strain();
   const double couple_modulus = contacts_kept * cosserat.couple_modulus();
   skew_stress += 2.0 * contacts_kept * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
   couple_stress += couple_modulus * step.stretch.curvature;                                            // A.4
   if (increment.configuration != Configuration::fixed)
-    couple_stress = fem::rotated(couple_stress, step.angle);
-  Response response = joined_to(cell, cosserat);
+    couple_stress = fem::rotated(couple_stress, step.turn);
+  Response<2> response = joined_to(cell, cosserat);
   if (response.quality == Quality::failed) return response;
   if (cosserat.skew_limit) limit_skew(response, *cosserat.skew_limit, cosserat.cosserat_shear_modulus);
   if (cosserat.plastic_length) limit_couple(response, *cosserat.plastic_length, couple_modulus);
@@ -105,8 +105,8 @@ void CosseratPart::keep_within(const CosseratParameters& cosserat, double new_pr
   if (trial > limit) couple_stress = limit * (couple_stress / trial);
 }
 
-Response CosseratPart::joined_to(const Response& cell, const CosseratParameters& cosserat) const {
-  Response response = cell;
+Response<2> CosseratPart::joined_to(const Response<2>& cell, const CosseratParameters& cosserat) const {
+  Response<2> response = cell;
   if (response.quality == Quality::failed) return response;
   response.stress = symmetric_part(response.stress);
   response.stress[k12] -= 0.5 * skew_stress;

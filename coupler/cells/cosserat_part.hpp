@@ -57,10 +57,10 @@ struct CosseratPart {
 
   /// Goes along an increment. @param cell the answer of the cell to it @param kept contacts of the cell now over those
   /// of its packing @returns the answer of the point, as joined_to, with the tangent of the stresses that are at their limits
-  Response follow(const Increment& increment, const Response& cell, const CosseratParameters& cosserat,
+  Response<2> follow(const Increment<2>& increment, const Response<2>& cell, const CosseratParameters& cosserat,
                   double kept);
   /// The answer of a point where nothing has happened: the symmetric part of the answer of its cell, with this part.
-  [[nodiscard]] Response joined_to(const Response& cell, const CosseratParameters& cosserat) const;
+  [[nodiscard]] Response<2> joined_to(const Response<2>& cell, const CosseratParameters& cosserat) const;
   /// Reduces both stresses to the limits of a cell under `pressure` (Pa).
   void keep_within(const CosseratParameters& cosserat, double new_pressure);
 
@@ -88,7 +88,7 @@ inline double pressure_in_plane(const Vector7& stress) {
 /// Returns the skew stress of an answer to its limit, if it is beyond, and gives the tangent the rows of that.
 /// @param skew_limit |s21 - s12| over the pressure @param modulus Gc of the packing, Pa, of which the tangent keeps kHold
 /// @returns whether it was beyond
-bool limit_skew(Response& response, double skew_limit, double modulus);
+bool limit_skew(Response<2>& response, double skew_limit, double modulus);
 
 /// The symmetric part of a stress or a strain, without couples or curvatures: the answer and the strain of a cell with free
 /// rotations.

@@ -24,7 +24,7 @@ namespace {
 constexpr int kMostParts = 16;
 
 /// @param part 0 to parts - 1
-Increment part_of(Increment increment, int part, int parts) {
+Increment<2> part_of(Increment<2> increment, int part, int parts) {
   if (increment.configuration != Configuration::fixed && parts > 1)
     return offset_between(share_of(increment, static_cast<double>(part) / parts),
                           share_of(increment, static_cast<double>(part + 1) / parts));
@@ -36,9 +36,9 @@ Increment part_of(Increment increment, int part, int parts) {
 
 /// The same return with friction as a straight line through its values at both ends of the step: stress and
 /// state stay, the tangent sees the hardening. A frozen cone alone would let Newton's method overshoot.
-void add_hardening(const fem::ElastoplasticFrame& frame, const fem::FrozenCone& before,
-                   const fem::FrozenCone& after, const fem::ElastoplasticState& start,
-                   const Increment& increment, const fem::ElastoplasticState& end, Response& response) {
+void add_hardening(const fem::ElastoplasticFrame<2>& frame, const fem::FrozenCone& before,
+                   const fem::FrozenCone& after, const fem::ElastoplasticState<2>& start,
+                   const Increment<2>& increment, const fem::ElastoplasticState<2>& end, Response<2>& response) {
   const double step = end.gamma_p - start.gamma_p;
   if (end.regime != fem::Regime::smooth || !(step > 1e-12 * (1.0 + end.gamma_p)) ||
       before.friction == after.friction)
@@ -48,15 +48,15 @@ void add_hardening(const fem::ElastoplasticFrame& frame, const fem::FrozenCone& 
       PiecewiseLinear({{start.gamma_p, before.friction},
                        {start.gamma_p + 2.0 * step, 2.0 * after.friction - before.friction}}),
       PiecewiseLinear(after.dilatancy), PiecewiseLinear(after.cohesion)};
-  fem::ElastoplasticState same;
-  const Response hardening = fem::integrate_elastoplastic(frame, cone, start, increment, same);
+  fem::ElastoplasticState<2> same;
+  const Response<2> hardening = fem::integrate_elastoplastic(frame, cone, start, increment, same);
   if (hardening.quality == Quality::good && same.regime == fem::Regime::smooth) {
     response.tangent = hardening.tangent;
   }
 }
 
 /// The answer of a law, and where the law is, turned to the axes of the end of a step.
-Response turned(const Response& response, fem::ElastoplasticState& end, double angle) {
+Response<2> turned(const Response<2>& response, fem::ElastoplasticState<2>& end, double angle) {
   end.scaled_stress = fem::rotated(end.scaled_stress, angle);
   return fem::rotated(response, angle);
 }
@@ -137,7 +137,7 @@ InformedMaterial::InformedMaterial(CellCalls calls, const InformedParameters& pa
       frame_{fem::SubspaceModuli(parameters.elastic, parameters.weights.value_or(fem::InvariantWeights{})),
              parameters.elastic.internal_length, 1e-3} {
   if (!note.empty()) notes_.push_back(note);
-  const fem::ElasticParameters& elastic = parameters.elastic;
+  const fem::ElasticParameters<2>& elastic = parameters.elastic;
   own_rules_ = {
       {elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio)), elastic.cosserat_shear_modulus,
        elastic.internal_length, parameters.plastic_length, parameters.skew_limit},
@@ -165,14 +165,14 @@ void InformedMaterial::allocate(std::size_t points) {
   start.held_friction = start.mobilisation.cone.friction;
   committed_.assign(points, start);
   trial_ = committed_;
-  increments_.assign(points, Increment{});
+  increments_.assign(points, Increment<2>{});
 }
 
-Increment InformedMaterial::felt(const Increment& increment) const {
+Increment<2> InformedMaterial::felt(const Increment<2>& increment) const {
   return controlled() ? increment_for_cell(increment) : increment_for_free_cell(increment);
 }
 
-void InformedMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+void InformedMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
   increments_.assign(increments.begin(), increments.end());
   if (parameters_.update == InformedUpdate::frozen) {
     evaluate_frozen(increments, responses);
@@ -183,17 +183,17 @@ void InformedMaterial::evaluate(std::span<const Increment> increments, std::span
   if (may_change()) evaluate_own(increments, responses);
 }
 
-void InformedMaterial::limit_skew_of_laws(std::span<Response> responses) {
+void InformedMaterial::limit_skew_of_laws(std::span<Response<2>> responses) {
   if (controlled() || !parameters_.skew_limit) return;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
-    Response& response = responses[point];
+    Response<2>& response = responses[point];
     if (committed_[point].own.active || response.quality == Quality::failed) continue;
     if (limit_skew(response, *parameters_.skew_limit, parameters_.elastic.cosserat_shear_modulus))
       trial_[point].law.scaled_stress = scaled_stress(response.stress);
   }
 }
 
-void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::span<Response> responses) {
+void InformedMaterial::evaluate_own(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
   std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
@@ -215,8 +215,8 @@ void InformedMaterial::evaluate_own(std::span<const Increment> increments, std::
   }
 }
 
-fem::ElastoplasticFrame InformedMaterial::frame_of(std::size_t point) const {
-  fem::ElastoplasticFrame frame = frame_;
+fem::ElastoplasticFrame<2> InformedMaterial::frame_of(std::size_t point) const {
+  fem::ElastoplasticFrame<2> frame = frame_;
   if (parameters_.plastic_length) {
     // The friction at the start of the step: within it the weight stands still, and the tangent is exact.
     frame.moduli.weight[2] = couple_weight(committed_[point].mobilisation.cone.friction, frame_.length,
@@ -225,11 +225,11 @@ fem::ElastoplasticFrame InformedMaterial::frame_of(std::size_t point) const {
   return frame;
 }
 
-Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& frame,
+Response<2> InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame<2>& frame,
                                                const fem::Mobilisation& mobilisation,
-                                               const fem::ElastoplasticState& start,
-                                               const Increment& increment,
-                                               fem::ElastoplasticState& end) const {
+                                               const fem::ElastoplasticState<2>& start,
+                                               const Increment<2>& increment,
+                                               fem::ElastoplasticState<2>& end) const {
   Vector7 scale = Vector7::Ones();
   scale.tail<2>().setConstant(frame.length);
   Vector7 unscale = Vector7::Ones();
@@ -237,7 +237,7 @@ Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& fr
   const fem::UnloadingMode::Felt felt =
       mobilisation.unloading->felt(increment.strain().cwiseProduct(scale), controlled() ? 3 : 1);
   const fem::FrozenCone& cone = mobilisation.cone;
-  Response response =
+  Response<2> response =
       fem::integrate_elastoplastic(frame,
                                    {fem::PiecewiseLinear(cone.friction), fem::PiecewiseLinear(cone.dilatancy),
                                     fem::PiecewiseLinear(cone.cohesion)},
@@ -246,19 +246,19 @@ Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& fr
   return response;
 }
 
-Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
-  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
-  fem::ElastoplasticState& end = trial_[point].law;
-  const Response response = integrate_stretch(point, step.stretch, end);
-  return increment.configuration == Configuration::fixed ? response : turned(response, end, step.angle);
+Response<2> InformedMaterial::integrate(std::size_t point, const Increment<2>& increment) {
+  const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increment);
+  fem::ElastoplasticState<2>& end = trial_[point].law;
+  const Response<2> response = integrate_stretch(point, step.stretch, end);
+  return increment.configuration == Configuration::fixed ? response : turned(response, end, step.turn);
 }
 
-Response InformedMaterial::integrate_stretch(std::size_t point, const Increment& increment,
-                                             fem::ElastoplasticState& end) const {
+Response<2> InformedMaterial::integrate_stretch(std::size_t point, const Increment<2>& increment,
+                                             fem::ElastoplasticState<2>& end) const {
   const PointState& before = committed_[point];
   const fem::FrozenCone& cone = before.mobilisation.cone;
-  const fem::ElastoplasticState& start = before.law;
-  const fem::ElastoplasticFrame frame = frame_of(point);
+  const fem::ElastoplasticState<2>& start = before.law;
+  const fem::ElastoplasticFrame<2> frame = frame_of(point);
   if (before.mobilisation.unloading)
     return integrate_unloading(frame, before.mobilisation, start, increment, end);
   if (before.held_friction != cone.friction && before.take_up > 1e-12 * (1.0 + start.gamma_p)) {
@@ -266,33 +266,33 @@ Response InformedMaterial::integrate_stretch(std::size_t point, const Increment&
     const fem::HardeningCone taken_up{PiecewiseLinear({{start.gamma_p, before.held_friction},
                                                        {start.gamma_p + before.take_up, cone.friction}}),
                                       PiecewiseLinear(cone.dilatancy), PiecewiseLinear(cone.cohesion)};
-    Response response = fem::integrate_elastoplastic(frame, taken_up, start, increment, end);
+    Response<2> response = fem::integrate_elastoplastic(frame, taken_up, start, increment, end);
     if (response.quality == Quality::good) return response;
   }
   // Nothing to take up, or softening too steep to have one answer: at once.
   return fem::integrate_elastoplastic(frame, cone, start, increment, end);
 }
 
-Response InformedMaterial::integrate_updated(std::size_t point, const Increment& stretch,
+Response<2> InformedMaterial::integrate_updated(std::size_t point, const Increment<2>& stretch,
                                              const fem::Mobilisation& mobilisation,
-                                             fem::ElastoplasticState& end) const {
-  const fem::ElastoplasticState& start = committed_[point].law;
-  const fem::ElastoplasticFrame frame = frame_of(point);
+                                             fem::ElastoplasticState<2>& end) const {
+  const fem::ElastoplasticState<2>& start = committed_[point].law;
+  const fem::ElastoplasticFrame<2> frame = frame_of(point);
   if (mobilisation.unloading) return integrate_unloading(frame, mobilisation, start, stretch, end);
-  Response response = fem::integrate_elastoplastic(frame, mobilisation.cone, start, stretch, end);
+  Response<2> response = fem::integrate_elastoplastic(frame, mobilisation.cone, start, stretch, end);
   add_hardening(frame, committed_[point].mobilisation.cone, mobilisation.cone, start, stretch, end, response);
   return response;
 }
 
-void InformedMaterial::evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses) {
+void InformedMaterial::evaluate_frozen(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (!committed_[point].own.active) responses[point] = integrate(point, increments[point]);
   }
 }
 
-void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increments,
-                                            std::span<Response> responses) {
+void InformedMaterial::evaluate_fixed_point(std::span<const Increment<2>> increments,
+                                            std::span<Response<2>> responses) {
   // With the cone of the last step it shows which points yield at all.
   evaluate_frozen(increments, responses);
   std::vector<PlaneRequest> requests;
@@ -308,16 +308,16 @@ void InformedMaterial::evaluate_fixed_point(std::span<const Increment> increment
   const std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     const std::size_t point = points[r];
-    const Response& cell = replies[r].response;
+    const Response<2>& cell = replies[r].response;
     if (cell.quality != Quality::failed) {
       take(replies[r], increments[point], point);
-      const fem::StretchAndTurn step = fem::stretch_and_turn(increments[point]);
-      Response& response = responses[point];
-      fem::ElastoplasticState& end = trial_[point].law;
+      const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increments[point]);
+      Response<2>& response = responses[point];
+      fem::ElastoplasticState<2>& end = trial_[point].law;
       // The mobilisation has turned already; nothing that the law takes of it has a direction.
       response = integrate_updated(point, step.stretch, trial_[point].mobilisation, end);
       if (increments[point].configuration != Configuration::fixed)
-        response = turned(response, end, step.angle);
+        response = turned(response, end, step.turn);
       // Where the point yields its stress goes with the friction read from the cell, and scatters with it.
       if (end.regime != fem::Regime::elastic)
         response.noise = noise_of(trial_[point].cell, 0.5 * parameters_.mean_diameter);
@@ -454,28 +454,28 @@ void InformedMaterial::follow(const CellCalls& calls, std::span<const std::size_
   }
 }
 
-void InformedMaterial::take(const PlaneReply& reply, const Increment& increment, std::size_t point) {
+void InformedMaterial::take(const PlaneReply& reply, const Increment<2>& increment, std::size_t point) {
   PointState& trial = trial_[point];
   const PointState& before = committed_[point];
   const bool turns = increment.configuration != Configuration::fixed;
-  const fem::StretchAndTurn motion = fem::stretch_and_turn(increment);
+  const fem::StretchAndTurn<2> motion = fem::stretch_and_turn(increment);
   // All in the axes of the start of the step. The pressures of the law, which are all that is lent, are in any.
   const Vector7& answer = reply.response.stress;
-  const Vector7 after = turns ? fem::rotated(answer, -motion.angle) : answer;
+  const Vector7 after = turns ? fem::rotated(answer, -motion.turn) : answer;
   const fem::ScaledVector<double>& law = trial.law.scaled_stress;
   const fem::MicroStep step{scaled_strain(motion.stretch),
                             complete_cell_stress(before.cell.response.stress, before.law.scaled_stress),
                             complete_cell_stress(after, law), law.head<3>().sum() / 3.0,
                             trial.law.regime == fem::Regime::smooth};
   trial.mobilisation = fem::advance(before.mobilisation, step, frame_.moduli, parameters_.mobilisation);
-  if (turns) trial.mobilisation = fem::rotated(std::move(trial.mobilisation), motion.angle);
+  if (turns) trial.mobilisation = fem::rotated(std::move(trial.mobilisation), motion.turn);
   const bool frozen = parameters_.update == InformedUpdate::frozen;
   trial.held_friction = (frozen ? committed_[point] : trial).mobilisation.cone.friction;
   trial.take_up = trial.law.gamma_p - committed_[point].law.gamma_p;
   trial.cell = reply;
 }
 
-fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment& stretch) const {
+fem::ScaledVector<double> InformedMaterial::scaled_strain(const Increment<2>& stretch) const {
   if (!controlled()) return symmetric_part(stretch.strain());
   Vector7 strain = stretch.strain();
   strain.tail<2>() *= frame_.length;

@@ -31,7 +31,7 @@ enum class BeyondMismatch {
 };
 
 struct InformedParameters {
-  fem::ElasticParameters elastic;  ///< of the law; its initial stress is that of the packing
+  fem::ElasticParameters<2> elastic;  ///< of the law; its initial stress is that of the packing
   /// Of the law's invariant. Nothing: the standard ones, or, with controlled rotations, those of the cell (cell_limits.hpp).
   std::optional<fem::InvariantWeights> weights = {};
   /// lp of grains whose rotations are free, m: the law yields at couple stresses of lp times the pressure, whatever its
@@ -56,7 +56,7 @@ struct InformedParameters {
 /// dilatancy. A cell with controlled rotations follows micro-rotation and curvature too; its limits of skew and couple
 /// stress are the law's weights, and friction is read from its whole stress. The disagreement of law and cell is shown
 /// as the field stress_mismatch; where it is too large a point may go over to its cell's answer (own_answer.hpp).
-class InformedMaterial : public fem::Material, public GrainsOfPoints {
+class InformedMaterial : public fem::Material<2>, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param note remarks to the user on the parameters; may be empty
@@ -68,7 +68,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   /// Every point starts from the packing at rest, which is first taken to its limits where the weights are its own; where the cell has no out-of-plane stress, from the mean of
   /// the two others.
   void allocate(std::size_t points) override;
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
   /// Frozen: the cells now follow the step. One that has no good answer follows it in halves, quarters, ...
   /// @throws RunError when sixteenths fail too, and where law and cell disagree by more than they may.
   void commit() override;
@@ -97,7 +97,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
 
  private:
   struct PointState {
-    fem::ElastoplasticState law;
+    fem::ElastoplasticState<2> law;
     fem::Mobilisation mobilisation;
     /// The law takes a change of friction up in a straight line over the plastic shear of the step before:
     /// from `held_friction` at the start of the step to that of the cone `take_up` later.
@@ -110,38 +110,38 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   template <class Visitor>
   static void visit_numbers(Visitor& visit, PointState& point, int window);
   /// Elastic constants and weights of a point's law in this step.
-  [[nodiscard]] fem::ElastoplasticFrame frame_of(std::size_t point) const;
-  [[nodiscard]] Response integrate(std::size_t point, const Increment& increment);
+  [[nodiscard]] fem::ElastoplasticFrame<2> frame_of(std::size_t point) const;
+  [[nodiscard]] Response<2> integrate(std::size_t point, const Increment<2>& increment);
   /// A step inside of the cone, or back to it, with the stiffness and contraction that the cell shows there.
-  [[nodiscard]] Response integrate_unloading(const fem::ElastoplasticFrame& frame,
+  [[nodiscard]] Response<2> integrate_unloading(const fem::ElastoplasticFrame<2>& frame,
                                              const fem::Mobilisation& mobilisation,
-                                             const fem::ElastoplasticState& start, const Increment& increment,
-                                             fem::ElastoplasticState& end) const;
+                                             const fem::ElastoplasticState<2>& start, const Increment<2>& increment,
+                                             fem::ElastoplasticState<2>& end) const;
   /// The standard invariant leaves skew stress elastic: it returns to its limit behind the law, which goes by the same limit
   /// as the part of a cell (cosserat_part.hpp).
-  void limit_skew_of_laws(std::span<Response> responses);
+  void limit_skew_of_laws(std::span<Response<2>> responses);
   /// Skew and couple stress of a point with free rotations, for its mobilisation.
   [[nodiscard]] CosseratPart cosserat_part_of(const PointState& point) const;
   [[nodiscard]] LimitsReached reached(const PointState& point) const;
   void count_limits();
-  void evaluate_frozen(std::span<const Increment> increments, std::span<Response> responses);
-  void evaluate_fixed_point(std::span<const Increment> increments, std::span<Response> responses);
+  void evaluate_frozen(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
+  void evaluate_fixed_point(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
   /// The points that go by their cells' answers.
-  void evaluate_own(std::span<const Increment> increments, std::span<Response> responses);
+  void evaluate_own(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
   /// The answer of the law to the stretch of a step, and where it ends, in the axes of the start of the step.
-  [[nodiscard]] Response integrate_stretch(std::size_t point, const Increment& stretch,
-                                           fem::ElastoplasticState& end) const;
+  [[nodiscard]] Response<2> integrate_stretch(std::size_t point, const Increment<2>& stretch,
+                                           fem::ElastoplasticState<2>& end) const;
   /// The same with friction and dilatancy of the step itself.
-  [[nodiscard]] Response integrate_updated(std::size_t point, const Increment& stretch,
+  [[nodiscard]] Response<2> integrate_updated(std::size_t point, const Increment<2>& stretch,
                                            const fem::Mobilisation& mobilisation,
-                                           fem::ElastoplasticState& end) const;
+                                           fem::ElastoplasticState<2>& end) const;
   /// The increment that the grains of a cell feel.
-  [[nodiscard]] Increment felt(const Increment& increment) const;
+  [[nodiscard]] Increment<2> felt(const Increment<2>& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
   void follow(const CellCalls& calls, std::span<const std::size_t> points);
   /// Where law and cell disagree by more than they may, the point goes by its cell from the next step on.
   void leave_laws();
-  void take(const PlaneReply& reply, const Increment& increment, std::size_t point);
+  void take(const PlaneReply& reply, const Increment<2>& increment, std::size_t point);
   /// Norm of the difference of the in-plane stresses of law and cell, over that of the law; controlled rotations: skew
   /// stress and couple stress over lc included.
   [[nodiscard]] double mismatch(const PointState& point) const;
@@ -155,7 +155,7 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   [[nodiscard]] fem::ScaledVector<double> scaled_stress(const Vector7& stress) const;
   /// The strain that the cell feels, and its stress with the s33 it is lent by the law: scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
-  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment& stretch) const;
+  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment<2>& stretch) const;
   [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
                                                                const fem::ScaledVector<double>& law) const;
 
@@ -166,8 +166,8 @@ class InformedMaterial : public fem::Material, public GrainsOfPoints {
   bool told_of_mismatch_ = false;
   std::vector<std::string> notes_;
   InformedParameters parameters_;
-  fem::ElastoplasticFrame frame_;
-  std::vector<Increment> increments_;  ///< of the last evaluation
+  fem::ElastoplasticFrame<2> frame_;
+  std::vector<Increment<2>> increments_;  ///< of the last evaluation
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;
 };

@@ -14,7 +14,7 @@ double share_left(const OwnAnswerRules& rules, double strained) {
 }  // namespace
 
 OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneReply& reply) {
-  const Response& cell = reply.response;
+  const Response<2>& cell = reply.response;
   OwnAnswer own;
   own.active = true;
   if (!rules.controlled) {
@@ -27,15 +27,15 @@ OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneR
   return own;
 }
 
-Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment& increment,
+Response<2> own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment<2>& increment,
                     const PlaneReply& reply, OwnAnswer& end) {
-  const Response& cell = reply.response;
+  const Response<2>& cell = reply.response;
   end = start;
-  const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increment);
   Vector7 strain = step.stretch.strain();
   if (increment.configuration != Configuration::fixed) {
-    end.carried = fem::rotated(end.carried, step.angle);
-    strain = fem::rotated(strain, step.angle);
+    end.carried = fem::rotated(end.carried, step.turn);
+    strain = fem::rotated(strain, step.turn);
   }
   Vector7 scale = Vector7::Ones();
   scale.tail<2>().setConstant(rules.length);
@@ -43,7 +43,7 @@ Response own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const I
   const double size = strain.norm();
   end.strained += size;
 
-  Response response = rules.controlled ? cell
+  Response<2> response = rules.controlled ? cell
                                        : end.cosserat.follow(increment, cell, rules.cosserat,
                                                              rules.packing.kept(reply.diagnostics));
   if (response.quality == Quality::failed) return response;

@@ -13,12 +13,12 @@ namespace polargrain::coupler {
 /// The request of a point to a cell.
 struct PlaneRequest {
   StatePointer state;   ///< null: the packing
-  Increment increment;  ///< about the start of the step (increment_for_cell)
+  Increment<2> increment;  ///< about the start of the step (increment_for_cell)
 };
 
 /// The answer of a cell to a point of the plane.
 struct PlaneReply {
-  Response response;  ///< the cell's own stress and tangent
+  Response<2> response;  ///< the cell's own stress and tangent
   /// Whether the cell has a stress along e_3. Discs have none: the s33 of the response is zero then, and the material
   /// that asks puts its own there.
   bool knows_s33 = true;

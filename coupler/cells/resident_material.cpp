@@ -48,12 +48,12 @@ void ResidentMaterial::start() {
   is_settled_ = true;
 }
 
-void ResidentMaterial::evaluate(std::span<const Increment> increments, std::span<Response> responses) {
+void ResidentMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
   if (has_moved_) throw RunError("an explicit step is evaluated twice: resident boxes cannot go back");
   const bool rest = std::ranges::all_of(increments, is_zero);
   if (!rest) {
     std::vector<CellIncrement> of_boxes;
-    for (const Increment& increment : increments)
+    for (const Increment<2>& increment : increments)
       of_boxes.push_back(
           in_space(cosserat_ ? increment_for_free_cell(increment) : increment_for_cell(increment)));
     has_moved_ = true;
@@ -63,7 +63,7 @@ void ResidentMaterial::evaluate(std::span<const Increment> increments, std::span
   }
   for (std::size_t p = 0; p < points_.size(); ++p) {
     PointState& point = points_[p];
-    Response& response = responses[p];
+    Response<2>& response = responses[p];
     response = at_rest_.response;
     response.stress = point.stress;
     if (cosserat_) {

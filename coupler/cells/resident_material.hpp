@@ -26,7 +26,7 @@ namespace polargrain::coupler {
 ///
 /// Diagnostics and states are those of the last settle, but for contacts, coordination_number and
 /// unbalanced_force_ratio, which are of the present.
-class ResidentMaterial : public fem::Material, public GrainsOfPoints {
+class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define, for this material alone
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -39,7 +39,7 @@ class ResidentMaterial : public fem::Material, public GrainsOfPoints {
   void allocate(std::size_t points) override;
   /// All boxes go on, each along its increment. When all increments are zero, as for the stress at the start, nobody is
   /// asked and the last answers count. @throws RunError when boxes have moved since the last commit
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override;
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
   void commit() override;
   /// @throws RunError when boxes have moved since the last commit
   void revert() override;

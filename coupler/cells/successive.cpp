@@ -8,9 +8,9 @@
 
 namespace polargrain::coupler {
 
-Increment followed_by(const Increment& first, const Increment& second) {
+Increment<2> followed_by(const Increment<2>& first, const Increment<2>& second) {
   const Eigen::Matrix2d& h = first.displacement_gradient;
-  Increment both;
+  Increment<2> both;
   both.displacement_gradient = h + second.displacement_gradient + second.displacement_gradient * h;
   both.micro_rotation = first.micro_rotation + second.micro_rotation;
   both.curvature = first.curvature + second.curvature + h.transpose() * second.curvature;
@@ -18,9 +18,9 @@ Increment followed_by(const Increment& first, const Increment& second) {
   return both;
 }
 
-Increment offset_between(const Increment& from, const Increment& to) {
+Increment<2> offset_between(const Increment<2>& from, const Increment<2>& to) {
   const Eigen::Matrix2d back = (Eigen::Matrix2d::Identity() + from.displacement_gradient).inverse();
-  Increment offset;
+  Increment<2> offset;
   offset.displacement_gradient = (to.displacement_gradient - from.displacement_gradient) * back;
   offset.micro_rotation = to.micro_rotation - from.micro_rotation;
   offset.curvature = back.transpose() * (to.curvature - from.curvature);
@@ -28,7 +28,7 @@ Increment offset_between(const Increment& from, const Increment& to) {
   return offset;
 }
 
-Increment share_of(const Increment& increment, double share) {
+Increment<2> share_of(const Increment<2>& increment, double share) {
   const double angle = fem::rotation_angle(increment);
   const auto [sine, cosine] = sine_and_cosine(share * angle);
   const auto [whole_sine, whole_cosine] = sine_and_cosine(angle);
@@ -37,7 +37,7 @@ Increment share_of(const Increment& increment, double share) {
   back << whole_cosine, whole_sine, -whole_sine, whole_cosine;
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d strain = back * (one + increment.displacement_gradient) - one;  // U - I
-  Increment part = increment;
+  Increment<2> part = increment;
   part.displacement_gradient = turn * (one + share * strain) - one;
   part.micro_rotation *= share;
   part.curvature *= share;

@@ -8,13 +8,13 @@ namespace polargrain::coupler {
 /// a curvature counts per position at the start of its own increment, so that the second one is pulled back by
 /// I + first; micro-rotations about one axis are added. The result is of large deformation where the last
 /// increment is.
-Increment followed_by(const Increment& first, const Increment& second);
+Increment<2> followed_by(const Increment<2>& first, const Increment<2>& second);
 
 /// The increment that leads from where `from` leads to where `to` leads.
-Increment offset_between(const Increment& from, const Increment& to);
+Increment<2> offset_between(const Increment<2>& from, const Increment<2>& to);
 
 /// Where the first part of an increment of large deformation leads to, in which its turn and its stretch grow alike.
 /// @param share 0 to 1
-Increment share_of(const Increment& increment, double share);
+Increment<2> share_of(const Increment<2>& increment, double share);
 
 }  // namespace polargrain::coupler

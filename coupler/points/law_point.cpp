@@ -5,12 +5,12 @@
 
 namespace polargrain::coupler {
 
-element::Room room_of(const fem::Material& material) {
+element::Room room_of(const fem::Material<2>& material) {
   const auto* const driven = dynamic_cast<const fem::StrainDriven*>(&material);
   return driven != nullptr && driven->takes_any_strain() ? element::Room::axes : element::Room::plane_strain;
 }
 
-LawPoint::LawPoint(std::shared_ptr<fem::Material> material, std::optional<double> pressure)
+LawPoint::LawPoint(std::shared_ptr<fem::Material<2>> material, std::optional<double> pressure)
     : material_(std::move(material)) {
   if (room_of(*material_) == element::Room::axes)
     strain_driven_ = dynamic_cast<fem::StrainDriven*>(material_.get());
@@ -23,14 +23,14 @@ LawPoint::LawPoint(std::shared_ptr<fem::Material> material, std::optional<double
 
 CellResponse LawPoint::evaluate(const CellIncrement& increment) {
   const Eigen::Matrix3d& h = increment.displacement_gradient;
-  Response response;
+  Response<2> response;
   if (strain_driven_ != nullptr) {
     Vector7 strain = Vector7::Zero();
     strain.head<3>() = h.diagonal();
     strain[k12] = strain[k21] = 0.5 * (h(0, 1) + h(1, 0));
     response = strain_driven_->evaluate_strain(strain);
   } else {
-    Increment plane;
+    Increment<2> plane;
     plane.displacement_gradient = h.topLeftCorner<2, 2>();
     plane.micro_rotation = 0.5 * (h(1, 0) - h(0, 1));
     material_->evaluate({&plane, 1}, {&response, 1});

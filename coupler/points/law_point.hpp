@@ -18,7 +18,7 @@ namespace polargrain::coupler {
 class LawPoint : public element::MaterialPoint {
  public:
   /// @param pressure isotropic stress to start from, Pa, compression positive; nothing: the material's own
-  explicit LawPoint(std::shared_ptr<fem::Material> material, std::optional<double> pressure = {});
+  explicit LawPoint(std::shared_ptr<fem::Material<2>> material, std::optional<double> pressure = {});
 
   [[nodiscard]] element::Room room() const override {
     return strain_driven_ != nullptr ? element::Room::axes : element::Room::plane_strain;
@@ -31,11 +31,11 @@ class LawPoint : public element::MaterialPoint {
   [[nodiscard]] std::vector<double> fields() const override;
 
  private:
-  std::shared_ptr<fem::Material> material_;
+  std::shared_ptr<fem::Material<2>> material_;
   fem::StrainDriven* strain_driven_ = nullptr;  ///< the same material; null: it knows the plane alone
 };
 
 /// Whether a material can be strained along e_3, before there is a point of it.
-element::Room room_of(const fem::Material& material);
+element::Room room_of(const fem::Material<2>& material);
 
 }  // namespace polargrain::coupler

@@ -40,7 +40,7 @@ class Cell final : public CellOfGrains {
  private:
   struct ResidentKind;
   /// Within the plane of the discs. @param start null: the packing
-  CellReply follow(const StatePointer& start, const Increment& increment);
+  CellReply follow(const StatePointer& start, const Increment<2>& increment);
   [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
@@ -52,7 +52,7 @@ class Cell final : public CellOfGrains {
   void run();
   /// Weights of the grains in the mean rotation, from the recorded contacts (mode 2).
   void renew_weights();
-  [[nodiscard]] double increment_size(const Increment& increment) const;
+  [[nodiscard]] double increment_size(const Increment<2>& increment) const;
   [[nodiscard]] double volume() const { return grains_->box().area() * thickness_; }
   [[nodiscard]] Equilibrium equilibrium(const GrainBox& grains) const;
   [[nodiscard]] CellDiagnostics measure(const GrainBox& grains) const;
@@ -148,7 +148,7 @@ CellReply Cell::evaluate(const CellRequest& request) {
   return reply;
 }
 
-CellReply Cell::follow(const StatePointer& start, const Increment& increment) {
+CellReply Cell::follow(const StatePointer& start, const Increment<2>& increment) {
   if (const std::optional<CellReply> astray = gone_astray(increment_size(increment))) return *astray;
   grains_->restore(start ? *start : *initial_.state);
   grains_->begin(protocol_.begin(grains_->box(), increment, driver_.strain().time_step()),
@@ -248,7 +248,7 @@ struct Cell::ResidentKind {
   }
   void go_on(Box& box, int steps, const CellIncrement& increment) const {
     if (const std::string fault = out_of_plane_fault(increment); !fault.empty()) throw RunError(fault);
-    const Increment plane = in_plane(increment);
+    const Increment<2> plane = in_plane(increment);
     box.go_on(BoxPath(box.box(), plane.displacement_gradient, steps, Pace::even),
               cell.protocol_.damping_rate(), cell.protocol_.rotation_of(plane));
     box.run(steps);
@@ -296,7 +296,7 @@ Equilibrium Cell::equilibrium(const GrainBox& grains) const {
                         grains.box().area(), driver_.grain_area());
 }
 
-double Cell::increment_size(const Increment& increment) const {
+double Cell::increment_size(const Increment<2>& increment) const {
   return std::max({increment.displacement_gradient.cwiseAbs().maxCoeff(), std::abs(increment.micro_rotation),
                    increment.curvature.norm() * 2.0 * driver_.mean_radius()});
 }
@@ -322,7 +322,7 @@ CellDiagnostics Cell::measure(const GrainBox& grains) const {
 }
 
 CellResponse Cell::respond(const GrainBox& grains, const Matrix7& tangent) const {
-  Response response = protocol_.read_out(grains.contacts(), grains.box(), thickness_);
+  Response<2> response = protocol_.read_out(grains.contacts(), grains.box(), thickness_);
   response.tangent = tangent;
   return in_space(response, KnownComponents::plane);
 }

@@ -84,7 +84,7 @@ void QuasiStatic::take_scales(const MeanGrain& grain, std::span<const Contact> a
   least_force_ = kLeastForce * mean_contact_force(at_rest);
 }
 
-BoxPath QuasiStatic::begin(const Box& box, const Increment& increment, double time_step, double reach) {
+BoxPath QuasiStatic::begin(const Box& box, const Increment<2>& increment, double time_step, double reach) {
   const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
   begin(largest_principal(whole.strain()), std::abs(increment.micro_rotation - whole.rotation()),
         increment.curvature.norm(), time_step, reach);
@@ -105,7 +105,7 @@ void QuasiStatic::begin(double strain, double turn, double curvature, double tim
   done_ = 0;
 }
 
-std::optional<RotationLoading> QuasiStatic::rotation_of(const Increment& increment) const {
+std::optional<RotationLoading> QuasiStatic::rotation_of(const Increment<2>& increment) const {
   if (!controlled()) return std::nullopt;
   return RotationLoading{increment.micro_rotation, increment.curvature};
 }
@@ -120,11 +120,11 @@ bool QuasiStatic::looks_now() const {
   return done_ == loading_ || (loaded() ? relaxed() : done_) % kChunk == 0;
 }
 
-Response QuasiStatic::read_out(std::span<const Contact> contacts, const Box& box, double thickness) const {
+Response<2> QuasiStatic::read_out(std::span<const Contact> contacts, const Box& box, double thickness) const {
   const Eigen::Matrix2d frame = box.frame();
   const double volume = box.area() * thickness;
   const Eigen::Matrix2d stress = frame * average_stress(contacts, volume) * frame.transpose();
-  Response response;
+  Response<2> response;
   response.stress(k11) = stress(0, 0);
   response.stress(k22) = stress(1, 1);
   response.stress(k12) = stress(0, 1);

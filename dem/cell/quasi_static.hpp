@@ -83,14 +83,14 @@ class QuasiStatic {
   /// Begins an increment. @param reach grains turn against each other by the curvature times this, m: 0 for their mean
   /// diameter @returns the path of the box, of as many steps as the loading has
   /// @throws RunError when that is more than 1e9
-  BoxPath begin(const Box& box, const Increment& increment, double time_step, double reach = 0.0);
+  BoxPath begin(const Box& box, const Increment<2>& increment, double time_step, double reach = 0.0);
   /// Begins an increment of any box.
   /// @param strain largest principal one, its magnitude @param turn of the grains against the continuum, rad
   /// @param curvature rad/m; where rotations are free neither it nor `turn` counts @param reach as above
   /// @throws RunError when that is more than 1e9 steps
   void begin(double strain, double turn, double curvature, double time_step, double reach = 0.0);
   /// The rotations prescribed; empty where they are free.
-  [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment& increment) const;
+  [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment<2>& increment) const;
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
 
   [[nodiscard]] int steps_to_next_look() const;
@@ -115,7 +115,7 @@ class QuasiStatic {
 
   /// Stress and couple stress of the contacts in the laboratory, without a tangent; no couple stress where rotations are
   /// free. @param thickness of the box, m
-  [[nodiscard]] Response read_out(std::span<const Contact> contacts, const Box& box, double thickness) const;
+  [[nodiscard]] Response<2> read_out(std::span<const Contact> contacts, const Box& box, double thickness) const;
 
  private:
   CellControl control_;

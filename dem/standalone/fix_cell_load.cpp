@@ -101,18 +101,18 @@ int FixCellLoad::modify_param(int count, char** words) {
   return 0;
 }
 
-Increment FixCellLoad::read_increment(int count, char** words) const {
+Increment<2> FixCellLoad::read_increment(int count, char** words) const {
   RecordValues values;
   for (int k = 0; k < count; ++k) values.numbers.push_back(force->numeric(FLERR, words[k]));
   RecordReader reader(values, "an increment", false);
-  if (count == 7) return reader.read<Increment>();
+  if (count == 7) return reader.read<Increment<2>>();
   const auto increment = reader.read<CellIncrement>();
   if (const std::string fault = out_of_plane_fault(increment); !fault.empty())
     error->all(FLERR, ("Fix cell/load: " + fault).c_str());
   return in_plane(increment);
 }
 
-void FixCellLoad::begin_increment(const Increment& increment) try {
+void FixCellLoad::begin_increment(const Increment<2>& increment) try {
   // A cell is saved and restored between two increments: that folds the box and orders the grains. Without
   // steps in between the engine's lists know nothing of the contacts yet.
   const RestoredState restored =
@@ -162,7 +162,7 @@ void FixCellLoad::renew_weights() {
 
 void FixCellLoad::look() {
   const std::vector<Contact>& contacts = recorder_.contacts;
-  const Response now = protocol_.read_out(contacts, box(), domain->boxhi[2] - domain->boxlo[2]);
+  const Response<2> now = protocol_.read_out(contacts, box(), domain->boxhi[2] - domain->boxlo[2]);
   const Unbalanced ratios = unbalanced(imbalance(), contacts, mean_.radius, protocol_.least_force());
   std::ranges::copy(now.stress, answer_.begin());
   answer_[7] = ratios.force_ratio;

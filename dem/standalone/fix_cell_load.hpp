@@ -57,8 +57,8 @@ class FixCellLoad final : public FixCellStrain {
  private:
   /// Puts a state into the engine and the box to where it was.
   RestoredState go_on_from(StatePointer state);
-  [[nodiscard]] Increment read_increment(int count, char** words) const;
-  void begin_increment(const Increment& increment);
+  [[nodiscard]] Increment<2> read_increment(int count, char** words) const;
+  void begin_increment(const Increment<2>& increment);
   void report(const char* name) const;
   void renew_weights();
   void look();

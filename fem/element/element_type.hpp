@@ -7,43 +7,61 @@
 
 namespace polargrain::fem {
 
-/// A place of the reference element and its share of the reference area.
+/// Vectors of the plane (2), of space (3) or along a line (1), a row each: positions or gradients of nodes.
+template <int dim>
+using VectorRows = Eigen::Matrix<double, Eigen::Dynamic, dim>;
+
+/// A place of the reference element and its share of the reference volume.
+template <int dim>
 struct QuadraturePoint {
-  Eigen::Vector2d position;
+  Eigen::Matrix<double, dim, 1> position;
   double weight;
 };
 
 /// Values of the shape functions of one element at one place.
+template <int dim>
 struct ShapeFunctions {
-  Eigen::VectorXd value;        ///< N_a
-  Eigen::MatrixX2d derivative;  ///< dN_a / d xi_i, a row a node
+  Eigen::VectorXd value;       ///< N_a
+  VectorRows<dim> derivative;  ///< dN_a / d xi_i, a row a node
 };
 
-/// A family of isoparametric elements: interpolation, quadrature and the data that neighbours need. Nodes run
-/// counter-clockwise, corners first, then the middle nodes of the sides in the order of the sides (the order
-/// of VTK). All of (u1, u2, w) are interpolated alike.
+template <int dim>
+struct ElementType;
+
+/// A side of an element: an edge in the plane, a face in space.
+template <int dim>
+struct ElementSide {
+  std::vector<int> nodes;            ///< local numbers, in the order of `type`
+  const ElementType<dim - 1>* type;  ///< its own interpolation; its quadrature is that of loads
+};
+
+/// A family of isoparametric elements: interpolation, quadrature and the data that neighbours need. Nodes have the order
+/// of VTK: corners first (in the plane counter-clockwise), then the middle nodes of the edges. All unknowns are interpolated
+/// alike. With dim 1: the lines that are sides of plane elements.
+template <int dim>
 struct ElementType {
   std::string name;
   int nodes;
   int corners;
   int vtk_cell_type;
-  std::vector<QuadraturePoint> quadrature;
+  std::vector<QuadraturePoint<dim>> quadrature;
   /// Reference coordinates of the nodes, in order.
-  std::vector<Eigen::Vector2d> node_positions;
-  ShapeFunctions (*shape_functions)(const Eigen::Vector2d& position);
+  std::vector<Eigen::Matrix<double, dim, 1>> node_positions;
+  ShapeFunctions<dim> (*shape_functions)(const Eigen::Matrix<double, dim, 1>& position);
   /// Replace the volume strain at the points by its mean over the element: cures volume locking of low-order
   /// elements.
   bool mean_dilatation;
-
-  /// Nodes of side `side` in local numbers: first corner, second corner, then the middle node if there is
-  /// one.
-  [[nodiscard]] std::vector<int> side_nodes(int side) const;
+  /// In the plane the outward normal is to the right of the way from the first corner of a side to the second. In space it
+  /// is x,xi cross x,eta of the face's reference coordinates.
+  std::vector<ElementSide<dim>> sides;
 };
 
 /// @param name one of element_names(), for example "Q8R".
 /// @throws RunError naming the known elements when there is none of that name.
-const ElementType& element_type(std::string_view name);
+template <int dim>
+const ElementType<dim>& element_type(std::string_view name);
 
+template <int dim>
 std::vector<std::string> element_names();
 
 }  // namespace polargrain::fem

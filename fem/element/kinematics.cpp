@@ -8,19 +8,41 @@
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::fem {
+namespace {
 
-Eigen::Matrix2d jacobian(const Eigen::MatrixX2d& nodes, const ShapeFunctions& shape) {
+/// The nodal values of an element, a column a node.
+template <int dim>
+using NodeColumns = Eigen::Map<const Eigen::Matrix<double, Cosserat<dim>::dofs, Eigen::Dynamic>>;
+
+/// Rotation and curvature of the field of micro-rotations.
+template <int dim>
+void add_micro_rotation(const PointGeometry<dim>& point, const NodeColumns<dim>& values, Increment<dim>& increment) {
+  const auto rotations = values.template bottomRows<Cosserat<dim>::rotations>();
+  if constexpr (dim == 2) {
+    increment.micro_rotation = rotations.row(0).dot(point.shape);
+    increment.curvature = (rotations.row(0) * point.gradient).transpose();
+  } else {
+    increment.rotation = rotations * point.shape;
+    increment.curvature = rotations * point.gradient;
+  }
+}
+
+}  // namespace
+
+template <int dim>
+typename Cosserat<dim>::Gradient jacobian(const VectorRows<dim>& nodes, const ShapeFunctions<dim>& shape) {
   return nodes.transpose() * shape.derivative;
 }
 
-std::vector<PointGeometry> point_geometries(const ElementType& type, const Eigen::MatrixX2d& nodes) {
-  std::vector<PointGeometry> points;
+template <int dim>
+std::vector<PointGeometry<dim>> point_geometries(const ElementType<dim>& type, const VectorRows<dim>& nodes) {
+  std::vector<PointGeometry<dim>> points;
   double volume = 0.0;
-  Eigen::MatrixX2d mean = Eigen::MatrixX2d::Zero(type.nodes, 2);
-  for (const QuadraturePoint& place : type.quadrature) {
-    const ShapeFunctions shape = type.shape_functions(place.position);
-    const Eigen::Matrix2d j = jacobian(nodes, shape);
-    PointGeometry point;
+  VectorRows<dim> mean = VectorRows<dim>::Zero(type.nodes, dim);
+  for (const QuadraturePoint<dim>& place : type.quadrature) {
+    const ShapeFunctions<dim> shape = type.shape_functions(place.position);
+    const typename Cosserat<dim>::Gradient j = jacobian<dim>(nodes, shape);
+    PointGeometry<dim> point;
     point.position = nodes.transpose() * shape.value;
     point.volume = place.weight * j.determinant();
     point.shape = shape.value;
@@ -31,81 +53,99 @@ std::vector<PointGeometry> point_geometries(const ElementType& type, const Eigen
   }
   if (type.mean_dilatation) {
     mean /= volume;
-    for (PointGeometry& point : points) point.dilatation_correction = 0.5 * (mean - point.gradient);
+    for (PointGeometry<dim>& point : points) point.dilatation_correction = (1.0 / dim) * (mean - point.gradient);
   }
   return points;
 }
 
-Increment increment_at(const PointGeometry& point, Continuum continuum, const Eigen::VectorXd& dofs) {
-  Increment increment;
-  const auto nodes = point.shape.size();
-  const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> values(dofs.data(), 3, nodes);
-  Eigen::Matrix2d& h = increment.displacement_gradient;
-  h = values.topRows<2>() * point.gradient;
+template <int dim>
+Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum, const Eigen::VectorXd& dofs) {
+  Increment<dim> increment;
+  const NodeColumns<dim> values(dofs.data(), Cosserat<dim>::dofs, point.shape.size());
+  auto& h = increment.displacement_gradient;
+  h = values.template topRows<dim>() * point.gradient;
   if (point.dilatation_correction.size() > 0) {
-    const double correction = (values.topRows<2>() * point.dilatation_correction).trace();
-    h(0, 0) += correction;
-    h(1, 1) += correction;
+    const double correction = (values.template topRows<dim>() * point.dilatation_correction).trace();
+    for (int i = 0; i < dim; ++i) h(i, i) += correction;
   }
   if (continuum == Continuum::cosserat) {
-    increment.micro_rotation = values.row(2).dot(point.shape);
-    increment.curvature = (values.row(2) * point.gradient).transpose();
-  } else {
+    add_micro_rotation<dim>(point, values, increment);
+  } else if constexpr (dim == 2) {
     increment.micro_rotation = 0.5 * (h(1, 0) - h(0, 1));
-  }
-  return increment;
-}
-
-Increment large_increment_at(const PointGeometry& start, Continuum continuum, const Eigen::VectorXd& dofs,
-                             double dilatation) {
-  Increment increment;
-  increment.configuration = Configuration::start;
-  const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> values(dofs.data(), 3, start.shape.size());
-  Eigen::Matrix2d& h = increment.displacement_gradient;
-  h = values.topRows<2>() * start.gradient;
-  if (dilatation != 1.0) h = dilatation * h + (dilatation - 1.0) * Eigen::Matrix2d::Identity();
-  if (continuum == Continuum::cosserat) {
-    increment.micro_rotation = values.row(2).dot(start.shape);
-    increment.curvature = (values.row(2) * start.gradient).transpose();
   } else {
-    increment.micro_rotation = rotation_angle(increment);
+    increment.rotation = 0.5 * Eigen::Vector3d(h(2, 1) - h(1, 2), h(0, 2) - h(2, 0), h(1, 0) - h(0, 1));
   }
   return increment;
 }
 
-Eigen::Matrix<double, 7, Eigen::Dynamic> strain_matrix(const PointGeometry& point, Continuum continuum) {
+template <int dim>
+Increment<dim> large_increment_at(const PointGeometry<dim>& start, Continuum continuum, const Eigen::VectorXd& dofs,
+                                  double dilatation) {
+  using Gradient = typename Cosserat<dim>::Gradient;
+  Increment<dim> increment;
+  increment.configuration = Configuration::start;
+  const NodeColumns<dim> values(dofs.data(), Cosserat<dim>::dofs, start.shape.size());
+  Gradient& h = increment.displacement_gradient;
+  h = values.template topRows<dim>() * start.gradient;
+  if (dilatation != 1.0) h = dilatation * h + (dilatation - 1.0) * Gradient::Identity();
+  if (continuum == Continuum::cosserat) {
+    add_micro_rotation<dim>(start, values, increment);
+  } else if constexpr (dim == 2) {
+    increment.micro_rotation = rotation_angle(increment);
+  } else {
+    increment.rotation = rotation_vector(increment);
+  }
+  return increment;
+}
+
+template <int dim>
+StrainMatrix<dim> strain_matrix(const PointGeometry<dim>& point, Continuum continuum) {
+  using Counts = Cosserat<dim>;
   const auto nodes = point.shape.size();
-  Eigen::Matrix<double, 7, Eigen::Dynamic> b(7, entry_of(nodes));
+  StrainMatrix<dim> b(Counts::components, entry_of<dim>(nodes));
   b.setZero();
   for (Eigen::Index a = 0; a < nodes; ++a) {
-    const double d1 = point.gradient(a, 0);
-    const double d2 = point.gradient(a, 1);
-    auto u1 = b.col(entry_of(a, Dof::u1));
-    auto u2 = b.col(entry_of(a, Dof::u2));
-    auto w = b.col(entry_of(a, Dof::w));
-    u1(k11) = d1;
-    u2(k22) = d2;
+    const auto gradient = point.gradient.row(a);
+    auto node = b.template middleCols<Counts::dofs>(entry_of<dim>(a));
+    for (int j = 0; j < dim; ++j) node(Counts::stress_place(j, j), j) = gradient(j);
     if (point.dilatation_correction.size() > 0) {
-      for (const int row : {k11, k22}) {
-        u1(row) += point.dilatation_correction(a, 0);
-        u2(row) += point.dilatation_correction(a, 1);
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j) node(Counts::stress_place(i, i), j) += point.dilatation_correction(a, j);
+    }
+    for (int i = 0; i < dim; ++i) {
+      for (int j = 0; j < dim; ++j) {
+        if (i == j) continue;
+        const int row = Counts::stress_place(i, j);
+        if (continuum == Continuum::cauchy) {
+          node(row, i) = 0.5 * gradient(j);
+          node(row, j) = 0.5 * gradient(i);
+          continue;
+        }
+        node(row, j) = gradient(i);
+        for (int k = 0; k < Counts::rotations; ++k)
+          if (const int sign = permutation(i, j, Counts::axis(k)); sign != 0) node(row, dim + k) = -sign * point.shape(a);
       }
     }
-    if (continuum == Continuum::cosserat) {
-      u2(k12) = d1;
-      u1(k21) = d2;
-      w(k12) = -point.shape(a);
-      w(k21) = point.shape(a);
-      w(kCurvature1) = d1;
-      w(kCurvature2) = d2;
-    } else {
-      for (const int row : {k12, k21}) {
-        u1(row) = 0.5 * d2;
-        u2(row) = 0.5 * d1;
-      }
-    }
+    if (continuum == Continuum::cauchy) continue;
+    for (int i = 0; i < dim; ++i)
+      for (int k = 0; k < Counts::rotations; ++k) node(Counts::couple_place(i, k), dim + k) = gradient(i);
   }
   return b;
 }
+
+template Cosserat<2>::Gradient jacobian<2>(const VectorRows<2>& nodes, const ShapeFunctions<2>& shape);
+template Cosserat<3>::Gradient jacobian<3>(const VectorRows<3>& nodes, const ShapeFunctions<3>& shape);
+template std::vector<PointGeometry<2>> point_geometries<2>(const ElementType<2>& type, const VectorRows<2>& nodes);
+template std::vector<PointGeometry<3>> point_geometries<3>(const ElementType<3>& type, const VectorRows<3>& nodes);
+template Increment<2> increment_at<2>(const PointGeometry<2>& point, Continuum continuum,
+                                      const Eigen::VectorXd& dofs);
+template Increment<3> increment_at<3>(const PointGeometry<3>& point, Continuum continuum,
+                                      const Eigen::VectorXd& dofs);
+template Increment<2> large_increment_at<2>(const PointGeometry<2>& start, Continuum continuum,
+                                            const Eigen::VectorXd& dofs, double dilatation);
+template Increment<3> large_increment_at<3>(const PointGeometry<3>& start, Continuum continuum,
+                                            const Eigen::VectorXd& dofs, double dilatation);
+template StrainMatrix<2> strain_matrix<2>(const PointGeometry<2>& point, Continuum continuum);
+template StrainMatrix<3> strain_matrix<3>(const PointGeometry<3>& point, Continuum continuum);
 
 }  // namespace polargrain::fem

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/increment.hpp"
+#include "common/cosserat.hpp"
 #include "fem/element/element_type.hpp"
 
 namespace polargrain::fem {
@@ -14,34 +15,44 @@ enum class Continuum {
   cauchy     ///< the rotation of the continuum; curvature is zero, so is every part of w
 };
 
-/// An integration point of an element in space.
+/// An integration point of an element, in place.
+template <int dim>
 struct PointGeometry {
-  Eigen::Vector2d position;   ///< m
-  double volume;              ///< per unit thickness, m^2
-  Eigen::VectorXd shape;      ///< N_a
-  Eigen::MatrixX2d gradient;  ///< dN_a / dx_j, 1/m
-  /// Added to h11 and h22 alike: half of (mean over the element - value here) of the gradients; empty unless
-  /// the element has mean dilatation.
-  Eigen::MatrixX2d dilatation_correction;
+  typename Cosserat<dim>::Place position;  ///< m
+  double volume;                           ///< m^3; in the plane per unit thickness, m^2
+  Eigen::VectorXd shape;                   ///< N_a
+  VectorRows<dim> gradient;                ///< dN_a / dx_j, 1/m
+  /// Added to each h_ii alike: 1/dim of (mean over the element - value here) of the gradients; empty unless the element has
+  /// mean dilatation.
+  VectorRows<dim> dilatation_correction;
 };
 
 /// Jacobian d x_i / d xi_j at a place of the reference element. @param nodes positions, a row a node.
-Eigen::Matrix2d jacobian(const Eigen::MatrixX2d& nodes, const ShapeFunctions& shape);
+template <int dim>
+typename Cosserat<dim>::Gradient jacobian(const VectorRows<dim>& nodes, const ShapeFunctions<dim>& shape);
 
 /// The integration points of one element. @param nodes positions, a row a node.
-std::vector<PointGeometry> point_geometries(const ElementType& type, const Eigen::MatrixX2d& nodes);
+template <int dim>
+std::vector<PointGeometry<dim>> point_geometries(const ElementType<dim>& type, const VectorRows<dim>& nodes);
 
-/// The increment that the point feels (docs/theory.md, A.1). @param dofs u1, u2, w of each node in turn.
-Increment increment_at(const PointGeometry& point, Continuum continuum, const Eigen::VectorXd& dofs);
+/// The increment that the point feels (docs/theory.md, A.1). @param dofs the unknowns of each node in turn.
+template <int dim>
+Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum, const Eigen::VectorXd& dofs);
 
 /// The same in large deformation: gradients about the start of the step (Configuration::start).
 /// @param start the geometry at the start of the step @param dofs their changes over the step
 /// @param dilatation by which lengths are multiplied so that the volume ratio is that of the element: 1 but for
 /// elements with mean dilatation (F-bar: de Souza Neto and others 1996)
-Increment large_increment_at(const PointGeometry& start, Continuum continuum, const Eigen::VectorXd& dofs,
+template <int dim>
+Increment<dim> large_increment_at(const PointGeometry<dim>& start, Continuum continuum, const Eigen::VectorXd& dofs,
                              double dilatation);
 
-/// B with strain = B dofs (docs/theory.md, A.6), 7 rows in the order of common/increment.hpp; unscaled.
-Eigen::Matrix<double, 7, Eigen::Dynamic> strain_matrix(const PointGeometry& point, Continuum continuum);
+/// A row a component of Cosserat<dim>, a column an unknown of the element.
+template <int dim>
+using StrainMatrix = Eigen::Matrix<double, Cosserat<dim>::components, Eigen::Dynamic>;
+
+/// B with strain = B dofs (docs/theory.md, A.6): eps_ij = u_j,i - e_ijk w_k, kappa_ij = w_j,i; unscaled.
+template <int dim>
+StrainMatrix<dim> strain_matrix(const PointGeometry<dim>& point, Continuum continuum);
 
 }  // namespace polargrain::fem

@@ -5,6 +5,7 @@
 
 #include "common/elementary_functions.hpp"
 #include "fem/element/dofs.hpp"
+#include "fem/material/polar_decomposition.hpp"
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::fem {
@@ -17,7 +18,7 @@ Eigen::Matrix2d in_plane(const Vector7& stress) {
 }
 
 /// d u_i / d x_j at the end of the step for a unit value of one displacement of node `a`.
-Eigen::Matrix2d unit_gradient(const PointGeometry& end, Eigen::Index a, Eigen::Index component) {
+Eigen::Matrix2d unit_gradient(const PointGeometry<2>& end, Eigen::Index a, Eigen::Index component) {
   Eigen::Matrix2d g = Eigen::Matrix2d::Zero();
   g.row(component) = end.gradient.row(a);
   return g;
@@ -26,9 +27,9 @@ Eigen::Matrix2d unit_gradient(const PointGeometry& end, Eigen::Index a, Eigen::I
 /// The step of one point taken apart, and how its parts change with the nodal values.
 class StepKinematics {
  public:
-  StepKinematics(const Increment& increment, Continuum continuum)
+  StepKinematics(const Increment<2>& increment, Continuum continuum)
       : step_(stretch_and_turn(increment)), cosserat_(continuum == Continuum::cosserat) {
-    const auto [sine, cosine] = sine_and_cosine(step_.angle);
+    const auto [sine, cosine] = sine_and_cosine(step_.turn);
     turn_ << cosine, -sine, sine, cosine;
     stretch_ = turn_.transpose() * (Eigen::Matrix2d::Identity() + increment.displacement_gradient);
     inverse_ = (stretch_ + Eigen::Matrix2d::Identity()).inverse();
@@ -53,7 +54,7 @@ class StepKinematics {
     const double skew = cosserat_ ? change.angle : 0.0;
     change.strain << strain(0, 0), strain(1, 1), 0.0, strain(1, 0) + skew, strain(0, 1) - skew,
         -inverse_ * du * step_.stretch.curvature;
-    change.strain = rotated(change.strain, step_.angle);
+    change.strain = rotated(change.strain, step_.turn);
     return change;
   }
 
@@ -62,12 +63,12 @@ class StepKinematics {
     Variation change;
     if (!cosserat_) return change;
     change.strain << 0.0, 0.0, 0.0, -value, value, 2.0 * inverse_ * gradient;
-    change.strain = rotated(change.strain, step_.angle);
+    change.strain = rotated(change.strain, step_.turn);
     return change;
   }
 
  private:
-  StretchAndTurn step_;
+  StretchAndTurn<2> step_;
   bool cosserat_;
   Eigen::Matrix2d turn_;     // R
   Eigen::Matrix2d stretch_;  // U
@@ -75,36 +76,37 @@ class StepKinematics {
 };
 
 /// How the nodal forces of a given stress change with the shape: gradients by -N_a,k g_kj, the volume by tr g.
-Eigen::VectorXd change_of_shape(const PointGeometry& end, const Eigen::Matrix2d& g, const Vector7& stress,
+Eigen::VectorXd change_of_shape(const PointGeometry<2>& end, const Eigen::Matrix2d& g, const Vector7& stress,
                                 Continuum continuum) {
   const Eigen::Matrix2d s = in_plane(stress);
   const Eigen::Matrix2d ds = s * g.trace() - g * s;
   const Eigen::Vector2d dm = stress.tail<2>() * g.trace() - g * stress.tail<2>();
   const double moment = (stress(k21) - stress(k12)) * g.trace();
   const auto nodes = end.shape.size();
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of(nodes));
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of<2>(nodes));
   for (Eigen::Index a = 0; a < nodes; ++a) {
     const Eigen::Vector2d gradient = end.gradient.row(a).transpose();
-    forces.segment<2>(entry_of(a)) = ds.transpose() * gradient;
+    forces.segment<2>(entry_of<2>(a)) = ds.transpose() * gradient;
     if (continuum == Continuum::cosserat)
-      forces(entry_of(a, Dof::w)) = end.shape(a) * moment + gradient.dot(dm);
+      forces(entry_of<2>(a, Dof::w)) = end.shape(a) * moment + gradient.dot(dm);
   }
   return forces;
 }
 
 }  // namespace
 
-Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& start,
-                              const Increment& increment, Continuum continuum, const Response& response) {
+template <>
+Eigen::MatrixXd large_tangent<2>(const PointGeometry<2>& end, const PointGeometry<2>& start,
+                              const Increment<2>& increment, Continuum continuum, const Response<2>& response) {
   const auto nodes = end.shape.size();
   const StepKinematics step(increment, continuum);
   const Eigen::Matrix2d s = in_plane(response.stress);
   const Eigen::Vector2d m = response.stress.tail<2>();
-  const auto b = strain_matrix(end, continuum);
-  Eigen::MatrixXd tangent(entry_of(nodes), entry_of(nodes));
+  const auto b = strain_matrix<2>(end, continuum);
+  Eigen::MatrixXd tangent(entry_of<2>(nodes), entry_of<2>(nodes));
   for (Eigen::Index column = 0; column < tangent.cols(); ++column) {
-    const Eigen::Index a = column / kDofsOfNode;
-    const Eigen::Index component = column % kDofsOfNode;
+    const Eigen::Index a = column / Cosserat<2>::dofs;
+    const Eigen::Index component = column % Cosserat<2>::dofs;
     if (component == 2) {
       const auto change = step.of_rotation(start.shape(a), start.gradient.row(a).transpose());
       tangent.col(column) = b.transpose() * (response.tangent * change.strain);
@@ -129,32 +131,161 @@ Eigen::MatrixXd large_tangent(const PointGeometry& end, const PointGeometry& sta
   return end.volume * tangent;
 }
 
-Eigen::MatrixXd mean_dilatation_stiffness(std::span<const PointGeometry> points,
-                                          std::span<const Response> answers) {
+namespace {
+
+/// The same of a step in space.
+class SpaceStep {
+ public:
+  SpaceStep(const Increment<3>& increment, Continuum continuum)
+      : increment_(increment),
+        parts_(increment.displacement_gradient),
+        cosserat_(continuum == Continuum::cosserat) {}
+
+  struct Variation {
+    Vector18 strain = Vector18::Zero();                ///< in the axes of the end
+    Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();  ///< dR R^T
+  };
+
+  /// @param g change of the displacement gradient about the end of the step
+  [[nodiscard]] Variation of_displacement(const Eigen::Matrix3d& g) const {
+    const Eigen::Matrix3d& back = parts_.half_way_back;
+    const Eigen::Matrix3d turned_back = parts_.rotation.transpose() * g * parts_.rotation * parts_.stretch;
+    const PolarDecomposition::Change change = parts_.change(turned_back);
+    Increment<3> stretch;
+    stretch.displacement_gradient = 4.0 * parts_.inverse * change.stretch * parts_.inverse;
+    if (cosserat_) {
+      const Eigen::Vector3d turned = inverse_right_jacobian(parts_.vector) * change.spin;  // of the vector of R
+      const Eigen::Matrix3d of_back = back * cross_matrix(right_jacobian(-0.5 * parts_.vector) * (-0.5 * turned));
+      stretch.rotation = of_back * increment_.rotation - turned;
+      stretch.curvature = 2.0 * (of_back * increment_.curvature * parts_.inverse -
+                                 back * increment_.curvature * parts_.inverse * change.stretch * parts_.inverse);
+    }
+    Variation made{rotated(stretch.strain(), parts_.rotation), {}};
+    made.spin = parts_.rotation * cross_matrix(change.spin) * parts_.rotation.transpose();
+    return made;
+  }
+
+  /// Of a rotation about one axis. @param value, gradient of the shape function at the start of the step
+  [[nodiscard]] Variation of_rotation(int axis, double value, const Eigen::Vector3d& gradient) const {
+    Variation made;
+    if (!cosserat_) return made;
+    const Eigen::Vector3d about = parts_.half_way_back.col(axis);
+    Increment<3> stretch;
+    stretch.rotation = value * about;
+    stretch.curvature = 2.0 * about * (parts_.inverse * gradient).transpose();
+    made.strain = rotated(stretch.strain(), parts_.rotation);
+    return made;
+  }
+
+ private:
+  const Increment<3>& increment_;
+  PolarDecomposition parts_;
+  bool cosserat_;
+};
+
+using TensorRows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+TensorRows tensor(const Vector18& components, int first) {
+  return Eigen::Map<const TensorRows>(components.data() + first);
+}
+
+Vector18 components(const Eigen::Matrix3d& stress, const Eigen::Matrix3d& couple_stress) {
+  Vector18 made;
+  made << stress.row(0).transpose(), stress.row(1).transpose(), stress.row(2).transpose(),
+      couple_stress.row(0).transpose(), couple_stress.row(1).transpose(), couple_stress.row(2).transpose();
+  return made;
+}
+
+Eigen::VectorXd change_of_shape(const PointGeometry<3>& end, const Eigen::Matrix3d& g, const Vector18& stress,
+                                Continuum continuum) {
+  const Eigen::Matrix3d s = tensor(stress, 0);
+  const Eigen::Matrix3d m = tensor(stress, 9);
+  const Eigen::Matrix3d ds = s * g.trace() - g * s;
+  const Eigen::Matrix3d dm = m * g.trace() - g * m;
+  const Eigen::Vector3d moment = -2.0 * axial(s.transpose()) * g.trace();  // -e_ijk s_ij
+  const auto nodes = end.shape.size();
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of<3>(nodes));
+  for (Eigen::Index a = 0; a < nodes; ++a) {
+    const Eigen::Vector3d gradient = end.gradient.row(a).transpose();
+    forces.segment<3>(entry_of<3>(a)) = ds.transpose() * gradient;
+    if (continuum == Continuum::cosserat)
+      forces.segment<3>(entry_of<3>(a) + 3) = end.shape(a) * moment + dm.transpose() * gradient;
+  }
+  return forces;
+}
+
+}  // namespace
+
+template <>
+Eigen::MatrixXd large_tangent<3>(const PointGeometry<3>& end, const PointGeometry<3>& start,
+                                 const Increment<3>& increment, Continuum continuum, const Response<3>& response) {
+  const auto nodes = end.shape.size();
+  const SpaceStep step(increment, continuum);
+  const Eigen::Matrix3d s = tensor(response.stress, 0);
+  const Eigen::Matrix3d m = tensor(response.stress, 9);
+  // All columns at once: B^T is the same for each.
+  Eigen::Matrix<double, 18, Eigen::Dynamic> stresses(18, entry_of<3>(nodes));
+  Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(entry_of<3>(nodes), entry_of<3>(nodes));
+  for (Eigen::Index a = 0; a < nodes; ++a) {
+    for (int i = 0; i < 3; ++i) {
+      Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+      g.row(i) = end.gradient.row(a);
+      Eigen::Matrix3d felt = g;
+      if (end.dilatation_correction.size() > 0)
+        felt += end.dilatation_correction(a, i) * Eigen::Matrix3d::Identity();
+      const SpaceStep::Variation change = step.of_displacement(felt);
+      stresses.col(entry_of<3>(a) + i) =
+          response.tangent * change.strain +
+          components(change.spin * s - s * change.spin, change.spin * m - m * change.spin);
+      shape.col(entry_of<3>(a) + i) = change_of_shape(end, g, response.stress, continuum);
+      stresses.col(entry_of<3>(a) + 3 + i) =
+          response.tangent * step.of_rotation(i, start.shape(a), start.gradient.row(a).transpose()).strain;
+    }
+  }
+  return end.volume * (strain_matrix<3>(end, continuum).transpose() * stresses + shape);
+}
+
+namespace {
+
+/// Mean normal stress of the plane or of space.
+template <int dim>
+double mean_normal(const typename Cosserat<dim>::Vector& stress) {
+  double sum = stress(Cosserat<dim>::stress_place(0, 0));
+  for (int i = 1; i < dim; ++i) sum += stress(Cosserat<dim>::stress_place(i, i));
+  return (1.0 / dim) * sum;
+}
+
+}  // namespace
+
+template <int dim>
+Eigen::MatrixXd mean_dilatation_stiffness(std::span<const PointGeometry<dim>> points,
+                                          std::span<const Response<dim>> answers) {
+  using Gradient = typename Cosserat<dim>::Gradient;
+  using Rows = VectorRows<dim>;
   const auto nodes = points.front().shape.size();
   double volume = 0.0;
-  double load = 0.0;  // sum of (s11 + s22) / 2 times volume
-  Eigen::MatrixX2d mean = Eigen::MatrixX2d::Zero(nodes, 2);
+  double load = 0.0;  // sum of the mean normal stress times volume
+  Rows mean = Rows::Zero(nodes, dim);
   for (std::size_t p = 0; p < points.size(); ++p) {
     volume += points[p].volume;
-    load += points[p].volume * 0.5 * (answers[p].stress(k11) + answers[p].stress(k22));
+    load += points[p].volume * mean_normal<dim>(answers[p].stress);
     mean += points[p].volume * points[p].gradient;
   }
   mean /= volume;
-  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(entry_of(nodes), entry_of(nodes));
+  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(entry_of<dim>(nodes), entry_of<dim>(nodes));
   for (Eigen::Index column = 0; column < tangent.cols(); ++column) {
-    const Eigen::Index component = column % kDofsOfNode;
-    if (component == 2) continue;
+    const Dof dof = dof_at<dim>(column);
+    if (is_rotation(dof)) continue;
     // The forces are load * mean less the sum of pressure * volume * gradient.
     double of_volume = 0.0;
     double of_load = 0.0;
-    Eigen::MatrixX2d of_mean = Eigen::MatrixX2d::Zero(nodes, 2);
-    Eigen::MatrixX2d forces = Eigen::MatrixX2d::Zero(nodes, 2);
+    Rows of_mean = Rows::Zero(nodes, dim);
+    Rows forces = Rows::Zero(nodes, dim);
     for (std::size_t p = 0; p < points.size(); ++p) {
-      const Eigen::Matrix2d g = unit_gradient(points[p], column / kDofsOfNode, component);
-      const Eigen::MatrixX2d change =
-          points[p].volume * (g.trace() * points[p].gradient - points[p].gradient * g);
-      const double pressure = 0.5 * (answers[p].stress(k11) + answers[p].stress(k22));
+      Gradient g = Gradient::Zero();
+      g.row(axis_of(dof)) = points[p].gradient.row(column / Cosserat<dim>::dofs);
+      const Rows change = points[p].volume * (g.trace() * points[p].gradient - points[p].gradient * g);
+      const double pressure = mean_normal<dim>(answers[p].stress);
       of_volume += points[p].volume * g.trace();
       of_load += pressure * points[p].volume * g.trace();
       of_mean += change;
@@ -162,9 +293,14 @@ Eigen::MatrixXd mean_dilatation_stiffness(std::span<const PointGeometry> points,
     }
     forces += of_load * mean + load / volume * (of_mean - of_volume * mean);
     for (Eigen::Index a = 0; a < nodes; ++a)
-      tangent.block<2, 1>(entry_of(a), column) = forces.row(a).transpose();
+      tangent.template block<dim, 1>(entry_of<dim>(a), column) = forces.row(a).transpose();
   }
   return tangent;
 }
+
+template Eigen::MatrixXd mean_dilatation_stiffness<2>(std::span<const PointGeometry<2>> points,
+                                                      std::span<const Response<2>> answers);
+template Eigen::MatrixXd mean_dilatation_stiffness<3>(std::span<const PointGeometry<3>> points,
+                                                      std::span<const Response<3>> answers);
 
 }  // namespace polargrain::fem

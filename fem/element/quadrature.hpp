@@ -15,8 +15,12 @@ struct LinePoint {
 /// Gauss points of [-1, 1], exact for polynomials of degree 2 n - 1. @param n 1, 2 or 3.
 std::vector<LinePoint> gauss_line(int n);
 /// n x n Gauss points of [-1, 1]^2.
-std::vector<QuadraturePoint> gauss_square(int n);
+std::vector<QuadraturePoint<2>> gauss_square(int n);
+/// n x n x n Gauss points of [-1, 1]^3, the first coordinate fastest.
+std::vector<QuadraturePoint<3>> gauss_cube(int n);
 /// Three inner points of the triangle (0,0), (1,0), (0,1), exact for quadratic polynomials.
-std::vector<QuadraturePoint> triangle_three_points();
+std::vector<QuadraturePoint<2>> triangle_three_points();
+/// Four inner points of the tetrahedron with corners at the origin and at 1 on each axis, exact for quadratic polynomials.
+std::vector<QuadraturePoint<3>> tetrahedron_four_points();
 
 }  // namespace polargrain::fem

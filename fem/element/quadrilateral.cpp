@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "fem/element/line.hpp"
 #include "fem/element/quadrature.hpp"
 
 namespace polargrain::fem {
@@ -11,8 +12,8 @@ namespace {
 const std::array<Eigen::Vector2d, 8> kNodes{
     {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
 
-ShapeFunctions bilinear(const Eigen::Vector2d& position) {
-  ShapeFunctions shape{Eigen::VectorXd(4), Eigen::MatrixX2d(4, 2)};
+ShapeFunctions<2> bilinear(const Eigen::Vector2d& position) {
+  ShapeFunctions<2> shape{Eigen::VectorXd(4), Eigen::MatrixX2d(4, 2)};
   for (int a = 0; a < 4; ++a) {
     const double s = 1.0 + position(0) * kNodes[a](0);
     const double t = 1.0 + position(1) * kNodes[a](1);
@@ -22,8 +23,8 @@ ShapeFunctions bilinear(const Eigen::Vector2d& position) {
   return shape;
 }
 
-ShapeFunctions serendipity(const Eigen::Vector2d& position) {
-  ShapeFunctions shape{Eigen::VectorXd(8), Eigen::MatrixX2d(8, 2)};
+ShapeFunctions<2> serendipity(const Eigen::Vector2d& position) {
+  ShapeFunctions<2> shape{Eigen::VectorXd(8), Eigen::MatrixX2d(8, 2)};
   const double x = position(0);
   const double y = position(1);
   for (int a = 0; a < 4; ++a) {
@@ -54,20 +55,21 @@ ShapeFunctions serendipity(const Eigen::Vector2d& position) {
 constexpr int kVtkQuad = 9;
 constexpr int kVtkQuadraticQuad = 23;
 
-ElementType serendipity_type(const char* name, int points) {
+ElementType<2> serendipity_type(const char* name, int points) {
   return {name,        8,    4, kVtkQuadraticQuad, gauss_square(points), {kNodes.begin(), kNodes.end()},
-          serendipity, false};
+          serendipity, false, sides_of_polygon(4, true)};
 }
 
 }  // namespace
 
-ElementType quadrilateral4() {
-  return {"Q4", 4, 4, kVtkQuad, gauss_square(2), {kNodes.begin(), kNodes.begin() + 4}, bilinear, true};
+ElementType<2> quadrilateral4() {
+  return {"Q4", 4, 4, kVtkQuad, gauss_square(2), {kNodes.begin(), kNodes.begin() + 4}, bilinear, true,
+          sides_of_polygon(4, false)};
 }
-ElementType quadrilateral8_reduced() {
+ElementType<2> quadrilateral8_reduced() {
   return serendipity_type("Q8R", 2);
 }
-ElementType quadrilateral8() {
+ElementType<2> quadrilateral8() {
   return serendipity_type("Q8", 3);
 }
 

@@ -5,6 +5,6 @@
 namespace polargrain::fem {
 
 /// T6: quadratic, 3 points; the element of Gmsh for any outline.
-ElementType triangle6();
+ElementType<2> triangle6();
 
 }  // namespace polargrain::fem

@@ -90,15 +90,49 @@ FrozenCone cone_from_triaxial_extension(const MohrCoulomb& strength) {
   return triaxial_cone(strength, -1.0);
 }
 
+FrozenCone inner_cone(const MohrCoulomb& strength) {
+  check(strength);
+  const double sin_phi = sine(strength.friction_angle * kDegree);
+  const double sin_psi = sine(strength.dilatancy_angle * kDegree);
+  const double root = std::sqrt(1.0 + sin_phi * sin_phi / 3.0);
+  return {kRoot3 * sin_phi / root, kRoot3 * sin_psi / std::sqrt(1.0 + sin_psi * sin_psi / 3.0),
+          kRoot3 * strength.cohesion * cosine(strength.friction_angle * kDegree) / root};
+}
+
+FrozenCone matched_cone(const MohrCoulomb& strength, ConeMatch match) {
+  switch (match) {
+    case ConeMatch::triaxial_compression:
+      return cone_from_triaxial_compression(strength);
+    case ConeMatch::triaxial_extension:
+      return cone_from_triaxial_extension(strength);
+    case ConeMatch::inner:
+      return inner_cone(strength);
+    case ConeMatch::plane_strain:
+      break;
+  }
+  return cone_from_plane_strain(strength);
+}
+
+std::optional<double> angle_in_extension(const FrozenCone& cone) {
+  const double sin_phi = 3.0 * cone.friction / (6.0 - cone.friction);
+  if (!(cone.friction < 1.5)) return std::nullopt;
+  return arc_sine(sin_phi) / kDegree;
+}
+
 HardeningCone hardening_cone_from_plane_strain(const MohrCoulombHardening& strength) {
+  return hardening_cone(strength, ConeMatch::plane_strain);
+}
+
+HardeningCone hardening_cone(const MohrCoulombHardening& strength, ConeMatch match) {
   std::vector<PiecewiseLinear::Knot> friction;
   std::vector<PiecewiseLinear::Knot> dilatancy;
   std::vector<PiecewiseLinear::Knot> cohesion;
   for (const double gamma_p :
        merged_knots({&strength.friction_angle, &strength.dilatancy_angle, &strength.cohesion})) {
-    const FrozenCone cone = cone_from_plane_strain({strength.friction_angle.at(gamma_p).value,
-                                                    strength.dilatancy_angle.at(gamma_p).value,
-                                                    strength.cohesion.at(gamma_p).value});
+    const FrozenCone cone =
+        matched_cone({strength.friction_angle.at(gamma_p).value, strength.dilatancy_angle.at(gamma_p).value,
+                      strength.cohesion.at(gamma_p).value},
+                     match);
     friction.push_back({gamma_p, cone.friction});
     dilatancy.push_back({gamma_p, cone.dilatancy});
     cohesion.push_back({gamma_p, cone.cohesion});

@@ -30,6 +30,19 @@ FrozenCone cone_from_triaxial_compression(const MohrCoulomb& strength);
 /// @throws InputError as above.
 FrozenCone cone_from_triaxial_extension(const MohrCoulomb& strength);
 
+/// The inscribed cone: M = sqrt3 sin / sqrt(1 + sin^2 / 3). In plane strain exact for associated flow.
+/// @throws InputError as above.
+FrozenCone inner_cone(const MohrCoulomb& strength);
+
+/// The states in which a cone has the strength of Mohr-Coulomb. A circular cone has it in one of them alone.
+enum class ConeMatch { triaxial_compression, triaxial_extension, plane_strain, inner };
+
+FrozenCone matched_cone(const MohrCoulomb& strength, ConeMatch match);
+
+/// Friction angle (degrees) of a cone in triaxial extension, sin = 3 M / (6 - M); nothing where the cone has no limit there,
+/// from M = 3/2 on.
+std::optional<double> angle_in_extension(const FrozenCone& cone);
+
 /// Strength as functions of the accumulated plastic shear, in the units of MohrCoulomb.
 struct MohrCoulombHardening {
   PiecewiseLinear friction_angle;   ///< degrees
@@ -42,5 +55,7 @@ struct MohrCoulombHardening {
 /// on the dilatancy as well.
 /// @throws InputError as cone_from_plane_strain.
 HardeningCone hardening_cone_from_plane_strain(const MohrCoulombHardening& strength);
+/// The same for any match.
+HardeningCone hardening_cone(const MohrCoulombHardening& strength, ConeMatch match);
 
 }  // namespace polargrain::fem

@@ -10,10 +10,11 @@
 namespace polargrain::fem {
 
 /// Generalised pressure-dependent elastoplastic Cosserat material (docs/theory/plasticity.md, B.1 to B.6).
+template <int dim>
 struct ElastoplasticParameters {
   /// Elasticity and the initial stress. With cosserat_shear_modulus = 0 the initial stress must have no skew
   /// shear, with internal_length = 0 no couple stress: nothing could carry their change.
-  ElasticParameters elastic;
+  ElasticParameters<dim> elastic;
   InvariantWeights weights;
   /// From hardening_cone_from_plane_strain (cone_matching.hpp), or given directly.
   HardeningCone cone;
@@ -25,64 +26,73 @@ struct ElastoplasticParameters {
 /// The faults of the parameters, one message each; empty when the law is usable. Names the bound and
 /// the value; tests the softening bound (B.2) on every piece of the hardening functions at the initial mean
 /// stress. Under a larger pressure it may still be passed: then integrate fails and says so.
-std::vector<std::string> faults(const ElastoplasticParameters& parameters);
+template <int dim>
+std::vector<std::string> faults(const ElastoplasticParameters<dim>& parameters);
 
 /// The least value of 3G + K M_phi (M_psi + d lambda M_psi') - M_phi' p + k' over all pieces of the hardening
 /// functions at mean stress `mean` (Pa, tension positive) for small steps, Pa; must be positive (B.2).
 double softening_reserve(const HardeningCone& cone, const SubspaceModuli& moduli, double mean);
 
 /// The material state of a point: everything that the next step starts from.
+template <int dim>
 struct ElastoplasticState {
-  ScaledVector<double> scaled_stress = ScaledVector<double>::Zero();  ///< couple stresses over lc, all Pa
+  /// Couple stresses over lc, all Pa.
+  ScaledVector<double, dim> scaled_stress = ScaledVector<double, dim>::Zero();
   double gamma_p = 0.0;             ///< accumulated plastic shear = sum of d lambda
   Regime regime = Regime::elastic;  ///< how the last step ended
 };
 
 /// The frame that turns unscaled increments into scaled ones and holds the elastic constants of the return mapping.
+template <int dim>
 struct ElastoplasticFrame {
   SubspaceModuli moduli;
   double length = 0.0;  ///< lc, m
   double apex_stiffness_share = 0.0;
 
   /// Stress with couple stresses in N/m of a scaled stress.
-  [[nodiscard]] Vector7 unscaled_stress(const ScaledVector<double>& scaled) const;
+  [[nodiscard]] typename Cosserat<dim>::Vector unscaled_stress(const ScaledVector<double, dim>& scaled) const;
 };
 
 /// One step of one point with any cone. Never throws; a step without an answer is Quality::failed and leaves
 /// `trial` equal to `start`. Response::tangent is consistent with the step (plus the apex share).
-Response integrate_elastoplastic(const ElastoplasticFrame& frame, const HardeningCone& cone,
-                                 const ElastoplasticState& start, const Increment& increment,
-                                 ElastoplasticState& trial);
+template <int dim>
+Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const HardeningCone& cone,
+                                 const ElastoplasticState<dim>& start, const Increment<dim>& increment,
+                                 ElastoplasticState<dim>& trial);
 /// The same with mobilised friction and dilatancy given from outside for this step (B.9).
-Response integrate_elastoplastic(const ElastoplasticFrame& frame, const FrozenCone& cone,
-                                 const ElastoplasticState& start, const Increment& increment,
-                                 ElastoplasticState& trial);
+template <int dim>
+Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const FrozenCone& cone,
+                                 const ElastoplasticState<dim>& start, const Increment<dim>& increment,
+                                 ElastoplasticState<dim>& trial);
 
-/// The same along a strain (order of Component) whose eps_33 need not be zero.
-Response integrate_elastoplastic(const ElastoplasticFrame& frame, const HardeningCone& cone,
-                                 const ElastoplasticState& start, const Vector7& strain,
-                                 ElastoplasticState& trial);
+/// The same along a strain; in the plane eps_33 need not be zero.
+template <int dim>
+Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const HardeningCone& cone,
+                                 const ElastoplasticState<dim>& start, const typename Cosserat<dim>::Vector& strain,
+                                 ElastoplasticState<dim>& trial);
 
 /// The elastoplastic material as a local law (local_material.hpp).
+template <int dim>
 class ElastoplasticLaw {
  public:
-  using State = ElastoplasticState;
+  static constexpr int dimension = dim;
+  using State = ElastoplasticState<dim>;
 
   /// @throws RunError with all faults of the parameters.
-  explicit ElastoplasticLaw(const ElastoplasticParameters& parameters);
+  explicit ElastoplasticLaw(const ElastoplasticParameters<dim>& parameters);
 
   [[nodiscard]] State initial_state() const { return initial_state_; }
   /// @param stress with couple stresses in N/m. A stress outside the cone is returned to it in the first
   /// step.
-  [[nodiscard]] State initial_state(const Vector7& stress) const;
-  [[nodiscard]] static State rotated(State state, double angle) {
-    state.scaled_stress = fem::rotated(state.scaled_stress, angle);
+  [[nodiscard]] State initial_state(const typename Cosserat<dim>::Vector& stress) const;
+  [[nodiscard]] static State rotated(State state, const Turn<dim>& turn) {
+    state.scaled_stress = fem::rotated(state.scaled_stress, turn);
     return state;
   }
-  [[nodiscard]] Response integrate(const State& start, const Increment& increment, State& trial) const {
+  [[nodiscard]] Response<dim> integrate(const State& start, const Increment<dim>& increment, State& trial) const {
     return integrate_elastoplastic(frame_, cone_, start, increment, trial);
   }
-  [[nodiscard]] Response integrate(const State& start, const Vector7& strain, State& trial) const {
+  [[nodiscard]] Response<dim> integrate(const State& start, const typename Cosserat<dim>::Vector& strain, State& trial) const {
     return integrate_elastoplastic(frame_, cone_, start, strain, trial);
   }
 
@@ -95,7 +105,7 @@ class ElastoplasticLaw {
   void fields(const State& state, std::span<double> values) const;
 
  private:
-  ElastoplasticFrame frame_;
+  ElastoplasticFrame<dim> frame_;
   HardeningCone cone_;
   State initial_state_;
 };

@@ -107,26 +107,33 @@ void check_softening(const HardeningCone& hardening, const SubspaceModuli& modul
   }
 }
 
-void check_initial_stress(const ElastoplasticParameters& parameters, const SubspaceModuli& moduli,
+template <int dim>
+void check_initial_stress(const ElastoplasticParameters<dim>& parameters, const SubspaceModuli& moduli,
                           std::vector<std::string>& found) {
-  const Vector7& initial = parameters.elastic.initial_stress;
-  ScaledVector<double> scaled = initial;
-  const bool has_couple_stress = initial.tail<2>().cwiseAbs().maxCoeff() > 0.0;
+  using Counts = Cosserat<dim>;
+  const typename Counts::Vector& initial = parameters.elastic.initial_stress;
+  ScaledVector<double, dim> scaled = initial;
+  const bool has_couple_stress = initial.template tail<Counts::couples>().cwiseAbs().maxCoeff() > 0.0;
   if (parameters.elastic.internal_length > 0.0) {
-    scaled.tail<2>() /= parameters.elastic.internal_length;
+    scaled.template tail<Counts::couples>() /= parameters.elastic.internal_length;
   } else if (has_couple_stress) {
     found.push_back("the initial stress has couple stresses, which need lc > 0; found lc = 0");
     return;
   }
-  if (parameters.elastic.cosserat_shear_modulus == 0.0 && initial(k12) != initial(k21)) {
-    found.push_back(
-        fmt::format("the initial stress has s12 = {} and s21 = {} Pa, but with Gc = 0 nothing carries "
-                    "their difference; make them equal or give Gc > 0",
-                    initial(k12), initial(k21)));
-    return;
+  for (int i = 0; i < dim; ++i) {
+    for (int j = i + 1; j < dim; ++j) {
+      const double one = initial(Counts::stress_place(i, j));
+      const double other = initial(Counts::stress_place(j, i));
+      if (parameters.elastic.cosserat_shear_modulus != 0.0 || one == other) continue;
+      found.push_back(
+          fmt::format("the initial stress has s{0}{1} = {2} and s{1}{0} = {3} Pa, but with Gc = 0 nothing carries "
+                      "their difference; make them equal or give Gc > 0",
+                      i + 1, j + 1, one, other));
+      return;
+    }
   }
-  const Split<double> split(scaled);
-  const double q = deviatoric_stress(split, moduli.weight);
+  const Split<double, dim> split(scaled);
+  const double q = deviatoric_stress(split, moduli);
   const Cone<double> cone = parameters.cone(0.0);
   const double yield = cone.yield_function(q, split.mean);
   if (!(yield <= 1e-9 * (q + std::abs(cone.friction * split.mean) + cone.cohesion))) {
@@ -147,7 +154,8 @@ double softening_reserve(const HardeningCone& cone, const SubspaceModuli& moduli
   return least;
 }
 
-std::vector<std::string> faults(const ElastoplasticParameters& parameters) {
+template <int dim>
+std::vector<std::string> faults(const ElastoplasticParameters<dim>& parameters) {
   std::vector<std::string> found = faults(parameters.elastic);
   check_weights(parameters.weights, found);
   check_strength(parameters.cone, found);
@@ -157,10 +165,14 @@ std::vector<std::string> faults(const ElastoplasticParameters& parameters) {
   }
   if (found.empty()) {  // the checks below divide by what the checks above have found sound
     const SubspaceModuli moduli(parameters.elastic, parameters.weights);
-    check_softening(parameters.cone, moduli, parameters.elastic.initial_stress.head<3>().sum() / 3.0, found);
+    const double mean = Split<double, dim>(parameters.elastic.initial_stress).mean;
+    check_softening(parameters.cone, moduli, mean, found);
     check_initial_stress(parameters, moduli, found);
   }
   return found;
 }
+
+template std::vector<std::string> faults<2>(const ElastoplasticParameters<2>& parameters);
+template std::vector<std::string> faults<3>(const ElastoplasticParameters<3>& parameters);
 
 }  // namespace polargrain::fem

@@ -17,38 +17,48 @@ namespace polargrain::fem {
 /// parameters only; the values that change at a point live in its State.
 ///
 ///     struct Law {
+///       static constexpr int dimension = 3;         // 2 where it is not said
 ///       struct State { ... };                       // copyable, plain data
 ///       State initial_state() const;
-///       Response integrate(const State& start, const Increment& increment, State& trial) const;
+///       Response<dim> integrate(const State& start, const Increment<dim>& increment, State& trial) const;
 ///     };
 ///
 /// integrate must not throw for an increment it cannot follow: it returns Quality::failed with a message.
 /// A law may also have
 ///
-///       State initial_state(const Vector7& stress) const;
-///       State rotated(const State& state, double angle) const;
+///       State initial_state(const Vector& stress) const;          // Cosserat<dim>::Vector
+///       State rotated(const State& state, const Turn<dim>& turn) const;
 ///       static std::vector<std::string> field_names();
 ///       void fields(const State& state, std::span<double> values) const;
-///       Response integrate(const State& start, const Vector7& strain, State& trial) const;  // any eps_33
+///       Response<2> integrate(const State& start, const Vector7& strain, State& trial) const;  // any eps_33
 ///       static std::vector<double> packed(const State& state);         // always as many values,
 ///       static State unpacked(std::span<const double> values);         // and back: for checkpoints
 template <class Law>
-concept LocalLaw = requires(const Law law, const typename Law::State start, const Increment increment,
+inline constexpr int dimension_of = 2;
+template <class Law>
+  requires requires { Law::dimension; }
+inline constexpr int dimension_of<Law> = Law::dimension;
+
+template <class Law>
+using StressOf = typename Cosserat<dimension_of<Law>>::Vector;
+
+template <class Law>
+concept LocalLaw = requires(const Law law, const typename Law::State start, const Increment<dimension_of<Law>> increment,
                             typename Law::State trial) {
   { law.initial_state() } -> std::same_as<typename Law::State>;
-  { law.integrate(start, increment, trial) } -> std::same_as<Response>;
+  { law.integrate(start, increment, trial) } -> std::same_as<Response<dimension_of<Law>>>;
 };
 
-/// The law can start from any stress: State initial_state(const Vector7& stress) const.
+/// The law can start from any stress: State initial_state(const Vector& stress) const.
 template <class Law>
-concept LawWithGivenStress = requires(const Law law, const Vector7 stress) {
+concept LawWithGivenStress = requires(const Law law, const StressOf<Law> stress) {
   { law.initial_state(stress) } -> std::same_as<typename Law::State>;
 };
 
-/// The law can turn the state of a point: State rotated(const State& state, double angle) const.
+/// The law can turn the state of a point: State rotated(const State& state, const Turn<dim>& turn) const.
 template <class Law>
 concept LawWithRotation = requires(const Law law, const typename Law::State state) {
-  { law.rotated(state, 0.0) } -> std::same_as<typename Law::State>;
+  { law.rotated(state, no_turn<dimension_of<Law>>()) } -> std::same_as<typename Law::State>;
 };
 
 /// The law also shows values beyond stress and strain.
@@ -67,14 +77,17 @@ concept LawWithArchive = requires(const typename Law::State state, std::span<con
 
 /// The law also follows strains along e_3.
 template <class Law>
-concept LawOfStrain = requires(const Law law, const typename Law::State start, const Vector7 strain,
+concept LawOfStrain = dimension_of<Law> == 2 && requires(const Law law, const typename Law::State start, const StressOf<Law> strain,
                                typename Law::State trial) {
-  { law.integrate(start, strain, trial) } -> std::same_as<Response>;
+  { law.integrate(start, strain, trial) } -> std::same_as<Response<dimension_of<Law>>>;
 };
 
 /// Makes a Material of a local law: keeps the committed and the trial state of every point.
 template <LocalLaw Law>
-class LocalMaterial final : public Material, public StrainDriven {
+class LocalMaterial final : public Material<dimension_of<Law>>,
+                            public std::conditional_t<dimension_of<Law> == 2, StrainDriven, NotStrainDriven> {
+  static constexpr int dim = dimension_of<Law>;
+
  public:
   explicit LocalMaterial(Law law) : law_(std::move(law)) {}
 
@@ -83,30 +96,30 @@ class LocalMaterial final : public Material, public StrainDriven {
     trial_ = committed_;
   }
 
-  void set_initial_stress(std::size_t point, const Vector7& stress) override {
+  void set_initial_stress(std::size_t point, const StressOf<Law>& stress) override {
     if constexpr (LawWithGivenStress<Law>) {
       committed_[point] = trial_[point] = law_.initial_state(stress);
     } else {
-      Material::set_initial_stress(point, stress);
+      Material<dim>::set_initial_stress(point, stress);
     }
   }
 
   [[nodiscard]] bool can_turn() const override { return LawWithRotation<Law>; }
 
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
+  void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override {
     for (std::size_t point = 0; point < committed_.size(); ++point) {
-      const StretchAndTurn step = stretch_and_turn(increments[point]);
+      const StretchAndTurn<dim> step = stretch_and_turn(increments[point]);
       responses[point] = law_.integrate(committed_[point], step.stretch, trial_[point]);
       if constexpr (LawWithRotation<Law>) {
         if (increments[point].configuration == Configuration::fixed) continue;
-        trial_[point] = law_.rotated(trial_[point], step.angle);
-        responses[point] = rotated(responses[point], step.angle);
+        trial_[point] = law_.rotated(trial_[point], step.turn);
+        responses[point] = rotated(responses[point], step.turn);
       }
     }
   }
 
-  [[nodiscard]] bool takes_any_strain() const override { return LawOfStrain<Law>; }
-  Response evaluate_strain(const Vector7& strain) override {
+  [[nodiscard]] bool takes_any_strain() const { return LawOfStrain<Law>; }
+  Response<dim> evaluate_strain(const StressOf<Law>& strain) {
     if constexpr (LawOfStrain<Law>) {
       return law_.integrate(committed_.front(), strain, trial_.front());
     } else {
@@ -127,7 +140,7 @@ class LocalMaterial final : public Material, public StrainDriven {
       }
       archive.write("states", std::span<const double>(values));
     } else {
-      Material::save(archive);
+      Material<dim>::save(archive);
     }
   }
 
@@ -140,7 +153,7 @@ class LocalMaterial final : public Material, public StrainDriven {
       }
       trial_ = committed_;
     } else {
-      Material::restore(archive);
+      Material<dim>::restore(archive);
     }
   }
 

@@ -24,6 +24,7 @@ struct Figure {
 /// Order of calls: allocate once; then per step any number of evaluate, ended by commit (trial becomes
 /// committed) or revert (trial is dropped). evaluate always starts from the committed states, so calling it
 /// twice with the same increments gives the same bits. Before a commit a material may be asked to confirm its answers.
+template <int dim>
 class Material {
  public:
   virtual ~Material() = default;
@@ -33,7 +34,7 @@ class Material {
 
   /// Overwrites the initial stress of one point; only between allocate and the first evaluate.
   /// @throws RunError when this material's initial stress is its own and cannot be given.
-  virtual void set_initial_stress(std::size_t point, const Vector7& stress) {
+  virtual void set_initial_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) {
     (void)point;
     (void)stress;
     throw RunError("this material brings its own initial stress and takes none by position");
@@ -50,7 +51,7 @@ class Material {
   /// Answers for all points at once, so that a material may spread the work (cells over workers).
   /// @param increments one a point, from the committed state; @param responses one a point, overwritten.
   /// A point that cannot answer says so in its Response (Quality::failed); no exception for that.
-  virtual void evaluate(std::span<const Increment> increments, std::span<Response> responses) = 0;
+  virtual void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) = 0;
 
   /// Asked when a step is balanced, before commit: whether the answers to the last increments stand. A material that
   /// finds that it has to answer better says false; evaluate then gives other answers to the same increments, the

@@ -39,7 +39,7 @@ ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
 std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
                                     double cohesion) {
   const Split<double> split(stress);
-  const double friction = (deviatoric_stress(split, moduli.weight) - cohesion) / -split.mean;
+  const double friction = (deviatoric_stress(split, moduli) - cohesion) / -split.mean;
   if (!(split.mean < 0.0) || !(friction >= 0.0)) return std::nullopt;
   return friction;
 }

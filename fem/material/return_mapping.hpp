@@ -27,11 +27,11 @@ enum class ReturnFault : std::uint8_t {
 };
 
 /// Answer of return_to_cone. All stresses scaled (stress_subspaces.hpp), Pa.
-template <class Scalar>
+template <class Scalar, int dim = 2>
 struct ConeReturn {
   Regime regime = Regime::elastic;
   ReturnFault fault = ReturnFault::none;
-  ScaledVector<Scalar> stress = ScaledVector<Scalar>::Zero();
+  ScaledVector<Scalar, dim> stress = ScaledVector<Scalar, dim>::Zero();
   Scalar gamma_increment{};  ///< d lambda = d gamma_p
   Scalar zeta{};             ///< 3 d lambda / (2 q), 1/Pa; smooth returns only
   Cone<Scalar> cone;         ///< at the end of the step
@@ -59,13 +59,14 @@ struct YieldEquation {
   const ConeAt& cone_at;
   Scalar gamma_p;                    ///< at the start of the step
   Scalar mean;                       ///< trial p
-  std::array<Scalar, 3> squared{};   ///< n_k = |s_k,trial|^2
+  std::array<Scalar, 3> squared{};   ///< n_k of the trial stress, |s_k|^2 (square_of_part)
   std::array<double, 3> relative{};  ///< r_k = c_k / (2G)
 
-  YieldEquation(const SubspaceModuli& m, const ConeAt& c, const Scalar& gamma, const Split<Scalar>& trial)
+  template <int dim>
+  YieldEquation(const SubspaceModuli& m, const ConeAt& c, const Scalar& gamma, const Split<Scalar, dim>& trial)
       : moduli(m), cone_at(c), gamma_p(gamma), mean(trial.mean) {
     for (std::size_t k = 0; k < 3; ++k) {
-      squared[k] = plain_dot(trial.part[k], trial.part[k]);
+      squared[k] = square_of_part(trial, k, m.couples);
       relative[k] = m.return_stiffness(k) / (2.0 * m.shear());
     }
   }
@@ -179,13 +180,13 @@ bool solve_yield_equation(const YieldEquation<Scalar, ConeAt>& equation, double 
 
 /// Two-mechanism return to the tip, B.5: explicit, for any dilatancy. `cone` is the one at the end of the
 /// step.
-template <class Scalar>
-void return_to_apex(const Split<Scalar>& trial, const SubspaceModuli& moduli, const Scalar& gamma_increment,
-                    const Cone<Scalar>& cone, ConeReturn<Scalar>& result) {
+template <class Scalar, int dim>
+void return_to_apex(const Split<Scalar, dim>& trial, const SubspaceModuli& moduli, const Scalar& gamma_increment,
+                    const Cone<Scalar>& cone, ConeReturn<Scalar, dim>& result) {
   result.regime = Regime::apex;
   result.gamma_increment = gamma_increment;
   result.cone = cone;
-  result.stress = (cone.cohesion / cone.friction) * volumetric_vector<Scalar>();
+  result.stress = (cone.cohesion / cone.friction) * volumetric_vector<Scalar, dim>();
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(moduli.return_stiffness(k) > 0.0)) {
       result.stress += trial.part[k];
@@ -195,9 +196,9 @@ void return_to_apex(const Split<Scalar>& trial, const SubspaceModuli& moduli, co
 
 /// Return to the side of the cone, B.4. `trial_q` and `trial_yield` (Pa) belong to the trial state and
 /// result.cone to the start of the step.
-template <class Scalar, class ConeAt>
-void return_to_side(const Split<Scalar>& trial, const YieldEquation<Scalar, ConeAt>& equation, double trial_q,
-                    double trial_yield, double scale, ConeReturn<Scalar>& result) {
+template <class Scalar, int dim, class ConeAt>
+void return_to_side(const Split<Scalar, dim>& trial, const YieldEquation<Scalar, ConeAt>& equation, double trial_q,
+                    double trial_yield, double scale, ConeReturn<Scalar, dim>& result) {
   const SubspaceModuli& moduli = equation.moduli;
   result.regime = Regime::smooth;
   // Exact for perfect plasticity with the default invariant weights.
@@ -224,7 +225,7 @@ void return_to_side(const Split<Scalar>& trial, const YieldEquation<Scalar, Cone
   result.zeta = point.zeta;
   result.cone = point.cone;
   result.residual = std::abs(real_part(point.value)) / scale;
-  result.stress = point.mean * volumetric_vector<Scalar>();
+  result.stress = point.mean * volumetric_vector<Scalar, dim>();
   for (std::size_t k = 0; k < 3; ++k) {
     result.stress += trial.part[k] / (1.0 + point.zeta * moduli.return_stiffness(k));
   }
@@ -238,18 +239,21 @@ void return_to_side(const Split<Scalar>& trial, const YieldEquation<Scalar, Cone
 /// @param gamma_p accumulated plastic shear at the start of the step
 /// @param cone_at callable, gamma_p -> Cone: HardeningCone, FrozenCone or any other
 /// Never throws: a stress that cannot be returned comes back with a fault, and must not be used.
-template <class Scalar, class ConeAt>
-ConeReturn<Scalar> return_to_cone(const ScaledVector<Scalar>& trial, const Scalar& gamma_p,
-                                  const SubspaceModuli& moduli, const ConeAt& cone_at) {
+template <class Scalar, int size, class ConeAt>
+ConeReturn<Scalar, dimension_of_components<size>> return_to_cone(const Eigen::Matrix<Scalar, size, 1>& trial,
+                                                                 const Scalar& gamma_p,
+                                                                 const SubspaceModuli& moduli,
+                                                                 const ConeAt& cone_at) {
+  constexpr int dim = dimension_of_components<size>;
   // An elastic step must also be found elastic when it starts on the cone, where the last return left it
   // within rounding of F = 0.
   constexpr double kElasticTolerance = 1e-12;
-  ConeReturn<Scalar> result;
+  ConeReturn<Scalar, dim> result;
   result.stress = trial;
   result.gamma_increment = Scalar(0.0);
   result.cone = cone_at(gamma_p);
-  const Split<Scalar> split(trial);
-  const Scalar q = deviatoric_stress(split, moduli.weight);
+  const Split<Scalar, dim> split(trial);
+  const Scalar q = deviatoric_stress(split, moduli);
   const Scalar yield = result.cone.yield_function(q, split.mean);
   const double scale = std::abs(real_part(q)) + std::abs(real_part(result.cone.friction * split.mean)) +
                        std::abs(real_part(result.cone.cohesion));

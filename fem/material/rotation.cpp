@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/elementary_functions.hpp"
+#include "fem/material/polar_decomposition.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -30,16 +31,26 @@ Matrix7 rotation_of_components(double angle) {
   return turn;
 }
 
+/// 9 x 9: what R t R^T does to the components t_11, t_12 .. t_33.
+Eigen::Matrix<double, 9, 9> rotation_of_tensor(const Eigen::Matrix3d& r) {
+  Eigen::Matrix<double, 9, 9> turn;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) turn(3 * i + j, 3 * k + l) = r(i, k) * r(j, l);
+  return turn;
+}
+
 }  // namespace
 
-double rotation_angle(const Increment& increment) {
+double rotation_angle(const Increment<2>& increment) {
   // The closed form of the plane: tan of the angle is (F21 - F12) / (F11 + F22).
   const Eigen::Matrix2d& h = increment.displacement_gradient;
   return arc_tangent(h(1, 0) - h(0, 1), 2.0 + h(0, 0) + h(1, 1));
 }
 
-StretchAndTurn stretch_and_turn(const Increment& increment) {
-  if (increment.configuration == Configuration::fixed) return {increment, 0.0};
+StretchAndTurn<2> stretch_and_turn(const Increment<2>& increment) {
+  if (increment.configuration == Configuration::fixed) return {increment, no_turn<2>()};
   const Eigen::Matrix2d& h = increment.displacement_gradient;
   const double sum = 2.0 + h(0, 0) + h(1, 1);
   const double difference = h(1, 0) - h(0, 1);
@@ -50,11 +61,11 @@ StretchAndTurn stretch_and_turn(const Increment& increment) {
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d stretch = (green + (1.0 + volume) * one) / trace;
   const Eigen::Matrix2d inverse = (stretch + one).inverse();
-  StretchAndTurn step;
-  step.angle = rotation_angle(increment);
+  StretchAndTurn<2> step;
+  step.turn = rotation_angle(increment);
   const Eigen::Matrix2d strain = 2.0 * green * inverse * inverse;
   step.stretch.displacement_gradient = 0.5 * (strain + strain.transpose());
-  step.stretch.micro_rotation = increment.micro_rotation - step.angle;
+  step.stretch.micro_rotation = increment.micro_rotation - step.turn;
   step.stretch.curvature = 2.0 * inverse * increment.curvature;
   return step;
 }
@@ -78,10 +89,33 @@ Matrix7 rotated(const Matrix7& tangent, double angle) {
   return turn * tangent * turn.transpose();
 }
 
-Response rotated(Response response, double angle) {
-  response.stress = rotated(response.stress, angle);
-  response.tangent = rotated(response.tangent, angle);
-  return response;
+Eigen::Vector3d rotation_vector(const Increment<3>& increment) {
+  return PolarDecomposition(increment.displacement_gradient).vector;
+}
+
+StretchAndTurn<3> stretch_and_turn(const Increment<3>& increment) {
+  if (increment.configuration == Configuration::fixed) return {increment, no_turn<3>()};
+  const PolarDecomposition parts(increment.displacement_gradient);
+  StretchAndTurn<3> step;
+  step.turn = parts.rotation;
+  step.stretch.displacement_gradient = parts.strain;
+  // Rotations of the step are vectors about its middle; the law has the axes of the start.
+  step.stretch.rotation = parts.half_way_back * increment.rotation - parts.vector;
+  step.stretch.curvature = 2.0 * parts.half_way_back * increment.curvature * parts.inverse;
+  return step;
+}
+
+Vector18 rotated(const Vector18& components, const Eigen::Matrix3d& rotation) {
+  const Eigen::Matrix<double, 9, 9> turn = rotation_of_tensor(rotation);
+  Vector18 turned;
+  turned << turn * components.head<9>(), turn * components.tail<9>();
+  return turned;
+}
+
+Matrix18 rotated(const Matrix18& tangent, const Eigen::Matrix3d& rotation) {
+  Matrix18 turn = Matrix18::Zero();
+  turn.topLeftCorner<9, 9>() = turn.bottomRightCorner<9, 9>() = rotation_of_tensor(rotation);
+  return turn * tangent * turn.transpose();
 }
 
 }  // namespace polargrain::fem

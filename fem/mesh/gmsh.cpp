@@ -62,9 +62,9 @@ GmshReaderFunction reader_function(const std::filesystem::path& mesh_file,
 class Reader {
  public:
   Reader(std::filesystem::path file, std::string_view quadrilateral8, GmshContent content)
-      : file_(std::move(file)), quadrilateral8_(element_type(quadrilateral8)), content_(std::move(content)) {}
+      : file_(std::move(file)), quadrilateral8_(element_type<2>(quadrilateral8)), content_(std::move(content)) {}
 
-  Mesh read() {
+  Mesh<2> read() {
     if (!content_.error.empty()) fail(fmt::format("Gmsh cannot read it: {}", content_.error));
     read_nodes();
     read_surfaces();
@@ -90,14 +90,14 @@ class Reader {
     }
   }
 
-  const ElementType& type_of(int kind) const {
+  const ElementType<2>& type_of(int kind) const {
     switch (kind) {
       case kQuadrilateral8:
         return quadrilateral8_;
       case kQuadrilateral4:
-        return element_type("Q4");
+        return element_type<2>("Q4");
       case kTriangle6:
-        return element_type("T6");
+        return element_type<2>("T6");
       case kTriangle3:
         fail("it has triangles of 3 nodes, too stiff to be offered: set Mesh.ElementOrder = 2");
       case kQuadrilateral9:
@@ -144,7 +144,7 @@ class Reader {
       std::vector<int>& numbers = elements_of_entity[entity];
       for_each_element(2, entity, [&](int kind, std::vector<int> nodes) {
         numbers.push_back(static_cast<int>(mesh_.elements.size()));
-        const ElementType& type = type_of(kind);
+        const ElementType<2>& type = type_of(kind);
         if (nodes.size() != type.node_positions.size()) fail("it has elements with nodes missing");
         mesh_.elements.push_back({&type, std::move(nodes)});
         turn_counter_clockwise(numbers.back());
@@ -170,7 +170,7 @@ class Reader {
   }
 
   void turn_counter_clockwise(int number) {
-    Element& element = mesh_.elements[static_cast<std::size_t>(number)];
+    Element<2>& element = mesh_.elements[static_cast<std::size_t>(number)];
     const Eigen::MatrixX2d x = mesh_.element_positions(number).topRows(element.type->corners);
     double twice_area = 0.0;
     for (Eigen::Index a = 0; a < x.rows(); ++a) {
@@ -187,8 +187,8 @@ class Reader {
   void find_sides() {
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
       for (int side = 0; side < mesh_.elements[e].type->corners; ++side) {
-        const Edge edge{static_cast<int>(e), side};
-        const std::vector<int> nodes = mesh_.edge_nodes(edge);
+        const BoundarySide edge{static_cast<int>(e), side};
+        const std::vector<int> nodes = mesh_.side_nodes(edge);
         side_of_corners_.try_emplace(std::minmax(nodes[0], nodes[1]), edge);
       }
     }
@@ -196,7 +196,7 @@ class Reader {
 
   void read_curves() {
     for_each_group(1, [&](const std::string& name, int entity) {
-      std::vector<Edge>& boundary = mesh_.boundaries[name];
+      std::vector<BoundarySide>& boundary = mesh_.boundaries[name];
       for_each_element(1, entity, [&](int, const std::vector<int>& nodes) {
         const auto side = side_of_corners_.find(std::minmax(nodes[0], nodes[1]));
         if (side == side_of_corners_.end()) {
@@ -218,7 +218,7 @@ class Reader {
   /// Gmsh keeps nodes of construction points; an unknown without an element would make the tangent singular.
   void drop_unused_nodes() {
     std::vector<int> number(mesh_.nodes.size(), -1);
-    for (const Element& element : mesh_.elements) {
+    for (const Element<2>& element : mesh_.elements) {
       for (const int node : element.nodes) number[static_cast<std::size_t>(node)] = 0;
     }
     std::vector<Eigen::Vector2d> kept;
@@ -228,7 +228,7 @@ class Reader {
       kept.push_back(mesh_.nodes[node]);
     }
     mesh_.nodes = std::move(kept);
-    for (Element& element : mesh_.elements) {
+    for (Element<2>& element : mesh_.elements) {
       for (int& node : element.nodes) node = number[static_cast<std::size_t>(node)];
     }
     for (auto& [name, nodes] : mesh_.node_sets) {
@@ -243,11 +243,11 @@ class Reader {
   }
 
   std::filesystem::path file_;
-  const ElementType& quadrilateral8_;
+  const ElementType<2>& quadrilateral8_;
   GmshContent content_;
-  Mesh mesh_;
+  Mesh<2> mesh_;
   std::map<std::size_t, int> node_of_tag_;
-  std::map<std::pair<int, int>, Edge> side_of_corners_;
+  std::map<std::pair<int, int>, BoundarySide> side_of_corners_;
 };
 
 /// Whether Gmsh takes the file for a mesh by its content too: what begins in another way it runs as a script, whatever
@@ -273,7 +273,7 @@ std::vector<std::filesystem::path> gmsh_module_places() {
   return places;
 }
 
-Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8,
+Mesh<2> read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8,
                const std::vector<std::filesystem::path>& module_places) {
   if (const std::string reason = why_no_input(file); !reason.empty())
     throw InputError(Fault{file.string(), 0, reason});
@@ -293,8 +293,9 @@ Mesh read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral
   return mesh_of(file, std::move(content), quadrilateral8);
 }
 
-Mesh mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8) {
+Mesh<2> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8) {
   return Reader(file, quadrilateral8, std::move(content)).read();
 }
+
 
 }  // namespace polargrain::fem

@@ -5,35 +5,38 @@
 #include <string>
 #include <vector>
 
+#include "common/cosserat.hpp"
 #include "fem/element/element_type.hpp"
 
 namespace polargrain::fem {
 
+template <int dim>
 struct Element {
-  const ElementType* type;  ///< never null; element types live as long as the program
+  const ElementType<dim>* type;  ///< never null; element types live as long as the program
   std::vector<int> nodes;   ///< type->nodes numbers into Mesh::nodes, in the order of ElementType
 };
 
-/// Side `side` of element `element`, seen from inside the body; the outward normal is to the right of the way
-/// from the first corner to the second.
-struct Edge {
+/// Side `side` of element `element`: an edge in the plane, a face in space, seen from inside the body (ElementType::sides).
+struct BoundarySide {
   int element;
   int side;
 };
 
-/// A plane mesh, as a plain value. Names are the user's; one name may not be both a boundary and a node set.
+/// A mesh, as a plain value. Names are the user's; one name may not be both a boundary and a node set.
+template <int dim>
 struct Mesh {
-  std::vector<Eigen::Vector2d> nodes;  ///< positions, m
-  std::vector<Element> elements;
-  std::map<std::string, std::vector<Edge>> boundaries;  ///< named parts of the boundary
+  std::vector<typename Cosserat<dim>::Place> nodes;  ///< positions, m
+  std::vector<Element<dim>> elements;
+  std::map<std::string, std::vector<BoundarySide>> boundaries;  ///< named parts of the boundary
   std::map<std::string, std::vector<int>> regions;      ///< named sets of elements
   std::map<std::string, std::vector<int>> node_sets;    ///< named sets of nodes
 
-  /// Global nodes of an edge: first corner, second corner, then the middle node if there is one.
-  [[nodiscard]] std::vector<int> edge_nodes(const Edge& edge) const;
+  [[nodiscard]] const ElementSide<dim>& side_of(const BoundarySide& side) const;
+  /// Global nodes of a side: the corners, then the middle nodes if there are any.
+  [[nodiscard]] std::vector<int> side_nodes(const BoundarySide& side) const;
 
   /// Positions of the nodes of an element, a row a node.
-  [[nodiscard]] Eigen::MatrixX2d element_positions(int element) const;
+  [[nodiscard]] VectorRows<dim> element_positions(int element) const;
 
   [[nodiscard]] bool has_nodes_on(const std::string& name) const;
   /// Nodes of the boundary or node set `name`, ascending, each once.
@@ -47,8 +50,13 @@ struct Mesh {
   [[nodiscard]] std::vector<std::string> boundary_and_node_set_names() const;
 };
 
+/// "(x, y)" or "(x, y, z)" in m, for messages.
+template <int dim>
+std::string place_text(const Eigen::Matrix<double, dim, 1>& place);
+
 /// Elements whose Jacobian is not positive at some integration point or corner, one message each that names
 /// the element, the place and the determinant.
-std::vector<std::string> distorted_elements(const Mesh& mesh);
+template <int dim>
+std::vector<std::string> distorted_elements(const Mesh<dim>& mesh);
 
 }  // namespace polargrain::fem

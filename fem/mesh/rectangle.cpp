@@ -13,7 +13,7 @@ namespace {
 /// Numbers nodes on a grid of half-element spacing, only where some element has a node.
 class HalfGrid {
  public:
-  HalfGrid(const RectangleSpecification& specification, Mesh& mesh)
+  HalfGrid(const RectangleSpecification& specification, Mesh<2>& mesh)
       : specification_(specification),
         width_(2 * specification.elements[0] + 1),
         numbers_(static_cast<std::size_t>(width_ * (2 * specification.elements[1] + 1)), -1),
@@ -34,13 +34,13 @@ class HalfGrid {
   const RectangleSpecification& specification_;
   int width_;
   std::vector<int> numbers_;
-  Mesh& mesh_;
+  Mesh<2>& mesh_;
 };
 
 using GridPlaces = std::vector<std::array<int, 2>>;
 
 /// Grid places of the nodes of the elements of one rectangle, relative to its lower left corner.
-std::vector<GridPlaces> places_in_rectangle(const ElementType& type) {
+std::vector<GridPlaces> places_in_rectangle(const ElementType<2>& type) {
   if (type.corners == 3) {
     return {{{0, 0}, {2, 0}, {2, 2}, {1, 0}, {2, 1}, {1, 1}},
             {{0, 0}, {2, 2}, {0, 2}, {1, 1}, {1, 2}, {0, 1}}};
@@ -64,26 +64,26 @@ void check(const RectangleSpecification& specification) {
 
 }  // namespace
 
-Mesh rectangle(const RectangleSpecification& specification, std::string_view element) {
+Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view element) {
   check(specification);
-  const ElementType& type = element_type(element);
+  const ElementType<2>& type = element_type<2>(element);
   const std::vector<GridPlaces> parts = places_in_rectangle(type);
   const auto [columns, rows] = specification.elements;
-  Mesh mesh;
+  Mesh<2> mesh;
   HalfGrid grid(specification, mesh);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const int first = static_cast<int>(mesh.elements.size());
       for (const GridPlaces& places : parts) {
-        Element& added = mesh.elements.emplace_back(Element{&type, {}});
+        Element<2>& added = mesh.elements.emplace_back(Element<2>{&type, {}});
         for (const auto& [i, j] : places) added.nodes.push_back(grid.node(2 * column + i, 2 * row + j));
       }
       // A rectangle of two triangles: the first has the bottom and right sides, the second top and left.
       const bool triangles = parts.size() == 2;
       if (row == 0) mesh.boundaries["bottom"].push_back({first, 0});
       if (column == columns - 1) mesh.boundaries["right"].push_back({first, 1});
-      if (row == rows - 1) mesh.boundaries["top"].push_back(triangles ? Edge{first + 1, 1} : Edge{first, 2});
-      if (column == 0) mesh.boundaries["left"].push_back(triangles ? Edge{first + 1, 2} : Edge{first, 3});
+      if (row == rows - 1) mesh.boundaries["top"].push_back(triangles ? BoundarySide{first + 1, 1} : BoundarySide{first, 2});
+      if (column == 0) mesh.boundaries["left"].push_back(triangles ? BoundarySide{first + 1, 2} : BoundarySide{first, 3});
     }
   }
   mesh.node_sets["bottom_left"] = {grid.node(0, 0)};
@@ -96,5 +96,6 @@ Mesh rectangle(const RectangleSpecification& specification, std::string_view ele
   std::iota(mesh.regions["all"].begin(), mesh.regions["all"].end(), 0);
   return mesh;
 }
+
 
 }  // namespace polargrain::fem

@@ -16,6 +16,6 @@ struct RectangleSpecification {
 };
 
 /// @throws RunError when a size or a number of elements is not positive, or the element is unknown.
-Mesh rectangle(const RectangleSpecification& specification, std::string_view element = "Q8R");
+Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view element = "Q8R");
 
 }  // namespace polargrain::fem

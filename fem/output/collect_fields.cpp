@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -11,7 +12,7 @@
 namespace polargrain::fem {
 namespace {
 
-/// sqrt(2/3 e_ij e_ij) with e the deviator of the symmetric strain, eps_33 = 0.
+/// sqrt(2/3 e_ij e_ij) with e the deviator of the symmetric strain, in the plane with eps_33 = 0.
 double deviatoric_strain(const Vector7& strain) {
   const double mean = (strain(k11) + strain(k22) + strain(k33)) / 3.0;
   const double shear = 0.5 * (strain(k12) + strain(k21));
@@ -19,10 +20,33 @@ double deviatoric_strain(const Vector7& strain) {
   for (const int i : {k11, k22, k33}) square += (strain(i) - mean) * (strain(i) - mean);
   return std::sqrt(2.0 / 3.0 * square);
 }
+double deviatoric_strain(const Vector18& strain) {
+  Eigen::Matrix3d e = Eigen::Map<const Eigen::Matrix3d>(strain.data());
+  e = (0.5 * (e + e.transpose())).eval();
+  e -= (e.trace() / 3.0) * Eigen::Matrix3d::Identity();
+  return std::sqrt(2.0 / 3.0) * e.norm();
+}
 
-const std::vector<std::string> kTensor{"11", "22", "33", "12", "21"};
-const std::vector<std::string> kPlaneVector{"1", "2"};
+double volume_strain(const Vector7& strain) {
+  return strain.head<3>().sum();
+}
+double volume_strain(const Vector18& strain) {
+  return strain(0) + strain(4) + strain(8);
+}
+
 const std::vector<std::string> kVector{"1", "2", "3"};
+
+/// Names of the components of stresses, and of couple stresses.
+template <int dim>
+std::vector<std::string> tensor_names() {
+  if constexpr (dim == 2) return {"11", "22", "33", "12", "21"};
+  return {"11", "12", "13", "21", "22", "23", "31", "32", "33"};
+}
+template <int dim>
+std::vector<std::string> couple_names() {
+  if constexpr (dim == 2) return {"1", "2"};
+  return tensor_names<3>();
+}
 
 /// Of what materials show: what is a quantity in space, so that it can be smoothed. The others count things, or say
 /// what an integration point is or does.
@@ -37,15 +61,16 @@ struct PointField {
 };
 
 /// A field of the values of `quantity` at each point, component by component.
-template <class Quantity>
-Field point_field(const Solver& solver, Field field, Quantity quantity) {
+template <int dim, class Quantity>
+Field point_field(const Solver<dim>& solver, Field field, Quantity quantity) {
   for (std::size_t point = 0; point < solver.points(); ++point)
     for (int i = 0; i < field.components; ++i) field.values.push_back(quantity(point, i));
   return field;
 }
 
 /// Averages over the volume of each element.
-Field element_averages(const Solver& solver, const Field& at_points) {
+template <int dim>
+Field element_averages(const Solver<dim>& solver, const Field& at_points) {
   const std::size_t elements = solver.problem().mesh.elements.size();
   const auto width = static_cast<std::size_t>(at_points.components);
   Field field = at_points;
@@ -62,25 +87,33 @@ Field element_averages(const Solver& solver, const Field& at_points) {
   return field;
 }
 
-std::vector<Field> nodal_fields(const Solver& solver) {
+template <int dim>
+std::vector<Field> nodal_fields(const Solver<dim>& solver) {
   Field displacement{"displacement", 3, {}, "m", kVector};
   Field rotation{"micro_rotation", 1, {}, "rad"};
   Field axis{"micro_rotation_vector", 3, {}, "rad", kVector};
   const Eigen::VectorXd& values = solver.state().displacement;
-  for (Eigen::Index i = 0; i < values.size(); i += 3) {
-    displacement.values.insert(displacement.values.end(), {values(i), values(i + 1), 0.0});
-    rotation.values.push_back(values(i + 2));
-    axis.values.insert(axis.values.end(), {0.0, 0.0, values(i + 2)});
+  for (Eigen::Index i = 0; i < values.size(); i += Cosserat<dim>::dofs) {
+    if constexpr (dim == 2) {
+      displacement.values.insert(displacement.values.end(), {values(i), values(i + 1), 0.0});
+      rotation.values.push_back(values(i + 2));
+      axis.values.insert(axis.values.end(), {0.0, 0.0, values(i + 2)});
+    } else {
+      displacement.values.insert(displacement.values.end(), {values(i), values(i + 1), values(i + 2)});
+      axis.values.insert(axis.values.end(), {values(i + 3), values(i + 4), values(i + 5)});
+    }
   }
+  if constexpr (dim == 3) return {std::move(displacement), std::move(axis)};
   return {std::move(displacement), std::move(rotation), std::move(axis)};
 }
 
 /// All names that some material shows, each once, in the order of the points.
-std::vector<std::string> material_field_names(const Solver& solver) {
-  std::vector<const Material*> seen;
+template <int dim>
+std::vector<std::string> material_field_names(const Solver<dim>& solver) {
+  std::vector<const Material<dim>*> seen;
   std::vector<std::string> names;
   for (std::size_t point = 0; point < solver.points(); ++point) {
-    const Material* material = solver.material_of_point(point).first;
+    const Material<dim>* material = solver.material_of_point(point).first;
     if (std::find(seen.begin(), seen.end(), material) != seen.end()) continue;
     seen.push_back(material);
     for (std::string& name : material->field_names()) {
@@ -91,7 +124,8 @@ std::vector<std::string> material_field_names(const Solver& solver) {
 }
 
 /// The fields of the materials; 0 where the material of a point does not have a field.
-std::vector<PointField> material_fields(const Solver& solver) {
+template <int dim>
+std::vector<PointField> material_fields(const Solver<dim>& solver) {
   const std::vector<std::string> names = material_field_names(solver);
   std::map<std::string, std::size_t> places;
   std::vector<PointField> fields;
@@ -115,33 +149,38 @@ std::vector<PointField> material_fields(const Solver& solver) {
 }
 
 /// Stresses, strains and what materials show, at the integration points.
-std::vector<PointField> basic_fields(const Solver& solver) {
-  const SolverState& state = solver.state();
+template <int dim>
+std::vector<PointField> basic_fields(const Solver<dim>& solver) {
+  using Counts = Cosserat<dim>;
+  const SolverState<dim>& state = solver.state();
   const auto stress = [&](std::size_t point, int i) { return state.responses[point].stress(i); };
   const auto strain = [&](std::size_t point, int i) { return state.strain[point](i); };
   std::vector<PointField> fields;
   const auto add = [&](Field field, auto quantity) {
     fields.push_back({point_field(solver, std::move(field), quantity), {}});
   };
-  add({"stress", 5, {}, "Pa", kTensor}, stress);
-  add({"couple_stress", 2, {}, "N/m", kPlaneVector},
-      [&](std::size_t point, int i) { return stress(point, kCurvature1 + i); });
-  add({"strain", 5, {}, "1", kTensor}, strain);
-  add({"curvature", 2, {}, "rad/m", kPlaneVector},
-      [&](std::size_t point, int i) { return strain(point, kCurvature1 + i); });
+  add({"stress", Counts::stresses, {}, "Pa", tensor_names<dim>()}, stress);
+  add({"couple_stress", Counts::couples, {}, "N/m", couple_names<dim>()},
+      [&](std::size_t point, int i) { return stress(point, Counts::stresses + i); });
+  add({"strain", Counts::stresses, {}, "1", tensor_names<dim>()}, strain);
+  add({"curvature", Counts::couples, {}, "rad/m", couple_names<dim>()},
+      [&](std::size_t point, int i) { return strain(point, Counts::stresses + i); });
   add({"relative_rotation", 3, {}, "rad", kVector}, [&](std::size_t point, int i) {
-    return i == 2 ? 0.5 * (strain(point, k21) - strain(point, k12)) : 0.0;
+    if (dim == 2 && i != 2) return 0.0;
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    return 0.5 * (strain(point, Counts::stress_place(k, j)) - strain(point, Counts::stress_place(j, k)));
   });
   add({"deviatoric_strain", 1, {}, "1"},
       [&](std::size_t point, int) { return deviatoric_strain(state.strain[point]); });
   add({"volume_strain", 1, {}, "1"},
-      [&](std::size_t point, int) { return state.strain[point].head<3>().sum(); });
+      [&](std::size_t point, int) { return volume_strain(state.strain[point]); });
   for (PointField& field : material_fields(solver)) fields.push_back(std::move(field));
   return fields;
 }
 
 /// Adds what can be read off the stress, the first of the fields.
-void add_stress_measures(std::vector<Field>& fields, const Field& stress) {
+void add_plane_measures(std::vector<Field>& fields, const Field& stress) {
   Field p{"p", 1, {}, "Pa"};
   Field q{"q", 1, {}, "Pa"};
   Field ratio{"stress_ratio", 1, {}, "1"};
@@ -166,14 +205,55 @@ void add_stress_measures(std::vector<Field>& fields, const Field& stress) {
     fields.push_back(std::move(*field));
 }
 
+/// The same in space.
+void add_space_measures(std::vector<Field>& fields, const Field& stress) {
+  Field p{"p", 1, {}, "Pa"};
+  Field q{"q", 1, {}, "Pa"};
+  Field ratio{"stress_ratio", 1, {}, "1"};
+  Field lode{"lode_angle", 1, {}, "degree"};
+  Field friction{"mobilised_friction_angle", 1, {}, "degree"};
+  Field principal{"principal_stress", 3, {}, "Pa", kVector};
+  std::array<Field, 3> directions;
+  for (std::size_t i = 0; i < 3; ++i)
+    directions[i] = {"principal_direction_" + kVector[i], 3, {}, "1", kVector};
+  for (std::size_t k = 0; k < stress.values.size(); k += 9) {
+    Vector18 of_entity = Vector18::Zero();
+    std::copy_n(stress.values.begin() + static_cast<std::ptrdiff_t>(k), 9, of_entity.begin());
+    const SpaceStressMeasures found = measures_of(of_entity);
+    p.values.push_back(found.pressure);
+    q.values.push_back(found.deviatoric);
+    ratio.values.push_back(found.ratio);
+    lode.values.push_back(found.lode_angle);
+    friction.values.push_back(found.mobilised_friction);
+    principal.values.insert(principal.values.end(), found.principal.begin(), found.principal.end());
+    for (int i = 0; i < 3; ++i) {
+      const auto direction = found.directions.col(i);
+      directions[static_cast<std::size_t>(i)].values.insert(directions[static_cast<std::size_t>(i)].values.end(),
+                                                            {direction(0), direction(1), direction(2)});
+    }
+  }
+  for (Field* const field : {&p, &q, &ratio, &lode, &friction, &principal, &directions[0], &directions[1], &directions[2]})
+    fields.push_back(std::move(*field));
+}
+
+template <int dim>
+void add_stress_measures(std::vector<Field>& fields, const Field& stress) {
+  if constexpr (dim == 2) {
+    add_plane_measures(fields, stress);
+  } else {
+    add_space_measures(fields, stress);
+  }
+}
+
 /// A nodal field where the integration points are, as the elements interpolate it.
-Field interpolated(const Solver& solver, const Field& at_nodes) {
-  const Mesh& mesh = solver.problem().mesh;
+template <int dim>
+Field interpolated(const Solver<dim>& solver, const Field& at_nodes) {
+  const Mesh<dim>& mesh = solver.problem().mesh;
   const auto width = static_cast<std::size_t>(at_nodes.components);
   Field field = at_nodes;
   field.values.clear();
-  for (const Element& element : mesh.elements) {
-    for (const QuadraturePoint& point : element.type->quadrature) {
+  for (const Element<dim>& element : mesh.elements) {
+    for (const QuadraturePoint<dim>& point : element.type->quadrature) {
       const Eigen::VectorXd shape = element.type->shape_functions(point.position).value;
       for (std::size_t i = 0; i < width; ++i) {
         double value = 0.0;
@@ -189,7 +269,8 @@ Field interpolated(const Solver& solver, const Field& at_nodes) {
 
 }  // namespace
 
-Fields collect_fields(const Solver& solver) {
+template <int dim>
+Fields collect_fields(const Solver<dim>& solver) {
   Fields fields;
   fields.points = nodal_fields(solver);
   for (const PointField& of : basic_fields(solver)) {
@@ -200,29 +281,35 @@ Fields collect_fields(const Solver& solver) {
   const auto stress = [](const std::vector<Field>& of) {
     return *std::ranges::find(of, "stress", &Field::name);
   };
-  add_stress_measures(fields.points, stress(fields.points));
-  add_stress_measures(fields.cells, stress(fields.cells));
+  add_stress_measures<dim>(fields.points, stress(fields.points));
+  add_stress_measures<dim>(fields.cells, stress(fields.cells));
   return fields;
 }
 
-PlacedFields collect_point_fields(const Solver& solver) {
+template <int dim>
+PlacedFields collect_point_fields(const Solver<dim>& solver) {
   PlacedFields placed;
-  Field nodes{"", 2, {}};
-  for (const Eigen::Vector2d& node : solver.problem().mesh.nodes)
-    nodes.values.insert(nodes.values.end(), {node(0), node(1)});
+  Field nodes{"", dim, {}};
+  for (const typename Cosserat<dim>::Place& node : solver.problem().mesh.nodes)
+    nodes.values.insert(nodes.values.end(), node.begin(), node.end());
   const std::vector<double> places = interpolated(solver, nodes).values;
-  for (std::size_t k = 0; k < places.size(); k += 2)
-    placed.places.emplace_back(places[k], places[k + 1], 0.0);
+  for (std::size_t k = 0; k < places.size(); k += dim)
+    placed.places.emplace_back(places[k], places[k + 1], dim == 2 ? 0.0 : places[k + dim - 1]);
 
   std::vector<Field>& fields = placed.fields;
   for (const Field& field : nodal_fields(solver)) fields.push_back(interpolated(solver, field));
-  fields.push_back(point_field(solver, {"volume", 1, {}, "m^2"},
+  fields.push_back(point_field(solver, {"volume", 1, {}, dim == 2 ? "m^2" : "m^3"},
                                [&](std::size_t point, int) { return solver.volume_of_point(point); }));
   std::vector<PointField> basic = basic_fields(solver);
   const Field stress = basic.front().field;
   for (PointField& of : basic) fields.push_back(std::move(of.field));
-  add_stress_measures(fields, stress);
+  add_stress_measures<dim>(fields, stress);
   return placed;
 }
+
+template Fields collect_fields<2>(const Solver<2>& solver);
+template Fields collect_fields<3>(const Solver<3>& solver);
+template PlacedFields collect_point_fields<2>(const Solver<2>& solver);
+template PlacedFields collect_point_fields<3>(const Solver<3>& solver);
 
 }  // namespace polargrain::fem

@@ -5,7 +5,8 @@
 
 namespace polargrain::fem {
 
-std::optional<double> MaterialValues::at(std::size_t point, std::string_view name) {
+template <int dim>
+std::optional<double> MaterialValues<dim>::at(std::size_t point, std::string_view name) {
   if (point_ != point) {
     const auto [material, number] = solver_.material_of_point(point);
     const auto [known, added] = names_.try_emplace(material);
@@ -19,5 +20,8 @@ std::optional<double> MaterialValues::at(std::size_t point, std::string_view nam
   if (place == own_names_->end()) return std::nullopt;
   return values_[static_cast<std::size_t>(place - own_names_->begin())];
 }
+
+template class MaterialValues<2>;
+template class MaterialValues<3>;
 
 }  // namespace polargrain::fem

@@ -20,10 +20,10 @@ namespace polargrain::fem {
 namespace {
 
 /// The elements of the project by what they are in VTK.
-std::map<int, const ElementType*> types_by_vtk() {
-  std::map<int, const ElementType*> types;
-  for (const std::string& name : element_names()) {
-    const ElementType& type = element_type(name);
+std::map<int, const ElementType<2>*> types_by_vtk() {
+  std::map<int, const ElementType<2>*> types;
+  for (const std::string& name : element_names<2>()) {
+    const ElementType<2>& type = element_type<2>(name);
     types.try_emplace(type.vtk_cell_type, &type);
   }
   return types;
@@ -80,18 +80,18 @@ class Reader {
     return values_of<Value>(found);
   }
 
-  void read_nodes(Mesh& mesh) const {
+  void read_nodes(Mesh<2>& mesh) const {
     const auto positions = array<double>("Points", "Points");
     for (std::size_t k = 0; k + 2 < positions.size(); k += 3)
       mesh.nodes.emplace_back(positions[k], positions[k + 1]);
   }
 
-  void read_elements(Mesh& mesh) const {
+  void read_elements(Mesh<2>& mesh) const {
     const auto nodes = array<std::int64_t>("Cells", "connectivity");
     const auto ends = array<std::int64_t>("Cells", "offsets");
     const auto kinds = array<std::uint8_t>("Cells", "types");
     if (kinds.size() != ends.size()) fail("its cells do not fit together");
-    const std::map<int, const ElementType*> types = types_by_vtk();
+    const std::map<int, const ElementType<2>*> types = types_by_vtk();
     std::size_t begin = 0;
     for (std::size_t e = 0; e < kinds.size(); ++e) {
       const auto type = types.find(kinds[e]);
@@ -99,7 +99,7 @@ class Reader {
       const auto count = static_cast<std::size_t>(type->second->nodes);
       if (ends[e] < 0 || static_cast<std::uint64_t>(ends[e]) != begin + count || begin + count > nodes.size())
         fail(fmt::format("cell {} has not the nodes of its type", e));
-      Element& element = mesh.elements.emplace_back(Element{type->second, {}});
+      Element<2>& element = mesh.elements.emplace_back(Element<2>{type->second, {}});
       for (const std::size_t end = begin + count; begin < end; ++begin) {
         if (nodes[begin] < 0 || static_cast<std::uint64_t>(nodes[begin]) >= mesh.nodes.size())
           fail(fmt::format("cell {} has a node {} that is not there", e, nodes[begin]));

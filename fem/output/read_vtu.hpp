@@ -9,7 +9,7 @@ namespace polargrain::fem {
 
 /// The content of a field file: a mesh without named parts, and its fields.
 struct FieldFile {
-  Mesh mesh;
+  Mesh<2> mesh;
   Fields fields;
 };
 

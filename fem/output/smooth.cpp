@@ -8,12 +8,13 @@ namespace polargrain::fem {
 namespace {
 
 /// Values at the nodes of an element from those at its integration points.
-Eigen::MatrixXd extrapolation(const ElementType& type) {
+template <int dim>
+Eigen::MatrixXd extrapolation(const ElementType<dim>& type) {
   const auto points = static_cast<Eigen::Index>(type.quadrature.size());
-  const Eigen::Index terms = points < 3 ? 1 : 3;
-  const auto rows_of = [terms](Eigen::MatrixXd& rows, Eigen::Index row, const Eigen::Vector2d& position) {
+  const Eigen::Index terms = points < dim + 1 ? 1 : dim + 1;
+  const auto rows_of = [terms](Eigen::MatrixXd& rows, Eigen::Index row, const typename Cosserat<dim>::Place& position) {
     rows(row, 0) = 1.0;
-    if (terms == 3) rows.row(row).tail<2>() = position.transpose();
+    if (terms > 1) rows.row(row).template tail<dim>() = position.transpose();
   };
   Eigen::MatrixXd at_points(points, terms);
   for (Eigen::Index p = 0; p < points; ++p)
@@ -26,23 +27,24 @@ Eigen::MatrixXd extrapolation(const ElementType& type) {
 
 }  // namespace
 
-Field smoothed(const Solver& solver, const Field& at_points, const std::vector<bool>& known) {
-  const Mesh& mesh = solver.problem().mesh;
+template <int dim>
+Field smoothed(const Solver<dim>& solver, const Field& at_points, const std::vector<bool>& known) {
+  const Mesh<dim>& mesh = solver.problem().mesh;
   const auto width = static_cast<std::size_t>(at_points.components);
-  std::map<const ElementType*, Eigen::MatrixXd> extrapolations;
+  std::map<const ElementType<dim>*, Eigen::MatrixXd> extrapolations;
   std::vector<double> sums(mesh.nodes.size() * width, 0.0);
   std::vector<double> volumes(mesh.nodes.size(), 0.0);
   std::size_t begin = 0;
   while (begin < solver.points()) {
     const int number = solver.element_of_point(begin);
-    const Element& element = mesh.elements[static_cast<std::size_t>(number)];
+    const Element<dim>& element = mesh.elements[static_cast<std::size_t>(number)];
     const auto count = static_cast<Eigen::Index>(element.type->quadrature.size());
     const std::size_t first = begin;
     begin += static_cast<std::size_t>(count);
     if (!known.empty() && !known[first]) continue;  // an element is of one material
     auto matrix = extrapolations.find(element.type);
     if (matrix == extrapolations.end())
-      matrix = extrapolations.emplace(element.type, extrapolation(*element.type)).first;
+      matrix = extrapolations.emplace(element.type, extrapolation<dim>(*element.type)).first;
     double volume = 0.0;
     for (std::size_t p = first; p < begin; ++p) volume += solver.volume_of_point(p);
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> values(
@@ -62,5 +64,8 @@ Field smoothed(const Solver& solver, const Field& at_points, const std::vector<b
   field.values = std::move(sums);
   return field;
 }
+
+template Field smoothed<2>(const Solver<2>& solver, const Field& at_points, const std::vector<bool>& known);
+template Field smoothed<3>(const Solver<3>& solver, const Field& at_points, const std::vector<bool>& known);
 
 }  // namespace polargrain::fem

@@ -7,11 +7,12 @@
 namespace polargrain::fem {
 
 /// Values at the integration points brought to the nodes: in each element the linear field that is nearest to its points
-/// (the mean, where it has fewer than three), drawn on to its nodes; there the mean of the elements around, by their
+/// (the mean, where it has too few), drawn on to its nodes; there the mean of the elements around, by their
 /// volumes. A field that is linear in space comes out as it is where elements have straight sides (parallelograms, for
 /// quadrilaterals), at the boundary too; a jump between materials is smeared over the elements beside it.
 /// @param at_points a field with values of all points, in the order of Solver::points
 /// @param known by point: whether the value counts; empty: all do. Nodes without a value get 0.
-Field smoothed(const Solver& solver, const Field& at_points, const std::vector<bool>& known = {});
+template <int dim>
+Field smoothed(const Solver<dim>& solver, const Field& at_points, const std::vector<bool>& known = {});
 
 }  // namespace polargrain::fem

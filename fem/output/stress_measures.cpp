@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/output/stress_measures.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "common/elementary_functions.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -39,6 +42,41 @@ StressMeasures measures_of(const Vector7& stress) {
   found.second_direction = {-found.first_direction(1), found.first_direction(0)};
   if (-centre > kRounding * largest)
     found.mobilised_friction = std::asin(std::min(1.0, radius / -centre)) * 180.0 / std::numbers::pi;
+  return found;
+}
+
+SpaceStressMeasures measures_of(const Vector18& stress) {
+  SpaceStressMeasures found;
+  Eigen::Matrix3d symmetric;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      symmetric(i, j) =
+          0.5 * (stress(Cosserat<3>::stress_place(i, j)) + stress(Cosserat<3>::stress_place(j, i)));
+  const double largest = symmetric.cwiseAbs().maxCoeff();
+  const double mean = symmetric.trace() / 3.0;
+  const Eigen::Matrix3d deviator = symmetric - mean * Eigen::Matrix3d::Identity();
+  found.pressure = -mean;
+  found.deviatoric = std::sqrt(1.5) * deviator.norm();
+  if (found.pressure > kRounding * largest) found.ratio = found.deviatoric / found.pressure;
+  if (!(found.deviatoric > kRounding * largest)) {
+    found.principal.setConstant(mean);
+    return found;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(symmetric);
+  found.principal = solver.eigenvalues();  // rising
+  found.directions = solver.eigenvectors();
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Index place = 0;
+    found.directions.col(i).cwiseAbs().maxCoeff(&place);
+    if (found.directions(place, i) < 0.0) found.directions.col(i) *= -1.0;
+  }
+  // -J3 is positive in triaxial compression, where the angle is zero.
+  const double cosine = -13.5 * deviator.determinant() / (found.deviatoric * found.deviatoric * found.deviatoric);
+  found.lode_angle = arc_cosine(std::clamp(cosine, -1.0, 1.0)) / 3.0 * 180.0 / std::numbers::pi;
+  const double centre = 0.5 * (found.principal(0) + found.principal(2));
+  const double radius = 0.5 * (found.principal(2) - found.principal(0));
+  if (-centre > kRounding * largest)
+    found.mobilised_friction = arc_sine(std::min(1.0, radius / -centre)) * 180.0 / std::numbers::pi;
   return found;
 }
 

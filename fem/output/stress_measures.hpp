@@ -26,4 +26,21 @@ struct StressMeasures {
 /// @param stress s11, s22, s33, s12, s21, m1, m2
 StressMeasures measures_of(const Vector7& stress);
 
+/// The same in space.
+struct SpaceStressMeasures {
+  double pressure = 0.0;    ///< p, Pa, positive in compression
+  double deviatoric = 0.0;  ///< q, Pa
+  double ratio = 0.0;       ///< q / p; 0 where p is not positive
+  /// Principal stresses, Pa, the most compressive first, and their directions, a column each, unit vectors.
+  Eigen::Vector3d principal = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+  /// Degrees, from 0 in triaxial compression (the two less compressive stresses equal) to 60 in extension; 0 without a
+  /// deviator.
+  double lode_angle = 0.0;
+  double mobilised_friction = 0.0;  ///< of the first and the last principal stress, degrees
+};
+
+/// @param stress in the order of Cosserat<3>
+SpaceStressMeasures measures_of(const Vector18& stress);
+
 }  // namespace polargrain::fem

@@ -100,9 +100,10 @@ struct Cells {
   std::vector<std::uint8_t> types;
 };
 
-Cells cells_of(const Mesh& mesh) {
+template <int dim>
+Cells cells_of(const Mesh<dim>& mesh) {
   Cells cells;
-  for (const Element& element : mesh.elements) {
+  for (const Element<dim>& element : mesh.elements) {
     cells.places.insert(cells.places.end(), element.nodes.begin(), element.nodes.end());
     cells.ends.push_back(static_cast<std::int64_t>(cells.places.size()));
     cells.types.push_back(static_cast<std::uint8_t>(element.type->vtk_cell_type));
@@ -132,10 +133,12 @@ void write_grid(const std::filesystem::path& file, const std::vector<Eigen::Vect
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields) {
+template <int dim>
+void write_vtu(const std::filesystem::path& file, const Mesh<dim>& mesh, const Fields& fields) {
   std::vector<Eigen::Vector3d> places;
-  for (const Eigen::Vector2d& node : mesh.nodes) places.emplace_back(node(0), node(1), 0.0);
-  write_grid(file, places, cells_of(mesh), fields, Arrays(false), "", {});
+  for (const typename Cosserat<dim>::Place& node : mesh.nodes)
+    places.emplace_back(node(0), node(1), dim == 2 ? 0.0 : node(dim - 1));
+  write_grid(file, places, cells_of<dim>(mesh), fields, Arrays(false), "", {});
 }
 
 void write_vtu(const std::filesystem::path& file, const PlacedFields& fields) {
@@ -166,5 +169,8 @@ void PvdCollection::add(double time, const std::filesystem::path& vtu) {
   }
   write_file(file_, text + "</Collection>\n</VTKFile>\n");
 }
+
+template void write_vtu<2>(const std::filesystem::path& file, const Mesh<2>& mesh, const Fields& fields);
+template void write_vtu<3>(const std::filesystem::path& file, const Mesh<3>& mesh, const Fields& fields);
 
 }  // namespace polargrain::fem

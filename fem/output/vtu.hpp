@@ -30,8 +30,10 @@ struct Fields {
 /// same as a vector; by node smoothed (smooth.hpp) and by element as averages over the volume: stress and strain (11, 22, 33,
 /// 12, 21), couple_stress, curvature, relative_rotation (theory, A.1; about e_3), volume_strain, deviatoric_strain (sqrt(2/3 e_ij e_ij) of the symmetric deviator),
 /// the fields of the materials (Material::fields; 0 where the element's material does not have the field; at nodes only
-/// quantities in space), and the StressMeasures of the stress so averaged or smoothed.
-Fields collect_fields(const Solver& solver);
+/// quantities in space), and the StressMeasures of the stress so averaged or smoothed. In space tensors have nine components
+/// (11, 12 .. 33), and rotations three.
+template <int dim>
+Fields collect_fields(const Solver<dim>& solver);
 
 /// Fields at places of their own, and lines between them.
 struct PlacedFields {
@@ -43,13 +45,15 @@ struct PlacedFields {
 };
 
 /// The same at the integration points, on the mesh as it was made, in the order of the solver, nothing averaged or smoothed; displacement and rotations
-/// as the element has them there; `volume` (per unit thickness, m^2).
-PlacedFields collect_point_fields(const Solver& solver);
+/// as the element has them there; `volume` (m^3; of the plane per unit thickness, m^2).
+template <int dim>
+PlacedFields collect_point_fields(const Solver<dim>& solver);
 
 /// Writes a VTK unstructured grid (XML, base64), with names of components, and units under VTK's own key
 /// vtkDataArray::UNITS_LABEL. The file appears complete or not at all.
 /// @throws RunError when it cannot be written.
-void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const Fields& fields);
+template <int dim>
+void write_vtu(const std::filesystem::path& file, const Mesh<dim>& mesh, const Fields& fields);
 
 /// The same for places: a vertex for each, then a line for each line. These are the large files: compressed (zlib).
 void write_vtu(const std::filesystem::path& file, const PlacedFields& fields);

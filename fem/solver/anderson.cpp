@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/anderson.hpp"
 
+#include <type_traits>
+
+#include "fem/element/dofs.hpp"
+
 #include <Eigen/QR>
 #include <cmath>
 #include <vector>
@@ -19,7 +23,15 @@ void Anderson::remember(const Correction& position, const Eigen::VectorXd& unbal
 }
 
 Eigen::VectorXd Anderson::weighted(Eigen::VectorXd nodal, double weight_of_rotations) const {
-  for (Eigen::Index w = 2; w < nodal.size(); w += 3) nodal(w) *= weight_of_rotations;
+  const auto weigh = [&]<int dim>(std::integral_constant<int, dim>) {
+    for (Eigen::Index entry = 0; entry < nodal.size(); ++entry)
+      if (is_rotation(dof_at<dim>(entry))) nodal(entry) *= weight_of_rotations;
+  };
+  if (dimension_ == 2) {
+    weigh(std::integral_constant<int, 2>());
+  } else {
+    weigh(std::integral_constant<int, 3>());
+  }
   return nodal;
 }
 

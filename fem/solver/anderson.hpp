@@ -8,7 +8,7 @@ namespace polargrain::fem {
 
 /// A change of the increment of a step.
 struct Correction {
-  Eigen::VectorXd displacement;  ///< nodal, 3 a node
+  Eigen::VectorXd displacement;  ///< nodal
   double time = 0.0;
 };
 
@@ -27,7 +27,9 @@ struct Correction {
 class Anderson {
  public:
   /// @param depth differences kept; 0 switches it off. @param reference_length m, weighs rotations.
-  Anderson(int depth, double reference_length) : depth_(depth), length_(reference_length) {}
+  /// @param dimension of the nodal vectors, 2 or 3
+  Anderson(int depth, double reference_length, int dimension = 2)
+      : depth_(depth), length_(reference_length), dimension_(dimension) {}
 
   [[nodiscard]] bool is_on() const { return depth_ > 0; }
   /// A new step begins.
@@ -53,6 +55,7 @@ class Anderson {
 
   int depth_;
   double length_;
+  int dimension_;
   std::deque<Place> places_;
 };
 

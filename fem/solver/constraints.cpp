@@ -8,14 +8,15 @@
 
 namespace polargrain::fem {
 
-Constraints::Constraints(const Problem& problem)
-    : equation_(entry_of(problem.mesh.nodes.size()), 0), has_ties_(!problem.ties.empty()) {
-  const Mesh& mesh = problem.mesh;
-  for (const PrescribedDof* const given : in_precedence(problem)) {
-    const PrescribedDof& item = *given;
+template <int dim>
+Constraints<dim>::Constraints(const Problem<dim>& problem)
+    : equation_(entry_of<dim>(problem.mesh.nodes.size()), 0), has_ties_(!problem.ties.empty()) {
+  const Mesh<dim>& mesh = problem.mesh;
+  for (const PrescribedDof<dim>* const given : in_precedence(problem)) {
+    const PrescribedDof<dim>& item = *given;
     for (const int node : mesh.nodes_on(item.on)) {
       const auto number = static_cast<std::size_t>(node);
-      const std::size_t entry = entry_of(number, item.dof);
+      const std::size_t entry = entry_of<dim>(number, item.dof);
       // Two items of equal rank give one entry the same value (checked by faults); the first one stands.
       if (equation_[entry] < 0) continue;
       equation_[entry] = -1;
@@ -23,7 +24,8 @@ Constraints::Constraints(const Problem& problem)
     }
   }
   if (problem.continuum == Continuum::cauchy) {
-    for (std::size_t node = 0; node < mesh.nodes.size(); ++node) equation_[entry_of(node, Dof::w)] = -1;
+    for (std::size_t entry = 0; entry < equation_.size(); ++entry)
+      if (is_rotation(dof_at<dim>(entry))) equation_[entry] = -1;
   }
   // Of entries that are tied, over any number of ties, the lowest number stands for all.
   std::vector<std::size_t> root(equation_.size());
@@ -33,10 +35,10 @@ Constraints::Constraints(const Problem& problem)
     return entry;
   };
   for (const Tie& tie : problem.ties) {
-    for (const auto& [follower, leader] : tied_nodes(mesh, tie).pairs) {
-      for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
-        const std::size_t a = find(entry_of(static_cast<std::size_t>(follower), dof));
-        const std::size_t b = find(entry_of(static_cast<std::size_t>(leader), dof));
+    for (const auto& [follower, leader] : tied_nodes<dim>(mesh, tie).pairs) {
+      for (const Dof dof : node_dofs<dim>()) {
+        const std::size_t a = find(entry_of<dim>(static_cast<std::size_t>(follower), dof));
+        const std::size_t b = find(entry_of<dim>(static_cast<std::size_t>(leader), dof));
         root[std::max(a, b)] = std::min(a, b);
       }
     }
@@ -53,13 +55,15 @@ Constraints::Constraints(const Problem& problem)
   }
 }
 
-void Constraints::apply(double time, Eigen::VectorXd& nodal) const {
+template <int dim>
+void Constraints<dim>::apply(double time, Eigen::VectorXd& nodal) const {
   for (const Given& item : given_) {
     nodal(static_cast<Eigen::Index>(item.entry)) = item.factor * item.value->at(time);
   }
 }
 
-Eigen::VectorXd Constraints::slope(double time) const {
+template <int dim>
+Eigen::VectorXd Constraints<dim>::slope(double time) const {
   Eigen::VectorXd nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equation_.size()));
   for (const Given& item : given_) {
     nodal(static_cast<Eigen::Index>(item.entry)) = item.factor * item.value->slope(time);
@@ -67,7 +71,8 @@ Eigen::VectorXd Constraints::slope(double time) const {
   return nodal;
 }
 
-Eigen::VectorXd Constraints::restrict_to_free(const Eigen::VectorXd& forces) const {
+template <int dim>
+Eigen::VectorXd Constraints<dim>::restrict_to_free(const Eigen::VectorXd& forces) const {
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(unknowns_);
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
     if (equation_[entry] >= 0) unknowns(equation_[entry]) += forces(static_cast<Eigen::Index>(entry));
@@ -75,7 +80,8 @@ Eigen::VectorXd Constraints::restrict_to_free(const Eigen::VectorXd& forces) con
   return unknowns;
 }
 
-Eigen::VectorXd Constraints::folded(const Eigen::VectorXd& forces) const {
+template <int dim>
+Eigen::VectorXd Constraints<dim>::folded(const Eigen::VectorXd& forces) const {
   if (!has_ties_) return forces;
   Eigen::VectorXd sums = forces;
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
@@ -88,10 +94,14 @@ Eigen::VectorXd Constraints::folded(const Eigen::VectorXd& forces) const {
   return sums;
 }
 
-void Constraints::add_free(const Eigen::VectorXd& unknowns, Eigen::VectorXd& nodal) const {
+template <int dim>
+void Constraints<dim>::add_free(const Eigen::VectorXd& unknowns, Eigen::VectorXd& nodal) const {
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
     if (equation_[entry] >= 0) nodal(static_cast<Eigen::Index>(entry)) += unknowns(equation_[entry]);
   }
 }
+
+template class Constraints<2>;
+template class Constraints<3>;
 
 }  // namespace polargrain::fem

@@ -8,10 +8,11 @@
 namespace polargrain::fem {
 
 /// Which entries of a nodal vector (3 a node) are given, which are unknown, and which share an unknown.
+template <int dim>
 class Constraints {
  public:
   /// @param problem without faults; must outlive this object.
-  explicit Constraints(const Problem& problem);
+  explicit Constraints(const Problem<dim>& problem);
 
   /// Number of unknowns.
   [[nodiscard]] int unknowns() const { return unknowns_; }

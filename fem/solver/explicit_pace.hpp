@@ -37,13 +37,13 @@ class ExplicitPace {
 };
 
 /// ExplicitOptions::rotation_damping at the unknowns that are micro-rotations, zero at the others.
-inline Eigen::VectorXd damping_of_rotations(const Problem& problem, const Constraints& constraints,
-                                            const ExplicitOptions& options) {
+template <int dim>
+Eigen::VectorXd damping_of_rotations(const Problem<dim>& problem, const Constraints<dim>& constraints,
+                                     const ExplicitOptions& options) {
   Eigen::VectorXd damping = Eigen::VectorXd::Zero(constraints.unknowns());
-  for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node) {
-    const auto entry = static_cast<std::size_t>(entry_of(static_cast<int>(node), Dof::w));
-    if (constraints.is_free(entry)) damping(constraints.equation(entry)) = options.rotation_damping;
-  }
+  for (std::size_t entry = 0; entry < entry_of<dim>(problem.mesh.nodes.size()); ++entry)
+    if (is_rotation(dof_at<dim>(entry)) && constraints.is_free(entry))
+      damping(constraints.equation(entry)) = options.rotation_damping;
   return damping;
 }
 

@@ -14,8 +14,6 @@ namespace {
 
 using Messages = std::vector<std::string>;
 
-constexpr std::array kDofNames{"u1", "u2", "w"};
-
 template <class Map>
 std::string names_of(const Map& map) {
   Messages names;
@@ -23,35 +21,37 @@ std::string names_of(const Map& map) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-void check_names(const Problem& problem, Messages& messages) {
-  const Mesh& mesh = problem.mesh;
+template <int dim>
+void check_names(const Problem<dim>& problem, Messages& messages) {
+  const Mesh<dim>& mesh = problem.mesh;
   const auto check_nodes = [&](const std::string& on) {
     if (mesh.has_nodes_on(on)) return;
     messages.push_back(fmt::format("the mesh has no boundary or node set '{}'; it has {}", on,
                                    fmt::join(mesh.boundary_and_node_set_names(), ", ")));
   };
-  for (const PrescribedDof& item : problem.prescribed) check_nodes(item.on);
+  for (const PrescribedDof<dim>& item : problem.prescribed) check_nodes(item.on);
   for (const NodeLoad& item : problem.node_loads) check_nodes(item.on);
-  for (const EdgeLoad& item : problem.edge_loads) {
+  for (const BoundaryLoad<dim>& item : problem.boundary_loads) {
     if (mesh.boundaries.contains(item.on)) continue;
     messages.push_back(
         fmt::format("a pressure or traction needs a boundary, '{}' is not a boundary; the mesh has {}",
                     item.on, names_of(mesh.boundaries)));
   }
-  for (const BodyLoad& item : problem.body_loads) {
+  for (const BodyLoad<dim>& item : problem.body_loads) {
     if (item.region.empty() || mesh.regions.contains(item.region)) continue;
     messages.push_back(fmt::format("the mesh has no region '{}' for a body load; it has {}", item.region,
                                    names_of(mesh.regions)));
   }
-  for (const InitialStress& item : problem.initial_stresses) {
+  for (const InitialStress<dim>& item : problem.initial_stresses) {
     if (item.region.empty() || mesh.regions.contains(item.region)) continue;
     messages.push_back(fmt::format("the mesh has no region '{}' for an initial stress; it has {}",
                                    item.region, names_of(mesh.regions)));
   }
 }
 
-void check_materials(const Problem& problem, Messages& messages) {
-  const Mesh& mesh = problem.mesh;
+template <int dim>
+void check_materials(const Problem<dim>& problem, Messages& messages) {
+  const Mesh<dim>& mesh = problem.mesh;
   std::vector<int> times(mesh.elements.size(), 0);
   for (const auto& [region, material] : problem.materials) {
     const auto elements = mesh.regions.find(region);
@@ -76,24 +76,28 @@ void check_materials(const Problem& problem, Messages& messages) {
 }
 
 /// The first item that gives each (node, dof) its value.
-using GivenValues = std::map<std::pair<int, Dof>, const PrescribedDof*>;
+template <int dim>
+using GivenValues = std::map<std::pair<int, Dof>, const PrescribedDof<dim>*>;
 
-bool gives_alike(const Problem& problem, const PrescribedDof& a, int node_a, const PrescribedDof& b,
+template <int dim>
+bool gives_alike(const Problem<dim>& problem, const PrescribedDof<dim>& a, int node_a, const PrescribedDof<dim>& b,
                  int node_b) {
-  const auto factor = [&](const PrescribedDof& item, int node) {
+  const auto factor = [&](const PrescribedDof<dim>& item, int node) {
     return item.profile ? item.profile(problem.mesh.nodes[static_cast<std::size_t>(node)]) : 1.0;
   };
   return a.value == b.value && factor(a, node_a) == factor(b, node_b);
 }
 
 /// Sets of single nodes are made to say something of those nodes; `all` says what holds where nothing else does.
-int precedence(const Mesh& mesh, const PrescribedDof& item) {
+template <int dim>
+int precedence(const Mesh<dim>& mesh, const PrescribedDof<dim>& item) {
   if (item.on == "all") return 2;
   return mesh.boundaries.contains(item.on) ? 1 : 0;
 }
 
 /// A set of nodes by which a node can be named: the smallest it is in.
-std::string set_of(const Mesh& mesh, int node) {
+template <int dim>
+std::string set_of(const Mesh<dim>& mesh, int node) {
   const std::pair<const std::string, std::vector<int>>* smallest = nullptr;
   for (const auto& set : mesh.node_sets) {
     if (set.first == "all" || std::ranges::find(set.second, node) == set.second.end()) continue;
@@ -102,24 +106,25 @@ std::string set_of(const Mesh& mesh, int node) {
   return smallest == nullptr ? "a physical point of the mesh there" : "'" + smallest->first + "'";
 }
 
-GivenValues check_prescribed_once(const Problem& problem, Messages& messages) {
-  GivenValues first;
-  for (const PrescribedDof* const given : in_precedence(problem)) {
-    const PrescribedDof& item = *given;
+template <int dim>
+GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, Messages& messages) {
+  GivenValues<dim> first;
+  for (const PrescribedDof<dim>* const given : in_precedence(problem)) {
+    const PrescribedDof<dim>& item = *given;
     if (!problem.mesh.has_nodes_on(item.on)) continue;
     bool told = false;
     for (const int node : problem.mesh.nodes_on(item.on)) {
       const auto [place, added] = first.try_emplace({node, item.dof}, &item);
-      const PrescribedDof& other = *place->second;
+      const PrescribedDof<dim>& other = *place->second;
       if (added || told || precedence(problem.mesh, other) != precedence(problem.mesh, item) ||
           gives_alike(problem, other, node, item, node))
         continue;
-      const Eigen::Vector2d& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
+      const typename Cosserat<dim>::Place& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
       messages.push_back(fmt::format(
-          "{} is given two different values at the node ({:.6g}, {:.6g}), on '{}' and on "
+          "{} is given two different values at the node {}, on '{}' and on "
           "'{}': give it once there, or give that node an item of its own, on {}: a set of nodes goes before "
           "boundaries",
-          kDofNames[static_cast<std::size_t>(item.dof)], at(0), at(1), other.on, item.on,
+          name_of<dim>(item.dof), place_text<dim>(at), other.on, item.on,
           set_of(problem.mesh, node)));
       told = true;
     }
@@ -128,26 +133,27 @@ GivenValues check_prescribed_once(const Problem& problem, Messages& messages) {
 }
 
 /// A support of one side of a tie must hold the other alike.
-void check_ties(const Problem& problem, const GivenValues& given, Messages& messages) {
-  const Mesh& mesh = problem.mesh;
+template <int dim>
+void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, Messages& messages) {
+  const Mesh<dim>& mesh = problem.mesh;
   const auto item_at = [&](int node, Dof dof) {
     const auto place = given.find({node, dof});
     return place == given.end() ? nullptr : place->second;
   };
   for (const Tie& tie : problem.ties) {
-    const TiedNodes tied = tied_nodes(mesh, tie);
+    const TiedNodes tied = tied_nodes<dim>(mesh, tie);
     if (!tied.fault.empty()) messages.push_back("tie: " + tied.fault);
-    for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
+    for (const Dof dof : node_dofs<dim>()) {
       for (const auto& [follower, leader] : tied.pairs) {
-        const PrescribedDof* a = item_at(follower, dof);
-        const PrescribedDof* b = item_at(leader, dof);
+        const PrescribedDof<dim>* a = item_at(follower, dof);
+        const PrescribedDof<dim>* b = item_at(leader, dof);
         if (a == nullptr && b == nullptr) continue;
         if (a != nullptr && b != nullptr && gives_alike(problem, *a, follower, *b, leader)) continue;
-        const Eigen::Vector2d& at = mesh.nodes[static_cast<std::size_t>(a != nullptr ? follower : leader)];
+        const typename Cosserat<dim>::Place& at = mesh.nodes[static_cast<std::size_t>(a != nullptr ? follower : leader)];
         messages.push_back(fmt::format(
-            "{} is given at the node ({:.6g}, {:.6g}), and not alike at the node it is tied to ('{}' to '{}'): give it "
+            "{} is given at the node {}, and not alike at the node it is tied to ('{}' to '{}'): give it "
             "on both sides or on neither",
-            kDofNames[static_cast<std::size_t>(dof)], at(0), at(1), tie.on, tie.to));
+            name_of<dim>(dof), place_text<dim>(at), tie.on, tie.to));
         break;
       }
     }
@@ -156,15 +162,17 @@ void check_ties(const Problem& problem, const GivenValues& given, Messages& mess
 
 }  // namespace
 
-std::vector<const PrescribedDof*> in_precedence(const Problem& problem) {
-  std::vector<const PrescribedDof*> items;
-  for (const PrescribedDof& item : problem.prescribed) items.push_back(&item);
+template <int dim>
+std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem) {
+  std::vector<const PrescribedDof<dim>*> items;
+  for (const PrescribedDof<dim>& item : problem.prescribed) items.push_back(&item);
   std::ranges::stable_sort(items, {},
-                           [&](const PrescribedDof* item) { return precedence(problem.mesh, *item); });
+                           [&](const PrescribedDof<dim>* item) { return precedence(problem.mesh, *item); });
   return items;
 }
 
-Messages faults(const Problem& problem) {
+template <int dim>
+Messages faults(const Problem<dim>& problem) {
   Messages messages;
   if (problem.mesh.elements.empty()) return {"the mesh has no elements"};
   check_names(problem, messages);
@@ -178,5 +186,10 @@ Messages faults(const Problem& problem) {
   }
   return messages;
 }
+
+template std::vector<const PrescribedDof<2>*> in_precedence<2>(const Problem<2>& problem);
+template std::vector<const PrescribedDof<3>*> in_precedence<3>(const Problem<3>& problem);
+template Messages faults<2>(const Problem<2>& problem);
+template Messages faults<3>(const Problem<3>& problem);
 
 }  // namespace polargrain::fem

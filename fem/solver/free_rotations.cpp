@@ -5,7 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace polargrain::fem {
@@ -14,68 +18,95 @@ namespace {
 /// Stiffnesses below this share of the largest are none.
 constexpr double kNothing = 1e-14;
 
-bool has_skew_stiffness(const Matrix7& d) {
-  const double skew = d(k21, k21) + d(k12, k12) - d(k21, k12) - d(k12, k21);
-  return std::abs(skew) > kNothing * d.topLeftCorner<5, 5>().cwiseAbs().maxCoeff();
+/// Whether a tangent resists a relative rotation about each axis.
+template <int dim>
+std::array<bool, Cosserat<dim>::rotations> skew_stiffness(const typename Cosserat<dim>::Matrix& d) {
+  using Counts = Cosserat<dim>;
+  const double largest = d.template topLeftCorner<Counts::stresses, Counts::stresses>().cwiseAbs().maxCoeff();
+  std::array<bool, Counts::rotations> stiff{};
+  for (int k = 0; k < Counts::rotations; ++k) {
+    const int i = (Counts::axis(k) + 1) % 3;
+    const int j = (Counts::axis(k) + 2) % 3;
+    const int ij = Counts::stress_place(i, j);
+    const int ji = Counts::stress_place(j, i);
+    const double skew = d(ji, ji) + d(ij, ij) - d(ji, ij) - d(ij, ji);
+    stiff[static_cast<std::size_t>(k)] = std::abs(skew) > kNothing * largest;
+  }
+  return stiff;
 }
 
-bool has_couple_stiffness(const Matrix7& d, double element_area) {
-  const double couple = d.bottomRightCorner<2, 2>().cwiseAbs().maxCoeff();
-  return couple > kNothing * element_area * d.topLeftCorner<5, 5>().cwiseAbs().maxCoeff();
+template <int dim>
+bool has_couple_stiffness(const typename Cosserat<dim>::Matrix& d, double element_volume) {
+  using Counts = Cosserat<dim>;
+  const double area = dim == 2 ? element_volume : std::pow(element_volume, 2.0 / 3.0);
+  const double couple = d.template bottomRightCorner<Counts::couples, Counts::couples>().cwiseAbs().maxCoeff();
+  return couple > kNothing * area * d.template topLeftCorner<Counts::stresses, Counts::stresses>().cwiseAbs().maxCoeff();
 }
 
 }  // namespace
 
-std::string unresisted_rotation(const Mesh& mesh, const Discretisation& discretisation,
-                                const Constraints& constraints, std::span<const Response> responses) {
-  std::vector<std::size_t> root(mesh.nodes.size());
+// Each rotation of a node is followed for itself: couple stiffness hands the resistance about an axis on within an element.
+template <int dim>
+std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>& discretisation,
+                                const Constraints<dim>& constraints, std::span<const Response<dim>> responses) {
+  constexpr auto rotations = static_cast<std::size_t>(Cosserat<dim>::rotations);
+  const auto number_of = [](int node, std::size_t k) { return rotations * static_cast<std::size_t>(node) + k; };
+  const auto dof_of = [](std::size_t k) { return node_dofs<dim>()[dim + k]; };
+  const std::size_t count = rotations * mesh.nodes.size();
+  std::vector<std::size_t> root(count);
   std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t node) {
-    while (root[node] != node) node = root[node] = root[root[node]];
-    return node;
+  const auto find = [&](std::size_t item) {
+    while (root[item] != item) item = root[item] = root[root[item]];
+    return item;
   };
-  std::vector<char> stiff(mesh.nodes.size(), 0);
-  std::vector<char> used(mesh.nodes.size(), 0);
+  std::vector<char> stiff(count, 0);
+  std::vector<char> used(count, 0);
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
-    bool skew = false;
+    std::array<bool, rotations> skew{};
     bool couple = false;
     for (std::size_t i = discretisation.first_point(e); i < discretisation.first_point(e + 1); ++i) {
-      skew = skew || has_skew_stiffness(responses[i].tangent);
-      couple = couple || has_couple_stiffness(responses[i].tangent, discretisation.point(i).volume);
+      const auto here = skew_stiffness<dim>(responses[i].tangent);
+      for (std::size_t k = 0; k < rotations; ++k) skew[k] = skew[k] || here[k];
+      couple = couple || has_couple_stiffness<dim>(responses[i].tangent, discretisation.point(i).volume);
     }
-    const auto first = static_cast<std::size_t>(mesh.elements[e].nodes.front());
-    for (const int number : mesh.elements[e].nodes) {
-      const auto node = static_cast<std::size_t>(number);
-      used[node] = 1;
-      if (skew) stiff[node] = 1;
-      if (couple) root[find(node)] = find(first);
+    const int first = mesh.elements[e].nodes.front();
+    for (const int node : mesh.elements[e].nodes) {
+      for (std::size_t k = 0; k < rotations; ++k) {
+        used[number_of(node, k)] = 1;
+        if (skew[k]) stiff[number_of(node, k)] = 1;
+        if (couple) root[find(number_of(node, k))] = find(number_of(first, k));
+      }
     }
   }
   // Nodes whose micro-rotation is one unknown.
-  std::vector<int> node_of(static_cast<std::size_t>(constraints.unknowns()), -1);
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    const int equation = constraints.equation(entry_of(node, Dof::w));
-    if (equation < 0) continue;
-    int& first = node_of[static_cast<std::size_t>(equation)];
-    if (first < 0) first = static_cast<int>(node);
-    root[find(node)] = find(static_cast<std::size_t>(first));
-  }
-  std::vector<char> held(mesh.nodes.size(), 0);
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    if (stiff[node] != 0 || !constraints.is_free(entry_of(node, Dof::w))) held[find(node)] = 1;
-  }
-  std::size_t free = 0;
-  const Eigen::Vector2d* where = nullptr;
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    if (used[node] == 0 || held[find(node)] != 0) continue;
-    ++free;
-    if (where == nullptr) where = &mesh.nodes[node];
-  }
-  if (free == 0) return {};
+  std::vector<std::optional<std::size_t>> item_of(static_cast<std::size_t>(constraints.unknowns()));
+  std::vector<char> held(count, 0);
+  const auto for_each = [&](auto visit) {
+    for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+      for (std::size_t k = 0; k < rotations; ++k) visit(node, rotations * node + k, entry_of<dim>(node, dof_of(k)));
+  };
+  for_each([&](std::size_t, std::size_t item, std::size_t entry) {
+    const int equation = constraints.equation(entry);
+    if (equation < 0) return;
+    auto& first = item_of[static_cast<std::size_t>(equation)];
+    if (!first) first = item;
+    root[find(item)] = find(*first);
+  });
+  for_each([&](std::size_t, std::size_t item, std::size_t entry) {
+    if (stiff[item] != 0 || !constraints.is_free(entry)) held[find(item)] = 1;
+  });
+  std::set<std::size_t> free;
+  for_each([&](std::size_t node, std::size_t item, std::size_t) {
+    if (used[item] != 0 && held[find(item)] == 0) free.insert(node);
+  });
+  if (free.empty()) return {};
   return fmt::format(
-      "nothing resists the micro-rotation of {} nodes, one at ({:.6g}, {:.6g}): give the material a Cosserat "
-      "shear modulus Gc above zero, fix w there, or use the Cauchy continuum",
-      free, (*where)(0), (*where)(1));
+      "nothing resists the micro-rotation of {} nodes, one at {}: give the material a Cosserat "
+      "shear modulus Gc above zero, fix {} there, or use the Cauchy continuum",
+      free.size(), place_text<dim>(mesh.nodes[*free.begin()]), dim == 2 ? "w" : "w1, w2 and w3");
 }
+
+template std::string unresisted_rotation<2>(const Mesh<2>& mesh, const Discretisation<2>& discretisation, const Constraints<2>& constraints, std::span<const Response<2>> responses);
+template std::string unresisted_rotation<3>(const Mesh<3>& mesh, const Discretisation<3>& discretisation, const Constraints<3>& constraints, std::span<const Response<3>> responses);
 
 }  // namespace polargrain::fem

@@ -15,7 +15,8 @@ namespace polargrain::fem {
 /// is given or an element around it has skew stiffness.
 /// @param responses tangents of the initial state, one a point.
 /// @return a message that says where and what to do; empty when every rotation is held.
-std::string unresisted_rotation(const Mesh& mesh, const Discretisation& discretisation,
-                                const Constraints& constraints, std::span<const Response> responses);
+template <int dim>
+std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>& discretisation,
+                                const Constraints<dim>& constraints, std::span<const Response<dim>> responses);
 
 }  // namespace polargrain::fem

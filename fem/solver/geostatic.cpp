@@ -5,20 +5,31 @@
 
 namespace polargrain::fem {
 
-InitialStress geostatic_stress(const Ground& ground, std::string region) {
-  const auto stress = [ground](const Eigen::Vector2d& x) {
-    const double vertical = -(ground.surcharge + ground.unit_weight * (ground.surface_height - x(1)));
-    Vector7 s = Vector7::Zero();
-    s(k22) = vertical;
-    s(k11) = s(k33) = ground.earth_pressure_ratio * vertical;
+template <int dim>
+InitialStress<dim> geostatic_stress(const Ground& ground, std::string region) {
+  const auto stress = [ground](const typename Cosserat<dim>::Place& x) {
+    constexpr int up = dim - 1;
+    const double vertical = -(ground.surcharge + ground.unit_weight * (ground.surface_height - x(up)));
+    typename Cosserat<dim>::Vector s = Cosserat<dim>::Vector::Zero();
+    for (int i = 0; i < dim; ++i)
+      s(Cosserat<dim>::stress_place(i, i)) = i == up ? vertical : ground.earth_pressure_ratio * vertical;
+    if constexpr (dim == 2) s(k33) = s(k11);
     return s;
   };
   return {stress, std::move(region)};
 }
 
-BodyLoad gravity(double unit_weight, TimeTable factor, std::string region) {
-  return {[unit_weight](const Eigen::Vector2d&) { return Eigen::Vector3d(0.0, -unit_weight, 0.0); },
+template <int dim>
+BodyLoad<dim> gravity(double unit_weight, TimeTable factor, std::string region) {
+  return {[unit_weight](const typename Cosserat<dim>::Place&) {
+            return typename Cosserat<dim>::NodeValues(-unit_weight * Cosserat<dim>::NodeValues::Unit(dim - 1));
+          },
           std::move(factor), std::move(region)};
 }
+
+template InitialStress<2> geostatic_stress<2>(const Ground& ground, std::string region);
+template InitialStress<3> geostatic_stress<3>(const Ground& ground, std::string region);
+template BodyLoad<2> gravity<2>(double unit_weight, TimeTable factor, std::string region);
+template BodyLoad<3> gravity<3>(double unit_weight, TimeTable factor, std::string region);
 
 }  // namespace polargrain::fem

@@ -4,17 +4,19 @@
 
 namespace polargrain::fem {
 
-/// Ground under its own weight below a level surface, e_2 pointing up.
+/// Ground under its own weight below a level surface; e_2 points up, in space e_3.
 struct Ground {
-  double surface_height = 0.0;      ///< x2 of the surface, m
+  double surface_height = 0.0;      ///< of the surface, m
   double unit_weight = 0.0;         ///< N/m^3, positive
   double earth_pressure_ratio = 1;  ///< K0, horizontal over vertical stress
   double surcharge = 0.0;           ///< pressure on the surface, Pa
 };
 
-/// s22 = -(surcharge + weight times depth), s11 = s33 = K0 s22, no shear, no couples.
-InitialStress geostatic_stress(const Ground& ground, std::string region = "");
+/// Vertical stress -(surcharge + weight times depth), K0 times that across, no shear, no couples.
+template <int dim = 2>
+InitialStress<dim> geostatic_stress(const Ground& ground, std::string region = "");
 /// Gravity, at its full value at all times unless a table says otherwise.
-BodyLoad gravity(double unit_weight, TimeTable factor = TimeTable::constant(1.0), std::string region = "");
+template <int dim = 2>
+BodyLoad<dim> gravity(double unit_weight, TimeTable factor = TimeTable::constant(1.0), std::string region = "");
 
 }  // namespace polargrain::fem

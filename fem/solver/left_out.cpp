@@ -13,16 +13,22 @@ constexpr double kStrain = 0.1;     ///< lengths, areas and forces per length ar
 
 }  // namespace
 
-std::string left_out_by_small_deformation(const Discretisation& discretisation,
+template <int dim>
+std::string left_out_by_small_deformation(const Discretisation<dim>& discretisation,
                                           const Eigen::VectorXd& displacement) {
-  const std::vector<Increment> all = discretisation.increments(displacement);
+  const std::vector<Increment<dim>> all = discretisation.increments(displacement);
   double rotation = 0.0;
   double strain = 0.0;
   std::size_t turned = 0;
   std::size_t strained = 0;
   for (std::size_t point = 0; point < all.size(); ++point) {
-    const Eigen::Matrix2d& h = all[point].displacement_gradient;
-    const double turn = 0.5 * std::abs(h(1, 0) - h(0, 1));
+    const typename Cosserat<dim>::Gradient& h = all[point].displacement_gradient;
+    double turn = 0.0;
+    if constexpr (dim == 2) {
+      turn = 0.5 * std::abs(h(1, 0) - h(0, 1));
+    } else {
+      turn = 0.5 * Eigen::Vector3d(h(2, 1) - h(1, 2), h(0, 2) - h(2, 0), h(1, 0) - h(0, 1)).norm();
+    }
     const double stretch = (0.5 * (h + h.transpose())).norm();
     if (turn > rotation) rotation = turn, turned = point;
     if (stretch > strain) strain = stretch, strained = point;
@@ -35,5 +41,8 @@ std::string left_out_by_small_deformation(const Discretisation& discretisation,
       discretisation.element_of_point(turned), rotation, discretisation.element_of_point(strained), strain,
       100.0 * rotation, 100.0 * strain);
 }
+
+template std::string left_out_by_small_deformation<2>(const Discretisation<2>& discretisation, const Eigen::VectorXd& displacement);
+template std::string left_out_by_small_deformation<3>(const Discretisation<3>& discretisation, const Eigen::VectorXd& displacement);
 
 }  // namespace polargrain::fem

@@ -11,7 +11,8 @@ namespace polargrain::fem {
 /// @param discretisation on the mesh of the start @param displacement 3 a node, in all
 /// @returns where the continuum has turned by more than 0.05 rad or strained by more than 0.1, and the effect; empty
 /// where it has nowhere
-std::string left_out_by_small_deformation(const Discretisation& discretisation,
+template <int dim>
+std::string left_out_by_small_deformation(const Discretisation<dim>& discretisation,
                                           const Eigen::VectorXd& displacement);
 
 }  // namespace polargrain::fem

@@ -2,72 +2,105 @@
 #include "fem/solver/loads.hpp"
 
 #include <numeric>
+#include <utility>
 
 #include "fem/element/dofs.hpp"
-#include "fem/element/quadrature.hpp"
+#include "fem/material/polar_decomposition.hpp"
 
 namespace polargrain::fem {
 namespace {
 
-/// Shape functions of a straight or quadratic side: first corner at -1, second at +1, middle node last.
-void side_shape(std::size_t nodes, double x, Eigen::VectorXd& value, Eigen::VectorXd& derivative) {
-  if (nodes == 2) {
-    value = Eigen::Vector2d(0.5 * (1 - x), 0.5 * (1 + x));
-    derivative = Eigen::Vector2d(-0.5, 0.5);
-  } else {
-    value = Eigen::Vector3d(0.5 * x * (x - 1), 0.5 * x * (x + 1), 1 - x * x);
-    derivative = Eigen::Vector3d(x - 0.5, x + 0.5, -2 * x);
+template <int dim>
+using Place = typename Cosserat<dim>::Place;
+template <int dim>
+using NodeValues = typename Cosserat<dim>::NodeValues;
+
+/// One quadrature point of a side in place.
+template <int dim>
+struct SidePoint {
+  double weight;
+  Eigen::VectorXd shape;
+  VectorRows<dim - 1> derivative;       ///< of the shape functions by the side's own coordinates
+  Eigen::Matrix<double, dim, dim - 1> tangents;  ///< d x / d xi
+  Place<dim> normal;                    ///< outward; as long as an area of 1 of the reference side becomes
+};
+
+template <int dim>
+std::vector<SidePoint<dim>> points_of_side(const Mesh<dim>& mesh, const BoundarySide& side,
+                                           const std::vector<int>& numbers) {
+  const ElementType<dim - 1>& type = *mesh.side_of(side).type;
+  std::vector<SidePoint<dim>> points;
+  for (const QuadraturePoint<dim - 1>& place : type.quadrature) {
+    ShapeFunctions<dim - 1> shape = type.shape_functions(place.position);
+    SidePoint<dim> point;
+    point.tangents.setZero();
+    for (std::size_t a = 0; a < numbers.size(); ++a) {
+      point.tangents +=
+          mesh.nodes[static_cast<std::size_t>(numbers[a])] * shape.derivative.row(static_cast<Eigen::Index>(a));
+    }
+    if constexpr (dim == 2) {
+      point.normal = {point.tangents(1), -point.tangents(0)};
+    } else {
+      point.normal = point.tangents.col(0).cross(point.tangents.col(1));
+    }
+    point.weight = place.weight;
+    point.shape = std::move(shape.value);
+    point.derivative = std::move(shape.derivative);
+    points.push_back(std::move(point));
   }
+  return points;
 }
 
-/// Nodal vector of a traction given by the outward normal. Both are per reference length of the side:
-/// `normal` has the length of d s / d xi.
-template <class Traction>
-Eigen::VectorXd edge_forces(const Mesh& mesh, const std::vector<Edge>& edges, Traction traction) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of(static_cast<Eigen::Index>(mesh.nodes.size())));
-  Eigen::VectorXd value;
-  Eigen::VectorXd derivative;
-  for (const Edge& edge : edges) {
-    const std::vector<int> numbers = mesh.edge_nodes(edge);
-    for (const LinePoint& place : gauss_line(3)) {
-      side_shape(numbers.size(), place.position, value, derivative);
-      Eigen::Vector2d tangent = Eigen::Vector2d::Zero();
+/// Nodal vector of a traction given by the outward normal. Both are per area of the reference side.
+template <int dim, class Traction>
+Eigen::VectorXd side_forces(const Mesh<dim>& mesh, const std::vector<BoundarySide>& sides, Traction traction) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of<dim>(static_cast<Eigen::Index>(mesh.nodes.size())));
+  for (const BoundarySide& side : sides) {
+    const std::vector<int> numbers = mesh.side_nodes(side);
+    for (const SidePoint<dim>& point : points_of_side<dim>(mesh, side, numbers)) {
+      const NodeValues<dim> force = point.weight * traction(point.normal);
       for (std::size_t a = 0; a < numbers.size(); ++a) {
-        tangent +=
-            derivative(static_cast<Eigen::Index>(a)) * mesh.nodes[static_cast<std::size_t>(numbers[a])];
-      }
-      const Eigen::Vector3d force = place.weight * traction(Eigen::Vector2d(tangent(1), -tangent(0)));
-      for (std::size_t a = 0; a < numbers.size(); ++a) {
-        forces.segment<kDofsOfNode>(entry_of(numbers[a])) += value(static_cast<Eigen::Index>(a)) * force;
+        forces.segment<Cosserat<dim>::dofs>(entry_of<dim>(numbers[a])) +=
+            point.shape(static_cast<Eigen::Index>(a)) * force;
       }
     }
   }
   return forces;
 }
 
-Eigen::Vector3d unit_pressure(const Eigen::Vector2d& normal) {
-  return {-normal(0), -normal(1), 0.0};
+template <int dim>
+NodeValues<dim> unit_pressure(const Place<dim>& normal) {
+  NodeValues<dim> force = NodeValues<dim>::Zero();
+  for (int i = 0; i < dim; ++i) force(i) = -normal(i);
+  return force;
 }
 
-/// With the tangent t of the side, the force of a unit pressure at node a is N_a (-t2, t1) per reference
-/// length.
-EdgeStiffness unit_pressure_stiffness(const Mesh& mesh, const Edge& edge) {
-  const std::vector<int> numbers = mesh.edge_nodes(edge);
-  const auto size = 2 * static_cast<Eigen::Index>(numbers.size());
-  EdgeStiffness stiffness{{}, Eigen::MatrixXd::Zero(size, size)};
-  for (const int number : numbers) {
-    for (const Dof dof : {Dof::u1, Dof::u2}) stiffness.entries.push_back(entry_of(number, dof));
+/// How the normal changes with the place of node b.
+template <int dim>
+typename Cosserat<dim>::Gradient normal_slope(const SidePoint<dim>& point, Eigen::Index b) {
+  typename Cosserat<dim>::Gradient slope;
+  if constexpr (dim == 2) {
+    slope << 0.0, point.derivative(b), -point.derivative(b), 0.0;
+  } else {
+    slope = point.derivative(b, 1) * cross_matrix(point.tangents.col(0)) - point.derivative(b, 0) * cross_matrix(point.tangents.col(1));
   }
-  Eigen::VectorXd value;
-  Eigen::VectorXd derivative;
-  for (const LinePoint& place : gauss_line(3)) {
-    side_shape(numbers.size(), place.position, value, derivative);
-    const Eigen::MatrixXd product = place.weight * value * derivative.transpose();
-    for (Eigen::Index a = 0; a < value.size(); ++a) {
-      for (Eigen::Index b = 0; b < value.size(); ++b) {
-        stiffness.values(2 * a, 2 * b + 1) -= product(a, b);
-        stiffness.values(2 * a + 1, 2 * b) += product(a, b);
-      }
+  return slope;
+}
+
+/// Derivative of the forces of a unit pressure, -N_a times the normal.
+template <int dim>
+LoadStiffness unit_pressure_stiffness(const Mesh<dim>& mesh, const BoundarySide& side) {
+  const std::vector<int> numbers = mesh.side_nodes(side);
+  const auto size = dim * static_cast<Eigen::Index>(numbers.size());
+  LoadStiffness stiffness{{}, Eigen::MatrixXd::Zero(size, size)};
+  for (const int number : numbers) {
+    for (int i = 0; i < dim; ++i) stiffness.entries.push_back(entry_of<dim>(number) + i);
+  }
+  for (const SidePoint<dim>& point : points_of_side<dim>(mesh, side, numbers)) {
+    for (Eigen::Index b = 0; b < point.shape.size(); ++b) {
+      const typename Cosserat<dim>::Gradient slope = normal_slope<dim>(point, b);
+      for (Eigen::Index a = 0; a < point.shape.size(); ++a)
+        stiffness.values.template block<dim, dim>(dim * a, dim * b) -= (point.weight * point.shape(a)) * slope;
     }
   }
   return stiffness;
@@ -75,51 +108,56 @@ EdgeStiffness unit_pressure_stiffness(const Mesh& mesh, const Edge& edge) {
 
 }  // namespace
 
-Loads::Loads(const Problem& problem)
-    : problem_(problem), size_(entry_of(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
-  for (const EdgeLoad& load : problem.edge_loads) add_edge_load(problem, load);
+template <int dim>
+Loads<dim>::Loads(const Problem<dim>& problem)
+    : problem_(problem), size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
+  for (const BoundaryLoad<dim>& load : problem.boundary_loads) add_boundary_load(problem, load);
   for (const NodeLoad& load : problem.node_loads) add_node_load(problem, load);
-  for (const BodyLoad& load : problem.body_loads) add_body_load(problem, load);
+  for (const BodyLoad<dim>& load : problem.body_loads) add_body_load(problem, load);
 }
 
-void Loads::add_edge_load(const Problem& problem, const EdgeLoad& load) {
-  const std::vector<Edge>& edges = problem.mesh.boundaries.at(load.on);
-  const auto add = [&](const TimeTable& table, auto traction) {
-    if (table.largest_magnitude() == 0.0) return;
-    parts_.push_back({edge_forces(problem.mesh, edges, traction), &table});
-  };
+template <int dim>
+void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load) {
+  const std::vector<BoundarySide>& sides = problem.mesh.boundaries.at(load.on);
   if (load.pressure.largest_magnitude() > 0.0) {
     Pressure& pressure = pressures_.emplace_back(Pressure{parts_.size(), &load, {}});
     if (problem.deformation == Deformation::large) {
-      for (const Edge& edge : edges)
-        pressure.stiffness.push_back(unit_pressure_stiffness(problem.mesh, edge));
+      for (const BoundarySide& side : sides)
+        pressure.stiffness.push_back(unit_pressure_stiffness<dim>(problem.mesh, side));
     }
-    parts_.push_back({edge_forces(problem.mesh, edges, unit_pressure), &load.pressure});
+    parts_.push_back({side_forces<dim>(problem.mesh, sides, unit_pressure<dim>), &load.pressure});
   }
-  add(load.traction1, [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(normal.norm(), 0.0, 0.0); });
-  add(load.traction2, [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(0.0, normal.norm(), 0.0); });
-  add(load.couple_traction,
-      [](const Eigen::Vector2d& normal) { return Eigen::Vector3d(0.0, 0.0, normal.norm()); });
+  const auto add = [&](const TimeTable& table, int direction) {
+    if (table.largest_magnitude() == 0.0) return;
+    const auto traction = [direction](const Place<dim>& normal) {
+      return NodeValues<dim>(normal.norm() * NodeValues<dim>::Unit(direction));
+    };
+    parts_.push_back({side_forces<dim>(problem.mesh, sides, traction), &table});
+  };
+  for (int i = 0; i < dim; ++i) add(load.traction[static_cast<std::size_t>(i)], i);
+  for (int k = 0; k < Cosserat<dim>::rotations; ++k) add(load.couple_traction[static_cast<std::size_t>(k)], dim + k);
 }
 
-void Loads::add_node_load(const Problem& problem, const NodeLoad& load) {
+template <int dim>
+void Loads<dim>::add_node_load(const Problem<dim>& problem, const NodeLoad& load) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const int node : problem.mesh.nodes_on(load.on)) forces(entry_of(node, load.dof)) += 1.0;
+  for (const int node : problem.mesh.nodes_on(load.on)) forces(entry_of<dim>(node, load.dof)) += 1.0;
   parts_.push_back({std::move(forces), &load.value});
 }
 
-void Loads::add_body_load(const Problem& problem, const BodyLoad& load) {
-  const Mesh& mesh = problem.mesh;
+template <int dim>
+void Loads<dim>::add_body_load(const Problem<dim>& problem, const BodyLoad<dim>& load) {
+  const Mesh<dim>& mesh = problem.mesh;
   std::vector<int> elements(mesh.elements.size());
   std::iota(elements.begin(), elements.end(), 0);
   if (!load.region.empty()) elements = mesh.regions.at(load.region);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
   for (const int e : elements) {
-    const Element& element = mesh.elements[static_cast<std::size_t>(e)];
-    for (const PointGeometry& point : point_geometries(*element.type, mesh.element_positions(e))) {
-      const Eigen::Vector3d force = point.volume * load.density(point.position);
+    const Element<dim>& element = mesh.elements[static_cast<std::size_t>(e)];
+    for (const PointGeometry<dim>& point : point_geometries<dim>(*element.type, mesh.element_positions(e))) {
+      const NodeValues<dim> force = point.volume * load.density(point.position);
       for (std::size_t a = 0; a < element.nodes.size(); ++a) {
-        forces.segment<kDofsOfNode>(entry_of(element.nodes[a])) +=
+        forces.segment<Cosserat<dim>::dofs>(entry_of<dim>(element.nodes[a])) +=
             point.shape(static_cast<Eigen::Index>(a)) * force;
       }
     }
@@ -127,55 +165,68 @@ void Loads::add_body_load(const Problem& problem, const BodyLoad& load) {
   parts_.push_back({std::move(forces), &load.factor});
 }
 
-void Loads::move_to(const Eigen::VectorXd& nodal) {
+template <int dim>
+void Loads<dim>::move_to(const Eigen::VectorXd& nodal) {
   if (pressures_.empty()) return;
-  Mesh moved = problem_.mesh;
+  Mesh<dim> moved = problem_.mesh;
   for (std::size_t node = 0; node < moved.nodes.size(); ++node) {
-    moved.nodes[node] += nodal.segment<2>(entry_of(static_cast<Eigen::Index>(node)));
+    moved.nodes[node] += nodal.segment<dim>(entry_of<dim>(static_cast<Eigen::Index>(node)));
   }
-  for (const Pressure& pressure : pressures_) {
-    parts_[pressure.part].forces = edge_forces(moved, moved.boundaries.at(pressure.load->on), unit_pressure);
+  for (Pressure& pressure : pressures_) {
+    const std::vector<BoundarySide>& sides = moved.boundaries.at(pressure.load->on);
+    parts_[pressure.part].forces = side_forces<dim>(moved, sides, unit_pressure<dim>);
+    if (dim == 2) continue;  // there the forces are linear in the places of the nodes
+    for (std::size_t k = 0; k < pressure.stiffness.size(); ++k)
+      pressure.stiffness[k] = unit_pressure_stiffness<dim>(moved, sides[k]);
   }
 }
 
-std::vector<EdgeStiffness> Loads::stiffness(double time) const {
-  std::vector<EdgeStiffness> all;
+template <int dim>
+std::vector<LoadStiffness> Loads<dim>::stiffness(double time) const {
+  std::vector<LoadStiffness> all;
   for (const Pressure& pressure : pressures_) {
     const double value = pressure.load->pressure.at(time);
-    for (const EdgeStiffness& unit : pressure.stiffness) all.push_back({unit.entries, value * unit.values});
+    for (const LoadStiffness& unit : pressure.stiffness) all.push_back({unit.entries, value * unit.values});
   }
   return all;
 }
 
-Eigen::VectorXd Loads::linearised(double time, const Eigen::VectorXd& nodal) const {
+template <int dim>
+Eigen::VectorXd Loads<dim>::linearised(double time, const Eigen::VectorXd& nodal) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const EdgeStiffness& edge : stiffness(time)) {
-    forces(edge.entries) += edge.values * nodal(edge.entries);
+  for (const LoadStiffness& side : stiffness(time)) {
+    forces(side.entries) += side.values * nodal(side.entries);
   }
   return forces;
 }
 
-Eigen::VectorXd Loads::at(double time) const {
+template <int dim>
+Eigen::VectorXd Loads<dim>::at(double time) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
   for (const Part& part : parts_) forces += part.factor->at(time) * part.forces;
   return forces;
 }
 
-Eigen::VectorXd Loads::slope(double time) const {
+template <int dim>
+Eigen::VectorXd Loads<dim>::slope(double time) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
   for (const Part& part : parts_) forces += part.factor->slope(time) * part.forces;
   return forces;
 }
 
-double Loads::largest_force() const {
+template <int dim>
+double Loads<dim>::largest_force() const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     for (Eigen::Index entry = 0; entry < size_; ++entry) {
-      if (entry % kDofsOfNode != static_cast<int>(Dof::w))
+      if (!is_rotation(dof_at<dim>(entry)))
         sum += std::abs(part.forces(entry)) * part.factor->largest_magnitude();
     }
   }
   return sum;
 }
+
+template class Loads<2>;
+template class Loads<3>;
 
 }  // namespace polargrain::fem

@@ -8,8 +8,8 @@
 
 namespace polargrain::fem {
 
-/// Derivative of the nodal forces of one edge with respect to the nodal values of its nodes.
-struct EdgeStiffness {
+/// Derivative of the nodal forces of one side with respect to the nodal values of its nodes.
+struct LoadStiffness {
   std::vector<int> entries;  ///< of nodal vectors
   Eigen::MatrixXd values;    ///< a row a force, a column a displacement
 };
@@ -17,22 +17,23 @@ struct EdgeStiffness {
 /// Nodal forces of the loads of a problem, consistent with the shape functions. Loads keep their direction
 /// and the area they act on, so each is one nodal vector times its table; only pressures follow the boundary,
 /// when move_to says where it is.
+template <int dim>
 class Loads {
  public:
   /// @param problem must outlive this object.
-  explicit Loads(const Problem& problem);
+  explicit Loads(const Problem<dim>& problem);
 
   /// Lets the pressures act on the boundary where `nodal` displaces it; all else acts as on the mesh as it
   /// was made.
   void move_to(const Eigen::VectorXd& nodal);
 
-  /// Nodal vector, 3 a node: N/m, N/m, N.
+  /// Nodal vector: forces in N, moments in N m; in the plane N/m and N.
   [[nodiscard]] Eigen::VectorXd at(double time) const;
   /// Change of at() per time just after `time`.
   [[nodiscard]] Eigen::VectorXd slope(double time) const;
-  /// How the forces of the pressures change as the boundary moves, at `time`: an item an edge. Empty in small
-  /// deformation. Exact wherever the boundary is, since the forces are linear in the place of the nodes.
-  [[nodiscard]] std::vector<EdgeStiffness> stiffness(double time) const;
+  /// How the forces of the pressures change as the boundary moves from where it is, at `time`: an item a side. Empty in
+  /// small deformation.
+  [[nodiscard]] std::vector<LoadStiffness> stiffness(double time) const;
   /// Product of that stiffness and nodal displacements.
   [[nodiscard]] Eigen::VectorXd linearised(double time, const Eigen::VectorXd& nodal) const;
   /// Sum over all loads and nodes of the largest absolute nodal force (not moments), N/m.
@@ -43,17 +44,17 @@ class Loads {
     Eigen::VectorXd forces;  ///< for the value 1 of the table
     const TimeTable* factor;
   };
-  void add_edge_load(const Problem& problem, const EdgeLoad& load);
-  void add_node_load(const Problem& problem, const NodeLoad& load);
-  void add_body_load(const Problem& problem, const BodyLoad& load);
+  void add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load);
+  void add_node_load(const Problem<dim>& problem, const NodeLoad& load);
+  void add_body_load(const Problem<dim>& problem, const BodyLoad<dim>& load);
 
-  const Problem& problem_;
+  const Problem<dim>& problem_;
   Eigen::Index size_;
   std::vector<Part> parts_;
   struct Pressure {
     std::size_t part;
-    const EdgeLoad* load;
-    std::vector<EdgeStiffness> stiffness;  ///< of a unit pressure; empty in small deformation
+    const BoundaryLoad<dim>* load;
+    std::vector<LoadStiffness> stiffness;  ///< of a unit pressure; empty in small deformation
   };
   std::vector<Pressure> pressures_;
 };

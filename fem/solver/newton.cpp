@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/elementary_functions.hpp"
 #include "common/error.hpp"
 #include "common/seconds.hpp"
 #include "fem/material/rotation.hpp"
@@ -30,22 +31,26 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-Problem checked(Problem problem) {
+template <int dim>
+Problem<dim> checked(Problem<dim> problem) {
   if (const auto messages = faults(problem); !messages.empty()) {
     throw RunError(fmt::format("the problem cannot be solved: {}", fmt::join(messages, "; ")));
   }
   return problem;
 }
 
-double mean_element_size(const Discretisation& discretisation) {
+template <int dim>
+double mean_element_size(const Discretisation<dim>& discretisation) {
   double volume = 0.0;
   for (std::size_t i = 0; i < discretisation.points(); ++i) volume += discretisation.point(i).volume;
-  return std::sqrt(volume / static_cast<double>(discretisation.elements()));
+  const double mean = volume / static_cast<double>(discretisation.elements());
+  return dim == 2 ? std::sqrt(mean) : power(mean, 1.0 / 3.0);
 }
 
 }  // namespace
 
-Newton::Newton(Problem problem_in, const SolverOptions& options_in)
+template <int dim>
+Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
     : problem(checked(std::move(problem_in))),
       options(options_in),
       discretisation(problem.mesh, problem.continuum),
@@ -56,29 +61,30 @@ Newton::Newton(Problem problem_in, const SolverOptions& options_in)
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints),
-      anderson_(options.acceleration_depth, reference_length),
+      anderson_(options.acceleration_depth, reference_length, dim),
       start_(problem.mesh, problem.continuum),
       trial_(discretisation.points()) {
   state.displacement = Eigen::VectorXd::Zero(discretisation.nodal_size());
-  state.strain.assign(discretisation.points(), Vector7::Zero());
+  state.strain.assign(discretisation.points(), Cosserat<dim>::Vector::Zero());
   state.responses.resize(discretisation.points());
   if (problem.deformation == Deformation::large && !materials.can_turn())
     throw RunError("a material cannot turn its stress, as large deformation needs");
 }
 
-Attempt Newton::evaluate_initial_state(StepReport& report) {
+template <int dim>
+Attempt Newton<dim>::evaluate_initial_state(StepReport& report) {
   {
     const Stopwatch watch(report.material_seconds);
-    increments_.assign(discretisation.points(), Increment{});
+    increments_.assign(discretisation.points(), Increment<dim>{});
     materials.evaluate(increments_, trial_);
     report.evaluations += static_cast<long>(trial_.size());
   }
-  if (const Response& worst = worst_response(); worst.quality != Quality::good) {
+  if (const Response<dim>& worst = worst_response(); worst.quality != Quality::good) {
     materials.revert();
     return {false, "the initial state of a material is not usable: " + worst.message};
   }
   if (problem.continuum == Continuum::cosserat) {
-    if (std::string message = unresisted_rotation(problem.mesh, discretisation, constraints, trial_);
+    if (std::string message = unresisted_rotation<dim>(problem.mesh, discretisation, constraints, trial_);
         !message.empty()) {
       materials.revert();
       return {false, std::move(message)};
@@ -90,7 +96,8 @@ Attempt Newton::evaluate_initial_state(StepReport& report) {
   return {true, ""};
 }
 
-Residual Newton::initial_residual() {
+template <int dim>
+Residual Newton<dim>::initial_residual() {
   const Eigen::VectorXd unbalanced = loads.at(state.time) - discretisation.internal_forces(state.responses);
   state.reference_force = options.reference_force;
   if (state.reference_force == 0.0) {
@@ -99,51 +106,60 @@ Residual Newton::initial_residual() {
   return relative(unbalanced);
 }
 
-void Newton::withhold_imbalance() {
+template <int dim>
+void Newton<dim>::withhold_imbalance() {
   withheld_ = loads.at(state.time) - discretisation.internal_forces(state.responses);
   released_ = 0.0;
 }
 
-Eigen::VectorXd Newton::loads_at(double time, double released, double jump_let_go) const {
+template <int dim>
+Eigen::VectorXd Newton<dim>::loads_at(double time, double released, double jump_let_go) const {
   Eigen::VectorXd forces = loads.at(time);
   if (released < 1.0) forces -= (1.0 - released) * withheld_;
   if (jump_let_go < 1.0) forces -= (1.0 - jump_let_go) * jump_;
   return forces;
 }
 
-Linearisation Newton::linearised(const std::vector<Response>& answers) const {
+template <int dim>
+Linearisation<dim> Newton<dim>::linearised(const std::vector<Response<dim>>& answers) const {
   if (problem.deformation == Deformation::small) return {answers};
-  return {answers, Linearisation::Moving{start_, increments_}};
+  return {answers, typename Linearisation<dim>::Moving{start_, increments_}};
 }
 
-Residual Newton::relative(const Eigen::VectorXd& forces) const {
+template <int dim>
+Residual Newton<dim>::relative(const Eigen::VectorXd& forces) const {
   return measure(constraints.folded(forces), constraints, state.reference_force, reference_length);
 }
 
-double Newton::excess(const Residual& residual) const {
+template <int dim>
+double Newton<dim>::excess(const Residual& residual) const {
   return std::max(residual.force / options.force_tolerance, residual.moment / options.moment_tolerance);
 }
 
-const Response& Newton::worst_response() const {
-  return *std::min_element(trial_.begin(), trial_.end(), [](const Response& a, const Response& b) {
+template <int dim>
+const Response<dim>& Newton<dim>::worst_response() const {
+  return *std::min_element(trial_.begin(), trial_.end(), [](const Response<dim>& a, const Response<dim>& b) {
     return a.quality != b.quality ? a.quality < b.quality : a.step_factor < b.step_factor;
   });
 }
 
-void Newton::revert() {
+template <int dim>
+void Newton<dim>::revert() {
   materials.revert();
   move_to_committed();
 }
 
-void Newton::move_to_committed() {
+template <int dim>
+void Newton<dim>::move_to_committed() {
   if (problem.deformation == Deformation::small) return;
   (void)discretisation.move_to(state.displacement);  // it was committed, so no element is inside out
   (void)start_.move_to(state.displacement);
-  increments_.assign(discretisation.points(), Increment{});
+  increments_.assign(discretisation.points(), Increment<dim>{});
   loads.move_to(state.displacement);
 }
 
-void Newton::find_increments(const Eigen::VectorXd& displacement_increment) {
+template <int dim>
+void Newton<dim>::find_increments(const Eigen::VectorXd& displacement_increment) {
   if (problem.deformation == Deformation::small) {
     increments_ = discretisation.increments(displacement_increment);
     return;
@@ -154,7 +170,8 @@ void Newton::find_increments(const Eigen::VectorXd& displacement_increment) {
   increments_ = start_.increments_to(discretisation, displacement_increment);
 }
 
-void Newton::evaluate(Iterate& iterate, StepReport& report) {
+template <int dim>
+void Newton<dim>::evaluate(Iterate& iterate, StepReport& report) {
   {
     const Stopwatch watch(report.material_seconds);
     find_increments(iterate.displacement);
@@ -176,7 +193,8 @@ void Newton::evaluate(Iterate& iterate, StepReport& report) {
   unbalanced_ = iterate.unbalanced;
 }
 
-bool Newton::factorise(const std::vector<Response>& responses, double time, StepReport& report) {
+template <int dim>
+bool Newton<dim>::factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report) {
   const Eigen::SparseMatrix<double>* matrix = nullptr;
   {
     const Stopwatch watch(report.assembly_seconds);
@@ -186,7 +204,8 @@ bool Newton::factorise(const std::vector<Response>& responses, double time, Step
   return linear_solver_.factorise(*matrix);
 }
 
-bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std::vector<Response>& responses,
+template <int dim>
+bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate, const std::vector<Response<dim>>& responses,
                         const Eigen::VectorXd& right_side, Correction& change, StepReport& report) {
   if (!factorise(responses, iterate.time, report)) return false;
   const Stopwatch watch(report.solve_seconds);
@@ -218,13 +237,15 @@ bool Newton::correction(const StepGoal& goal, const Iterate& iterate, const std:
   return change.displacement.allFinite() && std::isfinite(change.time);
 }
 
-void Newton::move(Iterate& iterate, const Correction& change, double fraction, StepReport& report) {
+template <int dim>
+void Newton<dim>::move(Iterate& iterate, const Correction& change, double fraction, StepReport& report) {
   iterate.time += fraction * change.time;
   iterate.displacement += fraction * change.displacement;
   evaluate(iterate, report);
 }
 
-void Newton::line_search(Iterate& iterate, const Correction& change, double excess_before,
+template <int dim>
+void Newton<dim>::line_search(Iterate& iterate, const Correction& change, double excess_before,
                          StepReport& report) {
   double fraction = 1.0;
   double best_fraction = 1.0;
@@ -239,7 +260,8 @@ void Newton::line_search(Iterate& iterate, const Correction& change, double exce
   if (best_fraction != fraction) move(iterate, change, best_fraction - fraction, report);
 }
 
-Newton::Iterate Newton::start_of(const StepGoal& goal) const {
+template <int dim>
+Newton<dim>::Iterate Newton<dim>::start_of(const StepGoal& goal) const {
   Iterate iterate{goal.controls_time() ? goal.time : state.time,
                   goal.released,
                   goal.jump_let_go,
@@ -253,7 +275,8 @@ Newton::Iterate Newton::start_of(const StepGoal& goal) const {
   return iterate;
 }
 
-void Newton::remember(const Iterate& iterate) {
+template <int dim>
+void Newton<dim>::remember(const Iterate& iterate) {
   if (!anderson_.is_on()) return;
   const auto free_part = [&](const Eigen::VectorXd& forces) {
     Eigen::VectorXd nodal = constraints.folded(forces);
@@ -262,12 +285,13 @@ void Newton::remember(const Iterate& iterate) {
     }
     return nodal;
   };
-  const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+  const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
   anderson_.remember({iterate.displacement, iterate.time}, free_part(iterate.unbalanced),
                      noise.size() > 0 ? free_part(noise) : noise);
 }
 
-Newton::Balance Newton::balance_of(const Iterate& iterate, bool last_chance) const {
+template <int dim>
+Newton<dim>::Balance Newton<dim>::balance_of(const Iterate& iterate, bool last_chance) const {
   const Residual& residual = iterate.residual;
   if (excess(residual) <= 1.0) return Balance::within_tolerance;
   const auto within = [&](const Eigen::VectorXd& forces, double factor) {
@@ -276,26 +300,28 @@ Newton::Balance Newton::balance_of(const Iterate& iterate, bool last_chance) con
            residual.moment <= std::max(options.moment_tolerance, factor * floor.moment);
   };
   if (options.noise_factor > 0.0) {
-    const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+    const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
     if (noise.size() > 0 && within(noise, options.noise_factor)) return Balance::within_noise;
   }
   if (last_chance &&
-      within(forces_of_rounding(discretisation, problem.continuum, trial_, iterate.displacement), 1.0)) {
+      within(forces_of_rounding<dim>(discretisation, problem.continuum, trial_, iterate.displacement), 1.0)) {
     return Balance::within_rounding;
   }
   return Balance::none;
 }
 
-std::string Newton::residual_text(const Residual& residual) const {
+template <int dim>
+std::string Newton<dim>::residual_text(const Residual& residual) const {
   std::string text = fmt::format("{:.3g} (force), {:.3g} (moment)", residual.force, residual.moment);
-  const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+  const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
   if (noise.size() == 0) return text;
   const Residual floor = relative(noise);
   return text + fmt::format("; the noise of the stresses alone leaves about {:.3g} and {:.3g}", floor.force,
                             floor.moment);
 }
 
-Newton::Predictor Newton::predict(const StepGoal& goal) {
+template <int dim>
+Newton<dim>::Predictor Newton<dim>::predict(const StepGoal& goal) {
   move_to_committed();
   unbalanced_.resize(0);
   anderson_.clear();
@@ -311,7 +337,8 @@ Newton::Predictor Newton::predict(const StepGoal& goal) {
   return {std::move(iterate), std::move(right_side)};
 }
 
-Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
+template <int dim>
+Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   constexpr double kFast = 0.1;  // a true tangent at work: nothing to accelerate
   report.force_residuals.clear();
   report.moment_residuals.clear();
@@ -323,8 +350,8 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
   StagnationWatch jump_watch((options.stagnation_window + 1) / 2);
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
-    const std::vector<Response>& known = predictor ? state.responses : trial_;
-    if (!correction(goal, iterate, known, right_side, change, report)) return {false, why_singular(known)};
+    const std::vector<Response<dim>>& known = predictor ? state.responses : trial_;
+    if (!correction(goal, iterate, known, right_side, change, report)) return {false, why_singular<dim>(known)};
     const Attempt limited = predictor ? limit_predictor(goal, iterate, change, report)
                                       : limit_correction(iterate, change, report);
     if (!limited.converged) return limited;
@@ -338,7 +365,7 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
     right_side = iterate.unbalanced;
     converges_fast_ = excess(iterate.residual) < kFast * excess_before;
 
-    const Response& worst = worst_response();
+    const Response<dim>& worst = worst_response();
     if (worst.quality == Quality::failed) {
       return {false, (inverted_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
     }
@@ -361,7 +388,7 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
       if (!materials.confirm()) {
         // Other answers from here on: what was learned of the former ones is void.
         evaluate(iterate, report);
-        if (const Response& again = worst_response(); again.quality == Quality::failed)
+        if (const Response<dim>& again = worst_response(); again.quality == Quality::failed)
           return {false, "a material failed: " + again.message, again.step_factor};
         right_side = iterate.unbalanced;
         anderson_.clear();
@@ -379,12 +406,13 @@ Attempt Newton::attempt(const StepGoal& goal, int cuts, StepReport& report) {
                              residual_text(iterate.residual))};
 }
 
-void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report) {
+template <int dim>
+void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& report) {
   report.force_residual = iterate.residual.force;
   report.moment_residual = iterate.residual.moment;
   report.within_noise += balance == Balance::within_noise ? 1 : 0;
   report.within_rounding += balance == Balance::within_rounding ? 1 : 0;
-  if (const auto noise = forces_of_noise(discretisation, problem.continuum, trial_); noise.size() > 0) {
+  if (const auto noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_); noise.size() > 0) {
     const Residual floor = relative(noise);
     report.force_noise = floor.force;
     report.moment_noise = floor.moment;
@@ -409,23 +437,27 @@ void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report)
   jump_let_go_ = iterate.jump_let_go;
 }
 
-void Newton::add_to_strain_and_work(std::size_t point) {
-  const Increment& increment = increments_[point];
-  const Vector7 before = state.responses[point].stress;
-  const Vector7 after = trial_[point].stress;
+template <int dim>
+void Newton<dim>::add_to_strain_and_work(std::size_t point) {
+  const Increment<dim>& increment = increments_[point];
+  const typename Cosserat<dim>::Vector before = state.responses[point].stress;
+  const typename Cosserat<dim>::Vector after = trial_[point].stress;
   const double volume = discretisation.point(point).volume;
   if (increment.configuration == Configuration::fixed) {
-    const Vector7 strain = increment.strain();
+    const typename Cosserat<dim>::Vector strain = increment.strain();
     state.internal_work += volume * 0.5 * (before + after).dot(strain);
     state.strain[point] += strain;
     return;
   }
   // The strain turns with the material as the stress does; the work is that of the stretch, in the axes of the start.
-  const StretchAndTurn step = stretch_and_turn(increment);
-  const Vector7 strain = step.stretch.strain();
+  const StretchAndTurn<dim> step = stretch_and_turn(increment);
+  const typename Cosserat<dim>::Vector strain = step.stretch.strain();
   const double mean_volume = 0.5 * (start_.point(point).volume + volume);
-  state.internal_work += mean_volume * 0.5 * (before + rotated(after, -step.angle)).dot(strain);
-  state.strain[point] = rotated(Vector7(state.strain[point] + strain), step.angle);
+  state.internal_work += mean_volume * 0.5 * (before + rotated(after, inverse(step.turn))).dot(strain);
+  state.strain[point] = rotated(typename Cosserat<dim>::Vector(state.strain[point] + strain), step.turn);
 }
+
+template class Newton<2>;
+template class Newton<3>;
 
 }  // namespace polargrain::fem

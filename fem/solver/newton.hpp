@@ -43,10 +43,11 @@ struct Attempt {
 
 /// Newton iterations for one step of a problem, from the committed state. Keeps that state, changes it only
 /// by committing a step that has met its tolerances.
+template <int dim>
 class Newton {
  public:
   /// @throws RunError when the problem has faults.
-  Newton(Problem problem, const SolverOptions& options);
+  Newton(Problem<dim> problem, const SolverOptions& options);
 
   /// Evaluates all materials with increments of zero and commits their answer as the initial state.
   [[nodiscard]] Attempt evaluate_initial_state(StepReport& report);
@@ -84,14 +85,14 @@ class Newton {
   /// Nodal forces over the references of the run.
   [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
 
-  Problem problem;
+  Problem<dim> problem;
   SolverOptions options;
-  Discretisation discretisation;
-  Constraints constraints;
-  Loads loads;
-  PointMaterials materials;
+  Discretisation<dim> discretisation;
+  Constraints<dim> constraints;
+  Loads<dim> loads;
+  PointMaterials<dim> materials;
   double reference_length;
-  SolverState state;
+  SolverState<dim> state;
   Observer* observer = nullptr;
 
  private:
@@ -108,7 +109,7 @@ class Newton {
 
   [[nodiscard]] Eigen::VectorXd loads_at(double time, double released, double jump_let_go) const;
   /// The base of the tangent at the last evaluation, or at the committed state.
-  [[nodiscard]] Linearisation linearised(const std::vector<Response>& answers) const;
+  [[nodiscard]] Linearisation<dim> linearised(const std::vector<Response<dim>>& answers) const;
   [[nodiscard]] Iterate start_of(const StepGoal& goal) const;
   /// Where the iteration of a step starts, and the forces that its first correction balances.
   struct Predictor {
@@ -118,9 +119,9 @@ class Newton {
   [[nodiscard]] Predictor predict(const StepGoal& goal);
   void evaluate(Iterate& iterate, StepReport& report);
   void find_increments(const Eigen::VectorXd& displacement_increment);
-  [[nodiscard]] bool factorise(const std::vector<Response>& responses, double time, StepReport& report);
+  [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
-                                const std::vector<Response>& responses, const Eigen::VectorXd& right_side,
+                                const std::vector<Response<dim>>& responses, const Eigen::VectorXd& right_side,
                                 Correction& change, StepReport& report);
   [[nodiscard]] double allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const;
   [[nodiscard]] Attempt limit_correction(Iterate& iterate, Correction& change, StepReport& report) const;
@@ -134,15 +135,15 @@ class Newton {
   void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);
   void line_search(Iterate& iterate, const Correction& change, double excess_before, StepReport& report);
   [[nodiscard]] Balance balance_of(const Iterate& iterate, bool last_chance) const;
-  [[nodiscard]] const Response& worst_response() const;
+  [[nodiscard]] const Response<dim>& worst_response() const;
   void commit(const Iterate& iterate, Balance balance, StepReport& report);
   void add_to_strain_and_work(std::size_t point);
 
-  TangentMatrix tangent_;
+  TangentMatrix<dim> tangent_;
   LinearSolver linear_solver_;
   Anderson anderson_;
   bool converges_fast_ = false;      ///< the last iteration needs no acceleration
-  Discretisation start_;             ///< large deformation: at the start of the step
+  Discretisation<dim> start_;             ///< large deformation: at the start of the step
   std::string inverted_;             ///< names an element the last iterate turns inside out
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;
@@ -152,8 +153,8 @@ class Newton {
   double jump_let_go_ = 1.0;     ///< share of them that committed steps have let go
   std::optional<Iterate> best_;  ///< of the last attempt, of those that could be committed
   Eigen::VectorXd unbalanced_;   ///< of the evaluation made last; empty before the first one of an attempt
-  std::vector<Increment> increments_;  ///< of the evaluation made last
-  std::vector<Response> trial_;        ///< its responses
+  std::vector<Increment<dim>> increments_;  ///< of the evaluation made last
+  std::vector<Response<dim>> trial_;        ///< its responses
 };
 
 }  // namespace polargrain::fem

@@ -7,13 +7,14 @@
 
 namespace polargrain::fem {
 
-Attempt Newton::pass_jump(StepReport& report) {
+template <int dim>
+Attempt Newton<dim>::pass_jump(StepReport& report) {
   constexpr int kMostAnswers = 3;  // a material that finds its answer too poor may give another one
   if (!best_) return {false, "no iterate that could be committed"};
   Iterate iterate = *best_;
   for (int answers = 0; answers < kMostAnswers; ++answers) {
     evaluate(iterate, report);
-    if (const Response& worst = worst_response(); worst.quality != Quality::good)
+    if (const Response<dim>& worst = worst_response(); worst.quality != Quality::good)
       return {false, worst.message, worst.step_factor};
     if (!materials.confirm()) continue;
     report.jump_residual = std::max(report.jump_residual, iterate.residual.force);
@@ -25,5 +26,9 @@ Attempt Newton::pass_jump(StepReport& report) {
   }
   return {false, "a material does not stand by its answer"};
 }
+
+
+template Attempt Newton<2>::pass_jump(StepReport&);
+template Attempt Newton<3>::pass_jump(StepReport&);
 
 }  // namespace polargrain::fem

@@ -11,20 +11,24 @@ namespace polargrain::fem {
 namespace {
 
 /// Norm of the strain without rotations, of which a step may hold as many as it likes.
-double strain_norm(const Increment& increment, Deformation deformation) {
-  const Eigen::Matrix2d& h = increment.displacement_gradient;
+template <int dim>
+double strain_norm(const Increment<dim>& increment, Deformation deformation) {
+  using Gradient = typename Cosserat<dim>::Gradient;
+  using Place = typename Cosserat<dim>::Place;
+  const Gradient& h = increment.displacement_gradient;
   const double linear = (0.5 * (h + h.transpose())).norm();
   if (deformation == Deformation::small) return linear;
   // Rotations come linearised from the solution and exact from the supports: either must not count.
-  const Eigen::Vector2d stretches = (Eigen::Matrix2d::Identity() + h).jacobiSvd().singularValues();
-  return std::min(linear, (stretches - Eigen::Vector2d::Ones()).norm());
+  const Place stretches = Gradient(Gradient::Identity() + h).jacobiSvd().singularValues();
+  return std::min(linear, (stretches - Place::Ones()).norm());
 }
 
 }  // namespace
 
-double Newton::allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const {
-  const std::vector<Increment> reached = discretisation.increments(from);
-  const std::vector<Increment> added = discretisation.increments(change);
+template <int dim>
+double Newton<dim>::allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const {
+  const std::vector<Increment<dim>> reached = discretisation.increments(from);
+  const std::vector<Increment<dim>> added = discretisation.increments(change);
   double share = 1.0;
   for (std::size_t i = 0; i < added.size(); ++i) {
     const double strain = strain_norm(added[i], problem.deformation);
@@ -34,7 +38,8 @@ double Newton::allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd&
   return share;
 }
 
-Attempt Newton::limit_correction(Iterate& iterate, Correction& change, StepReport& report) const {
+template <int dim>
+Attempt Newton<dim>::limit_correction(Iterate& iterate, Correction& change, StepReport& report) const {
   constexpr double kLeastShare = 0.01;
   const double share = allowed_share(iterate.displacement, change.displacement);
   if (share == 1.0) return {true, ""};
@@ -47,7 +52,8 @@ Attempt Newton::limit_correction(Iterate& iterate, Correction& change, StepRepor
   return {true, ""};
 }
 
-Attempt Newton::limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
+template <int dim>
+Attempt Newton<dim>::limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
                                 StepReport& report) const {
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(iterate.displacement.size());
   const double share = allowed_share(nothing, iterate.displacement + change.displacement);
@@ -65,7 +71,8 @@ Attempt Newton::limit_predictor(const StepGoal& goal, Iterate& iterate, Correcti
   return {true, ""};
 }
 
-Correction Newton::last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const {
+template <int dim>
+Correction Newton<dim>::last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const {
   if (state.last_increment.size() == 0) return {};
   Correction drawn_on{state.last_increment, 0.0};
   // The given part of it: the increments of this goal, or so many times their growth with the time.
@@ -91,5 +98,15 @@ Correction Newton::last_step_drawn_on(const StepGoal& goal, const Iterate& itera
   }
   return drawn_on;
 }
+
+
+template double Newton<2>::allowed_share(const Eigen::VectorXd&, const Eigen::VectorXd&) const;
+template Attempt Newton<2>::limit_correction(Iterate&, Correction&, StepReport&) const;
+template Attempt Newton<2>::limit_predictor(const StepGoal&, Iterate&, Correction&, StepReport&) const;
+template Correction Newton<2>::last_step_drawn_on(const StepGoal&, const Iterate&) const;
+template double Newton<3>::allowed_share(const Eigen::VectorXd&, const Eigen::VectorXd&) const;
+template Attempt Newton<3>::limit_correction(Iterate&, Correction&, StepReport&) const;
+template Attempt Newton<3>::limit_predictor(const StepGoal&, Iterate&, Correction&, StepReport&) const;
+template Correction Newton<3>::last_step_drawn_on(const StepGoal&, const Iterate&) const;
 
 }  // namespace polargrain::fem

@@ -14,11 +14,12 @@ constexpr std::size_t kMostNodes = 4;
 constexpr std::size_t kMostPoints = 3;
 
 /// By node, what is out of balance of its forces.
-std::vector<double> unbalanced_by_node(const Eigen::VectorXd& forces, const Constraints& constraints) {
-  std::vector<double> sums(static_cast<std::size_t>(forces.size()) / kDofsOfNode, 0.0);
+template <int dim>
+std::vector<double> unbalanced_by_node(const Eigen::VectorXd& forces, const Constraints<dim>& constraints) {
+  std::vector<double> sums(static_cast<std::size_t>(forces.size() / Cosserat<dim>::dofs), 0.0);
   for (std::size_t node = 0; node < sums.size(); ++node) {
-    for (const Dof dof : {Dof::u1, Dof::u2}) {
-      const std::size_t entry = entry_of(node, dof);
+    for (std::size_t i = 0; i < dim; ++i) {
+      const std::size_t entry = entry_of<dim>(node) + i;
       if (constraints.is_free(entry)) sums[node] += std::abs(forces(static_cast<Eigen::Index>(entry)));
     }
   }
@@ -27,7 +28,8 @@ std::vector<double> unbalanced_by_node(const Eigen::VectorXd& forces, const Cons
 
 }  // namespace
 
-Trouble Newton::trouble(const std::string& reason, const StepReport& report) const {
+template <int dim>
+Trouble Newton<dim>::trouble(const std::string& reason, const StepReport& report) const {
   Trouble trouble;
   trouble.reason = reason;
   if (!report.force_residuals.empty()) {
@@ -44,7 +46,7 @@ Trouble Newton::trouble(const std::string& reason, const StepReport& report) con
   for (std::size_t k = 0; k < std::min(kMostPoints, order.size()); ++k)
     trouble.points.push_back({order[k], trial_[order[k]].message});
   if (!unbalanced_.allFinite()) return trouble;
-  if (const Eigen::VectorXd noise = forces_of_noise(discretisation, problem.continuum, trial_);
+  if (const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
       noise.size() > 0)
     trouble.force_noise = relative(noise).force;
 
@@ -58,5 +60,9 @@ Trouble Newton::trouble(const std::string& reason, const StepReport& report) con
     trouble.nodes.push_back({static_cast<int>(order[k]), sums[order[k]] / all});
   return trouble;
 }
+
+
+template Trouble Newton<2>::trouble(const std::string&, const StepReport&) const;
+template Trouble Newton<3>::trouble(const std::string&, const StepReport&) const;
 
 }  // namespace polargrain::fem

@@ -13,12 +13,13 @@ namespace polargrain::fem {
 namespace {
 
 /// Volumes that belong to the nodes of an element: the diagonal of the integral of N_a N_b, scaled to the whole volume.
-Eigen::VectorXd shares_of_nodes(const Discretisation& discretisation, std::size_t e) {
+template <int dim>
+Eigen::VectorXd shares_of_nodes(const Discretisation<dim>& discretisation, std::size_t e) {
   Eigen::VectorXd shares =
       Eigen::VectorXd::Zero(discretisation.point(discretisation.first_point(e)).shape.size());
   double volume = 0.0;
   for (std::size_t i = discretisation.first_point(e); i < discretisation.first_point(e + 1); ++i) {
-    const PointGeometry& point = discretisation.point(i);
+    const PointGeometry<dim>& point = discretisation.point(i);
     shares += point.volume * point.shape.cwiseAbs2();
     volume += point.volume;
   }
@@ -39,7 +40,8 @@ Eigen::MatrixXd scaled(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
 
 }  // namespace
 
-Eigen::VectorXd nodal_masses(const Discretisation& discretisation, const Linearisation& of, double safety) {
+template <int dim>
+Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, double safety) {
   // Central differences are stable up to an eigenvalue of 4 with steps of 1.
   const double allowed = 4.0 * safety * safety;
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(discretisation.nodal_size());
@@ -52,8 +54,8 @@ Eigen::VectorXd nodal_masses(const Discretisation& discretisation, const Lineari
       Eigen::VectorXd weights = Eigen::VectorXd::Zero(stiffness.rows());
       std::vector<Eigen::Index> entries;
       for (Eigen::Index entry = 0; entry < stiffness.rows(); ++entry) {
-        if ((entry % kDofsOfNode == static_cast<Eigen::Index>(Dof::w)) == rotary) entries.push_back(entry);
-        weights(entry) = shares(entry / kDofsOfNode);
+        if (is_rotation(dof_at<dim>(entry)) == rotary) entries.push_back(entry);
+        weights(entry) = shares(entry / Cosserat<dim>::dofs);
       }
       const double largest =
           largest_eigenvalue(scaled(stiffness(entries, entries), Eigen::VectorXd(weights(entries))));
@@ -70,5 +72,8 @@ Eigen::VectorXd nodal_masses(const Discretisation& discretisation, const Lineari
   }
   return masses;
 }
+
+template Eigen::VectorXd nodal_masses<2>(const Discretisation<2>& discretisation, const Linearisation<2>& of, double safety);
+template Eigen::VectorXd nodal_masses<3>(const Discretisation<3>& discretisation, const Linearisation<3>& of, double safety);
 
 }  // namespace polargrain::fem

@@ -14,6 +14,7 @@ namespace polargrain::fem {
 /// @return nodal vector, N/m per unit of (length over step squared), and the like for rotations; lumped by the diagonal of the
 /// consistent matrix, scaled to the mass of the element (Hinton, Rock and Zienkiewicz 1976)
 /// @throws RunError when an element has no stiffness at all
-Eigen::VectorXd nodal_masses(const Discretisation& discretisation, const Linearisation& of, double safety);
+template <int dim>
+Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, double safety);
 
 }  // namespace polargrain::fem

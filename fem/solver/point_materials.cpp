@@ -10,7 +10,8 @@
 
 namespace polargrain::fem {
 
-PointMaterials::PointMaterials(const Problem& problem, const Discretisation& discretisation)
+template <int dim>
+PointMaterials<dim>::PointMaterials(const Problem<dim>& problem, const Discretisation<dim>& discretisation)
     : at_(discretisation.points()) {
   std::vector<std::size_t> batch_of_element(discretisation.elements());
   for (const auto& [region, material] : problem.materials) {
@@ -36,8 +37,9 @@ PointMaterials::PointMaterials(const Problem& problem, const Discretisation& dis
   set_initial_stresses(problem, discretisation);
 }
 
-void PointMaterials::set_initial_stresses(const Problem& problem, const Discretisation& discretisation) {
-  for (const InitialStress& item : problem.initial_stresses) {
+template <int dim>
+void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem, const Discretisation<dim>& discretisation) {
+  for (const InitialStress<dim>& item : problem.initial_stresses) {
     std::vector<char> here(discretisation.elements(), item.region.empty() ? 1 : 0);
     if (!item.region.empty()) {
       for (const int e : problem.mesh.regions.at(item.region)) here[static_cast<std::size_t>(e)] = 1;
@@ -52,7 +54,8 @@ void PointMaterials::set_initial_stresses(const Problem& problem, const Discreti
   }
 }
 
-void PointMaterials::evaluate(const std::vector<Increment>& increments, std::vector<Response>& responses) {
+template <int dim>
+void PointMaterials<dim>::evaluate(const std::vector<Increment<dim>>& increments, std::vector<Response<dim>>& responses) {
   for (Batch& batch : batches_) {
     for (std::size_t i = 0; i < batch.points.size(); ++i) batch.increments[i] = increments[batch.points[i]];
     batch.material->evaluate(batch.increments, batch.responses);
@@ -60,47 +63,58 @@ void PointMaterials::evaluate(const std::vector<Increment>& increments, std::vec
   }
 }
 
-bool PointMaterials::can_turn() const {
+template <int dim>
+bool PointMaterials<dim>::can_turn() const {
   return std::ranges::all_of(batches_, [](const Batch& batch) { return batch.material->can_turn(); });
 }
 
-double PointMaterials::moment_length(double otherwise) const {
+template <int dim>
+double PointMaterials<dim>::moment_length(double otherwise) const {
   double least = otherwise;
   for (const Batch& batch : batches_)
     if (const double own = batch.material->moment_length(); own > 0.0) least = std::min(least, own);
   return least;
 }
 
-bool PointMaterials::confirm() {
+template <int dim>
+bool PointMaterials<dim>::confirm() {
   bool all = true;
   for (Batch& batch : batches_) all = batch.material->confirm() && all;
   return all;
 }
 
-void PointMaterials::settle() {
+template <int dim>
+void PointMaterials<dim>::settle() {
   for (Batch& batch : batches_) batch.material->settle();
 }
 
-void PointMaterials::commit() {
+template <int dim>
+void PointMaterials<dim>::commit() {
   for (Batch& batch : batches_) batch.material->commit();
 }
 
-void PointMaterials::revert() {
+template <int dim>
+void PointMaterials<dim>::revert() {
   for (Batch& batch : batches_) batch.material->revert();
 }
 
-void PointMaterials::save(ArchiveWriter& archive) const {
+template <int dim>
+void PointMaterials<dim>::save(ArchiveWriter& archive) const {
   for (std::size_t b = 0; b < batches_.size(); ++b) {
     PrefixedWriter own(archive, fmt::format("{}/", b));
     batches_[b].material->save(own);
   }
 }
 
-void PointMaterials::restore(ArchiveReader& archive) {
+template <int dim>
+void PointMaterials<dim>::restore(ArchiveReader& archive) {
   for (std::size_t b = 0; b < batches_.size(); ++b) {
     PrefixedReader own(archive, fmt::format("{}/", b));
     batches_[b].material->restore(own);
   }
 }
+
+template class PointMaterials<2>;
+template class PointMaterials<3>;
 
 }  // namespace polargrain::fem

@@ -11,14 +11,15 @@
 namespace polargrain::fem {
 
 /// The materials of a problem, each with the points that are made of it.
+template <int dim>
 class PointMaterials {
  public:
   /// Allocates the states and sets initial stresses.
   /// @throws RunError when a material is null or takes no initial stress where one is given.
-  PointMaterials(const Problem& problem, const Discretisation& discretisation);
+  PointMaterials(const Problem<dim>& problem, const Discretisation<dim>& discretisation);
 
   /// One response a point, in the order of the discretisation.
-  void evaluate(const std::vector<Increment>& increments, std::vector<Response>& responses);
+  void evaluate(const std::vector<Increment<dim>>& increments, std::vector<Response<dim>>& responses);
   [[nodiscard]] bool can_turn() const;
   /// The least length of the materials (Material::moment_length); `otherwise` where no material has one.
   [[nodiscard]] double moment_length(double otherwise) const;
@@ -31,20 +32,20 @@ class PointMaterials {
   void save(ArchiveWriter& archive) const;
   void restore(ArchiveReader& archive);
 
-  [[nodiscard]] std::pair<const Material*, std::size_t> at(std::size_t point) const { return at_[point]; }
+  [[nodiscard]] std::pair<const Material<dim>*, std::size_t> at(std::size_t point) const { return at_[point]; }
 
  private:
   /// One batch a material, not one a region, so that a material sees all its points at once.
   struct Batch {
-    std::shared_ptr<Material> material;
+    std::shared_ptr<Material<dim>> material;
     std::vector<std::size_t> points;
-    std::vector<Increment> increments;
-    std::vector<Response> responses;
+    std::vector<Increment<dim>> increments;
+    std::vector<Response<dim>> responses;
   };
-  void set_initial_stresses(const Problem& problem, const Discretisation& discretisation);
+  void set_initial_stresses(const Problem<dim>& problem, const Discretisation<dim>& discretisation);
 
   std::vector<Batch> batches_;
-  std::vector<std::pair<const Material*, std::size_t>> at_;
+  std::vector<std::pair<const Material<dim>*, std::size_t>> at_;
 };
 
 }  // namespace polargrain::fem

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem/element/dofs.hpp"
@@ -17,40 +19,52 @@
 namespace polargrain::fem {
 
 /// A displacement (m) or micro-rotation (rad) that is given: a support when the table is constant zero.
+template <int dim>
 struct PrescribedDof {
   std::string on;  ///< boundary or node set
   Dof dof;
   TimeTable value;
   /// Factor by position; 1 everywhere when empty.
-  std::function<double(const Eigen::Vector2d&)> profile;
+  std::function<double(const typename Cosserat<dim>::Place&)> profile;
 };
 
-/// Traction on a boundary, per area: t = -pressure n + traction, and couple traction about e_3.
-struct EdgeLoad {
-  std::string on;                                        ///< boundary
-  TimeTable pressure = TimeTable::constant(0.0);         ///< Pa, pushing into the body when positive
-  TimeTable traction1 = TimeTable::constant(0.0);        ///< Pa, along e_1
-  TimeTable traction2 = TimeTable::constant(0.0);        ///< Pa, along e_2
-  TimeTable couple_traction = TimeTable::constant(0.0);  ///< N/m
+/// So many tables that are zero.
+template <std::size_t count>
+std::array<TimeTable, count> zero_tables() {
+  return [&]<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array<TimeTable, count>{((void)i, TimeTable::constant(0.0))...};
+  }(std::make_index_sequence<count>());
+}
+
+/// Traction on a boundary, per area: t = -pressure n + traction, and couple traction.
+template <int dim>
+struct BoundaryLoad {
+  std::string on;                                 ///< boundary
+  TimeTable pressure = TimeTable::constant(0.0);  ///< Pa, pushing into the body when positive
+  std::array<TimeTable, dim> traction = zero_tables<dim>();  ///< Pa, along each axis
+  /// N/m, about e_3; in space about each axis.
+  std::array<TimeTable, Cosserat<dim>::rotations> couple_traction = zero_tables<Cosserat<dim>::rotations>();
 };
 
-/// Force (N/m of thickness) or moment (N) on each node of a boundary or node set.
+/// Force (N; in the plane N/m of thickness) or moment (N m; N) on each node of a boundary or node set.
 struct NodeLoad {
   std::string on;
   Dof dof;
   TimeTable value;
 };
 
-/// Force per volume (b1, b2 in N/m^3) and couple per volume (c in N/m^2), by position.
+/// Force per volume (N/m^3) along each axis and couple per volume (N/m^2) about each axis of rotation, by position.
+template <int dim>
 struct BodyLoad {
-  std::function<Eigen::Vector3d(const Eigen::Vector2d&)> density;
+  std::function<typename Cosserat<dim>::NodeValues(const typename Cosserat<dim>::Place&)> density;
   TimeTable factor = TimeTable::constant(1.0);
   std::string region = "";  ///< every element when empty
 };
 
 /// Stress at time 0 by position, in place of the materials' own.
+template <int dim>
 struct InitialStress {
-  std::function<Vector7(const Eigen::Vector2d&)> stress;
+  std::function<typename Cosserat<dim>::Vector(const typename Cosserat<dim>::Place&)> stress;
   std::string region = "";  ///< every element when empty
 };
 
@@ -61,34 +75,38 @@ enum class Deformation {
   large
 };
 
-/// A boundary value problem: everything the solver needs, per unit thickness.
+/// A boundary value problem: everything the solver needs; in the plane per unit thickness.
+template <int dim>
 struct Problem {
-  Mesh mesh;
+  Mesh<dim> mesh;
   Continuum continuum = Continuum::cosserat;
   Deformation deformation = Deformation::small;
   /// Material of each region; together the regions named here must cover every element exactly once.
-  std::map<std::string, std::shared_ptr<Material>> materials;
-  std::vector<PrescribedDof> prescribed;
+  std::map<std::string, std::shared_ptr<Material<dim>>> materials;
+  std::vector<PrescribedDof<dim>> prescribed;
   std::vector<Tie> ties = {};
-  std::vector<EdgeLoad> edge_loads;
+  std::vector<BoundaryLoad<dim>> boundary_loads;
   std::vector<NodeLoad> node_loads;
-  std::vector<BodyLoad> body_loads;
-  std::vector<InitialStress> initial_stresses;
+  std::vector<BodyLoad<dim>> body_loads;
+  std::vector<InitialStress<dim>> initial_stresses;
 };
 
 /// The prescribed dofs in the order in which they hold: those on a set of nodes go before those on a boundary, which go
 /// before those on the set `all`; the first that names a node gives its value there.
-std::vector<const PrescribedDof*> in_precedence(const Problem& problem);
+template <int dim>
+std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem);
 
 /// All faults of a problem, one message each: unknown names, elements with no or two materials, a dof
 /// prescribed twice with different values by items of one precedence, ties whose sides do not match, distorted elements, rigid motions that no support holds. Runs no
 /// material, so that a case can be checked before anything starts. Materials may still be null.
-std::vector<std::string> faults(const Problem& problem);
+template <int dim>
+std::vector<std::string> faults(const Problem<dim>& problem);
 
-/// Rigid motions of the body that prescribed dofs and ties leave free: "translation along 1", "translation along
-/// 2", "rotation", or "a rotation about (x, y)" when only a rotation about that point is free.
-std::vector<std::string> free_rigid_motions(const Mesh& mesh, Continuum continuum,
-                                            const std::vector<PrescribedDof>& prescribed,
+/// Rigid motions of the body that prescribed dofs and ties leave free: "translation along 1", "rotation", or "rotation about
+/// (x, y)" when only a rotation about that point is free. In space also "screw motion along ..."
+template <int dim>
+std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum continuum,
+                                            const std::vector<PrescribedDof<dim>>& prescribed,
                                             const std::vector<Tie>& ties = {});
 
 }  // namespace polargrain::fem

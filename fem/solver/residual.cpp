@@ -6,13 +6,14 @@
 
 namespace polargrain::fem {
 
-Residual measure(const Eigen::VectorXd& unbalanced, const Constraints& constraints, double reference_force,
+template <int dim>
+Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints, double reference_force,
                  double reference_length) {
   double force = 0.0;
   double moment = 0.0;
   for (Eigen::Index entry = 0; entry < unbalanced.size(); ++entry) {
     if (!constraints.is_free(static_cast<std::size_t>(entry))) continue;
-    (entry % 3 == 2 ? moment : force) += std::abs(unbalanced(entry));
+    (is_rotation(dof_at<dim>(entry)) ? moment : force) += std::abs(unbalanced(entry));
   }
   // Zero over zero: nothing is loaded and nothing is out of balance.
   if (force > 0.0 || !std::isfinite(force)) force /= reference_force;
@@ -20,10 +21,11 @@ Residual measure(const Eigen::VectorXd& unbalanced, const Constraints& constrain
   return {force, moment};
 }
 
-double sum_of_reactions(const Eigen::VectorXd& forces, const Constraints& constraints) {
+template <int dim>
+double sum_of_reactions(const Eigen::VectorXd& forces, const Constraints<dim>& constraints) {
   double sum = 0.0;
   for (Eigen::Index entry = 0; entry < forces.size(); ++entry) {
-    if (entry % 3 != 2 && !constraints.is_free(static_cast<std::size_t>(entry)))
+    if (!is_rotation(dof_at<dim>(entry)) && !constraints.is_free(static_cast<std::size_t>(entry)))
       sum += std::abs(forces(entry));
   }
   return sum;
@@ -35,5 +37,10 @@ bool StagnationWatch::stagnates(double excess) {
   if (smallest_.size() <= window_) return false;
   return smallest_.back() > kProgress * smallest_[smallest_.size() - 1 - window_];
 }
+
+template Residual measure<2>(const Eigen::VectorXd& unbalanced, const Constraints<2>& constraints, double reference_force, double reference_length);
+template Residual measure<3>(const Eigen::VectorXd& unbalanced, const Constraints<3>& constraints, double reference_force, double reference_length);
+template double sum_of_reactions<2>(const Eigen::VectorXd& forces, const Constraints<2>& constraints);
+template double sum_of_reactions<3>(const Eigen::VectorXd& forces, const Constraints<3>& constraints);
 
 }  // namespace polargrain::fem

@@ -15,11 +15,13 @@ struct Residual {
 
 /// Sums of absolute values over the free entries of `unbalanced`, relative to the references. Zero
 /// over a reference of zero is zero.
-Residual measure(const Eigen::VectorXd& unbalanced, const Constraints& constraints, double reference_force,
+template <int dim>
+Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints, double reference_force,
                  double reference_length);
 
 /// Sum of the absolute forces (not moments) at the given entries of a nodal vector.
-double sum_of_reactions(const Eigen::VectorXd& forces, const Constraints& constraints);
+template <int dim>
+double sum_of_reactions(const Eigen::VectorXd& forces, const Constraints<dim>& constraints);
 
 /// Watches one sequence of iterations.
 class StagnationWatch {

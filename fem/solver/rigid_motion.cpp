@@ -14,7 +14,8 @@ using Pairs = std::vector<std::pair<int, int>>;
 
 /// Number of the part of the body that each node belongs to; parts share no node and no tie. Nodes of no element are
 /// -1.
-std::vector<int> parts_of_nodes(const Mesh& mesh, const Pairs& tied, int& parts) {
+template <int dim>
+std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, int& parts) {
   std::vector<int> root(mesh.nodes.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int node) {
@@ -25,7 +26,7 @@ std::vector<int> parts_of_nodes(const Mesh& mesh, const Pairs& tied, int& parts)
     return node;
   };
   std::vector<char> used(mesh.nodes.size(), 0);
-  for (const Element& element : mesh.elements) {
+  for (const Element<dim>& element : mesh.elements) {
     for (const int node : element.nodes) {
       root[static_cast<std::size_t>(find(node))] = find(element.nodes.front());
       used[static_cast<std::size_t>(node)] = 1;
@@ -83,56 +84,123 @@ std::vector<std::string> free_motions(const Eigen::Matrix3d& normal_matrix, cons
   return motions;
 }
 
+/// "1" for the first axis, "(x, y, z)" for another direction.
+std::string direction_text(const Eigen::Vector3d& direction) {
+  constexpr double kSmall = 1e-8;
+  const Eigen::Vector3d unit = direction.normalized();
+  for (int i = 0; i < 3; ++i)
+    if (1.0 - std::abs(unit(i)) < kSmall) return fmt::format("{}", i + 1);
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", unit(0), unit(1), unit(2));
+}
+
+/// A motion of space in words. @param motion translations, then rotations about `centre` times `length`.
+std::string describe(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& centre, double length) {
+  constexpr double kSmall = 1e-8;
+  const Eigen::Vector3d shift = motion.head<3>();
+  const Eigen::Vector3d spin = motion.tail<3>() / length;
+  if (motion.tail<3>().norm() < kSmall) return "translation along " + direction_text(shift);
+  const double pitch = shift.dot(spin) / spin.squaredNorm();
+  Eigen::Vector3d on_axis = centre + spin.cross(shift) / spin.squaredNorm();
+  for (double& x : on_axis) x = std::abs(x) < kSmall * length ? 0.0 : x;  // rounding must not show as 1e-18
+  return fmt::format("{} about an axis along {} through ({:.6g}, {:.6g}, {:.6g})",
+                     std::abs(pitch) < kSmall * length ? "rotation" : "screw motion", direction_text(spin), on_axis(0),
+                     on_axis(1), on_axis(2));
+}
+
+/// Free motions of one part in space: pure translations first, then those that rotate.
+std::vector<std::string> free_motions(const Eigen::Matrix<double, 6, 6>& normal_matrix, const Eigen::Vector3d& centre,
+                                      double length) {
+  using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(normal_matrix, Eigen::ComputeFullV);
+  const double threshold = 1e-10 * svd.singularValues()(0);  // as in the plane
+  int free = 0;
+  for (int i = 0; i < 6; ++i) free += svd.singularValues()(i) <= threshold ? 1 : 0;
+  std::vector<std::string> texts;
+  if (free == 0) return texts;
+  if (free == 6) return {"translation along 1", "translation along 2", "translation along 3",
+                         "rotation about 1",    "rotation about 2",    "rotation about 3"};
+  const Motions motions = svd.matrixV().rightCols(free);
+  // The rotations that are free, and for each of them the motion with the least translation.
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 3, Eigen::Dynamic>> spins(motions.bottomRows<3>(),
+                                                                         Eigen::ComputeFullV);
+  constexpr double kRotates = 1e-6;
+  const auto rotating = static_cast<int>((spins.singularValues().array() > kRotates).count());
+  const Motions ordered = motions * spins.matrixV();
+  for (int i = rotating; i < free; ++i) texts.push_back(describe(ordered.col(i), centre, length));
+  for (int i = 0; i < rotating; ++i) texts.push_back(describe(ordered.col(i), centre, length));
+  return texts;
+}
+
+/// The displacement or rotation `dof` of a body at `arm` (over the length) from its centre, a row in the scaled motions.
+template <int dim>
+typename Cosserat<dim>::NodeValues row_of(Dof dof, const typename Cosserat<dim>::Place& arm) {
+  using Row = typename Cosserat<dim>::NodeValues;
+  Row row = Row::Unit(place_of<dim>(dof));
+  if (is_rotation(dof)) return row;
+  const int i = axis_of(dof);
+  for (int k = 0; k < Cosserat<dim>::rotations; ++k)
+    for (int j = 0; j < dim; ++j) row(dim + k) += permutation(i, Cosserat<dim>::axis(k), j) * arm(j);
+  return row;
+}
+
 }  // namespace
 
-std::vector<std::string> free_rigid_motions(const Mesh& mesh, Continuum continuum,
-                                            const std::vector<PrescribedDof>& prescribed,
+template <int dim>
+std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum continuum,
+                                            const std::vector<PrescribedDof<dim>>& prescribed,
                                             const std::vector<Tie>& ties) {
   Pairs tied;
   for (const Tie& tie : ties) {
-    const Pairs pairs = tied_nodes(mesh, tie).pairs;
+    const Pairs pairs = tied_nodes<dim>(mesh, tie).pairs;
     tied.insert(tied.end(), pairs.begin(), pairs.end());
   }
   int parts = 0;
-  const std::vector<int> part_of = parts_of_nodes(mesh, tied, parts);
+  const std::vector<int> part_of = parts_of_nodes<dim>(mesh, tied, parts);
   std::vector<std::string> messages;
   for (int part = 0; part < parts; ++part) {
-    Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
-    Eigen::Vector2d high = -low;
+    using Place = typename Cosserat<dim>::Place;
+    using Row = typename Cosserat<dim>::NodeValues;
+    Place low = Place::Constant(HUGE_VAL);
+    Place high = -low;
     for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
       if (part_of[node] != part) continue;
       low = low.cwiseMin(mesh.nodes[node]);
       high = high.cwiseMax(mesh.nodes[node]);
     }
-    const Eigen::Vector2d centre = 0.5 * (low + high);
+    const Place centre = 0.5 * (low + high);
     const double length = 0.5 * (high - low).norm();
-    Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-    for (const PrescribedDof& item : prescribed) {
-      if (item.dof == Dof::w && continuum == Continuum::cauchy) continue;
+    Eigen::Matrix<double, Cosserat<dim>::dofs, Cosserat<dim>::dofs> normal_matrix;
+    normal_matrix.setZero();
+    for (const PrescribedDof<dim>& item : prescribed) {
+      if (is_rotation(item.dof) && continuum == Continuum::cauchy) continue;
       if (!mesh.has_nodes_on(item.on)) continue;
       for (const int node : mesh.nodes_on(item.on)) {
         if (part_of[static_cast<std::size_t>(node)] != part) continue;
-        const Eigen::Vector2d arm = (mesh.nodes[static_cast<std::size_t>(node)] - centre) / length;
-        Eigen::Vector3d row(0.0, 0.0, 1.0);
-        if (item.dof == Dof::u1) row = {1.0, 0.0, -arm(1)};
-        if (item.dof == Dof::u2) row = {0.0, 1.0, arm(0)};
+        const Place arm = (mesh.nodes[static_cast<std::size_t>(node)] - centre) / length;
+        const Row row = row_of<dim>(item.dof, arm);
         normal_matrix += row * row.transpose();
       }
     }
     // Nodes that move alike cannot turn about each other.
     for (const auto& [follower, leader] : tied) {
       if (part_of[static_cast<std::size_t>(follower)] != part) continue;
-      const Eigen::Vector2d arm =
-          (mesh.nodes[static_cast<std::size_t>(leader)] - mesh.nodes[static_cast<std::size_t>(follower)]) /
-          length;
-      normal_matrix(2, 2) += arm.squaredNorm();
+      const Place arm =
+          (mesh.nodes[static_cast<std::size_t>(leader)] - mesh.nodes[static_cast<std::size_t>(follower)]) / length;
+      for (int i = 0; i < dim; ++i) {
+        Row row = row_of<dim>(static_cast<Dof>(i), arm);
+        row.template head<dim>().setZero();
+        normal_matrix += row * row.transpose();
+      }
     }
     for (std::string& motion : free_motions(normal_matrix, centre, length)) {
-      if (parts > 1) motion += fmt::format(" of the part around ({:.6g}, {:.6g})", centre(0), centre(1));
+      if (parts > 1) motion += " of the part around " + place_text<dim>(centre);
       messages.push_back(std::move(motion));
     }
   }
   return messages;
 }
+
+template std::vector<std::string> free_rigid_motions<2>(const Mesh<2>& mesh, Continuum continuum, const std::vector<PrescribedDof<2>>& prescribed, const std::vector<Tie>& ties);
+template std::vector<std::string> free_rigid_motions<3>(const Mesh<3>& mesh, Continuum continuum, const std::vector<PrescribedDof<3>>& prescribed, const std::vector<Tie>& ties);
 
 }  // namespace polargrain::fem

@@ -19,16 +19,40 @@
 
 namespace polargrain::fem {
 
-struct Solver::Implementation : Newton {
-  using Newton::Newton;
+namespace {
+
+/// Sum of the normal strains that a mesh of the dimension can have.
+template <int dim>
+double volumetric(const typename Cosserat<dim>::Vector& strain) {
+  double sum = strain(Cosserat<dim>::stress_place(0, 0));
+  for (int i = 1; i < dim; ++i) sum += strain(Cosserat<dim>::stress_place(i, i));
+  return sum;
+}
+
+}  // namespace
+
+template <int dim>
+struct Solver<dim>::Implementation : Newton<dim> {
+  using Newton<dim>::Newton;
+  using Newton<dim>::attempt;
+  using Newton<dim>::best_residual;
+  using Newton<dim>::evaluate_initial_state;
+  using Newton<dim>::excess;
+  using Newton<dim>::initial_residual;
+  using Newton<dim>::observer;
+  using Newton<dim>::options;
+  using Newton<dim>::pass_jump;
+  using Newton<dim>::revert;
+  using Newton<dim>::state;
+  using Newton<dim>::trouble;
 
   Trouble last_trouble;  ///< of the last attempt that failed
 
   /// Goes the whole of a step in substeps, cut where an attempt fails. Shares of the step, not times or
   /// lengths, are what is cut, so that a step under another control may follow.
   /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
-  template <class GoalAt>
   /// @param most_iterations that it may take, lost ones too; 0: as many as it needs
+  template <class GoalAt>
   StepReport march(StepReport report, GoalAt goal_at, int most_iterations = 0);
 
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
@@ -50,7 +74,8 @@ struct Solver::Implementation : Newton {
   Passing pass(StepGoal goal, double largest, StepReport& report);
 };
 
-void Solver::Implementation::tell_cut(double tried, const std::string& reason, double next,
+template <int dim>
+void Solver<dim>::Implementation::tell_cut(double tried, const std::string& reason, double next,
                                       StepReport& report) {
   ++report.cuts;
   if (!observer) return;
@@ -58,7 +83,8 @@ void Solver::Implementation::tell_cut(double tried, const std::string& reason, d
   if (report.cuts == 2) observer->struggles(last_trouble);
 }
 
-std::optional<Residual> Solver::Implementation::start(StepReport& report) {
+template <int dim>
+std::optional<Residual> Solver<dim>::Implementation::start(StepReport& report) {
   report.time = state.time;
   if (const Attempt begun = evaluate_initial_state(report); !begun.converged) {
     report.message = begun.reason;
@@ -70,7 +96,8 @@ std::optional<Residual> Solver::Implementation::start(StepReport& report) {
   return residual;
 }
 
-Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, double largest,
+template <int dim>
+Solver<dim>::Implementation::Passing Solver<dim>::Implementation::pass(StepGoal goal, double largest,
                                                              StepReport& report) {
   const auto may_pass = [&](double most) {
     return report.jumps < options.most_jumps && best_residual() <= most;
@@ -113,8 +140,9 @@ Solver::Implementation::Passing Solver::Implementation::pass(StepGoal goal, doub
   return result;
 }
 
+template <int dim>
 template <class GoalAt>
-StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations) {
+StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations) {
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
   Substeps way(1.5, state.next_step);
   JumpWatch jumps;
@@ -162,15 +190,19 @@ StepReport Solver::Implementation::march(StepReport report, GoalAt goal_at, int 
   return report;
 }
 
-Solver::Solver(Problem problem, SolverOptions options)
+template <int dim>
+Solver<dim>::Solver(Problem<dim> problem, SolverOptions options)
     : implementation_(std::make_unique<Implementation>(std::move(problem), options)) {}
-Solver::~Solver() = default;
+template <int dim>
+Solver<dim>::~Solver() = default;
 
-void Solver::set_observer(Observer* observer) {
+template <int dim>
+void Solver<dim>::set_observer(Observer* observer) {
   implementation_->observer = observer;
 }
 
-StepReport Solver::equilibrate() {
+template <int dim>
+StepReport Solver<dim>::equilibrate() {
   Implementation& self = *implementation_;
   StepReport report;
   const std::optional<Residual> residual = self.start(report);
@@ -193,39 +225,44 @@ StepReport Solver::equilibrate() {
   return report;
 }
 
-StepReport Solver::advance(double time) {
+template <int dim>
+StepReport Solver<dim>::advance(double time) {
   const double start = state().time;
   return implementation_->march({}, [&](double end, double) {
     return StepGoal{.time = end == 1.0 ? time : start + end * (time - start), .measure = {}};
   });
 }
 
-StepReport Solver::advance_measure(const DisplacementMeasure& measure, double amount) {
+template <int dim>
+StepReport Solver<dim>::advance_measure(const DisplacementMeasure& measure, double amount) {
   Eigen::VectorXd vector = Eigen::VectorXd::Zero(state().displacement.size());
   const double sign = amount < 0.0 ? -1.0 : 1.0;
   for (const DisplacementMeasure::Term& term : measure.terms) {
-    vector(entry_of(term.node, term.dof)) += sign * term.weight;
+    vector(entry_of<dim>(term.node, term.dof)) += sign * term.weight;
   }
   return implementation_->march({}, [&](double, double share) {
     return StepGoal{.measure = vector, .amount = share * std::abs(amount)};
   });
 }
 
-StepReport Solver::advance_arc_length(double length) {
+template <int dim>
+StepReport Solver<dim>::advance_arc_length(double length) {
   if (state().last_increment.size() == 0) {
     throw RunError("arc-length control needs a first step under another control, to know its direction");
   }
   return implementation_->march({}, [&](double, double share) {
     Eigen::VectorXd weighted = state().last_increment;
-    for (Eigen::Index w = 2; w < weighted.size(); w += 3) {
-      weighted(w) *= implementation_->reference_length * implementation_->reference_length;
+    for (Eigen::Index entry = 0; entry < weighted.size(); ++entry) {
+      if (is_rotation(dof_at<dim>(entry)))
+        weighted(entry) *= implementation_->reference_length * implementation_->reference_length;
     }
     return StepGoal{.measure = weighted / std::sqrt(weighted.dot(state().last_increment)),
                     .amount = share * length};
   });
 }
 
-StepReport Solver::begin_explicit() {
+template <int dim>
+StepReport Solver<dim>::begin_explicit() {
   Implementation& self = *implementation_;
   StepReport report;
   if (!self.start(report)) return report;
@@ -235,9 +272,10 @@ StepReport Solver::begin_explicit() {
   return report;
 }
 
-StepReport Solver::advance_explicit(double time, int steps, const ExplicitOptions& options) {
+template <int dim>
+StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitOptions& options) {
   Implementation& self = *implementation_;
-  SolverState& state = self.state;
+  SolverState<dim>& state = self.state;
   StepReport report;
   const bool from_rest = state.velocity.size() == 0;
   if (from_rest) {
@@ -284,84 +322,103 @@ StepReport Solver::advance_explicit(double time, int steps, const ExplicitOption
   return report;
 }
 
-const Trouble& Solver::trouble() const {
+template <int dim>
+const Trouble& Solver<dim>::trouble() const {
   return implementation_->last_trouble;
 }
-const Problem& Solver::problem() const {
+template <int dim>
+const Problem<dim>& Solver<dim>::problem() const {
   return implementation_->problem;
 }
-const SolverState& Solver::state() const {
+template <int dim>
+const SolverState<dim>& Solver<dim>::state() const {
   return implementation_->state;
 }
-void Solver::save(ArchiveWriter& archive) const {
+template <int dim>
+void Solver<dim>::save(ArchiveWriter& archive) const {
   write_state(archive, state());
   PrefixedWriter materials(archive, "materials/");
   implementation_->materials.save(materials);
 }
-void Solver::restore(ArchiveReader& archive) {
+template <int dim>
+void Solver<dim>::restore(ArchiveReader& archive) {
   Implementation& self = *implementation_;
-  self.state = read_state(archive, problem().mesh.nodes.size(), points());
+  self.state = read_state<dim>(archive, problem().mesh.nodes.size(), points());
   PrefixedReader materials(archive, "materials/");
   self.materials.restore(materials);
   self.move_to_committed();
 }
 
-std::size_t Solver::points() const {
+template <int dim>
+std::size_t Solver<dim>::points() const {
   return implementation_->discretisation.points();
 }
-int Solver::element_of_point(std::size_t point) const {
+template <int dim>
+int Solver<dim>::element_of_point(std::size_t point) const {
   return implementation_->discretisation.element_of_point(point);
 }
-Eigen::Vector2d Solver::position_of_point(std::size_t point) const {
+template <int dim>
+typename Cosserat<dim>::Place Solver<dim>::position_of_point(std::size_t point) const {
   return implementation_->discretisation.point(point).position;
 }
-double Solver::volume_of_point(std::size_t point) const {
+template <int dim>
+double Solver<dim>::volume_of_point(std::size_t point) const {
   return implementation_->discretisation.point(point).volume;
 }
-std::pair<const Material*, std::size_t> Solver::material_of_point(std::size_t point) const {
+template <int dim>
+std::pair<const Material<dim>*, std::size_t> Solver<dim>::material_of_point(std::size_t point) const {
   return implementation_->materials.at(point);
 }
 
-Eigen::VectorXd Solver::internal_forces() const {
+template <int dim>
+Eigen::VectorXd Solver<dim>::internal_forces() const {
   return implementation_->discretisation.internal_forces(state().responses);
 }
-Eigen::VectorXd Solver::external_forces() const {
+template <int dim>
+Eigen::VectorXd Solver<dim>::external_forces() const {
   return implementation_->loads.at(state().time);
 }
 
-Eigen::Vector3d Solver::reaction(const std::vector<std::string>& on) const {
+template <int dim>
+typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::string>& on) const {
   const Eigen::VectorXd supplied = internal_forces() - external_forces();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
   for (const int node : problem().mesh.nodes_on(on)) {
-    for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) {
-      const int entry = entry_of(node, dof);
+    for (const Dof dof : node_dofs<dim>()) {
+      const int entry = entry_of<dim>(node, dof);
       if (!implementation_->constraints.is_free(static_cast<std::size_t>(entry)))
-        sum(static_cast<int>(dof)) += supplied(entry);
+        sum(place_of<dim>(dof)) += supplied(entry);
     }
   }
   return sum;
 }
 
-Eigen::Vector3d Solver::mean_displacement(const std::vector<std::string>& on) const {
+template <int dim>
+typename Cosserat<dim>::NodeValues Solver<dim>::mean_displacement(const std::vector<std::string>& on) const {
   const std::vector<int> nodes = problem().mesh.nodes_on(on);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int node : nodes) sum += state().displacement.segment<kDofsOfNode>(entry_of(node));
+  typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
+  for (const int node : nodes) sum += state().displacement.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
   return sum / static_cast<double>(nodes.size());
 }
 
-double Solver::volume_strain() const {
+template <int dim>
+double Solver<dim>::volume_strain() const {
   double volume = 0.0;
   double change = 0.0;
   for (std::size_t i = 0; i < points(); ++i) {
     volume += volume_of_point(i);
-    change += volume_of_point(i) * (state().strain[i](k11) + state().strain[i](k22));
+    change += volume_of_point(i) * volumetric<dim>(state().strain[i]);
   }
   return change / volume;
 }
 
-std::string Solver::left_out() const {
+template <int dim>
+std::string Solver<dim>::left_out() const {
   if (problem().deformation == Deformation::large) return {};
   return left_out_by_small_deformation(implementation_->discretisation, state().displacement);
 }
+
+template class Solver<2>;
+template class Solver<3>;
 
 }  // namespace polargrain::fem

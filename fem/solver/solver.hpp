@@ -126,11 +126,12 @@ class Observer {
 };
 
 /// All that the solver knows at the last committed time, apart from the states kept by the materials.
+template <int dim>
 struct SolverState {
   double time = 0.0;
-  Eigen::VectorXd displacement;     ///< 3 a node: u1, u2, w
-  std::vector<Vector7> strain;      ///< by point, accumulated
-  std::vector<Response> responses;  ///< by point: stress and tangent of the last converged step
+  Eigen::VectorXd displacement;     ///< the entries of node_dofs for each node
+  std::vector<typename Cosserat<dim>::Vector> strain;      ///< by point, accumulated
+  std::vector<Response<dim>> responses;  ///< by point: stress and tangent of the last converged step
   double reference_force = 0.0;     ///< 0: not fixed yet
   Eigen::VectorXd last_increment;   ///< of the displacements in the last committed substep; empty at first
   double next_step = 0.0;           ///< after a cut: share of a step to try next; 0: as asked for
@@ -147,14 +148,15 @@ struct SolverState {
 /// SolverOptions::most_jumps allows it, flagged too. Same problem, options: same bits.
 ///
 /// Order of calls: construct, equilibrate once (evaluates the initial state), then advance to growing times.
+template <int dim>
 class Solver {
  public:
   /// Allocates the states of the materials.
   /// @throws RunError when faults(problem) is not empty or a material is null.
-  Solver(Problem problem, SolverOptions options);
+  Solver(Problem<dim> problem, SolverOptions options);
   ~Solver();
-  Solver(const Solver&) = delete;
-  Solver& operator=(const Solver&) = delete;
+  Solver(const Solver<dim>&) = delete;
+  Solver<dim>& operator=(const Solver<dim>&) = delete;
 
   void set_observer(Observer* observer);
 
@@ -185,8 +187,8 @@ class Solver {
 
   /// Of the last attempt of the last step that failed; empty when no step has failed.
   [[nodiscard]] const Trouble& trouble() const;
-  [[nodiscard]] const Problem& problem() const;
-  [[nodiscard]] const SolverState& state() const;
+  [[nodiscard]] const Problem<dim>& problem() const;
+  [[nodiscard]] const SolverState<dim>& state() const;
   /// Writes all that the steps to come depend on, states of the materials included (state_archive.hpp).
   /// @throws RunError when a material cannot be kept
   void save(ArchiveWriter& archive) const;
@@ -199,25 +201,25 @@ class Solver {
   /// order.
   [[nodiscard]] std::size_t points() const;
   [[nodiscard]] int element_of_point(std::size_t point) const;
-  [[nodiscard]] Eigen::Vector2d position_of_point(std::size_t point) const;
-  /// Volume per unit thickness that belongs to the point, m^2.
+  [[nodiscard]] typename Cosserat<dim>::Place position_of_point(std::size_t point) const;
+  /// Volume that belongs to the point, m^3; in the plane per unit thickness, m^2.
   [[nodiscard]] double volume_of_point(std::size_t point) const;
   /// The material of a point and the number of the point within that material.
-  [[nodiscard]] std::pair<const Material*, std::size_t> material_of_point(std::size_t point) const;
+  [[nodiscard]] std::pair<const Material<dim>*, std::size_t> material_of_point(std::size_t point) const;
 
-  /// Nodal forces of the stresses (3 a node: N/m, N/m, N), internal and of the loads, at the committed time.
+  /// Nodal forces of the stresses (N and N m; in the plane N/m and N), internal and of the loads, at the committed time.
   [[nodiscard]] Eigen::VectorXd internal_forces() const;
   [[nodiscard]] Eigen::VectorXd external_forces() const;
-  /// Sum over the nodes of boundaries and node sets, each node once, of the forces of the supports: force along 1 and 2
-  /// (N per m of thickness) and nodal moments (N).
-  [[nodiscard]] Eigen::Vector3d reaction(const std::vector<std::string>& on) const;
-  [[nodiscard]] Eigen::Vector3d reaction(const std::string& on) const { return reaction(std::vector{on}); }
-  /// Mean displacement over the nodes of boundaries and node sets, each node once: u1, u2 (m), w (rad).
-  [[nodiscard]] Eigen::Vector3d mean_displacement(const std::vector<std::string>& on) const;
-  [[nodiscard]] Eigen::Vector3d mean_displacement(const std::string& on) const {
+  /// Sum over the nodes of boundaries and node sets, each node once, of the forces of the supports: force along each axis
+  /// (N; in the plane per m of thickness) and nodal moments, in the order of node_dofs.
+  [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::vector<std::string>& on) const;
+  [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::string& on) const { return reaction(std::vector{on}); }
+  /// Mean displacement over the nodes of boundaries and node sets, each node once, in the order of node_dofs: m, rad.
+  [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::vector<std::string>& on) const;
+  [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::string& on) const {
     return mean_displacement(std::vector{on});
   }
-  /// Mean of eps_11 + eps_22 over the volume; positive is expansion.
+  /// Mean over the volume of the sum of the normal strains; positive is expansion.
   [[nodiscard]] double volume_strain() const;
   /// The effects that small deformation leaves out of the committed state (left_out.hpp); empty where small, and in large
   /// deformation.

@@ -22,7 +22,8 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 }  // namespace
 
-void write_state(ArchiveWriter& archive, const SolverState& state) {
+template <int dim>
+void write_state(ArchiveWriter& archive, const SolverState<dim>& state) {
   const std::array<double, kScalars> scalars{state.time, state.reference_force, state.next_step,
                                              state.external_work, state.internal_work};
   archive.write("time_reference_force_next_step_works", std::span<const double>(scalars));
@@ -31,13 +32,14 @@ void write_state(ArchiveWriter& archive, const SolverState& state) {
   archive.write("mass", values_of(state.mass));
   archive.write("velocity", values_of(state.velocity));
   std::vector<double> strain;
-  for (const Vector7& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
+  for (const typename Cosserat<dim>::Vector& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
-  write_records(archive, "responses", std::span<const Response>(state.responses));
+  write_records(archive, "responses", std::span<const Response<dim>>(state.responses));
 }
 
-SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points) {
-  SolverState state;
+template <int dim>
+SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points) {
+  SolverState<dim> state;
   const std::vector<double> scalars =
       read_lists(archive, "time_reference_force_next_step_works", 1, kScalars);
   state.time = scalars[0];
@@ -45,18 +47,23 @@ SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t po
   state.next_step = scalars[2];
   state.external_work = scalars[3];
   state.internal_work = scalars[4];
-  state.displacement = vector_of(read_lists(archive, "displacement", nodes, 3));
+  state.displacement = vector_of(read_lists(archive, "displacement", nodes, Cosserat<dim>::dofs));
   // Empty before the first step.
   if (const std::vector<double> last = archive.doubles("last_increment"); !last.empty()) {
-    state.last_increment = vector_of(read_lists(archive, "last_increment", nodes, 3));
+    state.last_increment = vector_of(read_lists(archive, "last_increment", nodes, Cosserat<dim>::dofs));
   }
   state.mass = vector_of(archive.doubles("mass"));
   state.velocity = vector_of(archive.doubles("velocity"));
-  const std::vector<double> strain = read_lists(archive, "strain", points, 7);
+  const std::vector<double> strain = read_lists(archive, "strain", points, Cosserat<dim>::components);
   state.strain.resize(points);
-  for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[7 * i], 7, state.strain[i].data());
-  state.responses = read_records<Response>(archive, "responses", points);
+  for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[Cosserat<dim>::components * i], Cosserat<dim>::components, state.strain[i].data());
+  state.responses = read_records<Response<dim>>(archive, "responses", points);
   return state;
 }
+
+template void write_state<2>(ArchiveWriter& archive, const SolverState<2>& state);
+template void write_state<3>(ArchiveWriter& archive, const SolverState<3>& state);
+template SolverState<2> read_state<2>(ArchiveReader& archive, std::size_t nodes, std::size_t points);
+template SolverState<3> read_state<3>(ArchiveReader& archive, std::size_t nodes, std::size_t points);
 
 }  // namespace polargrain::fem

@@ -7,8 +7,10 @@ namespace polargrain::fem {
 
 /// Every member of a SolverState, under its own name. A member that is added there must be added here: a member
 /// left out makes a run that goes on from a checkpoint differ.
-void write_state(ArchiveWriter& archive, const SolverState& state);
+template <int dim>
+void write_state(ArchiveWriter& archive, const SolverState<dim>& state);
 /// @throws RunError when the archive holds the state of another mesh, or no state
-SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points);
+template <int dim>
+SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points);
 
 }  // namespace polargrain::fem

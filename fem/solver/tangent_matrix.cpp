@@ -5,7 +5,8 @@
 
 namespace polargrain::fem {
 
-TangentMatrix::TangentMatrix(const Discretisation& discretisation, const Constraints& constraints)
+template <int dim>
+TangentMatrix<dim>::TangentMatrix(const Discretisation<dim>& discretisation, const Constraints<dim>& constraints)
     : discretisation_(discretisation),
       constraints_(constraints),
       matrix_(constraints.unknowns(), constraints.unknowns()) {
@@ -19,7 +20,8 @@ TangentMatrix::TangentMatrix(const Discretisation& discretisation, const Constra
   find_places();
 }
 
-void TangentMatrix::find_pattern() {
+template <int dim>
+void TangentMatrix<dim>::find_pattern() {
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(matrix_.cols()));
   for (const std::vector<int>& equations : equations_) {
     for (const int column : equations) {
@@ -43,13 +45,15 @@ void TangentMatrix::find_pattern() {
                                                           starts.data(), all_rows.data(), zeros.data());
 }
 
-int TangentMatrix::place_of(int row, int column) const {
+template <int dim>
+int TangentMatrix<dim>::place_of(int row, int column) const {
   const int* starts = matrix_.outerIndexPtr();
   const int* rows = matrix_.innerIndexPtr();
   return static_cast<int>(std::lower_bound(rows + starts[column], rows + starts[column + 1], row) - rows);
 }
 
-void TangentMatrix::find_places() {
+template <int dim>
+void TangentMatrix<dim>::find_places() {
   for (const std::vector<int>& equations : equations_) {
     for (const int column : equations) {
       if (column < 0) continue;
@@ -61,8 +65,9 @@ void TangentMatrix::find_places() {
   }
 }
 
-const Eigen::SparseMatrix<double>& TangentMatrix::assemble(const Linearisation& of,
-                                                           const std::vector<EdgeStiffness>& loads) {
+template <int dim>
+const Eigen::SparseMatrix<double>& TangentMatrix<dim>::assemble(const Linearisation<dim>& of,
+                                                           const std::vector<LoadStiffness>& loads) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   auto place = places_.begin();
@@ -78,7 +83,7 @@ const Eigen::SparseMatrix<double>& TangentMatrix::assemble(const Linearisation& 
     }
   }
   // The nodes of an edge belong to one element, so the pattern holds their entries.
-  for (const EdgeStiffness& edge : loads) {
+  for (const LoadStiffness& edge : loads) {
     for (std::size_t j = 0; j < edge.entries.size(); ++j) {
       const int column = constraints_.equation(static_cast<std::size_t>(edge.entries[j]));
       if (column < 0) continue;
@@ -92,5 +97,8 @@ const Eigen::SparseMatrix<double>& TangentMatrix::assemble(const Linearisation& 
   }
   return matrix_;
 }
+
+template class TangentMatrix<2>;
+template class TangentMatrix<3>;
 
 }  // namespace polargrain::fem

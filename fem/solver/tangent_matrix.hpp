@@ -11,22 +11,23 @@ namespace polargrain::fem {
 
 /// The sparse tangent of the unknowns. Its pattern is found once; where each element's entries go is
 /// remembered, so that assembling is additions only.
+template <int dim>
 class TangentMatrix {
  public:
   /// Both must outlive this object.
-  TangentMatrix(const Discretisation& discretisation, const Constraints& constraints);
+  TangentMatrix(const Discretisation<dim>& discretisation, const Constraints<dim>& constraints);
 
   /// Overwrites the values by those of the tangents of the points, less those of the loads.
-  const Eigen::SparseMatrix<double>& assemble(const Linearisation& of,
-                                              const std::vector<EdgeStiffness>& loads);
+  const Eigen::SparseMatrix<double>& assemble(const Linearisation<dim>& of,
+                                              const std::vector<LoadStiffness>& loads);
 
  private:
   void find_pattern();
   void find_places();
   [[nodiscard]] int place_of(int row, int column) const;
 
-  const Discretisation& discretisation_;
-  const Constraints& constraints_;
+  const Discretisation<dim>& discretisation_;
+  const Constraints<dim>& constraints_;
   std::vector<std::vector<int>> equations_;  ///< of each element's unknowns, -1 where given
   Eigen::SparseMatrix<double> matrix_;
   std::vector<int> places_;  ///< in the values of the matrix, for the free entries of each element in turn

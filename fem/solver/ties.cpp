@@ -9,8 +9,9 @@
 namespace polargrain::fem {
 namespace {
 
-Eigen::Vector2d centroid(const Mesh& mesh, const std::vector<int>& nodes) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+template <int dim>
+typename Cosserat<dim>::Place centroid(const Mesh<dim>& mesh, const std::vector<int>& nodes) {
+  typename Cosserat<dim>::Place sum = Cosserat<dim>::Place::Zero();
   for (const int node : nodes) sum += mesh.nodes[static_cast<std::size_t>(node)];
   return sum / static_cast<double>(nodes.size());
 }
@@ -23,7 +24,8 @@ TiedNodes fault(std::string message) {
 
 }  // namespace
 
-TiedNodes tied_nodes(const Mesh& mesh, const Tie& tie) {
+template <int dim>
+TiedNodes tied_nodes(const Mesh<dim>& mesh, const Tie& tie) {
   for (const std::string& name : {tie.on, tie.to}) {
     if (mesh.has_nodes_on(name)) continue;
     return fault(fmt::format("the mesh has no boundary or node set '{}'; it has {}", name,
@@ -35,14 +37,14 @@ TiedNodes tied_nodes(const Mesh& mesh, const Tie& tie) {
     return fault(fmt::format("'{}' has {} nodes and '{}' has {}: a tie needs the same nodes on both sides",
                              tie.on, followers.size(), tie.to, leaders.size()));
   }
-  const Eigen::Vector2d apart = centroid(mesh, leaders) - centroid(mesh, followers);
+  const typename Cosserat<dim>::Place apart = centroid(mesh, leaders) - centroid(mesh, followers);
   constexpr double kMatch = 1e-6;
   if (!(apart.norm() > 0.0)) {
     return fault(fmt::format("'{}' and '{}' lie on each other: a tie joins opposite sides", tie.on, tie.to));
   }
   TiedNodes tied;
   for (const int node : followers) {
-    const Eigen::Vector2d place = mesh.nodes[static_cast<std::size_t>(node)] + apart;
+    const typename Cosserat<dim>::Place place = mesh.nodes[static_cast<std::size_t>(node)] + apart;
     const auto distance = [&](int other) {
       return (mesh.nodes[static_cast<std::size_t>(other)] - place).norm();
     };
@@ -50,9 +52,8 @@ TiedNodes tied_nodes(const Mesh& mesh, const Tie& tie) {
                                           [&](int a, int b) { return distance(a) < distance(b); });
     if (distance(*nearest) > kMatch * apart.norm()) {
       return fault(
-          fmt::format("'{}' has no node at ({:.6g}, {:.6g}), where '{}' moved by ({:.6g}, {:.6g}) has one: "
-                      "a tie needs the same nodes on both sides",
-                      tie.to, place(0), place(1), tie.on, apart(0), apart(1)));
+          fmt::format("'{}' has no node at {}, where '{}' moved by {} has one: a tie needs the same nodes on both sides",
+                      tie.to, place_text<dim>(place), tie.on, place_text<dim>(apart)));
     }
     tied.pairs.emplace_back(node, *nearest);
     leaders.erase(nearest);  // each once
@@ -60,5 +61,8 @@ TiedNodes tied_nodes(const Mesh& mesh, const Tie& tie) {
   }
   return tied;
 }
+
+template TiedNodes tied_nodes<2>(const Mesh<2>& mesh, const Tie& tie);
+template TiedNodes tied_nodes<3>(const Mesh<3>& mesh, const Tie& tie);
 
 }  // namespace polargrain::fem

@@ -8,7 +8,7 @@
 
 namespace polargrain::fem {
 
-/// Two opposite boundaries that move alike, node by node, in u1, u2 and w: the field between them repeats sideways
+/// Two opposite boundaries that move alike, node by node, in all unknowns: the field between them repeats sideways
 /// without end (a layer as wide as one element, a periodic block).
 struct Tie {
   std::string on;  ///< boundary or node set whose nodes follow
@@ -23,6 +23,7 @@ struct TiedNodes {
 
 /// Finds for each node on `tie.on` its partner on `tie.to`. The translation is that of the two centroids; partners lie
 /// within 1e-6 of its length.
-TiedNodes tied_nodes(const Mesh& mesh, const Tie& tie);
+template <int dim>
+TiedNodes tied_nodes(const Mesh<dim>& mesh, const Tie& tie);
 
 }  // namespace polargrain::fem

@@ -7,17 +7,18 @@
 
 namespace polargrain::fem {
 
-std::string why_singular(std::span<const Response> responses) {
+template <int dim>
+std::string why_singular(std::span<const Response<dim>> responses) {
   constexpr double kNothing = 1e-9;  // of the largest stiffness there is
   double largest = 0.0;
-  for (const Response& response : responses)
+  for (const Response<dim>& response : responses)
     largest = std::max(largest, response.tangent.cwiseAbs().maxCoeff());
   std::size_t apart = 0;
   double stress = 0.0;
-  for (const Response& response : responses) {
-    if (response.tangent.topLeftCorner<2, 2>().cwiseAbs().maxCoeff() > kNothing * largest) continue;
+  for (const Response<dim>& response : responses) {
+    if (response.tangent.template topLeftCorner<2, 2>().cwiseAbs().maxCoeff() > kNothing * largest) continue;
     ++apart;
-    stress = std::max(stress, response.stress.head<2>().cwiseAbs().maxCoeff());
+    stress = std::max(stress, response.stress.template head<2>().cwiseAbs().maxCoeff());
   }
   const std::string text = "the tangent is singular";
   if (apart == 0) return text;
@@ -27,5 +28,8 @@ std::string why_singular(std::span<const Response> responses) {
              "{:.2g} Pa",
              apart, responses.size(), stress);
 }
+
+template std::string why_singular<2>(std::span<const Response<2>> responses);
+template std::string why_singular<3>(std::span<const Response<3>> responses);
 
 }  // namespace polargrain::fem

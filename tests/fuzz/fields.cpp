@@ -28,7 +28,7 @@ constexpr int kKinds = 4;
 
 /// The fields of 6 elements, 24 places, that a shear has moved a little.
 void write_good_fields(const fs::path& file) {
-  const fem::Mesh mesh = fem::rectangle({{1.0, 1.5}, {2, 3}}, "Q4");
+  const fem::Mesh<2> mesh = fem::rectangle({{1.0, 1.5}, {2, 3}}, "Q4");
   fem::Field displacement{"displacement", 3, {}};
   for (const Eigen::Vector2d& node : mesh.nodes)
     displacement.values.insert(displacement.values.end(), {0.01 * node.y(), 0.0, 0.0});

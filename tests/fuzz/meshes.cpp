@@ -45,7 +45,7 @@ GmshContent content_of(const std::uint8_t* data, std::size_t size) {
   return content;
 }
 
-void ask_all_of(const Mesh& mesh) {
+void ask_all_of(const Mesh<2>& mesh) {
   (void)distorted_elements(mesh);
   for (const std::string& name : mesh.boundary_and_node_set_names())
     for (const int node : mesh.nodes_on(name)) (void)mesh.nodes.at(static_cast<std::size_t>(node));

@@ -39,23 +39,23 @@ class CellMaterialTest : public ::testing::Test {
   Pool pool_;
 };
 
-Increment some_increment() {
-  Increment increment;
+Increment<2> some_increment() {
+  Increment<2> increment;
   increment.displacement_gradient << 1e-3, -4e-4, 7e-4, -2e-3;
   increment.micro_rotation = 3e-4;
   increment.curvature << 0.02, -0.05;
   return increment;
 }
 
-Response evaluate(CellMaterial& material, const Increment& increment) {
-  Response response;
+Response<2> evaluate(CellMaterial& material, const Increment<2>& increment) {
+  Response<2> response;
   material.evaluate({&increment, 1}, {&response, 1});
   return response;
 }
 
 /// The increment whose Cosserat strain is `strain` (eps_33 = 0).
-Increment increment_of(const Vector7& strain) {
-  Increment increment;
+Increment<2> increment_of(const Vector7& strain) {
+  Increment<2> increment;
   increment.displacement_gradient << strain[k11], strain[k21], strain[k12], strain[k22];
   increment.curvature << strain[kCurvature1], strain[kCurvature2];
   return increment;
@@ -63,9 +63,9 @@ Increment increment_of(const Vector7& strain) {
 
 TEST_F(CellMaterialTest, CosseratPartFollowsItsClosedForm) {
   CellMaterial sand = material("", 1);
-  const Increment increment = some_increment();
+  const Increment<2> increment = some_increment();
   const Vector7 strain = increment.strain();
-  const Response response = evaluate(sand, increment);
+  const Response<2> response = evaluate(sand, increment);
   const Vector7 cell = testing::fake_stress(increment_for_cell(increment));
   // A.4: s21 - s12 = 2 Gc (eps21 - eps12), m = 2 G lc^2 kappa; sums of doubles of 1e5 Pa.
   EXPECT_NEAR(response.stress[k21] - response.stress[k12], 2.0 * 10e6 * (strain[k21] - strain[k12]), 1e-9);
@@ -101,13 +101,13 @@ TEST_F(CellMaterialTest, IncrementsAddUpOverCommits) {
     evaluate(sand, some_increment());
     sand.commit();
   }
-  Increment whole = some_increment();
+  Increment<2> whole = some_increment();
   whole.displacement_gradient *= 3.0;
   whole.micro_rotation *= 3.0;
   whole.curvature *= 3.0;
   CellMaterial once = material("", 1);
   const Vector7 expected = evaluate(once, whole).stress;
-  const Vector7 stress = evaluate(sand, Increment{}).stress;
+  const Vector7 stress = evaluate(sand, Increment<2>{}).stress;
   EXPECT_LT((stress - expected).cwiseAbs().maxCoeff(), 1e-9);
   std::vector<double> fields(sand.field_names().size());
   sand.fields(0, fields);
@@ -129,12 +129,12 @@ TEST_F(CellMaterialTest, ACommitBringsTheStates) {
 
 TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
   CellMaterial sand = material("", 1);
-  const Response first = evaluate(sand, some_increment());
-  evaluate(sand, Increment{});
-  const Response second = evaluate(sand, some_increment());
+  const Response<2> first = evaluate(sand, some_increment());
+  evaluate(sand, Increment<2>{});
+  const Response<2> second = evaluate(sand, some_increment());
   EXPECT_EQ(std::memcmp(first.stress.data(), second.stress.data(), sizeof(Vector7)), 0);
   sand.revert();
-  EXPECT_EQ(evaluate(sand, Increment{}).stress, testing::fake_stress(Increment{}));
+  EXPECT_EQ(evaluate(sand, Increment<2>{}).stress, testing::fake_stress(Increment<2>{}));
 }
 
 TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
@@ -144,7 +144,7 @@ TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
   CellMaterial resumed(pool_, pool_.define(testing::fake_definition("")), limited);
   sand.allocate(1);
   resumed.allocate(1);
-  Increment bent;
+  Increment<2> bent;
   bent.curvature << 0.0, 0.02;
   const auto stress_after = [&](CellMaterial& material, double turn) {
     bent.curvature.y() = turn;
@@ -164,7 +164,7 @@ TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
   EXPECT_NEAR(unloaded[kCurvature2], limit - 64.0, 1e-9);
   const Vector7 again = stress_after(resumed, -0.002);
   EXPECT_EQ(std::memcmp(again.data(), unloaded.data(), sizeof(Vector7)), 0);
-  EXPECT_EQ(evaluate(sand, Increment{}).stress, unloaded);  // nothing happens where nothing moves
+  EXPECT_EQ(evaluate(sand, Increment<2>{}).stress, unloaded);  // nothing happens where nothing moves
 }
 
 TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKept) {
@@ -184,8 +184,8 @@ TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKe
     sand.fields(point, values);
     return std::vector<double>(values.end() - 3, values.end());
   };
-  std::vector<Increment> increments(3);
-  std::vector<Response> responses(3);
+  std::vector<Increment<2>> increments(3);
+  std::vector<Response<2>> responses(3);
   increments[1].micro_rotation = 0.01;  // 400 kPa without a limit
   increments[2].displacement_gradient << 0.01, 0.0, 0.0, 0.01;
   sand.evaluate(increments, responses);
@@ -209,7 +209,7 @@ TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKe
   EXPECT_EQ(resumed.at_limits(), now);
   // Turned back a little: 10 kPa are left.
   increments[1].micro_rotation = -0.001;
-  increments[2] = Increment{};
+  increments[2] = Increment<2>{};
   for (CellMaterial* const material : {&sand, &resumed}) {
     material->evaluate(increments, responses);
     material->commit();
@@ -232,7 +232,7 @@ TEST_F(CellMaterialTest, WithoutACosseratPartTheCellAnswersWhole) {
 TEST_F(CellMaterialTest, LargeRotationsReachTheCellWhole) {
   CellMaterial sand = material("", 1);
   const double angle = 0.3;
-  Increment about_start;
+  Increment<2> about_start;
   about_start.configuration = Configuration::start;
   about_start.displacement_gradient << std::cos(angle) - 1.0, -std::sin(angle), std::sin(angle),
       std::cos(angle) - 1.0;
@@ -244,29 +244,29 @@ TEST_F(CellMaterialTest, LargeRotationsReachTheCellWhole) {
 TEST_F(CellMaterialTest, NoCallForAZeroIncrement) {
   CellMaterial sand = material("", 5);
   const std::int64_t before = pool_.counts().evaluations;
-  std::vector<Increment> increments(5);
+  std::vector<Increment<2>> increments(5);
   increments[3] = some_increment();
-  std::vector<Response> responses(5);
+  std::vector<Response<2>> responses(5);
   sand.evaluate(increments, responses);
   EXPECT_EQ(pool_.counts().evaluations - before, 1);
-  EXPECT_EQ(responses[0].stress, testing::fake_stress(Increment{}));
+  EXPECT_EQ(responses[0].stress, testing::fake_stress(Increment<2>{}));
   EXPECT_NE(responses[3].stress, responses[0].stress);
 }
 
 TEST_F(CellMaterialTest, AFailedCellFailsItsPointAlone) {
   CellMaterial sand = material("fail_beyond 0.1", 2);
-  std::vector<Increment> increments(2, some_increment());
+  std::vector<Increment<2>> increments(2, some_increment());
   increments[1].displacement_gradient(0, 0) = 0.2;
-  std::vector<Response> responses(2);
+  std::vector<Response<2>> responses(2);
   sand.evaluate(increments, responses);
   EXPECT_EQ(responses[0].quality, Quality::good);
   EXPECT_EQ(responses[1].quality, Quality::failed);
   EXPECT_EQ(responses[1].message, "the box collapsed");
   EXPECT_EQ(responses[1].step_factor, 0.5);
   sand.revert();
-  increments.assign(2, Increment{});
+  increments.assign(2, Increment<2>{});
   sand.evaluate(increments, responses);
-  for (const Response& response : responses) EXPECT_EQ(response.stress, testing::fake_stress(Increment{}));
+  for (const Response<2>& response : responses) EXPECT_EQ(response.stress, testing::fake_stress(Increment<2>{}));
 }
 
 }  // namespace

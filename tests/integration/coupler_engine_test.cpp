@@ -161,14 +161,14 @@ coupler::PoolOptions pool_options(const std::filesystem::path& directory) {
 
 /// One element, every displacement and rotation given: a homogeneous displacement gradient, rotations of
 /// given curvature that vanish at the origin.
-fem::Problem homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::Material> material,
+fem::Problem<2> homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::Material<2>> material,
                          const Eigen::Vector2d& curvature = Eigen::Vector2d::Zero()) {
-  fem::Problem problem;
+  fem::Problem<2> problem;
   problem.mesh = fem::rectangle({{0.4, 0.8}, {1, 1}});
   problem.materials["all"] = std::move(material);
   for (const int i : {0, 1}) {
     const Eigen::Vector2d row = gradient.row(i).transpose();
-    problem.prescribed.push_back({"all", static_cast<fem::Dof>(i), fem::TimeTable::ramp(1.0),
+    problem.prescribed.push_back({"all", fem::node_dofs<2>()[static_cast<std::size_t>(i)], fem::TimeTable::ramp(1.0),
                                   [row](const Eigen::Vector2d& x) { return row.dot(x); }});
   }
   problem.prescribed.push_back({"all", fem::Dof::w, fem::TimeTable::ramp(1.0),
@@ -187,17 +187,17 @@ TEST_F(EngineTest, AnElementOnAHomogeneousPathAnswersAsItsCellAlone) {
 
   const auto element = std::make_shared<coupler::CellMaterial>(pool, sand, kCosserat);
   fem::SolverOptions options;
-  fem::Solver solver(homogeneous(gradient, element), options);
+  fem::Solver<2> solver(homogeneous(gradient, element), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   coupler::CellMaterial alone(pool, sand, kCosserat);
   alone.allocate(1);
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient = gradient / kSteps;
   double largest = 0.0;
   for (int step = 1; step <= kSteps; ++step) {
     const fem::StepReport report = solver.advance(static_cast<double>(step) / kSteps);
     ASSERT_TRUE(report.converged) << report.message;
-    Response response;
+    Response<2> response;
     alone.evaluate({&increment, 1}, {&response, 1});
     alone.commit();
     for (std::size_t point = 0; point < solver.points(); ++point) {
@@ -222,19 +222,19 @@ TEST_F(EngineTest, AnElementWithControlledRotationsAnswersAsItsCellsAlone) {
   const Eigen::Vector2d curvature(2e-3, -5e-3);  // 1e-4 rad a grain
 
   const auto element = std::make_shared<coupler::CellMaterial>(pool, sand, std::nullopt);
-  fem::Solver solver(homogeneous(gradient, element, curvature), {});
+  fem::Solver<2> solver(homogeneous(gradient, element, curvature), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   const fem::StepReport report = solver.advance(1.0);
   ASSERT_TRUE(report.converged) << report.message;
   coupler::CellMaterial alone(pool, sand, std::nullopt);
   alone.allocate(solver.points());
-  std::vector<Increment> increments(solver.points());
+  std::vector<Increment<2>> increments(solver.points());
   for (std::size_t point = 0; point < solver.points(); ++point) {
     increments[point].displacement_gradient = gradient;
     increments[point].curvature = curvature;
     increments[point].micro_rotation = curvature.dot(solver.position_of_point(point));
   }
-  std::vector<Response> responses(solver.points());
+  std::vector<Response<2>> responses(solver.points());
   alone.evaluate(increments, responses);
   double largest = 0.0;
   for (std::size_t point = 0; point < solver.points(); ++point) {

@@ -163,7 +163,7 @@ class FakeEngine : public CellService {
     std::array<double, 6> values{};
     std::copy(stress.begin(), stress.end(), values.begin());
     values[5] = evaluations;
-    Response response;
+    Response<2> response;
     for (int i = 0; i < 5; ++i) response.stress[i] = stress[i];
     response.tangent = tangent;
     CellReply reply;
@@ -212,12 +212,12 @@ std::string fake_state_fault(const CellDefinition& definition, const State& stat
 }
 
 Eigen::Matrix3d fake_stress(const CellIncrement& increment) {
-  Response response;
+  Response<2> response;
   response.stress = fake_stress(in_plane(increment));
   return in_space(response, KnownComponents::all).stress;
 }
 
-Vector7 fake_stress(const Increment& increment) {
+Vector7 fake_stress(const Increment<2>& increment) {
   Vector7 stress = stiffness(kYoung) * increment.strain();
   for (int i : {k11, k22, k33}) stress[i] += kConfining;
   return stress;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/cell.hpp"
+#include "common/increment.hpp"
 #include "common/packing_specification.hpp"
 
 namespace polargrain::testing {
@@ -34,7 +35,7 @@ const std::set<std::string>& fake_commands();
 std::string fake_state_fault(const CellDefinition& definition, const State& state);
 
 /// Stress after an increment from the packing, for the default modulus.
-Vector7 fake_stress(const Increment& increment);
+Vector7 fake_stress(const Increment<2>& increment);
 Eigen::Matrix3d fake_stress(const CellIncrement& increment);
 
 /// A packing of one grain, enough for a fake.

@@ -65,8 +65,8 @@ class InformedEngineTest : public ::testing::Test {
     Peak peak;
     constexpr double kStep = 1e-4;
     for (int step = 1; step <= kEnd / kStep; ++step) {
-      const Response& before = reply.response;
-      Increment increment;
+      const Response<2>& before = reply.response;
+      Increment<2> increment;
       increment.displacement_gradient(1, 1) = -kStep;
       increment.displacement_gradient(0, 0) =
           (-kConfining - before.stress(k11) + before.tangent(k11, k22) * kStep) / before.tangent(k11, k11);
@@ -81,20 +81,20 @@ class InformedEngineTest : public ::testing::Test {
   }
 
   /// One element between smooth plates in steps of 0.1 %.
-  static Peak element(std::shared_ptr<fem::Material> material, double tolerance) {
-    fem::Problem problem;
+  static Peak element(std::shared_ptr<fem::Material<2>> material, double tolerance) {
+    fem::Problem<2> problem;
     problem.mesh = fem::rectangle({{0.4, 0.4}, {1, 1}});
     problem.materials["all"] = std::move(material);
     problem.prescribed = {{"bottom", fem::Dof::u2, fem::TimeTable::constant(0.0), {}},
                           {"bottom_left", fem::Dof::u1, fem::TimeTable::constant(0.0), {}},
                           {"top", fem::Dof::u2, fem::TimeTable::ramp(-kEnd * 0.4), {}}};
     for (const char* side : {"left", "right"}) {
-      problem.edge_loads.push_back({.on = side, .pressure = fem::TimeTable::constant(kConfining)});
+      problem.boundary_loads.push_back({.on = side, .pressure = fem::TimeTable::constant(kConfining)});
     }
     fem::SolverOptions options;
     options.force_tolerance = options.moment_tolerance = tolerance;
     options.noise_factor = 2.0;
-    fem::Solver solver(problem, options);
+    fem::Solver<2> solver(problem, options);
     EXPECT_TRUE(solver.equilibrate().converged);
     Peak peak;
     const int steps = static_cast<int>(kEnd / 1e-3 + 0.5);
@@ -224,14 +224,14 @@ TEST_F(ControlledInformedTest, APointThatIsShearedBentAndTurnedStaysNearItsCell)
     // One that is sheared, bent and turned at once; one sheared, then bent; one sheared, then turned.
     std::array<double, 3> worst{};
     for (int step = 1; step <= kSteps; ++step) {
-      std::vector<Increment> increments(3);
+      std::vector<Increment<2>> increments(3);
       const bool second_half = 2 * step > kSteps;
       for (std::size_t p = 0; p < 3; ++p) {
         if (p == 0 || !second_half) increments[p].displacement_gradient << 4e-4, 2e-4, 2e-4, -4e-4;
         if (p == 0 || (p == 1 && second_half)) increments[p].curvature << 6e-4 / diameter_, -3e-4 / diameter_;
         if (p == 0 || (p == 2 && second_half)) increments[p].micro_rotation = 4e-4;
       }
-      std::vector<Response> informed(3), direct(3);
+      std::vector<Response<2>> informed(3), direct(3);
       law.evaluate(increments, informed);
       law.commit();
       cell.evaluate(increments, direct);

@@ -31,7 +31,7 @@ class LargeEngineTest : public ::testing::Test {
     return options;
   }
 
-  std::shared_ptr<fem::Material> material(const std::string& model) {
+  std::shared_ptr<fem::Material<2>> material(const std::string& model) {
     const coupler::CosseratParameters cosserat{15e6, 10e6, 0.01};
     if (model == "cell") return std::make_shared<coupler::CellMaterial>(pool_, sand_, cosserat);
     if (model == "adaptive") {
@@ -55,7 +55,7 @@ class LargeEngineTest : public ::testing::Test {
       return turned_block(material(model), {"Q8R", 1, 1e-6}, path, angle, steps);
     };
     const double angle = degrees * M_PI / 180.0;
-    const std::vector<Response> straight = run(0.0);
+    const std::vector<Response<2>> straight = run(0.0);
     const double found = error_of_turning(straight, run(angle), angle);
     std::cout << "[figure] " << model << ", " << degrees << " degrees in " << steps
               << " steps: stress off by " << found << '\n';

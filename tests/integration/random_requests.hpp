@@ -16,7 +16,7 @@ inline std::vector<coupler::PoolRequest> random_requests(std::size_t count,
   std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
   std::vector<coupler::PoolRequest> requests(count);
   for (std::size_t r = 0; r < count; ++r) {
-    Increment increment;
+    Increment<2> increment;
     for (double& value : increment.displacement_gradient.reshaped()) value = entry(generator);
     requests[r].cell.increment = in_space(increment);
     if (!from.empty()) requests[r].cell.state = from[r].state;

@@ -32,7 +32,7 @@ struct Reports {
 };
 
 /// Runs a definition along a way and its replay.
-Reports replayed(const CellDefinition& definition, const std::vector<Increment>& path, std::size_t first) {
+Reports replayed(const CellDefinition& definition, const std::vector<Increment<2>>& path, std::size_t first) {
   const std::unique_ptr<CellService> cell = make_cell_service(definition);
   coupler::Replay replay;
   replay.reason = "A test.";
@@ -58,7 +58,7 @@ Reports replayed(const CellDefinition& definition, const std::vector<Increment>&
 }
 
 /// Where the engine's own loop steps the cell too: all digits.
-void expect_equal_replay(CellDefinition definition, const std::vector<Increment>& path, std::size_t first) {
+void expect_equal_replay(CellDefinition definition, const std::vector<Increment<2>>& path, std::size_t first) {
   definition.control.loop = CellLoop::engine;
   const Reports both = replayed(definition, path, first);
   EXPECT_EQ(both.printed, both.expected);
@@ -73,14 +73,14 @@ std::vector<double> numbers(const std::string& line) {
   return found;
 }
 
-Increment increment(double h11, double h12, double h21, double h22) {
-  Increment made;
+Increment<2> increment(double h11, double h12, double h21, double h22) {
+  Increment<2> made;
   made.displacement_gradient << h11, h12, h21, h22;
   return made;
 }
 
 /// Compression, then shear that turns the box.
-const std::vector<Increment> kPath{increment(5e-4, 0.0, 0.0, -1e-3), increment(2e-4, 4e-4, -1e-3, -5e-4),
+const std::vector<Increment<2>> kPath{increment(5e-4, 0.0, 0.0, -1e-3), increment(2e-4, 4e-4, -1e-3, -5e-4),
                                    increment(1e-4, 1e-3, 2e-3, -1e-3)};
 
 TEST(Replay, PrintsTheStressesOfTheCellFromThePackingOn) {
@@ -117,7 +117,7 @@ TEST(Replay, PrintsTheCoupleStressOfControlledRotations) {
   definition.script_file = "liggghts_inputs/cells/hooke_li_chu.in";
   definition.script = test::file_text(definition.script_file);
   definition.control.rotations = CellRotations::controlled;
-  std::vector<Increment> path = kPath;
+  std::vector<Increment<2>> path = kPath;
   path[0].micro_rotation = 1e-3;
   path[1].curvature = {0.02, -0.01};
   path[2].micro_rotation = 5e-4;

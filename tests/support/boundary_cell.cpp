@@ -92,7 +92,7 @@ CellReply BoundaryCell::evaluate(const CellRequest& request) {
   lammps.update->ntimestep = 0;
   const Box box = restore_state(lammps, request.state ? *request.state : *initial_.state).box;
   if (const std::string fault = out_of_plane_fault(request.increment); !fault.empty()) throw RunError(fault);
-  const Increment increment = in_plane(request.increment);
+  const Increment<2> increment = in_plane(request.increment);
   driver_.strain().begin(protocol_.begin(box, increment, driver_.strain().time_step(), span_.norm()),
                          protocol_.damping_rate(), protocol_.rotation_of(increment));
   driver_.strain().hold(held_);
@@ -133,7 +133,7 @@ CellResponse BoundaryCell::respond() {
   }
   const Eigen::Matrix2d frame = box.frame();
   stress = frame * stress * frame.transpose();
-  Response response;
+  Response<2> response;
   response.stress << stress(0, 0), stress(1, 1), 0.0, stress(0, 1), stress(1, 0), frame * couple_stress;
   return in_space(response, KnownComponents::plane);
 }

@@ -6,7 +6,7 @@ namespace polargrain::fem::test {
 
 /// Of a stiff sand with an internal length of 1 mm.
 inline SubspaceModuli moduli() {
-  ElasticParameters elastic;
+  ElasticParameters<2> elastic;
   elastic.young_modulus = 50e6;
   elastic.poisson_ratio = 0.2;
   elastic.cosserat_shear_modulus = 10e6;

@@ -42,8 +42,8 @@ inline fem::HardeningCone micro_strength() {
   return {fem::PiecewiseLinear(friction), fem::PiecewiseLinear(dilatancy), kCohesion};
 }
 
-inline fem::ElasticParameters elasticity() {
-  fem::ElasticParameters elastic;
+inline fem::ElasticParameters<2> elasticity() {
+  fem::ElasticParameters<2> elastic;
   elastic.young_modulus = 50e6;
   elastic.poisson_ratio = 0.3;
   elastic.cosserat_shear_modulus = 10e6;

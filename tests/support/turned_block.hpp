@@ -36,10 +36,10 @@ struct Block {
 };
 
 /// @returns the stresses at the end; empty where the run does not get there
-inline std::vector<Response> turned_block(std::shared_ptr<fem::Material> material, const Block& block,
+inline std::vector<Response<2>> turned_block(std::shared_ptr<fem::Material<2>> material, const Block& block,
                                           const Path& path, double angle, int steps) {
   using namespace fem;
-  Problem problem;
+  Problem<2> problem;
   problem.deformation = Deformation::large;
   problem.mesh = rectangle({{0.2, 0.2}, {block.elements, block.elements}}, block.element);
   problem.materials["all"] = std::move(material);
@@ -70,7 +70,7 @@ inline std::vector<Response> turned_block(std::shared_ptr<fem::Material> materia
   SolverOptions options;
   options.force_tolerance = options.moment_tolerance = block.tolerance;
   options.most_cuts = 0;
-  Solver solver(std::move(problem), options);
+  Solver<2> solver(std::move(problem), options);
   EXPECT_TRUE(solver.equilibrate().converged) << block.element;
   for (int step = 1; step <= steps; ++step) {
     const StepReport report = solver.advance(static_cast<double>(step) / steps);
@@ -83,7 +83,7 @@ inline std::vector<Response> turned_block(std::shared_ptr<fem::Material> materia
 
 /// Largest difference of the stress of a point, over the largest stress of the straight run. Infinite where one has not
 /// come to its end.
-inline double error_of_turning(const std::vector<Response>& straight, const std::vector<Response>& turned,
+inline double error_of_turning(const std::vector<Response<2>>& straight, const std::vector<Response<2>>& turned,
                                double angle) {
   if (straight.empty() || turned.empty()) return HUGE_VAL;
   const Eigen::Matrix2d r = Eigen::Rotation2Dd(angle).toRotationMatrix();

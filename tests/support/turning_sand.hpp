@@ -34,9 +34,9 @@ inline Matrix7 tangent_turned_by(const Eigen::Matrix2d& r, const Matrix7& tangen
 }
 
 struct TurningSand {
-  fem::ElastoplasticLaw law{{elasticity(), {}, micro_strength()}};
+  fem::ElastoplasticLaw<2> law{{elasticity(), {}, micro_strength()}};
 
-  coupler::PlaneReply reply(const fem::ElastoplasticState& state, const Response& response) const {
+  coupler::PlaneReply reply(const fem::ElastoplasticState<2>& state, const Response<2>& response) const {
     coupler::PlaneReply reply;
     reply.response = response;
     reply.response.noise = {};
@@ -47,25 +47,25 @@ struct TurningSand {
   }
 
   coupler::PlaneReply at_rest() const {
-    fem::ElastoplasticState state = law.initial_state();
-    fem::ElastoplasticState end;
-    return reply(state, law.integrate(state, Increment{}, end));
+    fem::ElastoplasticState<2> state = law.initial_state();
+    fem::ElastoplasticState<2> end;
+    return reply(state, law.integrate(state, Increment<2>{}, end));
   }
 
   /// Stretched in small steps, then turned.
   coupler::PlaneReply follow(const coupler::PlaneRequest& request) const {
-    fem::ElastoplasticState state;
+    fem::ElastoplasticState<2> state;
     std::memcpy(static_cast<void*>(&state), request.state->bytes().data(), sizeof state);
     const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
     const Eigen::Matrix2d f = one + request.increment.displacement_gradient;
     const Eigen::JacobiSVD<Eigen::Matrix2d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Matrix2d turn = svd.matrixU() * svd.matrixV().transpose();
     const Eigen::Matrix2d strain = turn.transpose() * f - one;
-    Increment part;
+    Increment<2> part;
     part.displacement_gradient = 0.5 / kSubSteps * (strain + strain.transpose());
-    Response response;
+    Response<2> response;
     for (int i = 0; i < kSubSteps; ++i) {
-      const fem::ElastoplasticState before = state;
+      const fem::ElastoplasticState<2> before = state;
       response = law.integrate(before, part, state);
     }
     state.scaled_stress = turned_by(turn, state.scaled_stress);

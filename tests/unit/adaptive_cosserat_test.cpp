@@ -73,9 +73,9 @@ class AdaptiveCosseratTest : public ::testing::Test {
     return made;
   }
 
-  std::vector<Response> step(AdaptiveMaterial& sand, const std::vector<Increment>& increments) {
+  std::vector<Response<2>> step(AdaptiveMaterial& sand, const std::vector<Increment<2>>& increments) {
     for (std::size_t p = 0; p < increments.size(); ++p) strain_[p] += kMeasure.strain(increments[p]);
-    std::vector<Response> responses(increments.size());
+    std::vector<Response<2>> responses(increments.size());
     sand.evaluate(increments, responses);
     while (!sand.confirm()) sand.evaluate(increments, responses);
     sand.commit();
@@ -83,7 +83,7 @@ class AdaptiveCosseratTest : public ::testing::Test {
   }
 
   /// The largest error of any point, as a share of the confining pressure.
-  double error(const std::vector<Response>& responses) const {
+  double error(const std::vector<Response<2>>& responses) const {
     double largest = 0.0;
     for (std::size_t p = 0; p < responses.size(); ++p)
       largest = std::max(largest, kMeasure.stress(responses[p].stress - KnownCells::stress(strain_[p])));
@@ -103,8 +103,8 @@ class AdaptiveCosseratTest : public ::testing::Test {
 
 /// Three bands of points, in shares of an increment of 1e-3: one bends, one turns its grains, one is compressed, each
 /// with a little of the others.
-std::vector<Increment> three_bands(std::size_t points) {
-  std::vector<Increment> increments(points);
+std::vector<Increment<2>> three_bands(std::size_t points) {
+  std::vector<Increment<2>> increments(points);
   for (std::size_t p = 0; p < points; ++p) {
     const double size = 1e-3 * (1.0 + 0.02 * static_cast<double>(p % 7) / 7.0);
     const double bend = p % 3 == 0 ? size : 0.05 * size;
@@ -143,13 +143,13 @@ TEST_F(AdaptiveCosseratTest, FewCellsServeBandsOfBendingAndTurningWithinTheToler
 TEST_F(AdaptiveCosseratTest, PointsThatOnlyBendOrOnlyTurnAreRun) {
   for (const bool bends : {true, false}) {
     AdaptiveMaterial sand = material(4, 0.02);
-    Increment increment;
+    Increment<2> increment;
     if (bends) increment.curvature << 0.1, 0.0;
     if (!bends) increment.micro_rotation = 1e-3;
     cells_.runs = 0;
     double largest = 0.0;
     for (int k = 0; k < 10; ++k)
-      largest = std::max(largest, error(step(sand, std::vector<Increment>(4, increment))));
+      largest = std::max(largest, error(step(sand, std::vector<Increment<2>>(4, increment))));
     EXPECT_GE(cells_.runs, 5);
     EXPECT_LE(largest, 0.02);
     EXPECT_EQ(figure(sand, "cells"), 1.0);
@@ -158,17 +158,17 @@ TEST_F(AdaptiveCosseratTest, PointsThatOnlyBendOrOnlyTurnAreRun) {
 
 TEST_F(AdaptiveCosseratTest, BoxAndGrainsTurnedAlikeAreNoStrainAndTurnAllOfTheStress) {
   AdaptiveMaterial sand = material(1, 0.02);
-  Increment bend;
+  Increment<2> bend;
   bend.curvature << 0.1, 0.0;
   bend.configuration = Configuration::start;
-  const Response bent = step(sand, {bend}).front();
-  Increment turn;
+  const Response<2> bent = step(sand, {bend}).front();
+  Increment<2> turn;
   const double angle = 0.5;
   turn.displacement_gradient = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
   turn.micro_rotation = angle;
   turn.configuration = Configuration::start;
   cells_.runs = 0;
-  const Response turned = step(sand, {turn}).front();
+  const Response<2> turned = step(sand, {turn}).front();
   EXPECT_EQ(cells_.runs, 0);
   EXPECT_NEAR(turned.stress[kCurvature2], std::sin(angle) * bent.stress[kCurvature1],
               1e-12 * bent.stress[kCurvature1]);
@@ -179,9 +179,9 @@ TEST_F(AdaptiveCosseratTest, BoxAndGrainsTurnedAlikeAreNoStrainAndTurnAllOfTheSt
 TEST_F(AdaptiveCosseratTest, AuditsSeeCoupleStressesAndAllGoesOnFromACheckpointBitForBit) {
   AdaptiveMaterial whole = material(30, 0.02, 0.1);
   AdaptiveMaterial first = material(30, 0.02, 0.1);
-  std::vector<Response> expected, answers;
+  std::vector<Response<2>> expected, answers;
   const auto bands = [](int k) {
-    std::vector<Increment> increments = three_bands(30);
+    std::vector<Increment<2>> increments = three_bands(30);
     for (std::size_t p = 0; p < 30; p += 4) increments[p].curvature *= k % 3 == 0 ? -0.7 : 1.0;
     return increments;
   };

@@ -92,7 +92,7 @@ TEST_F(AdaptiveMaterialTest, ClustersSplitWhenTheyPart) {
   EXPECT_EQ(figure(sand, "cells"), 1.0);
   std::vector<Eigen::Matrix2d> gradients(100, compression(5e-4));
   for (int p = 40; p < 50; ++p) gradients[p] = compression(-5e-4);
-  std::vector<Response> responses;
+  std::vector<Response<2>> responses;
   for (int k = 0; k < 4; ++k) responses = step(sand, gradients);
   EXPECT_EQ(figure(sand, "cells"), 2.0);
   // The estimate is no bound: a law that unloads along its loading curve leaves it by the square of the
@@ -129,7 +129,7 @@ TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
   AdaptiveMaterial sand = material(6, 0.0);
   std::vector<Eigen::Matrix2d> gradients;
   for (int p = 0; p < 6; ++p) gradients.push_back(compression(1e-4 * (p + 1)));
-  const std::vector<Response> responses = step(sand, gradients);
+  const std::vector<Response<2>> responses = step(sand, gradients);
   EXPECT_EQ(cells_.runs, 6);
   EXPECT_EQ(error(responses), 0.0);
 }
@@ -166,7 +166,7 @@ TEST_F(AdaptiveMaterialTest, AnExcursionIsPaidInOneRun) {
   }
   ASSERT_GE(quiet, 2) << "the excursion was not carried, the test shows nothing";
   const int before = cells_.runs;
-  const std::vector<Response> responses = step(sand, {compression(-3e-3)});
+  const std::vector<Response<2>> responses = step(sand, {compression(-3e-3)});
   EXPECT_EQ(cells_.runs - before, 1);
   EXPECT_LE(error(responses), 0.05);
 }
@@ -174,10 +174,10 @@ TEST_F(AdaptiveMaterialTest, AnExcursionIsPaidInOneRun) {
 TEST_F(AdaptiveMaterialTest, WithinAStepTheAnswerIsLinearAndRepeatable) {
   AdaptiveMaterial sand = material(3, 0.05);
   const auto increments = [](double amount) {
-    return std::vector<Increment>{increment_of(compression(amount)), increment_of(compression(1.01 * amount)),
+    return std::vector<Increment<2>>{increment_of(compression(amount)), increment_of(compression(1.01 * amount)),
                                   increment_of(compression(0.98 * amount))};
   };
-  std::vector<Response> first(3), second(3), between(3), again(3);
+  std::vector<Response<2>> first(3), second(3), between(3), again(3);
   sand.evaluate(increments(1.00e-3), first);
   const int runs = cells_.runs;
   sand.evaluate(increments(1.02e-3), second);
@@ -194,28 +194,28 @@ TEST_F(AdaptiveMaterialTest, WithinAStepTheAnswerIsLinearAndRepeatable) {
 TEST_F(AdaptiveMaterialTest, RevertForgetsTheStep) {
   AdaptiveMaterial sand = material(4, 0.02);
   AdaptiveMaterial fresh = material(4, 0.02);
-  std::vector<Response> lost(4);
-  sand.evaluate(std::vector<Increment>(4, increment_of(compression(3e-3))), lost);
+  std::vector<Response<2>> lost(4);
+  sand.evaluate(std::vector<Increment<2>>(4, increment_of(compression(3e-3))), lost);
   sand.revert();
   const std::vector<Eigen::Matrix2d> gradients(4, compression(1e-3));
-  const std::vector<Response> a = step(sand, gradients);
-  const std::vector<Response> b = step(fresh, gradients);
+  const std::vector<Response<2>> a = step(sand, gradients);
+  const std::vector<Response<2>> b = step(fresh, gradients);
   for (int p = 0; p < 4; ++p) EXPECT_EQ(a[p].stress, b[p].stress);
 }
 
 TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
   cells_.breaks_at = 5e-3;
   AdaptiveMaterial sand = material(3, 0.02);
-  std::vector<Increment> increments{increment_of(compression(1e-4)), increment_of(compression(6e-3)),
+  std::vector<Increment<2>> increments{increment_of(compression(1e-4)), increment_of(compression(6e-3)),
                                     increment_of(compression(1e-4))};
-  std::vector<Response> responses(3);
+  std::vector<Response<2>> responses(3);
   sand.evaluate(increments, responses);
   EXPECT_EQ(responses[1].quality, Quality::failed);
   EXPECT_EQ(responses[1].message, "the box collapsed");
   sand.revert();
   increments[1] = increment_of(compression(1e-4));
   sand.evaluate(increments, responses);
-  for (const Response& response : responses) EXPECT_EQ(response.quality, Quality::good);
+  for (const Response<2>& response : responses) EXPECT_EQ(response.quality, Quality::good);
 }
 
 // All points alike, all followed (audit: 100 %), so that the bound is the mean error itself. A cell of its own is run in every
@@ -304,7 +304,7 @@ TEST_F(AdaptiveMaterialTest, TheBoundCoversTheTrueMeanErrorFromTheFirstStep) {
       AdaptiveMaterial sand(cells_.calls(), kCosserat, {0.05, 0.01, seed});
       sand.allocate(200);
       strain_.assign(200, Eigen::Matrix2d::Zero());
-      std::vector<Response> responses;
+      std::vector<Response<2>> responses;
       for (int k = 0; k < steps; ++k) responses = step(sand, own);
       double mean = 0.0;
       for (std::size_t p = 0; p < 200; ++p)
@@ -338,8 +338,8 @@ TEST_F(AdaptiveMaterialTest, SharingEndsWhereThereIsNothingToShare) {
 // Runs by part: a step that is given up leaves runs that nobody used.
 TEST_F(AdaptiveMaterialTest, RunsOfNoUseAreCounted) {
   AdaptiveMaterial sand = material(2, 0.02);
-  std::vector<Response> responses(2);
-  sand.evaluate(std::vector<Increment>(2, increment_of(compression(3e-3))), responses);
+  std::vector<Response<2>> responses(2);
+  sand.evaluate(std::vector<Increment<2>>(2, increment_of(compression(3e-3))), responses);
   const double runs = figure(sand, "cell_runs");
   EXPECT_GE(runs, 1.0);
   EXPECT_EQ(figure(sand, "cell_dem_steps"), 10.0 * runs);
@@ -360,7 +360,7 @@ TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
     path.push_back(three_bands(30));
     for (int p = 0; p < 30; p += 4) path.back()[p] = compression(size(random));
   }
-  std::vector<Response> expected, answers;
+  std::vector<Response<2>> expected, answers;
   for (const auto& gradients : path) expected = step(whole, gradients);
   for (int k = 0; k < 6; ++k) step(first, path[k]);
   MemoryArchive archive;

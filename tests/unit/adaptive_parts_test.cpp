@@ -26,13 +26,13 @@ Eigen::Matrix2d gradient(double h11, double h12, double h21, double h22) {
 }
 
 TEST(Linearised, OffsetsLeadFromOnePlaceToTheOther) {
-  Increment first = increment_of(gradient(0.1, -0.2, 0.05, -0.3));
-  Increment second = increment_of(gradient(-0.05, 0.3, 0.1, 0.2));
+  Increment<2> first = increment_of(gradient(0.1, -0.2, 0.05, -0.3));
+  Increment<2> second = increment_of(gradient(-0.05, 0.3, 0.1, 0.2));
   first.micro_rotation = 0.02;
   second.micro_rotation = -0.05;
   first.curvature << 0.3, -0.1;
   second.curvature << -0.2, 0.4;
-  const Increment both = followed_by(first, second);
+  const Increment<2> both = followed_by(first, second);
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d after_first = one + first.displacement_gradient;
   // (I + second)(I + first), computed the long way; entries of order one, so a few roundings of 1e-16.
@@ -43,7 +43,7 @@ TEST(Linearised, OffsetsLeadFromOnePlaceToTheOther) {
   const double rotation = first.curvature.dot(place) + second.curvature.dot(after_first * place);
   EXPECT_NEAR(both.curvature.dot(place), rotation, 1e-15);
   EXPECT_DOUBLE_EQ(both.micro_rotation, -0.03);
-  const Increment back = offset_between(first, both);
+  const Increment<2> back = offset_between(first, both);
   EXPECT_LT((back.displacement_gradient - second.displacement_gradient).norm(), 1e-15);
   EXPECT_LT((back.curvature - second.curvature).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(back.micro_rotation, second.micro_rotation);
@@ -51,10 +51,10 @@ TEST(Linearised, OffsetsLeadFromOnePlaceToTheOther) {
 }
 
 TEST(Linearised, ARotationTurnsSkewAndCoupleStressToo) {
-  Response answer;
+  Response<2> answer;
   answer.stress << -1e5, -3e5, -2e5, 6e4, 2e4, 150.0, -40.0;
   const double angle = 1e-4;
-  Increment turn = increment_of(gradient(0.0, -angle, angle, 0.0));
+  Increment<2> turn = increment_of(gradient(0.0, -angle, angle, 0.0));
   turn.micro_rotation = angle;  // grains and box turn alike: no strain
   const Vector7 carried = linearised_stress(answer, turn);
   const Vector7 exact = fem::rotated(answer.stress, angle);
@@ -65,7 +65,7 @@ TEST(Linearised, ARotationTurnsSkewAndCoupleStressToo) {
 }
 
 TEST(Linearised, ARotationTurnsTheStress) {
-  Response answer;
+  Response<2> answer;
   answer.stress << -1e5, -3e5, -2e5, 4e4, 4e4, 0.0, 0.0;
   const double angle = 1e-4;
   const Vector7 carried = linearised_stress(answer, increment_of(gradient(0.0, -angle, angle, 0.0)));
@@ -85,16 +85,16 @@ TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
   Matrix7 elastic = Matrix7::Zero();
   elastic.topLeftCorner<2, 2>() << 3e7, 1e7, 1e7, 3e7;
   const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
-  Response start;
+  Response<2> start;
   start.tangent = elastic;
   Departure packing;
   const auto times = [](double factor) {
     return increment_of(gradient(factor * 1e-3, 0.0, 0.0, -factor * 1e-3));
   };
-  const Increment offset = times(1.0);
-  EXPECT_EQ(estimate.of(start, packing, Increment{}), 0.0);
+  const Increment<2> offset = times(1.0);
+  EXPECT_EQ(estimate.of(start, packing, Increment<2>{}), 0.0);
   EXPECT_EQ(estimate.of(start, packing, offset), HUGE_VAL);
-  Response end = start;
+  Response<2> end = start;
   end.stress = linearised_stress(start, offset);
   end.stress[k11] -= 300.0;  // what the run shows and the tangent did not
   end.stress[k22] += 400.0;
@@ -109,10 +109,10 @@ TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
 TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   Matrix7 elastic = Matrix7::Zero();
   elastic(k11, k11) = elastic(k22, k22) = 3e7;
-  Response soft;
+  Response<2> soft;
   soft.tangent = 0.1 * elastic;
-  const Increment onward = increment_of(gradient(-1e-3, 0.0, 0.0, 1e-3));
-  const Increment back = increment_of(gradient(1e-3, 0.0, 0.0, -1e-3));
+  const Increment<2> onward = increment_of(gradient(-1e-3, 0.0, 0.0, 1e-3));
+  const Increment<2> back = increment_of(gradient(1e-3, 0.0, 0.0, -1e-3));
   const Departure departure{1.0, onward.strain().norm(), onward.strain().normalized()};
   const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
   EXPECT_NEAR(estimate.of(soft, departure, onward), 1.0, 1e-9);
@@ -123,9 +123,9 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
 TEST(ErrorEstimate, AWayOutAndBackThatOneHasGoneAloneLeavesAnErrorInItsHistory) {
   Matrix7 elastic = Matrix7::Zero();
   elastic(k11, k11) = elastic(k22, k22) = 3e7;
-  Response soft;
+  Response<2> soft;
   soft.tangent = 0.1 * elastic;
-  const Increment along = increment_of(gradient(-3e-4, 0.0, 0.0, 4e-4));
+  const Increment<2> along = increment_of(gradient(-3e-4, 0.0, 0.0, 4e-4));
   const Departure departure{1.0, along.strain().norm(), along.strain().normalized()};
   const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
   EXPECT_DOUBLE_EQ(estimate.onward(departure, along), 5e-4);
@@ -155,12 +155,12 @@ TEST(GrainMeasure, AVolumeChangeCountsLessAndARotationNothing) {
 TEST(GrainMeasure, ControlledGrainsCountRelativeRotationAndCurvatureInDiameters) {
   constexpr double kDiameter = 0.01;
   const GrainMeasure measure(kDiameter);
-  Increment turned = increment_of(gradient(0.0, -2e-3, 2e-3, 0.0));
+  Increment<2> turned = increment_of(gradient(0.0, -2e-3, 2e-3, 0.0));
   turned.micro_rotation = 2e-3;  // box and grains turn alike
   EXPECT_EQ(measure.size(turned), 0.0);
   turned.micro_rotation = 5e-3;  // skew strain: e12 = -3e-3, e21 = 3e-3
   EXPECT_DOUBLE_EQ(measure.size(turned), std::sqrt(2.0) * 3e-3);
-  Increment bent;
+  Increment<2> bent;
   bent.curvature << 0.3, 0.4;
   EXPECT_DOUBLE_EQ(measure.size(bent), 0.5 * kDiameter);
   EXPECT_DOUBLE_EQ(measure.unmeasured(measure.strain(bent))[kCurvature2], 0.4);

@@ -128,9 +128,9 @@ class AdaptiveTurnTest : public ::testing::Test {
 
   /// Takes a step. @returns the largest error of a point, a share of the confining pressure
   double step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients) {
-    std::vector<Increment> increments;
+    std::vector<Increment<2>> increments;
     for (const Eigen::Matrix2d& h : gradients) increments.push_back(increment_of(h));
-    std::vector<Response> responses(gradients.size());
+    std::vector<Response<2>> responses(gradients.size());
     int asked = 0;
     do sand.evaluate(increments, responses);
     while (!sand.confirm() && ++asked < 10);

@@ -18,12 +18,12 @@ using namespace polargrain::fem;
 
 namespace {
 
-using Step = std::function<StepReport(Solver&)>;
+using Step = std::function<StepReport(Solver<2>&)>;
 
 /// A run that can be made anew as often as needed.
 struct Scene {
   std::string name;
-  std::function<Problem()> problem;  ///< with materials of its own each time
+  std::function<Problem<2>()> problem;  ///< with materials of its own each time
   SolverOptions options;
   std::vector<Step> steps;
 };
@@ -33,30 +33,30 @@ std::ostream& operator<<(std::ostream& out, const Scene& scene) {
 }
 
 Step to(double time) {
-  return [time](Solver& solver) { return solver.advance(time); };
+  return [time](Solver<2>& solver) { return solver.advance(time); };
 }
 Step along(double length) {
-  return [length](Solver& solver) { return solver.advance_arc_length(length); };
+  return [length](Solver<2>& solver) { return solver.advance_arc_length(length); };
 }
 Step growing(const DisplacementMeasure& measure, double amount) {
-  return [=](Solver& solver) { return solver.advance_measure(measure, amount); };
+  return [=](Solver<2>& solver) { return solver.advance_measure(measure, amount); };
 }
 
 constexpr double kShearModulus = 4000.0;
 const double kYieldDisplacement = 100.0 / std::sqrt(3.0) * 100.0 / kShearModulus;
 
-std::shared_ptr<Material> softening(double strength) {
-  ElastoplasticParameters parameters;
+std::shared_ptr<Material<2>> softening(double strength) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {2.5 * kShearModulus, 0.25, 2000.0, 3.0, Vector7::Zero()};
   const double start = 100.0 * strength;
   parameters.cone = {0.0, 0.0, PiecewiseLinear::ramp(start, 0.2 * start, 0.8 * start / 1000.0)};
-  return std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
 }
 
 /// A sheared column that softens in its middle, of two materials (docs/theory.md, E.4).
-Problem softening_layer() {
+Problem<2> softening_layer() {
   constexpr int kElements = 20;
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{5.0, 100.0}, {1, kElements}, {0.0, -50.0}});
   for (int e = 0; e < kElements; ++e) problem.mesh.regions[e / 2 == 5 ? "weak" : "rest"].push_back(e);
   problem.materials = {{"weak", softening(0.99)}, {"rest", softening(1.0)}};
@@ -68,7 +68,7 @@ Problem softening_layer() {
 
 /// Slip over the middle of the column.
 DisplacementMeasure slip() {
-  const Mesh mesh = softening_layer().mesh;
+  const Mesh<2> mesh = softening_layer().mesh;
   const auto node_at = [&](double height) {
     for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
       if (mesh.nodes[node].isApprox(Eigen::Vector2d(5.0, height))) return static_cast<int>(node);
@@ -79,18 +79,18 @@ DisplacementMeasure slip() {
 }
 
 /// A block that is turned by half a radian while it is pressed, under a pressure that follows its sides.
-Problem turning_block() {
-  Problem problem;
+Problem<2> turning_block() {
+  Problem<2> problem;
   problem.mesh = rectangle({{1.0, 2.0}, {2, 4}});
   problem.deformation = Deformation::large;
-  ElasticParameters parameters{40e6, 0.3, 10e6, 0.1, Vector7::Zero()};
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  ElasticParameters<2> parameters{40e6, 0.3, 10e6, 0.1, Vector7::Zero()};
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   problem.prescribed = {
       {"bottom", Dof::u1, TimeTable::constant(0.0), {}},
       {"bottom", Dof::u2, TimeTable::constant(0.0), {}},
       {"top", Dof::u1, TimeTable::ramp(-1.0), [](const Eigen::Vector2d&) { return 0.9; }},
       {"top", Dof::u2, TimeTable::ramp(1.0), [](const Eigen::Vector2d& x) { return 0.4 * x(0) - 0.3; }}};
-  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)}};
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)}};
   return problem;
 }
 
@@ -117,7 +117,7 @@ struct Trace {
   std::vector<double> values;
   int cuts = 0;
 
-  void add(const StepReport& report, const Solver& solver) {
+  void add(const StepReport& report, const Solver<2>& solver) {
     EXPECT_TRUE(report.converged) << report.message;
     cuts += report.cuts;
     values.insert(values.end(),
@@ -135,7 +135,7 @@ TEST_P(Interrupted, goes_on_with_the_same_bits) {
   const Scene& scene = GetParam();
   Trace whole;
   std::vector<MemoryArchive> saved(scene.steps.size());
-  Solver solver(scene.problem(), scene.options);
+  Solver<2> solver(scene.problem(), scene.options);
   ASSERT_TRUE(solver.equilibrate().converged);
   std::vector<std::size_t> marks;
   for (std::size_t s = 0; s < scene.steps.size(); ++s) {
@@ -150,7 +150,7 @@ TEST_P(Interrupted, goes_on_with_the_same_bits) {
   }
 
   for (std::size_t first = 0; first < scene.steps.size(); ++first) {
-    Solver other(scene.problem(), scene.options);
+    Solver<2> other(scene.problem(), scene.options);
     other.restore(saved[first]);
     Trace rest;
     for (std::size_t s = first; s < scene.steps.size(); ++s) rest.add(scene.steps[s](other), other);
@@ -162,13 +162,13 @@ TEST_P(Interrupted, goes_on_with_the_same_bits) {
 
 TEST_P(Interrupted, shows_the_same_values_right_after_it_was_restored) {
   const Scene& scene = GetParam();
-  Solver solver(scene.problem(), scene.options);
+  Solver<2> solver(scene.problem(), scene.options);
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(scene.steps[0](solver).converged);
   ASSERT_TRUE(scene.steps[1](solver).converged);
   MemoryArchive saved;
   solver.save(saved);
-  Solver other(scene.problem(), scene.options);
+  Solver<2> other(scene.problem(), scene.options);
   other.restore(saved);
   EXPECT_EQ(solver.internal_forces(), other.internal_forces());
   EXPECT_EQ(solver.external_forces(), other.external_forces());
@@ -181,11 +181,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Interrupted, testing::ValuesIn(scenes()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(solver_archive, of_another_mesh_is_refused) {
-  Solver layer(softening_layer(), {});
+  Solver<2> layer(softening_layer(), {});
   ASSERT_TRUE(layer.equilibrate().converged);
   MemoryArchive saved;
   layer.save(saved);
-  Solver block(turning_block(), {});
+  Solver<2> block(turning_block(), {});
   EXPECT_THROW(block.restore(saved), RunError);
 }
 

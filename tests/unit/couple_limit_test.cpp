@@ -18,28 +18,28 @@ constexpr CosseratParameters kLimited{10e6, 5e6, 3e-3, 4e-3};
 const double kCouple = kLimited.couple_modulus();  // 180 N
 
 /// A cell under that pressure that answers nothing to any strain.
-Response cell_under(double pressure) {
-  Response cell;
+Response<2> cell_under(double pressure) {
+  Response<2> cell;
   cell.stress << -pressure, -pressure, -pressure, 0.0, 0.0, 0.0, 0.0;
   cell.tangent.setZero();
   return cell;
 }
 
-Increment bending(double k1, double k2) {
-  Increment increment;
+Increment<2> bending(double k1, double k2) {
+  Increment<2> increment;
   increment.curvature << k1, k2;
   return increment;
 }
 
 TEST(CoupleLimit, BendingYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
   CosseratPart part;
-  const Response cell = cell_under(kPressure);
+  const Response<2> cell = cell_under(kPressure);
   constexpr double kStep = 0.1;  // rad/m; the limit is reached at 400 / 180 = 2.2
   double expected = 0.0;
   for (int step = 0; step < 120; ++step) {
     const double turn = step < 40 || step >= 100 ? kStep : -kStep;
     expected = std::clamp(expected + kCouple * turn, -kLimit, kLimit);
-    const Response response = part.follow(bending(0.6 * turn, -0.8 * turn), cell, kLimited, 1.0);
+    const Response<2> response = part.follow(bending(0.6 * turn, -0.8 * turn), cell, kLimited, 1.0);
     // Sums of 120 doubles of some hundred N/m.
     ASSERT_NEAR(response.stress[kCurvature1], 0.6 * expected, 1e-10) << step;
     ASSERT_NEAR(response.stress[kCurvature2], -0.8 * expected, 1e-10) << step;
@@ -59,7 +59,7 @@ TEST(CoupleLimit, FallsWithThePressureAndIsNothingInTension) {
   // Pressure that returns brings no couple stress back by itself.
   EXPECT_NEAR(part.follow(bending(1e-9, 0.0), cell_under(kPressure), kLimited, 1.0).stress[kCurvature1],
               0.25 * kLimit, 1e-6);
-  const Response pulled = part.follow(bending(1.0, 1.0), cell_under(-1.0), kLimited, 1.0);
+  const Response<2> pulled = part.follow(bending(1.0, 1.0), cell_under(-1.0), kLimited, 1.0);
   EXPECT_EQ(pulled.stress.tail<2>().norm(), 0.0);
   EXPECT_EQ(pulled.tangent.bottomRows<2>().norm(), 0.0);
 }
@@ -68,21 +68,21 @@ TEST(CoupleLimit, WithoutOneNothingChanges) {
   CosseratParameters elastic = kLimited;
   elastic.plastic_length.reset();
   CosseratPart part;
-  const Response response = part.follow(bending(100.0, -50.0), cell_under(kPressure), elastic, 1.0);
+  const Response<2> response = part.follow(bending(100.0, -50.0), cell_under(kPressure), elastic, 1.0);
   EXPECT_EQ(response.stress[kCurvature1], kCouple * 100.0);
   EXPECT_EQ(response.tangent(kCurvature2, kCurvature2), kCouple);
 }
 
 TEST(CoupleLimit, AFailedAnswerHasNone) {
   CosseratPart part;
-  Response failed = cell_under(kPressure);
+  Response<2> failed = cell_under(kPressure);
   failed.quality = Quality::failed;
   EXPECT_EQ(part.follow(bending(100.0, 0.0), failed, kLimited, 1.0).quality, Quality::failed);
 }
 
 /// A linear cell, so that only the couple stress is not.
-Response linear_cell(const Increment& increment) {
-  Response cell = cell_under(kPressure);
+Response<2> linear_cell(const Increment<2>& increment) {
+  Response<2> cell = cell_under(kPressure);
   cell.tangent.topLeftCorner<5, 5>() << 3e7, 1e7, 2e6, 4e6, 4e6,  //
       9e6, 2.5e7, 1e6, -3e6, -3e6,                                //
       1e6, 2e6, 2e7, 0.0, 0.0,                                    //
@@ -95,14 +95,14 @@ Response linear_cell(const Increment& increment) {
 TEST(CoupleLimit, TangentIsTheDerivativeOfTheStress) {
   CosseratPart start;
   start.follow(bending(1.5, -1.0), cell_under(kPressure), kLimited, 1.0);
-  Increment base = bending(1.0, 2.5);
+  Increment<2> base = bending(1.0, 2.5);
   base.displacement_gradient << -1e-3, 4e-4, 7e-4, -5e-4;
   base.micro_rotation = 2e-4;
-  const auto answer = [&](const Increment& increment) {
+  const auto answer = [&](const Increment<2>& increment) {
     CosseratPart part = start;
     return part.follow(increment, linear_cell(increment), kLimited, 1.0);
   };
-  const Response here = answer(base);
+  const Response<2> here = answer(base);
   ASSERT_NEAR(here.stress.tail<2>().norm(), 4e-3 * -0.5 * (here.stress[k11] + here.stress[k22]), 1e-9);
   double error = 0.0;
   for (const int column : {k11, k22, k12, k21, kCurvature1, kCurvature2}) {
@@ -110,8 +110,8 @@ TEST(CoupleLimit, TangentIsTheDerivativeOfTheStress) {
     const double step = column < kCurvature1 ? 1e-6 : 1e-3;
     Vector7 strain = Vector7::Zero();
     strain[column] = step;
-    Increment ahead = base;
-    Increment behind = base;
+    Increment<2> ahead = base;
+    Increment<2> behind = base;
     Eigen::Matrix2d gradient;
     gradient << strain[k11], strain[k21], strain[k12], strain[k22];
     ahead.displacement_gradient += gradient;
@@ -133,7 +133,7 @@ class LimitedAdaptiveTest : public AdaptiveMaterialTest {};
 
 TEST_F(LimitedAdaptiveTest, AdaptiveHasTheSameCoupleStressAndKeepsItsHistory) {
   constexpr CosseratParameters kSand{16e6, 14e6, 0.02, 2e-3};
-  Increment increment = bending(0.02, -0.03);
+  Increment<2> increment = bending(0.02, -0.03);
   increment.displacement_gradient = compression(1e-4);
   const auto made = [&] {
     AdaptiveMaterial sand(cells_.calls(), kSand, {0.0, 0.0, 1});
@@ -153,14 +153,14 @@ TEST_F(LimitedAdaptiveTest, AdaptiveHasTheSameCoupleStressAndKeepsItsHistory) {
     }
     strain += compression(1e-4);
     const Vector7 expected = part.follow(increment, cells_.at(strain).response, kSand, 1.0).stress;
-    Response response;
+    Response<2> response;
     sand.evaluate({&increment, 1}, {&response, 1});
     ASSERT_TRUE(sand.confirm());
     sand.commit();
     // Of 200 N/m; the stress of the cell is carried along its tangent over nothing.
     EXPECT_LT((response.stress - expected).tail<2>().norm(), 1e-6) << step;
     if (step < 3) continue;
-    Response again;
+    Response<2> again;
     resumed.evaluate({&increment, 1}, {&again, 1});
     ASSERT_TRUE(resumed.confirm());
     resumed.commit();

@@ -19,7 +19,7 @@ struct Worst {
 
 /// Goes through random states, asserts that all have an answer and returns the worst errors of tangent
 /// (against the complex step, relative to max |D|) and yield function (relative to the trial state).
-Worst sweep(const ElasticParameters& elastic, const InvariantWeights& weights, const HardeningCone& cone,
+Worst sweep(const ElasticParameters<2>& elastic, const InvariantWeights& weights, const HardeningCone& cone,
             double stretch = 1.0) {
   const SubspaceModuli moduli(elastic, weights);
   const double stiffness = elastic_stiffness(moduli).cwiseAbs().maxCoeff();
@@ -61,7 +61,7 @@ constexpr double kResidualTolerance = 1e-12;  // the scalar solve stops at 1e-13
 TEST(ElastoplasticExtremes, CosseratModulusFromZeroToTenThousandG) {
   for (const double ratio : {0.0, 1e-6, 1e-2, 1.0, 1e2, 1e4}) {
     for (const InvariantWeights& weights : {InvariantWeights{}, kStatic, kKinematic}) {
-      ElasticParameters elastic = sand_elasticity();
+      ElasticParameters<2> elastic = sand_elasticity();
       elastic.cosserat_shear_modulus = ratio * SubspaceModuli(elastic, weights).shear();
       const Worst worst = sweep(elastic, weights, softening_sand());
       report("Gc/G = " + std::to_string(ratio) + ", a1 = " + std::to_string(weights.a1), worst);
@@ -74,7 +74,7 @@ TEST(ElastoplasticExtremes, CosseratModulusFromZeroToTenThousandG) {
 }
 
 TEST(ElastoplasticExtremes, NearlyIncompressible) {
-  ElasticParameters elastic = sand_elasticity();
+  ElasticParameters<2> elastic = sand_elasticity();
   elastic.poisson_ratio = 0.499;
   for (const InvariantWeights& weights : {InvariantWeights{}, kKinematic}) {
     const Worst worst = sweep(elastic, weights, softening_sand());
@@ -86,7 +86,7 @@ TEST(ElastoplasticExtremes, NearlyIncompressible) {
 }
 
 TEST(ElastoplasticExtremes, AuxeticElasticity) {
-  ElasticParameters elastic = sand_elasticity();
+  ElasticParameters<2> elastic = sand_elasticity();
   elastic.poisson_ratio = -0.5;
   const Worst worst = sweep(elastic, {}, softening_sand());
   report("nu = -0.5", worst);
@@ -128,7 +128,7 @@ TEST(ElastoplasticExtremes, WithoutCohesionNextToTheApex) {
     const double error = (tangent - complex_step_tangent(strain, 0.0, moduli, cone)).cwiseAbs().maxCoeff() /
                          elastic_stiffness(moduli).maxCoeff();
     std::cout << "[figure] c = 0, " << away << " from the apex: tangent error " << error << ", q "
-              << deviatoric_stress(Split<double>(end.stress), moduli.weight) << " Pa\n";
+              << deviatoric_stress(Split<double>(end.stress), moduli) << " Pa\n";
     // The direction of s / q is a quotient of numbers that are `away` of the trial stress: rounding / away.
     EXPECT_LE(error, 1e-14 / away + 1e-12);
   }

@@ -90,7 +90,7 @@ TEST(Mobilised, InPlaneAnglesDoNotDependOnTheAxes) {
 }
 
 TEST(PlasticStrain, WithoutCosseratModulusTheSkewPartIsElastic) {
-  ElasticParameters elastic = sand_elasticity();
+  ElasticParameters<2> elastic = sand_elasticity();
   elastic.cosserat_shear_modulus = 0.0;
   const SubspaceModuli moduli(elastic, {});
   ScaledVector<double> strain = ScaledVector<double>::Zero();

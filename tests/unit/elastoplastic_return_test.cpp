@@ -101,8 +101,8 @@ TEST_P(ReturnMapping, EndsOnOrInsideTheCone) {
     const Cone<double> cone = cone_at(gamma_p + end.gamma_increment);
     const Split<double> split(end.stress);
     const Split<double> trial_split(trial);
-    const double q = deviatoric_stress(split, moduli.weight);
-    const double scale = deviatoric_stress(trial_split, moduli.weight) + cone.cohesion +
+    const double q = deviatoric_stress(split, moduli);
+    const double scale = deviatoric_stress(trial_split, moduli) + cone.cohesion +
                          cone.friction * std::abs(trial_split.mean);
     const double yield = cone.yield_function(q, split.mean) / scale;
     if (end.regime == Regime::elastic) {
@@ -197,7 +197,7 @@ TEST(ReturnMappingClosedForm, LinearCohesionSoftening) {
   ScaledVector<double> strain;
   strain << 2e-3, -9e-3, 0.0, 4e-3, 1e-3, 2e-3, -1e-3;
   const Split<double> trial(elastic_stress(moduli, strain));
-  const double yield = deviatoric_stress(trial, moduli.weight) + 0.8 * trial.mean - 100e3;
+  const double yield = deviatoric_stress(trial, moduli) + 0.8 * trial.mean - 100e3;
   const double expected = yield / (3.0 * moduli.shear() + moduli.bulk * 0.8 * 0.3 + slope);
   const ConeReturn<double> end = step(strain, 0.0, moduli, cone);
   ASSERT_EQ(end.regime, Regime::smooth);

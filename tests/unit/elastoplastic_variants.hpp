@@ -25,8 +25,8 @@ inline void PrintTo(const Variant& variant, std::ostream* out) {
 inline const InvariantWeights kStatic{3.0 / 8.0, 1.0 / 8.0, 1.0 / 4.0};
 inline const InvariantWeights kKinematic{3.0 / 4.0, -1.0 / 4.0, 1.0 / 8.0};
 
-inline ElasticParameters sand_elasticity() {
-  ElasticParameters elastic;
+inline ElasticParameters<2> sand_elasticity() {
+  ElasticParameters<2> elastic;
   elastic.young_modulus = 50e6;
   elastic.poisson_ratio = 0.3;
   elastic.cosserat_shear_modulus = 10e6;

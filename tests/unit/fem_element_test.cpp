@@ -16,9 +16,9 @@ namespace {
 class EveryElement : public testing::TestWithParam<std::string> {
  protected:
   /// One strongly distorted element with curved sides where it has middle nodes.
-  Mesh distorted() const {
-    const ElementType& type = element_type(GetParam());
-    Mesh mesh;
+  Mesh<2> distorted() const {
+    const ElementType<2>& type = element_type<2>(GetParam());
+    Mesh<2> mesh;
     mesh.elements.push_back({&type, {}});
     for (int a = 0; a < type.nodes; ++a) {
       const double x = type.node_positions[a](0);
@@ -30,7 +30,7 @@ class EveryElement : public testing::TestWithParam<std::string> {
     return mesh;
   }
 
-  static Eigen::VectorXd rigid_motion(const Mesh& mesh, double a, double b, double rotation) {
+  static Eigen::VectorXd rigid_motion(const Mesh<2>& mesh, double a, double b, double rotation) {
     Eigen::VectorXd nodal(3 * mesh.nodes.size());
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
       nodal.segment<3>(3 * n) << a - rotation * mesh.nodes[n](1), b + rotation * mesh.nodes[n](0), rotation;
@@ -40,20 +40,20 @@ class EveryElement : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(EveryElement, shape_functions_are_one_at_their_node_and_sum_to_one) {
-  const ElementType& type = element_type(GetParam());
+  const ElementType<2>& type = element_type<2>(GetParam());
   for (int a = 0; a < type.nodes; ++a) {
-    const ShapeFunctions shape = type.shape_functions(type.node_positions[a]);
+    const ShapeFunctions<2> shape = type.shape_functions(type.node_positions[a]);
     EXPECT_LT((shape.value - Eigen::VectorXd::Unit(type.nodes, a)).norm(), 1e-15);
   }
-  for (const QuadraturePoint& point : type.quadrature) {
+  for (const QuadraturePoint<2>& point : type.quadrature) {
     EXPECT_NEAR(type.shape_functions(point.position).value.sum(), 1.0, 1e-15);
   }
 }
 
 TEST_P(EveryElement, derivatives_of_the_shape_functions_are_their_differences) {
-  const ElementType& type = element_type(GetParam());
+  const ElementType<2>& type = element_type<2>(GetParam());
   const Eigen::Vector2d place(0.21, 0.37);
-  const ShapeFunctions shape = type.shape_functions(place);
+  const ShapeFunctions<2> shape = type.shape_functions(place);
   constexpr double kStep = 1e-5;  // central differences of a cubic: error 1e-10, rounding 1e-11
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(i);
@@ -64,19 +64,19 @@ TEST_P(EveryElement, derivatives_of_the_shape_functions_are_their_differences) {
 }
 
 TEST_P(EveryElement, rigid_motion_gives_no_strain) {
-  const Mesh mesh = distorted();
-  const Discretisation discretisation(mesh, Continuum::cosserat);
-  for (const Increment& increment : discretisation.increments(rigid_motion(mesh, 0.3, -0.7, 0.9))) {
+  const Mesh<2> mesh = distorted();
+  const Discretisation<2> discretisation(mesh, Continuum::cosserat);
+  for (const Increment<2>& increment : discretisation.increments(rigid_motion(mesh, 0.3, -0.7, 0.9))) {
     EXPECT_LT(increment.strain().norm(), 1e-14);
     EXPECT_NEAR(increment.micro_rotation, 0.9, 1e-14);
   }
 }
 
 TEST_P(EveryElement, increments_agree_with_the_strain_matrix) {
-  const Mesh mesh = distorted();
+  const Mesh<2> mesh = distorted();
   const Eigen::VectorXd nodal = Eigen::VectorXd::LinSpaced(3 * mesh.nodes.size(), -1.0, 2.0).array().sin();
   for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
-    for (const PointGeometry& point : point_geometries(*mesh.elements[0].type, mesh.element_positions(0))) {
+    for (const PointGeometry<2>& point : point_geometries(*mesh.elements[0].type, mesh.element_positions(0))) {
       const Vector7 direct = increment_at(point, continuum, nodal).strain();
       EXPECT_LT((direct - strain_matrix(point, continuum) * nodal).norm(), 1e-14);
     }
@@ -84,11 +84,11 @@ TEST_P(EveryElement, increments_agree_with_the_strain_matrix) {
 }
 
 TEST_P(EveryElement, has_three_zero_modes_when_distorted) {
-  const Mesh mesh = distorted();
-  ElasticParameters parameters{1.0, 0.3, 0.4, 0.5, Vector7::Zero()};
-  std::vector<Response> responses(mesh.elements[0].type->quadrature.size());
-  for (Response& response : responses) response.tangent = elastic_stiffness(parameters);
-  const Discretisation discretisation(mesh, Continuum::cosserat);
+  const Mesh<2> mesh = distorted();
+  ElasticParameters<2> parameters{1.0, 0.3, 0.4, 0.5, Vector7::Zero()};
+  std::vector<Response<2>> responses(mesh.elements[0].type->quadrature.size());
+  for (Response<2>& response : responses) response.tangent = elastic_stiffness(parameters);
+  const Discretisation<2> discretisation(mesh, Continuum::cosserat);
   const Eigen::MatrixXd stiffness = discretisation.element_tangent(0, {responses});
   EXPECT_LT((stiffness - stiffness.transpose()).norm(), 1e-14);
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
@@ -99,6 +99,6 @@ TEST_P(EveryElement, has_three_zero_modes_when_distorted) {
   EXPECT_GT(values(3) / largest, 1e-4);             // ten orders above rounding: a real stiffness
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
 
 }  // namespace

@@ -20,19 +20,19 @@ namespace {
 
 constexpr double kPressure = 100e3;
 
-ElasticParameters sand() {
-  ElasticParameters parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
+ElasticParameters<2> sand() {
+  ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
   for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -kPressure;
   return parameters;
 }
 
-std::shared_ptr<Material> elastic() {
-  return std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(sand()));
+std::shared_ptr<Material<2>> elastic() {
+  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand()));
 }
 
 /// Compression between rough plates, so that the stress is not uniform.
-Problem biaxial(Deformation deformation = Deformation::small, double shortening = 0.0008) {
-  Problem problem;
+Problem<2> biaxial(Deformation deformation = Deformation::small, double shortening = 0.0008) {
+  Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {2, 4}});
   problem.deformation = deformation;
   problem.materials["all"] = elastic();
@@ -41,12 +41,12 @@ Problem biaxial(Deformation deformation = Deformation::small, double shortening 
                         {"bottom", Dof::u2, zero, {}},
                         {"top", Dof::u1, zero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-shortening), {}}};
-  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(kPressure)},
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(kPressure)},
                         {.on = "right", .pressure = TimeTable::constant(kPressure)}};
   return problem;
 }
 
-double force_on_top(const Solver& solver) {
+double force_on_top(const Solver<2>& solver) {
   return solver.reaction("top")(1);
 }
 
@@ -66,11 +66,11 @@ TEST(explicit_pace, comes_to_its_speed_evenly_and_ends_where_it_should) {
 // Every element type: the largest eigenvalue of the whole mesh, supports left out, is at most 4 safety^2, and not far below.
 TEST(nodal_masses, make_steps_of_one_stable_and_not_much_slower) {
   for (const char* const type : {"Q4", "Q8", "Q8R", "T6"}) {
-    const Mesh mesh = rectangle({{0.04, 0.06}, {2, 3}}, type);
-    const Discretisation discretisation(mesh, Continuum::cosserat);
-    std::vector<Response> answers(discretisation.points());
-    for (Response& answer : answers) answer.tangent = elastic_stiffness(sand());
-    const Linearisation of{answers};
+    const Mesh<2> mesh = rectangle({{0.04, 0.06}, {2, 3}}, type);
+    const Discretisation<2> discretisation(mesh, Continuum::cosserat);
+    std::vector<Response<2>> answers(discretisation.points());
+    for (Response<2>& answer : answers) answer.tangent = elastic_stiffness(sand());
+    const Linearisation<2> of{answers};
     const Eigen::VectorXd masses = nodal_masses(discretisation, of, 0.6);
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses.size(), masses.size());
     for (std::size_t e = 0; e < discretisation.elements(); ++e)
@@ -89,11 +89,11 @@ TEST(nodal_masses, make_steps_of_one_stable_and_not_much_slower) {
 // The mean over a row of steps is compared: waves come and go.
 TEST(explicit_steps, agree_with_newton_where_they_are_slow) {
   for (const Deformation deformation : {Deformation::small, Deformation::large}) {
-    Solver newton(biaxial(deformation), {});
+    Solver<2> newton(biaxial(deformation), {});
     ASSERT_TRUE(newton.equilibrate().converged);
     ASSERT_TRUE(newton.advance(1.0).converged);
     for (const int steps : {500, 4000}) {
-      Solver slow(biaxial(deformation), {});
+      Solver<2> slow(biaxial(deformation), {});
       ASSERT_TRUE(slow.begin_explicit().converged);
       const StepReport report = slow.advance_explicit(1.0, steps);
       ASSERT_TRUE(report.converged) << report.message;
@@ -110,24 +110,24 @@ TEST(explicit_steps, agree_with_newton_where_they_are_slow) {
 
 // A bar, one element wide, is hit at one end: the front runs at sqrt(M / rho), rho from the masses.
 TEST(explicit_steps, send_waves_at_the_speed_of_the_modulus) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{1.0, 0.02}, {50, 1}});
   problem.continuum = Continuum::cauchy;
-  ElasticParameters parameters = sand();
+  ElasticParameters<2> parameters = sand();
   parameters.initial_stress.setZero();
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {{"bottom", Dof::u2, zero, {}},
                         {"top", Dof::u2, zero, {}},
                         {"right", Dof::u1, zero, {}},
                         {"left", Dof::u1, TimeTable::ramp(0.02), {}}};
-  Solver solver(problem, {});
+  Solver<2> solver(problem, {});
   ASSERT_TRUE(solver.begin_explicit().converged);
   constexpr int kSteps = 140;
   ASSERT_TRUE(solver.advance_explicit(1.0, kSteps, {.ramp = 20}).converged);
-  const Discretisation discretisation(problem.mesh, problem.continuum);
-  std::vector<Response> answers(discretisation.points());
-  for (Response& answer : answers) answer.tangent = elastic_stiffness(parameters);
+  const Discretisation<2> discretisation(problem.mesh, problem.continuum);
+  std::vector<Response<2>> answers(discretisation.points());
+  for (Response<2>& answer : answers) answer.tangent = elastic_stiffness(parameters);
   const double mass =
       nodal_masses(discretisation, {answers}, 0.6).sum();  // of two directions, and nothing else
   double volume = 0.0;
@@ -150,7 +150,7 @@ TEST(explicit_steps, send_waves_at_the_speed_of_the_modulus) {
 TEST(explicit_steps, tell_when_they_are_unstable) {
   SolverOptions options;
   options.largest_strain = 0.05;
-  Solver solver(biaxial(), options);
+  Solver<2> solver(biaxial(), options);
   ASSERT_TRUE(solver.begin_explicit().converged);
   const StepReport report = solver.advance_explicit(1.0, 3000, {.safety = 1.2});
   EXPECT_FALSE(report.converged);
@@ -160,25 +160,25 @@ TEST(explicit_steps, tell_when_they_are_unstable) {
 
 // Forces that are out of balance at time 0 come in, and do not hit.
 TEST(explicit_steps, let_imbalance_in_slowly) {
-  Problem problem = biaxial(Deformation::small, 0.0);
-  problem.edge_loads[0].pressure = problem.edge_loads[1].pressure = TimeTable::constant(0.5 * kPressure);
-  Solver newton(problem, {});
+  Problem<2> problem = biaxial(Deformation::small, 0.0);
+  problem.boundary_loads[0].pressure = problem.boundary_loads[1].pressure = TimeTable::constant(0.5 * kPressure);
+  Solver<2> newton(problem, {});
   ASSERT_TRUE(newton.equilibrate().converged);
   problem.materials["all"] = elastic();
-  Solver solver(problem, {});
+  Solver<2> solver(problem, {});
   ASSERT_TRUE(solver.begin_explicit().converged);
   ASSERT_TRUE(solver.advance_explicit(1.0, 4000).converged);
   EXPECT_NEAR(force_on_top(solver), force_on_top(newton), 0.005 * std::abs(force_on_top(newton)));
 }
 
 TEST(explicit_steps, go_on_from_an_archive_to_the_same_bits) {
-  Solver through(biaxial(), {});
+  Solver<2> through(biaxial(), {});
   ASSERT_TRUE(through.begin_explicit().converged);
   ASSERT_TRUE(through.advance_explicit(0.5, 200).converged);
   MemoryArchive archive;
   through.save(archive);
   ASSERT_TRUE(through.advance_explicit(1.0, 200).converged);
-  Solver again(biaxial(), {});
+  Solver<2> again(biaxial(), {});
   again.restore(archive);
   ASSERT_TRUE(again.advance_explicit(1.0, 200).converged);
   EXPECT_EQ(again.state().displacement, through.state().displacement);

@@ -19,14 +19,14 @@ namespace {
 constexpr double kWeight = 18e3;
 
 /// A block of ground 4 m wide and 3 m deep between smooth walls.
-Problem ground(const std::string& element) {
-  ElastoplasticParameters parameters;
+Problem<2> ground(const std::string& element) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {40e6, 0.3, 10e6, 0.01, Vector7::Zero()};
   const FrozenCone cone = cone_from_plane_strain({35, 5, 1e3});
   parameters.cone = {cone.friction, cone.dilatancy, cone.cohesion};
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{4.0, 3.0}, {4, 3}}, element);
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {
       {"left", Dof::u1, zero, {}}, {"right", Dof::u1, zero, {}}, {"bottom", Dof::u2, zero, {}}};
@@ -36,11 +36,11 @@ Problem ground(const std::string& element) {
 class EveryElement : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryElement, ground_at_rest_stays_at_rest) {
-  Problem problem = ground(GetParam());
+  Problem<2> problem = ground(GetParam());
   problem.body_loads = {gravity(kWeight)};
   problem.initial_stresses = {geostatic_stress({3.0, kWeight, 0.5, 10e3})};
-  problem.edge_loads = {{.on = "top", .pressure = TimeTable::constant(10e3)}};
-  Solver solver(std::move(problem), {});
+  problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(10e3)}};
+  Solver<2> solver(std::move(problem), {});
   const StepReport report = solver.equilibrate();
   EXPECT_TRUE(report.converged) << report.message;
   EXPECT_EQ(report.iterations, 0);
@@ -50,13 +50,13 @@ TEST_P(EveryElement, ground_at_rest_stays_at_rest) {
   EXPECT_NEAR(solver.reaction("left")(0) / (0.5 * (3 * 3 / 2.0 * kWeight + 3 * 10e3)), 1.0, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
 
 TEST(gravity, switched_on_slowly_gives_the_elastic_pressure_at_rest) {
   // Confined elastic compression: K0 = nu / (1 - nu); it stays inside the cone.
-  Problem problem = ground("Q8R");
+  Problem<2> problem = ground("Q8R");
   problem.body_loads = {gravity(kWeight, TimeTable::ramp(1.0))};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (const double time : {0.5, 1.0}) ASSERT_TRUE(solver.advance(time).converged);
   for (std::size_t point = 0; point < solver.points(); ++point) {
@@ -69,10 +69,10 @@ TEST(gravity, switched_on_slowly_gives_the_elastic_pressure_at_rest) {
 
 TEST(loads, come_in_stages) {
   // Gravity first, then a surcharge, each while the other rests: time tables make the stages.
-  Problem problem = ground("Q8R");
+  Problem<2> problem = ground("Q8R");
   problem.body_loads = {gravity(kWeight, TimeTable({{0, 0}, {1, 1}}))};
-  problem.edge_loads = {{.on = "top", .pressure = TimeTable({{1, 0}, {2, 30e3}})}};
-  Solver solver(std::move(problem), {});
+  problem.boundary_loads = {{.on = "top", .pressure = TimeTable({{1, 0}, {2, 30e3}})}};
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   EXPECT_NEAR(solver.reaction("bottom")(1), 4 * 3 * kWeight, 1e-3);
@@ -84,12 +84,12 @@ TEST(initial_stress, is_refused_by_materials_that_bring_their_own) {
   struct OwnStressLaw {
     struct State {};
     State initial_state() const { return {}; }
-    Response integrate(const State&, const Increment&, State&) const { return {}; }
+    Response<2> integrate(const State&, const Increment<2>&, State&) const { return {}; }
   };
-  Problem problem = ground("Q8R");
+  Problem<2> problem = ground("Q8R");
   problem.materials["all"] = std::make_shared<LocalMaterial<OwnStressLaw>>(OwnStressLaw{});
   problem.initial_stresses = {geostatic_stress({3.0, kWeight, 0.5, 0.0})};
-  EXPECT_THROW(Solver(std::move(problem), {}), RunError);
+  EXPECT_THROW(Solver<2>(std::move(problem), {}), RunError);
 }
 
 }  // namespace

@@ -24,12 +24,12 @@ class GmshFile : public testing::TestWithParam<std::string> {};
 /// `soft` and `stiff`; Gmsh's surface of the second is clockwise, and one of its points belongs to no
 /// element.
 TEST_P(GmshFile, has_its_groups_and_counter_clockwise_elements) {
-  const Mesh mesh = read_gmsh(kData / GetParam());
+  const Mesh<2> mesh = read_gmsh(kData / GetParam());
   EXPECT_TRUE(distorted_elements(mesh).empty());
   for (const char* region : {"soft", "stiff"}) {
     double area = 0.0;
     for (const int e : mesh.regions.at(region)) {
-      for (const PointGeometry& point :
+      for (const PointGeometry<2>& point :
            point_geometries(*mesh.elements[static_cast<std::size_t>(e)].type, mesh.element_positions(e))) {
         area += point.volume;
         EXPECT_EQ(point.position(0) < 1.0, std::string(region) == "soft");
@@ -42,8 +42,8 @@ TEST_P(GmshFile, has_its_groups_and_counter_clockwise_elements) {
   for (const auto& [name, expected] : lengths) {
     double length = 0.0;
     Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
-    for (const Edge& edge : mesh.boundaries.at(name)) {
-      const std::vector<int> nodes = mesh.edge_nodes(edge);
+    for (const BoundarySide& edge : mesh.boundaries.at(name)) {
+      const std::vector<int> nodes = mesh.side_nodes(edge);
       const Eigen::Vector2d along = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
       length += along.norm();
       outwards += Eigen::Vector2d(along(1), -along(0));
@@ -63,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Files, GmshFile,
                                          "two_blocks_t6_msh2.msh", "two_blocks_t6_msh4.msh"));
 
 TEST(gmsh, both_versions_of_the_format_give_the_same_mesh) {
-  const Mesh two = read_gmsh(kData / "two_blocks_q8_msh2.msh");
-  const Mesh four = read_gmsh(kData / "two_blocks_q8_msh4.msh");
+  const Mesh<2> two = read_gmsh(kData / "two_blocks_q8_msh2.msh");
+  const Mesh<2> four = read_gmsh(kData / "two_blocks_q8_msh4.msh");
   EXPECT_EQ(two.nodes.size(), four.nodes.size());
   EXPECT_EQ(two.elements.size(), 8U);
   EXPECT_EQ(four.elements.size(), 8U);

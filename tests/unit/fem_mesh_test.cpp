@@ -12,10 +12,10 @@ namespace {
 
 class EveryElement : public testing::TestWithParam<std::string> {};
 
-double area(const Mesh& mesh) {
+double area(const Mesh<2>& mesh) {
   double sum = 0.0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    for (const PointGeometry& point :
+    for (const PointGeometry<2>& point :
          point_geometries(*mesh.elements[e].type, mesh.element_positions(static_cast<int>(e)))) {
       sum += point.volume;
     }
@@ -24,19 +24,19 @@ double area(const Mesh& mesh) {
 }
 
 TEST_P(EveryElement, fills_a_rectangle) {
-  const Mesh mesh = rectangle({{0.04, 0.08}, {3, 5}, {1.0, -2.0}}, GetParam());
+  const Mesh<2> mesh = rectangle({{0.04, 0.08}, {3, 5}, {1.0, -2.0}}, GetParam());
   EXPECT_TRUE(distorted_elements(mesh).empty());
   EXPECT_NEAR(area(mesh), 0.04 * 0.08, 1e-16);  // quadrature of a constant: rounding only
 }
 
 TEST_P(EveryElement, boundaries_lie_on_the_outline_and_point_outwards) {
-  const Mesh mesh = rectangle({{2.0, 1.0}, {3, 2}}, GetParam());
+  const Mesh<2> mesh = rectangle({{2.0, 1.0}, {3, 2}}, GetParam());
   const std::map<std::string, Eigen::Vector2d> normals{
       {"left", {-1, 0}}, {"right", {1, 0}}, {"bottom", {0, -1}}, {"top", {0, 1}}};
   for (const auto& [name, normal] : normals) {
     double length = 0.0;
-    for (const Edge& edge : mesh.boundaries.at(name)) {
-      const std::vector<int> numbers = mesh.edge_nodes(edge);
+    for (const BoundarySide& edge : mesh.boundaries.at(name)) {
+      const std::vector<int> numbers = mesh.side_nodes(edge);
       const Eigen::Vector2d along = mesh.nodes[numbers[1]] - mesh.nodes[numbers[0]];
       EXPECT_NEAR(Eigen::Vector2d(along(1), -along(0)).normalized().dot(normal), 1.0, 1e-15) << name;
       length += along.norm();
@@ -53,10 +53,10 @@ TEST_P(EveryElement, boundaries_lie_on_the_outline_and_point_outwards) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
 
 TEST(rectangle, names_its_corners) {
-  const Mesh mesh = rectangle({{2.0, 1.0}, {3, 2}});
+  const Mesh<2> mesh = rectangle({{2.0, 1.0}, {3, 2}});
   EXPECT_EQ(mesh.nodes[mesh.nodes_on("top_right").at(0)], Eigen::Vector2d(2.0, 1.0));
   EXPECT_EQ(mesh.nodes[mesh.nodes_on("bottom_left").at(0)], Eigen::Vector2d(0.0, 0.0));
   EXPECT_EQ(mesh.nodes_on("all").size(), 4U * 3U + 3U * 3U + 4U * 2U);
@@ -69,7 +69,7 @@ TEST(rectangle, refuses_what_it_cannot_divide) {
 }
 
 TEST(mesh, names_a_distorted_element) {
-  Mesh mesh = rectangle({{2.0, 1.0}, {2, 1}}, "Q4");
+  Mesh<2> mesh = rectangle({{2.0, 1.0}, {2, 1}}, "Q4");
   std::swap(mesh.elements[1].nodes[0], mesh.elements[1].nodes[2]);
   std::swap(mesh.elements[1].nodes[0], mesh.elements[1].nodes[1]);
   const auto messages = distorted_elements(mesh);
@@ -78,7 +78,7 @@ TEST(mesh, names_a_distorted_element) {
 }
 
 TEST(mesh, unknown_names_are_an_error_that_lists_the_known_ones) {
-  const Mesh mesh = rectangle({{2.0, 1.0}, {2, 1}});
+  const Mesh<2> mesh = rectangle({{2.0, 1.0}, {2, 1}});
   try {
     (void)mesh.nodes_on("topp");
     FAIL();

@@ -22,10 +22,10 @@ using namespace polargrain::fem;
 namespace {
 
 const TimeTable kZero = TimeTable::constant(0.0);
-const ElasticParameters kSand{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
+const ElasticParameters<2> kSand{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
 
 /// Seed of a sequence of random numbers: the bits of an increment.
-std::uint64_t bits_of(const Increment& increment) {
+std::uint64_t bits_of(const Increment<2>& increment) {
   std::uint64_t hash = 1469598103934665603U;
   const auto add = [&](double value) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211U;
@@ -49,9 +49,9 @@ struct GrainyLaw {
   double* largest_asked = nullptr;
 
   State initial_state() const { return {}; }
-  Response integrate(const State& start, const Increment& increment, State& trial) const {
+  Response<2> integrate(const State& start, const Increment<2>& increment, State& trial) const {
     const Matrix7 stiffness = elastic_stiffness(kSand);
-    Response response;
+    Response<2> response;
     const Vector7 strain = increment.strain();
     trial.strain = start.strain + strain;
     const double factor = 1.0 + nonlinearity * trial.strain.head<5>().squaredNorm();
@@ -82,13 +82,13 @@ struct GrainyLaw {
   }
 };
 
-std::shared_ptr<Material> grainy(const GrainyLaw& law) {
+std::shared_ptr<Material<2>> grainy(const GrainyLaw& law) {
   return std::make_shared<LocalMaterial<GrainyLaw>>(law);
 }
 
 /// Compression by 1 % of strain between rough plates.
-Problem block(const GrainyLaw& law) {
-  Problem problem;
+Problem<2> block(const GrainyLaw& law) {
+  Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {3, 6}});
   problem.materials["all"] = grainy(law);
   problem.prescribed = {{"bottom", Dof::u1, kZero, {}},
@@ -99,25 +99,25 @@ Problem block(const GrainyLaw& law) {
 }
 
 StepReport compress(const GrainyLaw& law, const SolverOptions& options) {
-  Solver solver(block(law), options);
+  Solver<2> solver(block(law), options);
   EXPECT_TRUE(solver.equilibrate().converged);
   return solver.advance(1.0);
 }
 
 TEST(noise, what_it_leaves_of_the_residual_is_foreseen) {
-  const Problem problem = block({});
+  const Problem<2> problem = block({});
   for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
-    const Discretisation discretisation(problem.mesh, continuum);
-    std::vector<Response> responses(discretisation.points());
+    const Discretisation<2> discretisation(problem.mesh, continuum);
+    std::vector<Response<2>> responses(discretisation.points());
     const StressNoise noise{100.0, 40.0, 0.3};
-    for (Response& response : responses) response.noise = noise;
+    for (Response<2>& response : responses) response.noise = noise;
     const Eigen::VectorXd expected = forces_of_noise(discretisation, continuum, responses);
     std::mt19937_64 generator(7);
     std::normal_distribution<double> normal;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(expected.size());
     constexpr int kSamples = 4000;
     for (int sample = 0; sample < kSamples; ++sample) {
-      for (Response& response : responses) {
+      for (Response<2>& response : responses) {
         const double shear = noise.symmetric * normal(generator);
         const double skew = noise.skew * normal(generator);
         response.stress << noise.symmetric * normal(generator), noise.symmetric * normal(generator), 0.0,
@@ -260,13 +260,13 @@ TEST(acceleration, takes_no_jump_for_stiffness) {
 }
 
 TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_at_once) {
-  Problem problem = block({.fails_beyond = 0.003});
+  Problem<2> problem = block({.fails_beyond = 0.003});
   problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
                         {"bottom_left", Dof::u1, kZero, {}},
                         {"top", Dof::u2, TimeTable::constant(-0.0008), {}}};
-  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)},
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)},
                         {.on = "right", .pressure = TimeTable::constant(100e3)}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   const StepReport report = solver.equilibrate();
   ASSERT_TRUE(report.converged) << report.message;
   EXPECT_GE(report.cuts, 2);
@@ -281,9 +281,9 @@ TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_a
 }
 
 TEST(equilibrate, gives_up_with_a_reason) {
-  Problem problem = block({.fails_beyond = 1e-7});
-  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)}};
-  Solver solver(std::move(problem), {});
+  Problem<2> problem = block({.fails_beyond = 1e-7});
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)}};
+  Solver<2> solver(std::move(problem), {});
   const StepReport report = solver.equilibrate();
   EXPECT_FALSE(report.converged);
   EXPECT_NE(report.message.find("too long a step"), std::string::npos) << report.message;
@@ -293,7 +293,7 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
   double asked = 0.0;
   enum class Control { time, measure };
   const auto column = [&](SolverOptions options, Control control) {
-    Problem problem = block({.largest_asked = &asked});
+    Problem<2> problem = block({.largest_asked = &asked});
     problem.mesh = rectangle({{0.04, 0.08}, {1, 20}});
     problem.mesh.regions["band"] = {10};
     for (int e = 0; e < 20; ++e) {
@@ -304,7 +304,7 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
     problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
                           {"bottom_left", Dof::u1, kZero, {}},
                           {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
-    Solver solver(std::move(problem), options);
+    Solver<2> solver(std::move(problem), options);
     EXPECT_TRUE(solver.equilibrate().converged);
     EXPECT_TRUE(solver.advance(0.25).converged);
     asked = 0.0;
@@ -336,7 +336,7 @@ TEST(absurd_corrections, cut_the_step_when_there_is_no_other_way) {
   double asked = 0.0;
   SolverOptions options;
   options.largest_strain = 0.004;
-  Solver solver(block({.largest_asked = &asked}), options);
+  Solver<2> solver(block({.largest_asked = &asked}), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);  // a strain of more than 0.01 at once
   ASSERT_TRUE(report.converged) << report.message;
@@ -346,14 +346,14 @@ TEST(absurd_corrections, cut_the_step_when_there_is_no_other_way) {
 }
 
 TEST(rotations, that_nothing_resists_are_refused_before_the_first_iteration) {
-  ElasticParameters parameters = kSand;
+  ElasticParameters<2> parameters = kSand;
   parameters.cosserat_shear_modulus = 0.0;
   const auto equilibrate = [&](bool fixed, double internal_length) {
     parameters.internal_length = internal_length;
-    Problem problem = block({});
-    problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+    Problem<2> problem = block({});
+    problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
     if (fixed) problem.prescribed.push_back({"bottom_left", Dof::w, kZero, {}});
-    Solver solver(std::move(problem), {});
+    Solver<2> solver(std::move(problem), {});
     StepReport report = solver.equilibrate();
     if (report.converged) report = solver.advance(1.0);
     return report;

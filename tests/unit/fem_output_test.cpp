@@ -59,8 +59,8 @@ std::map<std::string, std::vector<std::string>> run(const std::string& command) 
 }
 
 /// A law with a field to show: the number of the component it is asked for is irrelevant, the value is fixed.
-struct ShowingLaw : ElasticLaw {
-  using ElasticLaw::ElasticLaw;
+struct ShowingLaw : ElasticLaw<2> {
+  using ElasticLaw<2>::ElasticLaw;
   static std::vector<std::string> field_names() { return {"void_ratio"}; }
   void fields(const State&, std::span<double> values) const { values[0] = 0.62; }
 };
@@ -78,15 +78,15 @@ class Output : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Output, is_read_back_by_vtk) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{2.0, 1.0}, {3, 2}}, GetParam());
   problem.materials["all"] = std::make_shared<LocalMaterial<ShowingLaw>>(
-      ShowingLaw(ElasticParameters{100.0, 0.25, 20.0, 0.1, Vector7::Zero()}));
+      ShowingLaw(ElasticParameters<2>{100.0, 0.25, 20.0, 0.1, Vector7::Zero()}));
   // Homogeneous: u1 = 0.01 x, u2 = 0, w = 0.
   problem.prescribed = {
       {"all", Dof::u1, TimeTable::ramp(0.01), [](const Eigen::Vector2d& x) { return x(0); }},
       {"all", Dof::u2, TimeTable::constant(0.0), {}}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   const std::filesystem::path file = folder_ / "fields_0001.vtu";
@@ -103,7 +103,7 @@ TEST_P(Output, is_read_back_by_vtk) {
   EXPECT_EQ(find_field(again.fields.cells, "stress")->unit, "Pa");
 
   auto lines = run("/usr/bin/python3 " VTK_READER " " + file.string());
-  const Mesh& mesh = solver.problem().mesh;
+  const Mesh<2>& mesh = solver.problem().mesh;
   EXPECT_EQ(lines["grid"],
             (std::vector<std::string>{std::to_string(mesh.nodes.size()), std::to_string(mesh.elements.size()),
                                       std::to_string(mesh.elements[0].type->vtk_cell_type), "0.0", "2.0",
@@ -130,15 +130,15 @@ TEST_P(Output, is_read_back_by_vtk) {
 // (lambda = G = 40), so p = 200/3 c x, q = 80 c x, q / p = 1.2, and sin of the mobilised angle is (120 - 40) / (120 + 40).
 TEST(fields, engineers_read_are_exact_at_points_and_at_nodes) {
   constexpr double c = 0.01;
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{2.0, 1.0}, {3, 2}}, "Q8R");
   problem.materials["all"] = std::make_shared<LocalMaterial<ShowingLaw>>(
-      ShowingLaw(ElasticParameters{100.0, 0.25, 20.0, 0.1, Vector7::Zero()}));
+      ShowingLaw(ElasticParameters<2>{100.0, 0.25, 20.0, 0.1, Vector7::Zero()}));
   problem.prescribed = {
       {"all", Dof::u1, TimeTable::ramp(-0.5 * c), [](const Eigen::Vector2d& x) { return x(0) * x(0); }},
       {"all", Dof::u2, TimeTable::constant(0.0), {}},
       {"all", Dof::w, TimeTable::ramp(0.02), {}}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   const std::vector<Eigen::Vector2d>& nodes = solver.problem().mesh.nodes;
@@ -239,7 +239,7 @@ TEST(pvd, lists_its_files) {
 
 TEST(read_vtu, refuses_what_does_not_fit_together) {
   const auto file = own_file("fem_output_refused.vtu");
-  const Mesh mesh = rectangle({{1.0, 1.0}, {1, 1}});
+  const Mesh<2> mesh = rectangle({{1.0, 1.0}, {1, 1}});
   write_vtu(file, mesh, {{{"displacement", 3, std::vector<double>(3 * mesh.nodes.size(), 0.0)}}, {}});
   std::ifstream stream(file);
   const std::string whole{std::istreambuf_iterator<char>(stream), {}};

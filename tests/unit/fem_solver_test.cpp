@@ -20,31 +20,31 @@ namespace {
 
 const TimeTable kZero = TimeTable::constant(0.0);
 
-ElasticParameters sand(double confining = 0.0) {
-  ElasticParameters parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
+ElasticParameters<2> sand(double confining = 0.0) {
+  ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
   for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -confining;
   return parameters;
 }
 
 /// Compression between smooth plates, with lateral pressure.
-Problem biaxial(std::shared_ptr<Material> material, double confining = 100e3) {
-  Problem problem;
+Problem<2> biaxial(std::shared_ptr<Material<2>> material, double confining = 100e3) {
+  Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {2, 4}});
   problem.materials["all"] = std::move(material);
   problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
                         {"bottom_left", Dof::u1, kZero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
-  problem.edge_loads = {{.on = "left", .pressure = TimeTable::constant(confining)},
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(confining)},
                         {.on = "right", .pressure = TimeTable::constant(confining)}};
   return problem;
 }
 
-std::shared_ptr<Material> elastic(double confining) {
-  return std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(sand(confining)));
+std::shared_ptr<Material<2>> elastic(double confining) {
+  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand(confining)));
 }
 
 TEST(solver, starts_in_balance_without_an_iteration) {
-  Solver solver(biaxial(elastic(100e3)), {});
+  Solver<2> solver(biaxial(elastic(100e3)), {});
   const StepReport report = solver.equilibrate();
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, 0);
@@ -53,24 +53,24 @@ TEST(solver, starts_in_balance_without_an_iteration) {
 }
 
 TEST(solver, finds_the_balance_of_stresses_that_do_not_fit_the_loads) {
-  Solver solver(biaxial(elastic(80e3)), {});
+  Solver<2> solver(biaxial(elastic(80e3)), {});
   const StepReport report = solver.equilibrate();
   EXPECT_TRUE(report.converged) << report.message;
   EXPECT_EQ(report.iterations, 1);
-  for (const Response& response : solver.state().responses) {
+  for (const Response<2>& response : solver.state().responses) {
     EXPECT_NEAR(response.stress(k11), -100e3, 1e-4);                    // 1e-9 of the pressure
     EXPECT_NEAR(response.stress(k22), -80e3 - 0.3 / 0.7 * 20e3, 1e-4);  // uniaxial strain
   }
 }
 
 /// Elastic, and once, when it is asked to confirm its answers, twice as stiff from the start of the step.
-class SecondThoughts : public Material {
+class SecondThoughts : public Material<2> {
  public:
   int asked = 0;
   int committed_after = 0;  ///< times it had been asked at the last commit
 
   void allocate(std::size_t points) override { strain_.assign(points, Vector7::Zero()); }
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override {
     trial_.clear();
     for (std::size_t point = 0; point < strain_.size(); ++point) {
       trial_.push_back(strain_[point] + increments[point].strain());
@@ -95,7 +95,7 @@ class SecondThoughts : public Material {
 
 TEST(solver, a_step_is_committed_only_when_its_materials_confirm_it) {
   const auto material = std::make_shared<SecondThoughts>();
-  Solver solver(biaxial(material), {});
+  Solver<2> solver(biaxial(material), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   EXPECT_EQ(material->asked, 0) << "the initial state is no step";
   const StepReport report = solver.advance(1.0);
@@ -103,14 +103,14 @@ TEST(solver, a_step_is_committed_only_when_its_materials_confirm_it) {
   EXPECT_EQ(material->committed_after, 2);
   // As below, with twice the stiffness: the first answers have left nothing behind.
   const double axial = -100e3 + 2 * 40e6 / (1 - 0.09) * -0.01;
-  for (const Response& response : solver.state().responses) {
+  for (const Response<2>& response : solver.state().responses) {
     EXPECT_NEAR(response.stress(k22), axial, 1e-6 * std::abs(axial));
     EXPECT_NEAR(response.stress(k11), -100e3, 1e-6 * std::abs(axial));
   }
 }
 
 TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answer) {
-  Solver solver(biaxial(elastic(100e3)), {});
+  Solver<2> solver(biaxial(elastic(100e3)), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (const double time : {0.25, 0.5, 1.0}) {
     const StepReport report = solver.advance(time);
@@ -132,9 +132,9 @@ TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answe
 }
 
 TEST(solver, nodal_forces_balance_and_external_work_is_internal_work) {
-  Problem problem = biaxial(elastic(100e3));
-  problem.edge_loads.push_back({.on = "top", .traction1 = TimeTable::ramp(2e4)});
-  Solver solver(std::move(problem), {});
+  Problem<2> problem = biaxial(elastic(100e3));
+  problem.boundary_loads.push_back({.on = "top", .traction[0] = TimeTable::ramp(2e4)});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(0.5).converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
@@ -156,13 +156,13 @@ TEST(solver, nodal_forces_balance_and_external_work_is_internal_work) {
 
 TEST(solver, same_problem_same_bits) {
   const auto run = [] {
-    Solver solver(biaxial(elastic(80e3)), {});
+    Solver<2> solver(biaxial(elastic(80e3)), {});
     solver.equilibrate();
     solver.advance(1.0);
     return solver.state();
   };
-  const SolverState first = run();
-  const SolverState second = run();
+  const SolverState<2> first = run();
+  const SolverState<2> second = run();
   EXPECT_EQ(first.displacement, second.displacement);
   EXPECT_EQ(first.internal_work, second.internal_work);
 }
@@ -188,8 +188,8 @@ struct BrittleLaw {
   static State unpacked(std::span<const double> values) {
     return {Vector7(Eigen::Map<const Vector7>(values.data())), static_cast<int>(values[7])};
   }
-  Response integrate(const State& start, const Increment& increment, State& trial) const {
-    Response response;
+  Response<2> integrate(const State& start, const Increment<2>& increment, State& trial) const {
+    Response<2> response;
     trial.strain = start.strain + increment.strain();
     trial.steps = start.steps + 1;
     const double factor = 1.0 + nonlinearity * trial.strain.head<5>().squaredNorm();
@@ -217,7 +217,7 @@ class Brittle : public testing::TestWithParam<Quality> {};
 TEST_P(Brittle, steps_are_cut_rolled_back_and_grow_back) {
   // The whole path strains by about 0.011 in norm: steps of a quarter of it pass.
   const auto material = brittle(0.003, GetParam());
-  Solver solver(biaxial(material, 0.0), {});
+  Solver<2> solver(biaxial(material, 0.0), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   ASSERT_TRUE(report.converged) << report.message;
@@ -238,7 +238,7 @@ TEST(solver, a_step_that_cannot_be_made_is_never_committed_nor_called_converged)
   const auto material = brittle(1e-6, Quality::failed);
   SolverOptions options;
   options.most_cuts = 3;
-  Solver solver(biaxial(material, 0.0), options);
+  Solver<2> solver(biaxial(material, 0.0), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_FALSE(report.converged);
@@ -262,7 +262,7 @@ struct Listener : Observer {
 TEST(solver, says_which_points_have_no_good_answer) {
   SolverOptions options;
   options.most_cuts = 3;
-  Solver solver(biaxial(brittle(1e-6, Quality::unreliable), 0.0), options);
+  Solver<2> solver(biaxial(brittle(1e-6, Quality::unreliable), 0.0), options);
   Listener listener;
   solver.set_observer(&listener);
   ASSERT_TRUE(solver.equilibrate().converged);
@@ -278,10 +278,10 @@ TEST(solver, says_which_points_have_no_good_answer) {
 }
 
 /// Elastic, but the stress of the last point changes with every evaluation: no balance there.
-class RestlessMaterial : public Material {
+class RestlessMaterial : public Material<2> {
  public:
   void allocate(std::size_t points) override { law_.allocate(points); }
-  void evaluate(std::span<const Increment> increments, std::span<Response> responses) override {
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override {
     law_.evaluate(increments, responses);
     ++times_;
     if (times_ > 1) responses.back().stress(k11) += times_ % 2 == 0 ? 5e4 : -5e4;
@@ -290,7 +290,7 @@ class RestlessMaterial : public Material {
   void revert() override { law_.revert(); }
 
  private:
-  LocalMaterial<ElasticLaw> law_{ElasticLaw(sand())};
+  LocalMaterial<ElasticLaw<2>> law_{ElasticLaw<2>(sand())};
   int times_ = 0;
 };
 
@@ -298,7 +298,7 @@ TEST(solver, says_where_it_is_out_of_balance) {
   SolverOptions options;
   options.most_cuts = 2;
   options.most_line_search_halvings = 0;  // would evaluate twice, and find the same stress again
-  Solver solver(biaxial(std::make_shared<RestlessMaterial>(), 0.0), options);
+  Solver<2> solver(biaxial(std::make_shared<RestlessMaterial>(), 0.0), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   ASSERT_FALSE(report.converged);
@@ -319,13 +319,13 @@ TEST(solver, says_where_it_is_out_of_balance) {
 }
 
 TEST(solver, newton_converges_quadratically) {
-  Problem problem = biaxial(brittle(1.0, Quality::failed, 2000.0), 0.0);
+  Problem<2> problem = biaxial(brittle(1.0, Quality::failed, 2000.0), 0.0);
   // Rough plates make the field inhomogeneous.
   problem.prescribed.push_back({"top", Dof::u1, kZero, {}});
   problem.prescribed.push_back({"bottom", Dof::u1, kZero, {}});
   SolverOptions options;
   options.force_tolerance = options.moment_tolerance = 1e-12;
-  Solver solver(std::move(problem), options);
+  Solver<2> solver(std::move(problem), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   ASSERT_TRUE(report.converged) << report.message;
@@ -344,8 +344,8 @@ TEST(solver, gives_up_when_the_iteration_stagnates) {
     struct State {};
     Matrix7 stiffness;
     State initial_state() const { return {}; }
-    Response integrate(const State&, const Increment& increment, State&) const {
-      Response response;
+    Response<2> integrate(const State&, const Increment<2>& increment, State&) const {
+      Response<2> response;
       response.stress = stiffness * increment.strain();
       response.tangent = 0.45 * stiffness;
       return response;
@@ -354,7 +354,7 @@ TEST(solver, gives_up_when_the_iteration_stagnates) {
   SolverOptions options;
   options.most_cuts = 0;
   options.most_line_search_halvings = 0;  // a line search would get there all the same
-  Solver solver(
+  Solver<2> solver(
       biaxial(std::make_shared<LocalMaterial<WrongTangentLaw>>(WrongTangentLaw{elastic_stiffness(sand())})),
       options);
   const StepReport report = solver.equilibrate();
@@ -369,8 +369,8 @@ struct JumpingLaw {
   struct State {};
   Matrix7 stiffness;
   State initial_state() const { return {}; }
-  Response integrate(const State&, const Increment& increment, State&) const {
-    Response response;
+  Response<2> integrate(const State&, const Increment<2>& increment, State&) const {
+    Response<2> response;
     response.stress = stiffness * increment.strain();
     response.tangent = stiffness;
     // On which side of the jump it is depends on the strain: no strain makes up for it.
@@ -382,7 +382,7 @@ struct JumpingLaw {
 TEST(solver, says_that_no_cut_will_help_where_stresses_jump) {
   SolverOptions options;
   options.most_cuts = 4;
-  Solver solver(
+  Solver<2> solver(
       biaxial(std::make_shared<LocalMaterial<JumpingLaw>>(JumpingLaw{elastic_stiffness(sand())}), 0.0),
       options);
   ASSERT_TRUE(solver.equilibrate().converged);
@@ -400,12 +400,12 @@ struct RearrangingLaw {
   };
   Matrix7 stiffness;
   State initial_state() const { return {}; }
-  Response integrate(const State& start, const Increment& increment, State& trial) const {
+  Response<2> integrate(const State& start, const Increment<2>& increment, State& trial) const {
     trial = start;
     trial.strain += increment.strain();
     if (start.side == 0.0 && !increment.strain().isZero(0.0))
       trial.side = increment.strain()(k11) > 0.0 ? 1.0 : -1.0;
-    Response response;
+    Response<2> response;
     response.stress = stiffness * trial.strain;
     response.stress(k11) += 1e6 * trial.side;
     response.tangent = stiffness;
@@ -418,7 +418,7 @@ TEST(solver, passes_a_jump_where_it_may_and_ends_the_step_in_balance) {
     SolverOptions options;
     options.most_cuts = 4;
     options.most_jumps = most_jumps;
-    Solver solver(
+    Solver<2> solver(
         biaxial(std::make_shared<LocalMaterial<RearrangingLaw>>(RearrangingLaw{elastic_stiffness(sand())}),
                 0.0),
         options);
@@ -445,7 +445,7 @@ TEST(solver, says_no_jump_where_a_step_fails_for_its_length) {
   const auto material = brittle(1e-6, Quality::unreliable, 2000.0);
   SolverOptions options;
   options.most_cuts = 6;
-  Solver solver(biaxial(material, 0.0), options);
+  Solver<2> solver(biaxial(material, 0.0), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_FALSE(report.converged);
@@ -458,14 +458,14 @@ TEST(solver, says_which_points_have_come_apart) {
     using State = double;  // 1: broken
     Matrix7 stiffness;
     double initial_state() const { return 0.0; }
-    Response integrate(const double& start, const Increment& increment, double& trial) const {
+    Response<2> integrate(const double& start, const Increment<2>& increment, double& trial) const {
       trial = start == 1.0 || !increment.strain().isZero(0.0) ? 1.0 : 0.0;
-      Response response;
+      Response<2> response;
       if (trial == 0.0) response.tangent = stiffness;
       return response;
     }
   };
-  Solver solver(
+  Solver<2> solver(
       biaxial(std::make_shared<LocalMaterial<BreakingLaw>>(BreakingLaw{elastic_stiffness(sand())}), 0.0),
       {.reference_force = 1.0});
   ASSERT_TRUE(solver.equilibrate().converged);
@@ -476,14 +476,14 @@ TEST(solver, says_which_points_have_come_apart) {
 }
 
 TEST(solver, refuses_a_problem_with_faults) {
-  Problem problem = biaxial(elastic(0.0));
+  Problem<2> problem = biaxial(elastic(0.0));
   problem.prescribed.clear();
-  EXPECT_THROW(Solver(std::move(problem), {}), RunError);
+  EXPECT_THROW(Solver<2>(std::move(problem), {}), RunError);
 }
 
 TEST(solver, goes_on_from_a_saved_state_with_the_same_bits) {
   const auto material = brittle(1.0, Quality::failed, 2000.0);
-  Solver whole(biaxial(material, 0.0), {});
+  Solver<2> whole(biaxial(material, 0.0), {});
   whole.equilibrate();
   whole.advance(0.5);
   MemoryArchive saved;
@@ -491,7 +491,7 @@ TEST(solver, goes_on_from_a_saved_state_with_the_same_bits) {
   whole.advance(1.0);
 
   const auto other_material = brittle(1.0, Quality::failed, 2000.0);
-  Solver other(biaxial(other_material, 0.0), {});
+  Solver<2> other(biaxial(other_material, 0.0), {});
   other.restore(saved);
   other.advance(1.0);
   EXPECT_EQ(whole.state().displacement, other.state().displacement);

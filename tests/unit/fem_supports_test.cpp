@@ -11,11 +11,11 @@ namespace {
 
 const TimeTable kZero = TimeTable::constant(0.0);
 
-Mesh block() {
+Mesh<2> block() {
   return rectangle({{0.04, 0.08}, {2, 4}});
 }
 
-std::vector<std::string> free_motions(const std::vector<PrescribedDof>& prescribed,
+std::vector<std::string> free_motions(const std::vector<PrescribedDof<2>>& prescribed,
                                       Continuum continuum = Continuum::cosserat) {
   return free_rigid_motions(block(), continuum, prescribed);
 }
@@ -42,7 +42,7 @@ TEST(free_rigid_motions, names_each_free_motion) {
 }
 
 TEST(free_rigid_motions, a_held_micro_rotation_holds_the_rotation_of_a_cosserat_body_only) {
-  const std::vector<PrescribedDof> supports{{"bottom_left", Dof::u1, kZero, {}},
+  const std::vector<PrescribedDof<2>> supports{{"bottom_left", Dof::u1, kZero, {}},
                                             {"bottom_left", Dof::u2, kZero, {}},
                                             {"bottom_left", Dof::w, kZero, {}}};
   EXPECT_EQ(free_motions(supports), Strings{});
@@ -50,8 +50,8 @@ TEST(free_rigid_motions, a_held_micro_rotation_holds_the_rotation_of_a_cosserat_
 }
 
 TEST(free_rigid_motions, looks_at_each_part_of_the_body) {
-  Mesh mesh = block();
-  const Mesh other = rectangle({{0.04, 0.08}, {1, 1}, {0.1, 0.0}});
+  Mesh<2> mesh = block();
+  const Mesh<2> other = rectangle({{0.04, 0.08}, {1, 1}, {0.1, 0.0}});
   const int shift = static_cast<int>(mesh.nodes.size());
   mesh.nodes.insert(mesh.nodes.end(), other.nodes.begin(), other.nodes.end());
   mesh.elements.push_back(other.elements[0]);
@@ -64,7 +64,7 @@ TEST(free_rigid_motions, looks_at_each_part_of_the_body) {
 
 TEST(free_rigid_motions, sides_that_are_tied_do_not_turn_and_still_move) {
   const std::vector<Tie> ties{{"left", "right"}};
-  const auto free_with_ties = [&](const std::vector<PrescribedDof>& prescribed) {
+  const auto free_with_ties = [&](const std::vector<PrescribedDof<2>>& prescribed) {
     return free_rigid_motions(block(), Continuum::cauchy, prescribed, ties);
   };
   EXPECT_EQ(free_with_ties({{"bottom_left", Dof::u1, kZero, {}}, {"bottom_left", Dof::u2, kZero, {}}}),
@@ -73,22 +73,22 @@ TEST(free_rigid_motions, sides_that_are_tied_do_not_turn_and_still_move) {
 }
 
 TEST(free_rigid_motions, parts_that_are_tied_are_one) {
-  Mesh mesh = rectangle({{0.04, 0.08}, {1, 2}});
-  const Mesh other = rectangle({{0.04, 0.08}, {1, 2}, {0.1, 0.0}});
+  Mesh<2> mesh = rectangle({{0.04, 0.08}, {1, 2}});
+  const Mesh<2> other = rectangle({{0.04, 0.08}, {1, 2}, {0.1, 0.0}});
   const int shift = static_cast<int>(mesh.nodes.size());
   mesh.nodes.insert(mesh.nodes.end(), other.nodes.begin(), other.nodes.end());
-  for (Element element : other.elements) {
+  for (Element<2> element : other.elements) {
     for (int& node : element.nodes) node += shift;
     mesh.elements.push_back(element);
   }
   for (const int node : mesh.nodes_on("left")) mesh.node_sets["other left"].push_back(node + shift);
-  const std::vector<PrescribedDof> supports{{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  const std::vector<PrescribedDof<2>> supports{{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
   EXPECT_EQ(free_rigid_motions(mesh, Continuum::cosserat, supports).size(), 3U);
   EXPECT_EQ(free_rigid_motions(mesh, Continuum::cosserat, supports, {{"left", "other left"}}), Strings{});
 }
 
 TEST(tied_nodes, finds_the_partner_of_every_node) {
-  const Mesh mesh = block();
+  const Mesh<2> mesh = block();
   const TiedNodes tied = tied_nodes(mesh, {"left", "right"});
   EXPECT_EQ(tied.fault, "");
   ASSERT_EQ(tied.pairs.size(), 9U);  // 4 elements of eight nodes along the side
@@ -101,7 +101,7 @@ TEST(tied_nodes, finds_the_partner_of_every_node) {
 }
 
 TEST(tied_nodes, says_why_two_sides_do_not_match) {
-  Mesh mesh = block();
+  Mesh<2> mesh = block();
   EXPECT_NE(tied_nodes(mesh, {"left", "rigth"}).fault.find("no boundary or node set 'rigth'"),
             std::string::npos);
   EXPECT_NE(tied_nodes(mesh, {"left", "top"}).fault.find("'left' has 9 nodes and 'top' has 5"),
@@ -114,7 +114,7 @@ TEST(tied_nodes, says_why_two_sides_do_not_match) {
 }
 
 TEST(faults, what_holds_one_side_of_a_tie_holds_the_other) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = block();
   problem.materials["all"] = nullptr;
   problem.ties = {{"left", "right"}};
@@ -130,13 +130,13 @@ TEST(faults, what_holds_one_side_of_a_tie_holds_the_other) {
 }
 
 TEST(faults, lists_everything_that_is_wrong_at_once) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = block();
   problem.materials["sand"] = nullptr;
   problem.prescribed = {{"bottum", Dof::u2, kZero, {}},
                         {"left", Dof::u1, kZero, {}},
                         {"top", Dof::u1, TimeTable::ramp(0.1), {}}};
-  problem.edge_loads = {{.on = "all", .pressure = TimeTable::constant(1.0)}};
+  problem.boundary_loads = {{.on = "all", .pressure = TimeTable::constant(1.0)}};
   const Strings messages = faults(problem);
   const Strings expected{
       "'bottum'",         "'all' is not a boundary", "no region 'sand'",
@@ -150,7 +150,7 @@ TEST(faults, lists_everything_that_is_wrong_at_once) {
 }
 
 TEST(faults, a_corner_may_be_given_the_same_value_twice) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = block();
   problem.materials["all"] = nullptr;
   problem.prescribed = {
@@ -159,7 +159,7 @@ TEST(faults, a_corner_may_be_given_the_same_value_twice) {
 }
 
 TEST(faults, a_corner_may_be_given_one_value_in_two_ways) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = block();
   problem.materials["all"] = nullptr;
   const TimeTable in_pieces({{0.0, 0.0}, {0.3, 0.3e-3}, {1.0, 1e-3}, {2.0, 1e-3}});
@@ -173,7 +173,7 @@ TEST(faults, a_corner_may_be_given_one_value_in_two_ways) {
 }
 
 TEST(faults, a_set_of_nodes_goes_before_boundaries_and_these_before_all) {
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = block();
   problem.materials["all"] = nullptr;
   problem.prescribed = {{"all", Dof::u1, TimeTable::ramp(3e-3), {}},
@@ -188,13 +188,13 @@ TEST(faults, a_set_of_nodes_goes_before_boundaries_and_these_before_all) {
   problem.prescribed.push_back({"bottom_left", Dof::u1, TimeTable::ramp(2e-3), {}});
   EXPECT_EQ(faults(problem), Strings{});
 
-  const Constraints constraints(problem);
-  const Mesh& mesh = problem.mesh;
-  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entry_of(mesh.nodes.size())));
+  const Constraints<2> constraints(problem);
+  const Mesh<2>& mesh = problem.mesh;
+  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entry_of<2>(mesh.nodes.size())));
   constraints.apply(1.0, nodal);
   const auto u1_at = [&](const std::string& set, std::size_t which) {
     return nodal(
-        static_cast<Eigen::Index>(entry_of(static_cast<std::size_t>(mesh.nodes_on(set)[which]), Dof::u1)));
+        static_cast<Eigen::Index>(entry_of<2>(static_cast<std::size_t>(mesh.nodes_on(set)[which]), Dof::u1)));
   };
   EXPECT_EQ(u1_at("bottom_left", 0), 2e-3);
   EXPECT_EQ(u1_at("bottom_right", 0), 0.0);

@@ -25,8 +25,8 @@ constexpr double kDiameter = 0.01;
 constexpr double kFriction = 0.9;
 
 /// With a couple modulus of 215 N, as packings at rest have: lc = 2.8 mm.
-fem::ElasticParameters elasticity() {
-  fem::ElasticParameters elastic;
+fem::ElasticParameters<2> elasticity() {
+  fem::ElasticParameters<2> elastic;
   elastic.young_modulus = 2.0 * 13.4e6 * 1.2;
   elastic.poisson_ratio = 0.2;
   elastic.cosserat_shear_modulus = 10e6;
@@ -48,15 +48,15 @@ class ConeCells {
   }
   [[nodiscard]] PlaneReply evaluate(const PlaneRequest& request) const {
     constexpr int kParts = 20;
-    fem::ElastoplasticState state;
+    fem::ElastoplasticState<2> state;
     std::memcpy(static_cast<void*>(&state), request.state->bytes().data(), sizeof state);
-    Increment part = request.increment;
+    Increment<2> part = request.increment;
     part.displacement_gradient /= kParts;
     part.micro_rotation /= kParts;
     part.curvature /= kParts;
-    Response response;
+    Response<2> response;
     for (int i = 0; i < kParts; ++i) {
-      const fem::ElastoplasticState before = state;
+      const fem::ElastoplasticState<2> before = state;
       response = law_.integrate(before, part, state);
       EXPECT_EQ(response.quality, Quality::good) << response.message;
     }
@@ -72,14 +72,14 @@ class ConeCells {
   }
 
  private:
-  static PlaneReply reply(const fem::ElastoplasticState& state, const Vector7& stress) {
+  static PlaneReply reply(const fem::ElastoplasticState<2>& state, const Vector7& stress) {
     PlaneReply reply;
     reply.response.stress = stress;
     const auto bytes = std::as_bytes(std::span(&state, 1));
     reply.state = std::make_shared<const State>(std::vector<std::byte>(bytes.begin(), bytes.end()));
     return reply;
   }
-  fem::ElastoplasticLaw law_;
+  fem::ElastoplasticLaw<2> law_;
 };
 
 constexpr fem::InvariantWeights kWeights{0.45, 0.05, 0.8};
@@ -94,16 +94,16 @@ TEST(CellLimits, WeightsYieldAtTheClosedFormLimitsOfDiscs) {
   EXPECT_NEAR(weights.a1 - weights.a2, kFriction * kFriction / (6.0 * kMu * kMu), 1e-15);
   EXPECT_NEAR(std::sqrt(3.0 * weights.a3) / kLength, kFriction / kCouple, 1e-9 * kFriction / kCouple);
   // The invariant itself, at those stresses under the pressure of one.
-  fem::ElasticParameters elastic = elasticity();
+  fem::ElasticParameters<2> elastic = elasticity();
   elastic.internal_length = kLength;
   const fem::SubspaceModuli moduli(elastic, weights);
   fem::ScaledVector<double> stress = fem::ScaledVector<double>::Zero();
   stress(k21) = kMu;  // s21 - s12 = 2 mu
   stress(k12) = -kMu;
-  EXPECT_NEAR(fem::deviatoric_stress(fem::Split<double>(stress), moduli.weight), kFriction, 1e-14);
+  EXPECT_NEAR(fem::deviatoric_stress(fem::Split<double>(stress), moduli), kFriction, 1e-14);
   stress.setZero();
   stress(kCurvature2) = kCouple / kLength;
-  EXPECT_NEAR(fem::deviatoric_stress(fem::Split<double>(stress), moduli.weight), kFriction, 1e-14);
+  EXPECT_NEAR(fem::deviatoric_stress(fem::Split<double>(stress), moduli), kFriction, 1e-14);
   // Elastic and plastic length are two.
   EXPECT_NEAR((CellLimits{kFriction, 1.0, kCouple}.plastic_length()), kLength / std::sqrt(2.0 * weights.a3),
               1e-15);
@@ -147,8 +147,8 @@ InformedParameters parameters(InformedUpdate update) {
 }
 
 /// Compression, then shear with bending and grains that turn.
-Increment increment_of_path(int step, int steps) {
-  Increment increment;
+Increment<2> increment_of_path(int step, int steps) {
+  Increment<2> increment;
   const double size = 20e-3 / steps;
   increment.displacement_gradient << 0.9 * size, 0.3 * size, 0.3 * size, -size;
   if (2 * step > steps) {
@@ -169,8 +169,8 @@ double error_of(InformedUpdate update, int steps, bool standard) {
   PlaneReply cell = cells.initial();
   double largest = 0.0;
   for (int step = 1; step <= steps; ++step) {
-    const Increment increment = increment_of_path(step, steps);
-    Response response;
+    const Increment<2> increment = increment_of_path(step, steps);
+    Response<2> response;
     law.evaluate({&increment, 1}, {&response, 1});
     EXPECT_EQ(response.quality, Quality::good) << response.message;
     law.commit();
@@ -201,9 +201,9 @@ TEST(InformedCosserat, GoesOnFromAnArchiveBitForBit) {
     InformedMaterial other(cells.calls(), parameters(update));
     whole.allocate(1);
     other.allocate(1);
-    Response a, b;
+    Response<2> a, b;
     for (int step = 1; step <= 20; ++step) {
-      const Increment increment = increment_of_path(step, 20);
+      const Increment<2> increment = increment_of_path(step, 20);
       whole.evaluate({&increment, 1}, {&a, 1});
       whole.commit();
       if (step == 12) {
@@ -231,9 +231,9 @@ TEST(InformedCosserat, APointThatHasLeftItsLawTakesTheWholeAnswerOfItsCell) {
   InformedMaterial law(cells.calls(), given, "", cells.calls());
   law.allocate(1);
   PlaneReply cell = cells.initial();
-  Response response;
+  Response<2> response;
   for (int step = 1; step <= 40; ++step) {
-    const Increment increment = increment_of_path(step, 40);
+    const Increment<2> increment = increment_of_path(step, 40);
     law.evaluate({&increment, 1}, {&response, 1});
     law.commit();
     cell = cells.evaluate({cell.state, increment});
@@ -270,10 +270,10 @@ TEST(InformedPlasticLength, CoupleStressIsLimitedToItTimesThePressureWhateverThe
   for (const double friction : {0.05, 0.3}) {
     InformedMaterial law(cells.calls(), with_plastic_length(kLength, friction));
     law.allocate(1);
-    Response response;
+    Response<2> response;
     for (int step = 0; step < 60;
          ++step) {  // bent about one axis, then about the other: elastic to 2 G lc^2 kappa = 10 lp p
-      Increment increment;
+      Increment<2> increment;
       increment.curvature(step < 30 ? 0 : 1) = 1.1;
       law.evaluate({&increment, 1}, {&response, 1});
       ASSERT_EQ(response.quality, Quality::good) << response.message;
@@ -293,12 +293,12 @@ TEST(InformedPlasticLength, ShearAndBendingShareAnEllipse) {
   InformedMaterial law(cells.calls(), with_plastic_length(kLength, 0.09));
   law.allocate(1);
   std::vector<double> fields(law.field_names().size());
-  Response response;
+  Response<2> response;
   double least_share = 1.0;
   for (int step = 0; step < 80; ++step) {
     law.fields(0, fields);
     const double friction = fields[0];  // of the step that comes
-    Increment increment;
+    Increment<2> increment;
     increment.displacement_gradient << 5e-4, 0.0, 0.0, -5e-4;
     if (step >= 40) increment.curvature << 0.05, 0.0;
     law.evaluate({&increment, 1}, {&response, 1});
@@ -320,10 +320,10 @@ TEST(InformedPlasticLength, TheTangentIsThatOfTheStep) {
   const ConeCells cells(fem::InvariantWeights{});
   InformedMaterial law(cells.calls(), with_plastic_length(7e-3, 0.3));
   law.allocate(1);
-  Increment step;
+  Increment<2> step;
   step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
   step.curvature << 1.0, -0.4;
-  Response response;
+  Response<2> response;
   for (int k = 0; k < 3; ++k) {
     law.evaluate({&step, 1}, {&response, 1});
     ASSERT_EQ(response.quality, Quality::good);
@@ -331,8 +331,8 @@ TEST(InformedPlasticLength, TheTangentIsThatOfTheStep) {
   }
   for (int axis = 0; axis < 2; ++axis) {
     constexpr double kShift = 1e-6;
-    Response more, less;
-    Increment shifted = step;
+    Response<2> more, less;
+    Increment<2> shifted = step;
     shifted.curvature(axis) += kShift;
     law.evaluate({&shifted, 1}, {&more, 1});
     shifted.curvature(axis) -= 2.0 * kShift;
@@ -355,13 +355,13 @@ InformedParameters with_skew_limit(InformedUpdate update) {
 }
 
 /// Grains turned by w against the continuum: eps21 - eps12 = 2 w.
-Increment turned(double w) {
-  Increment increment;
+Increment<2> turned(double w) {
+  Increment<2> increment;
   increment.micro_rotation = w;
   return increment;
 }
 
-double skew_of(const Response& response) {
+double skew_of(const Response<2>& response) {
   return response.stress(k21) - response.stress(k12);
 }
 
@@ -382,12 +382,12 @@ TEST(InformedSkewLimit, TurningYieldsUnloadsElasticallyAndIsCountedAndKept) {
     resumed.allocate(1);
     std::vector<double> fields(law.field_names().size());
     double expected = 0.0;
-    Response response;
-    Response again;
+    Response<2> response;
+    Response<2> again;
     for (int step = 0; step < 20; ++step) {
-      const Increment increment = turned(step < 10 ? kStep : -kStep);
+      const Increment<2> increment = turned(step < 10 ? kStep : -kStep);
       // An attempt that is given up counts for nothing.
-      const Increment too_far = turned(1.0);
+      const Increment<2> too_far = turned(1.0);
       law.evaluate({&too_far, 1}, {&response, 1});
       law.revert();
       law.evaluate({&increment, 1}, {&response, 1});
@@ -425,9 +425,9 @@ TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
   const ConeCells cells(fem::InvariantWeights{});
   InformedMaterial law(cells.calls(), with_skew_limit(InformedUpdate::frozen));
   law.allocate(1);
-  Increment step = turned(2e-3);
+  Increment<2> step = turned(2e-3);
   step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
-  Response response;
+  Response<2> response;
   for (int k = 0; k < 3; ++k) {
     law.evaluate({&step, 1}, {&response, 1});
     ASSERT_EQ(response.quality, Quality::good) << response.message;
@@ -447,8 +447,8 @@ TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
     strain(column) = kShift;
     Eigen::Matrix2d shift;
     shift << strain(k11), strain(k21), strain(k12), strain(k22);
-    Response more, less;
-    Increment shifted = step;
+    Response<2> more, less;
+    Increment<2> shifted = step;
     shifted.displacement_gradient += shift;
     law.evaluate({&shifted, 1}, {&more, 1});
     shifted.displacement_gradient -= 2.0 * shift;
@@ -464,8 +464,8 @@ TEST(InformedSkewLimit, WithoutOneNothingChanges) {
   given.skew_limit.reset();
   InformedMaterial law(cells.calls(), given);
   law.allocate(1);
-  const Increment far = turned(0.01);
-  Response response;
+  const Increment<2> far = turned(0.01);
+  Response<2> response;
   law.evaluate({&far, 1}, {&response, 1});
   law.commit();
   EXPECT_NEAR(skew_of(response), 4.0 * 10e6 * 0.01, 1e-6);

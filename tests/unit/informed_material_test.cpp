@@ -52,14 +52,14 @@ class KnownCells {
     failed.response.message = "the box collapsed";
     failed.response.step_factor = 0.5;
     if (request.increment.displacement_gradient.cwiseAbs().maxCoeff() > fails_beyond) return failed;
-    fem::ElastoplasticState state;
+    fem::ElastoplasticState<2> state;
     std::memcpy(static_cast<void*>(&state), request.state->bytes().data(), sizeof state);
-    Increment part = request.increment;
+    Increment<2> part = request.increment;
     part.displacement_gradient /= kSubSteps;
     part.micro_rotation /= kSubSteps;
-    Response response;
+    Response<2> response;
     for (int i = 0; i < kSubSteps; ++i) {
-      const fem::ElastoplasticState before = state;
+      const fem::ElastoplasticState<2> before = state;
       response = law_.integrate(before, part, state);
       if (response.quality != Quality::good) return failed;
     }
@@ -81,12 +81,12 @@ class KnownCells {
   }
 
  private:
-  static fem::ElasticParameters softer(double softness) {
-    fem::ElasticParameters elastic = elasticity();
+  static fem::ElasticParameters<2> softer(double softness) {
+    fem::ElasticParameters<2> elastic = elasticity();
     elastic.young_modulus *= softness;
     return elastic;
   }
-  PlaneReply reply(const fem::ElastoplasticState& state, const Vector7& stress) const {
+  PlaneReply reply(const fem::ElastoplasticState<2>& state, const Vector7& stress) const {
     PlaneReply reply;
     reply.response.stress = stress;
     reply.knows_s33 = !discs_;
@@ -101,7 +101,7 @@ class KnownCells {
 
   bool discs_;
   double share_;
-  fem::ElastoplasticLaw law_;
+  fem::ElastoplasticLaw<2> law_;
 };
 
 InformedParameters parameters(InformedUpdate update) {
@@ -116,20 +116,20 @@ InformedParameters parameters(InformedUpdate update) {
   return parameters;
 }
 
-Response evaluate(fem::Material& material, const Increment& increment) {
-  Response response;
+Response<2> evaluate(fem::Material<2>& material, const Increment<2>& increment) {
+  Response<2> response;
   material.evaluate({&increment, 1}, {&response, 1});
   return response;
 }
 
 /// Plane-strain compression of one point under constant lateral stress.
-Curve compress(fem::Material& material, int steps, double tolerance) {
+Curve compress(fem::Material<2>& material, int steps, double tolerance) {
   Curve curve;
   material.allocate(1);
-  Increment increment;
+  Increment<2> increment;
   for (int step = 1; step <= steps; ++step) {
     increment.displacement_gradient(1, 1) = -kStrain / steps;
-    Response response;
+    Response<2> response;
     for (int iteration = 0; iteration < 100; ++iteration) {
       response = evaluate(material, increment);
       EXPECT_EQ(response.quality, Quality::good) << response.message;
@@ -144,7 +144,7 @@ Curve compress(fem::Material& material, int steps, double tolerance) {
 }
 
 Curve reference() {
-  fem::LocalMaterial<fem::ElastoplasticLaw> law{fem::ElastoplasticLaw({elasticity(), {}, micro_strength()})};
+  fem::LocalMaterial<fem::ElastoplasticLaw<2>> law{fem::ElastoplasticLaw<2>({elasticity(), {}, micro_strength()})};
   return compress(law, 9600, 1e-10);
 }
 
@@ -245,10 +245,10 @@ TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
       return values[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
     };
     PlaneReply alone = same.initial();
-    Increment step;  // no rotation, and no shear: all of it is the grains'
+    Increment<2> step;  // no rotation, and no shear: all of it is the grains'
     step.displacement_gradient << 4e-4, 0.0, 0.0, -1e-3;
-    const std::vector<Increment> increments{step, Increment{}};
-    std::vector<Response> responses(2);
+    const std::vector<Increment<2>> increments{step, Increment<2>{}};
+    std::vector<Response<2>> responses(2);
     Vector7 of_law;
     int left_at = 0;
     for (int number = 1; number <= 8; ++number) {
@@ -259,8 +259,8 @@ TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
       if (left_at == 0 && field("stress_of_cell", 0) == 1.0) {
         left_at = number;
         of_law = responses[0].stress;
-        std::vector<Response> rest(2);
-        sand.evaluate(std::vector<Increment>(2), rest);
+        std::vector<Response<2>> rest(2);
+        sand.evaluate(std::vector<Increment<2>>(2), rest);
         EXPECT_LT((rest[0].stress - of_law).norm(), 1e-9 * of_law.norm()) << "the stress jumps";
         EXPECT_GT((of_law - alone.response.stress).head<2>().norm(), 1e-3 * of_law.head<2>().norm());
         sand.revert();
@@ -296,17 +296,17 @@ TEST(InformedMaterial, UnloadsAsSoftlyAsItsCell) {
     sand.allocate(1);
     PlaneReply alone = same.initial();
     Vector7 before;
-    const auto follow = [&](const Increment& step) {
-      const Response answer = evaluate(sand, step);
+    const auto follow = [&](const Increment<2>& step) {
+      const Response<2> answer = evaluate(sand, step);
       EXPECT_EQ(answer.quality, Quality::good) << answer.message;
       sand.commit();
       alone = same.evaluate({alone.state, step});
       return answer.stress;
     };
-    Increment loading;
+    Increment<2> loading;
     loading.displacement_gradient << 8e-4, 0.0, 0.0, -1e-3;
     for (int number = 0; number < 12; ++number) before = follow(loading);
-    Increment unloading;
+    Increment<2> unloading;
     unloading.displacement_gradient << -1e-4, 0.0, 0.0, 2e-4;
     for (int number = 1; number <= 6; ++number) {
       const Vector7 cell_before = alone.response.stress;
@@ -351,8 +351,8 @@ TEST(InformedMaterial, DiscsAreLentTheOutOfPlaneStressOfTheLaw) {
   EXPECT_LT(drift_corrected, 0.01);
 }
 
-Increment compression(double strain) {
-  Increment increment;
+Increment<2> compression(double strain) {
+  Increment<2> increment;
   increment.displacement_gradient << 0.4 * strain, 2e-4, 1e-4, -strain;
   return increment;
 }
@@ -374,7 +374,7 @@ class InformedPointTest : public ::testing::Test {
     material.allocate(1);
     return material;
   }
-  static std::vector<double> fields(const fem::Material& material) {
+  static std::vector<double> fields(const fem::Material<2>& material) {
     std::vector<double> values(material.field_names().size());
     material.fields(0, values);
     return values;
@@ -388,7 +388,7 @@ TEST_F(InformedPointTest, FrozenAsksItsCellOnceACommittedStep) {
   EXPECT_EQ(cells_.calls, 0);
   sand.commit();
   EXPECT_EQ(cells_.calls, 1);
-  evaluate(sand, Increment{});
+  evaluate(sand, Increment<2>{});
   sand.commit();  // nothing has happened to the cell
   EXPECT_EQ(cells_.calls, 1);
   evaluate(sand, compression(1e-3));
@@ -398,7 +398,7 @@ TEST_F(InformedPointTest, FrozenAsksItsCellOnceACommittedStep) {
 
 TEST_F(InformedPointTest, GrainsAreTurnedByAllOfALargeRotation) {
   const double angle = 0.6;
-  Increment turn;
+  Increment<2> turn;
   turn.displacement_gradient = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
   turn.micro_rotation = angle;
   turn.configuration = Configuration::start;
@@ -423,9 +423,9 @@ TEST_F(InformedPointTest, EvaluatingTwiceGivesTheSameBits) {
     InformedMaterial sand = make(update);
     evaluate(sand, compression(2e-3));
     sand.commit();
-    const Response first = evaluate(sand, compression(1e-3));
+    const Response<2> first = evaluate(sand, compression(1e-3));
     evaluate(sand, compression(3e-3));
-    const Response second = evaluate(sand, compression(1e-3));
+    const Response<2> second = evaluate(sand, compression(1e-3));
     EXPECT_EQ(first.stress, second.stress);
     EXPECT_EQ(first.tangent, second.tangent);
   }
@@ -455,12 +455,12 @@ TEST_F(InformedPointTest, ACellThatCannotFollowAStepTakesItInParts) {
 TEST_F(InformedPointTest, WhereItYieldsTheFixedPointScattersAsItsCell) {
   cells_.unrest = 5e-3;
   InformedMaterial fixed = make(InformedUpdate::fixed_point);
-  EXPECT_TRUE(evaluate(fixed, Increment{}).noise.is_zero());
+  EXPECT_TRUE(evaluate(fixed, Increment<2>{}).noise.is_zero());
   for (int step = 0; step < 3; ++step) {
     evaluate(fixed, compression(1e-3));
     fixed.commit();
   }
-  const Response yielding = evaluate(fixed, compression(1e-3));
+  const Response<2> yielding = evaluate(fixed, compression(1e-3));
   ASSERT_EQ(fields(fixed)[4], static_cast<double>(fem::Regime::smooth));
   const Vector7& cell = cells_.answer.response.stress;
   EXPECT_NEAR(yielding.noise.symmetric, 0.5 * std::abs(cell(k11) + cell(k22)) * 5e-3 / std::sqrt(100.0),
@@ -473,7 +473,7 @@ TEST_F(InformedPointTest, WhereItYieldsTheFixedPointScattersAsItsCell) {
 TEST_F(InformedPointTest, WithTheFixedPointACellThatFailsCutsTheStep) {
   InformedMaterial sand = make(InformedUpdate::fixed_point);
   cells_.fails_beyond = 1e-6;
-  const Response response = evaluate(sand, compression(1e-3));
+  const Response<2> response = evaluate(sand, compression(1e-3));
   EXPECT_EQ(response.quality, Quality::failed);
   EXPECT_EQ(response.message, "the box collapsed");
   EXPECT_EQ(response.step_factor, 0.5);
@@ -487,7 +487,7 @@ TEST_F(InformedPointTest, ACellThatFailsCutsTheStepOfAPointThatGoesByIt) {
   }
   ASSERT_EQ(fields(sand)[6], 1.0);
   cells_.fails_beyond = 1e-6;
-  const Response response = evaluate(sand, compression(1e-3));
+  const Response<2> response = evaluate(sand, compression(1e-3));
   EXPECT_EQ(response.quality, Quality::failed);
   EXPECT_EQ(response.step_factor, 0.5);
   sand.revert();
@@ -508,8 +508,8 @@ TEST_F(InformedPointTest, OfAPointThatGoesByItsCellAnArchiveKeepsAll) {
     InformedMaterial other = make(update, 1e-6);
     other.restore(archive);
     for (int i = 0; i < 4; ++i) {
-      const Response a = evaluate(sand, compression(1e-3));
-      const Response b = evaluate(other, compression(1e-3));
+      const Response<2> a = evaluate(sand, compression(1e-3));
+      const Response<2> b = evaluate(other, compression(1e-3));
       EXPECT_EQ(a.stress, b.stress);
       EXPECT_EQ(a.tangent, b.tangent);
       sand.commit();
@@ -549,7 +549,7 @@ TEST_F(InformedPointTest, GoesOnFromAnArchiveBitForBit) {
 
 TEST_F(InformedPointTest, ShowsWhatLawAndCellDisagreeAbout) {
   InformedMaterial sand = make(InformedUpdate::frozen);
-  Response law;
+  Response<2> law;
   for (int i = 0; i < 3; ++i) {
     law = evaluate(sand, compression(1e-3));
     sand.commit();
@@ -557,7 +557,7 @@ TEST_F(InformedPointTest, ShowsWhatLawAndCellDisagreeAbout) {
   // The cell alone along the same path.
   PlaneReply cell = cells_.initial();
   for (int i = 0; i < 3; ++i) {
-    Increment straight = compression(1e-3);
+    Increment<2> straight = compression(1e-3);
     const Eigen::Matrix2d h = straight.displacement_gradient;
     straight.displacement_gradient = 0.5 * (h + h.transpose());
     straight.micro_rotation = -0.5 * (h(1, 0) - h(0, 1));

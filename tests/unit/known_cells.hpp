@@ -107,15 +107,15 @@ class AdaptiveMaterialTest : public ::testing::Test {
   }
 
   /// Takes a step and follows the true strains. @returns the answers
-  std::vector<Response> step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients,
+  std::vector<Response<2>> step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients,
                              Configuration configuration = Configuration::fixed) {
-    std::vector<Increment> increments;
+    std::vector<Increment<2>> increments;
     for (std::size_t p = 0; p < gradients.size(); ++p) {
       increments.push_back(increment_of(gradients[p]));
       increments.back().configuration = configuration;
       strain_[p] += 0.5 * (gradients[p] + gradients[p].transpose());
     }
-    std::vector<Response> responses(gradients.size());
+    std::vector<Response<2>> responses(gradients.size());
     sand.evaluate(increments, responses);
     for (int asked = 0; !sand.confirm(); ++asked) {
       EXPECT_LT(asked, 5) << "the material never stands by its answers";
@@ -126,7 +126,7 @@ class AdaptiveMaterialTest : public ::testing::Test {
   }
 
   /// The largest error of any point, as a share of the confining pressure.
-  double error(const std::vector<Response>& responses) const {
+  double error(const std::vector<Response<2>>& responses) const {
     double largest = 0.0;
     for (std::size_t p = 0; p < responses.size(); ++p) {
       largest =

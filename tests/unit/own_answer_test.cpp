@@ -34,8 +34,8 @@ Matrix7 stiffness() {
     }
   return matrix;
 }
-Response cell_after(const Increment& increment, bool controlled) {
-  Response cell;
+Response<2> cell_after(const Increment<2>& increment, bool controlled) {
+  Response<2> cell;
   cell.stress << -100e3, -180e3, -120e3, 20e3, 20e3, 0.0, 0.0;
   if (controlled) cell.stress.tail<2>() << 25.0, 10.0;
   cell.stress += stiffness() * (controlled ? increment.strain() : symmetric_part(increment.strain()));
@@ -43,21 +43,21 @@ Response cell_after(const Increment& increment, bool controlled) {
   return cell;
 }
 
-PlaneReply reply(const Response& cell) {
+PlaneReply reply(const Response<2>& cell) {
   PlaneReply reply;
   reply.response = cell;
   return reply;
 }
 
-Increment increment_of(const Vector7& strain) {
+Increment<2> increment_of(const Vector7& strain) {
   // Without micro-rotation: eps_12 = d u2 / d x1 (Increment::strain).
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient << strain(k11), strain(k21), strain(k12), strain(k22);
   increment.curvature = strain.tail<2>();
   return increment;
 }
 
-Increment some_increment(double size) {
+Increment<2> some_increment(double size) {
   Vector7 strain;
   strain << 0.6 * size, -size, 0.0, 0.3 * size, 0.5 * size, 0.4 * size / kLength, -0.2 * size / kLength;
   return increment_of(strain);
@@ -66,16 +66,16 @@ Increment some_increment(double size) {
 TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
   for (const bool controlled : {false, true}) {
     const OwnAnswerRules by = rules(controlled);
-    const Response before = cell_after(Increment{}, controlled);
+    const Response<2> before = cell_after(Increment<2>{}, controlled);
     const OwnAnswer start = left_law(by, stress_of_law(), reply(before));
     OwnAnswer end;
-    const Response nothing = own_answer(by, start, Increment{}, reply(before), end);
+    const Response<2> nothing = own_answer(by, start, Increment<2>{}, reply(before), end);
     EXPECT_LT((nothing.stress - stress_of_law()).norm(), 1e-9) << controlled;
     EXPECT_EQ(end.strained, 0.0);
 
-    const Increment increment = some_increment(2.0 * kWorkOff);
-    const Response cell = cell_after(increment, controlled);
-    const Response there = own_answer(by, start, increment, reply(cell), end);
+    const Increment<2> increment = some_increment(2.0 * kWorkOff);
+    const Response<2> cell = cell_after(increment, controlled);
+    const Response<2> there = own_answer(by, start, increment, reply(cell), end);
     if (controlled) {
       EXPECT_EQ(there.stress, cell.stress);
       EXPECT_EQ(there.tangent, cell.tangent);
@@ -95,15 +95,15 @@ TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
 TEST(OwnAnswer, StepsOfAnySizeLetGoOfTheSame) {
   // A strain in one direction, in one step or in five: the same share is left.
   const OwnAnswerRules by = rules(false);
-  const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment{}, false)));
-  const Increment whole = some_increment(0.5 * kWorkOff);
+  const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment<2>{}, false)));
+  const Increment<2> whole = some_increment(0.5 * kWorkOff);
   OwnAnswer at_once;
   const Vector7 expected = own_answer(by, start, whole, reply(cell_after(whole, false)), at_once).stress;
   OwnAnswer point = start;
   Vector7 stress;
   for (int part = 1; part <= 5; ++part) {
     OwnAnswer next;
-    const Increment so_far = some_increment(0.1 * part * kWorkOff);
+    const Increment<2> so_far = some_increment(0.1 * part * kWorkOff);
     stress =
         own_answer(by, point, some_increment(0.1 * kWorkOff), reply(cell_after(so_far, false)), next).stress;
     point = next;
@@ -116,11 +116,11 @@ TEST(OwnAnswer, StepsOfAnySizeLetGoOfTheSame) {
 TEST(OwnAnswer, TheTangentSeesWhatIsWorkedOff) {
   for (const bool controlled : {false, true}) {
     const OwnAnswerRules by = rules(controlled);
-    const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment{}, controlled)));
+    const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment<2>{}, controlled)));
     const Vector7 strain = some_increment(0.3 * kWorkOff).strain();
     const auto answer = [&](const Vector7& at) {
       OwnAnswer end;
-      const Increment increment = increment_of(at);
+      const Increment<2> increment = increment_of(at);
       return own_answer(by, start, increment, reply(cell_after(increment, controlled)), end);
     };
     const Matrix7 tangent = answer(strain).tangent;
@@ -139,9 +139,9 @@ TEST(OwnAnswer, TheTangentSeesWhatIsWorkedOff) {
 
 TEST(OwnAnswer, WhatIsCarriedTurnsWithTheMaterial) {
   const OwnAnswerRules by = rules(false);
-  Response cell = cell_after(Increment{}, false);
+  Response<2> cell = cell_after(Increment<2>{}, false);
   const OwnAnswer start = left_law(by, stress_of_law(), reply(cell));
-  Increment turn;  // by a quarter: R - I
+  Increment<2> turn;  // by a quarter: R - I
   turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
   turn.micro_rotation = 0.5 * M_PI;
   turn.configuration = Configuration::start;

@@ -9,18 +9,18 @@
 namespace polargrain {
 namespace {
 
-Increment some_increment(std::mt19937_64& generator) {
+Increment<2> some_increment(std::mt19937_64& generator) {
   std::uniform_real_distribution<double> entry(-1.0, 1.0);
-  Increment increment;
+  Increment<2> increment;
   for (double& value : increment.displacement_gradient.reshaped()) value = entry(generator);
   increment.micro_rotation = entry(generator);
   for (double& value : increment.curvature) value = entry(generator);
   return increment;
 }
 
-Response some_response(std::mt19937_64& generator) {
+Response<2> some_response(std::mt19937_64& generator) {
   std::uniform_real_distribution<double> entry(-1.0, 1.0);
-  Response response;
+  Response<2> response;
   for (double& value : response.stress) value = entry(generator);
   for (double& value : response.tangent.reshaped()) value = entry(generator);
   response.noise = {1.0, 2.0, 3.0};
@@ -48,14 +48,14 @@ Vector18 strain_of(const CellIncrement& increment) {
 TEST(PlaneInSpace, WhatGoesThereComesBack) {
   std::mt19937_64 generator(7);
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const Increment increment = some_increment(generator);
-    const Increment same = in_plane(in_space(increment));
+    const Increment<2> increment = some_increment(generator);
+    const Increment<2> same = in_plane(in_space(increment));
     EXPECT_EQ(same.displacement_gradient, increment.displacement_gradient);
     EXPECT_EQ(same.micro_rotation, increment.micro_rotation);
     EXPECT_EQ(same.curvature, increment.curvature);
     EXPECT_EQ(out_of_plane_fault(in_space(increment)), "");
-    const Response response = some_response(generator);
-    const Response back = in_plane(in_space(response, KnownComponents::all));
+    const Response<2> response = some_response(generator);
+    const Response<2> back = in_plane(in_space(response, KnownComponents::all));
     EXPECT_EQ(back.stress, response.stress);
     EXPECT_EQ(back.tangent, response.tangent);
     EXPECT_EQ(back.noise.couple, 3.0);
@@ -69,8 +69,8 @@ TEST(PlaneInSpace, WhatGoesThereComesBack) {
 TEST(PlaneInSpace, WorkAndTangentAreThoseOfThePlane) {
   std::mt19937_64 generator(8);
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const Increment increment = some_increment(generator);
-    const Response response = some_response(generator);
+    const Increment<2> increment = some_increment(generator);
+    const Response<2> response = some_response(generator);
     const CellResponse cell = in_space(response, KnownComponents::all);
     const Vector18 strain = strain_of(in_space(increment));
     // Sums of some ten numbers below 3.

@@ -10,6 +10,7 @@
 #include <msgpack.hpp>
 
 #include "common/cell.hpp"
+#include "common/increment.hpp"
 #include "common/memory_archive.hpp"
 #include "common/record_archive.hpp"
 #include "common/record_table.hpp"
@@ -151,7 +152,7 @@ TEST(Record, DocumentationShowsEveryField) {
   std::ifstream file(POLARGRAIN_SOURCE_DIRECTORY "/docs/file_formats.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   for (const std::string& table :
-       {markdown_table(columns_of<CellDiagnostics>()), markdown_table(columns_of<Increment>())})
+       {markdown_table(columns_of<CellDiagnostics>()), markdown_table(columns_of<Increment<2>>())})
     EXPECT_NE(page.find(table), std::string::npos) << "docs/file_formats.md must hold this table:\n" << table;
   std::string order;
   for (const Column& column : columns_of<CellIncrement>()) order += ' ' + column.name;

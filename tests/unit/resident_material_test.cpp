@@ -11,10 +11,10 @@ namespace {
 constexpr CosseratParameters kCosserat{40e6, 10e6, 0.02};
 constexpr std::size_t kPoints = 20;
 
-std::vector<Increment> increments_of_step(int step) {
-  std::vector<Increment> increments(kPoints);
+std::vector<Increment<2>> increments_of_step(int step) {
+  std::vector<Increment<2>> increments(kPoints);
   for (std::size_t p = 0; p < kPoints; ++p) {
-    Increment& increment = increments[p];
+    Increment<2>& increment = increments[p];
     increment.displacement_gradient << 1e-3 * std::sin(0.3 * static_cast<double>(p) + step), 2e-4, -1e-4,
         -5e-4;
     increment.micro_rotation = 1e-4 * static_cast<double>(p);
@@ -23,14 +23,14 @@ std::vector<Increment> increments_of_step(int step) {
   return increments;
 }
 
-std::vector<Response> step(ResidentMaterial& sand, int number) {
-  std::vector<Response> responses(kPoints);
+std::vector<Response<2>> step(ResidentMaterial& sand, int number) {
+  std::vector<Response<2>> responses(kPoints);
   sand.evaluate(increments_of_step(number), responses);
   sand.commit();
   return responses;
 }
 
-void expect_same(const std::vector<Response>& a, const std::vector<Response>& b) {
+void expect_same(const std::vector<Response<2>>& a, const std::vector<Response<2>>& b) {
   for (std::size_t p = 0; p < kPoints; ++p)
     EXPECT_EQ(std::memcmp(a[p].stress.data(), b[p].stress.data(), sizeof(Vector7)), 0) << p;
 }
@@ -48,8 +48,8 @@ class ResidentMaterialTest : public ResidentTest {
 TEST_F(ResidentMaterialTest, TheStressAtTheStartAsksNobody) {
   Pool pool(options(1));
   ResidentMaterial sand = material(pool);
-  std::vector<Response> responses(kPoints);
-  sand.evaluate(std::vector<Increment>(kPoints), responses);
+  std::vector<Response<2>> responses(kPoints);
+  sand.evaluate(std::vector<Increment<2>>(kPoints), responses);
   sand.revert();
   EXPECT_EQ(pool.counts().evaluations, 1);  // the packing
   EXPECT_EQ(responses[3].stress[k11], testing::kRestStress);
@@ -60,12 +60,12 @@ TEST_F(ResidentMaterialTest, TheStressAtTheStartAsksNobody) {
 TEST_F(ResidentMaterialTest, BoxesAndTheCosseratPartAnswer) {
   Pool pool(options(2));
   ResidentMaterial sand = material(pool);
-  const std::vector<Response> first = step(sand, 0);
-  const std::vector<Response> second = step(sand, 1);
+  const std::vector<Response<2>> first = step(sand, 0);
+  const std::vector<Response<2>> second = step(sand, 1);
   testing::LineService service(testing::resident_definition(""));
   const std::unique_ptr<ResidentBoxes> line = service.residents();
   line->move_in(std::vector<ResidentStart>(1));
-  const Increment increment = increments_of_step(0)[7];
+  const Increment<2> increment = increments_of_step(0)[7];
   CellIncrement symmetric;
   symmetric.displacement_gradient(0, 0) = increment.displacement_gradient(0, 0);
   symmetric.displacement_gradient(1, 1) = -5e-4;
@@ -86,7 +86,7 @@ TEST_F(ResidentMaterialTest, BoxesAndTheCosseratPartAnswer) {
 TEST_F(ResidentMaterialTest, AStepCannotBeTakenBack) {
   Pool pool(options(1));
   ResidentMaterial sand = material(pool);
-  std::vector<Response> responses(kPoints);
+  std::vector<Response<2>> responses(kPoints);
   sand.evaluate(increments_of_step(0), responses);
   EXPECT_THROW(sand.revert(), RunError);
   EXPECT_THROW(sand.evaluate(increments_of_step(0), responses), RunError);
@@ -143,7 +143,7 @@ TEST_F(ResidentMaterialTest, ARunGoesOnFromItsCheckpointToTheSameBits) {
 TEST_F(ResidentMaterialTest, ControlledBoxesAnswerWhole) {
   Pool pool(options(1));
   ResidentMaterial sand = material(pool, "", std::nullopt);
-  const std::vector<Response> responses = step(sand, 0);
+  const std::vector<Response<2>> responses = step(sand, 0);
   EXPECT_EQ(responses[2].stress[kCurvature1], 0.0);
   EXPECT_NE(responses[2].stress[k12], 0.0);
   EXPECT_EQ(responses[2].stress[k21], 0.0);

@@ -22,33 +22,33 @@ constexpr double kModulus = 5e6;  // Gc
 /// G, Gc, lc, lp, and the limit of the skew stress.
 constexpr CosseratParameters kLimited{10e6, kModulus, 3e-3, 4e-3, kShare};
 
-Response cell_under(double pressure) {
-  Response cell;
+Response<2> cell_under(double pressure) {
+  Response<2> cell;
   cell.stress << -pressure, -pressure, -pressure, 3e3, 3e3, 0.0, 0.0;
   cell.tangent.setZero();
   return cell;
 }
 
 /// Grains turned by w against the continuum: eps21 - eps12 = 2 w.
-Increment turned(double w) {
-  Increment increment;
+Increment<2> turned(double w) {
+  Increment<2> increment;
   increment.micro_rotation = w;
   return increment;
 }
 
-double skew_of(const Response& response) {
+double skew_of(const Response<2>& response) {
   return response.stress[k21] - response.stress[k12];
 }
 
 TEST(SkewLimit, TurningYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
   CosseratPart part;
-  const Response cell = cell_under(kPressure);
+  const Response<2> cell = cell_under(kPressure);
   constexpr double kStep = 5e-4;  // the limit is reached at 8e4 / (4 Gc) = 4e-3
   double expected = 0.0;
   for (int step = 0; step < 60; ++step) {
     const double turn = step < 20 || step >= 50 ? kStep : -kStep;
     expected = std::clamp(expected + 4.0 * kModulus * turn, -kShare * kPressure, kShare * kPressure);
-    const Response response = part.follow(turned(turn), cell, kLimited, 1.0);
+    const Response<2> response = part.follow(turned(turn), cell, kLimited, 1.0);
     ASSERT_NEAR(skew_of(response), expected, 1e-8) << step;
     // The symmetric part is the cell's, whatever the skew one is.
     ASSERT_NEAR(0.5 * (response.stress[k12] + response.stress[k21]), 3e3, 1e-9) << step;
@@ -66,11 +66,11 @@ TEST(SkewLimit, FallsWithThePressureAndIsNothingWhereGrainsHaveParted) {
   // Pressure that returns brings no skew stress back by itself.
   part.follow(turned(0.0), cell_under(kPressure), kLimited, 1.0);
   EXPECT_DOUBLE_EQ(part.skew_stress, 0.25 * kShare * kPressure);
-  const Response parted = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
+  const Response<2> parted = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
   EXPECT_EQ(skew_of(parted), 0.0);
   EXPECT_EQ(parted.stress.tail<2>().norm(), 0.0);
   // Contacts that are gone answer nothing to the next turn either, and what the tangent has is numerical.
-  const Response next = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
+  const Response<2> next = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
   EXPECT_EQ(skew_of(next), 0.0);
   EXPECT_EQ(next.tangent.bottomRows<2>().norm(), 0.0);
   EXPECT_DOUBLE_EQ(next.tangent(k21, k21), CosseratPart::kHold * kModulus);
@@ -78,16 +78,16 @@ TEST(SkewLimit, FallsWithThePressureAndIsNothingWhereGrainsHaveParted) {
 
 TEST(SkewLimit, StiffnessFollowsTheContactsAndItsChangeAddsNoStress) {
   CosseratPart part;
-  const Response cell = cell_under(kPressure);
+  const Response<2> cell = cell_under(kPressure);
   part.follow(turned(1e-3), cell, kLimited, 0.4);
   EXPECT_DOUBLE_EQ(part.skew_stress, 4.0 * kModulus * 1e-3);  // of the contacts at the start of the increment
   const double before = part.skew_stress;
-  Increment bent;
+  Increment<2> bent;
   bent.curvature << 0.5, 0.0;
   part.follow(bent, cell, kLimited, 0.4);
   EXPECT_EQ(part.skew_stress, before);
   EXPECT_DOUBLE_EQ(part.couple_stress.x(), 0.4 * kLimited.couple_modulus() * 0.5);
-  const Response response = part.follow(turned(1e-3), cell, kLimited, 0.9);
+  const Response<2> response = part.follow(turned(1e-3), cell, kLimited, 0.9);
   EXPECT_DOUBLE_EQ(part.skew_stress, before + 0.4 * 4.0 * kModulus * 1e-3);
   EXPECT_DOUBLE_EQ(response.tangent(k21, k21), 0.4 * kModulus);
 }
@@ -98,12 +98,12 @@ TEST(SkewLimit, AnyPathStaysWithinBothLimits) {
   CosseratPart part;
   double at_limit = 0.0;
   for (int step = 0; step < 2000; ++step) {
-    Increment increment = turned(0.02 * share());
+    Increment<2> increment = turned(0.02 * share());
     increment.displacement_gradient << 0.0, 0.01 * share(), 0.01 * share(), 0.0;
     increment.curvature << 3.0 * share(), 3.0 * share();
     increment.configuration = step % 2 == 0 ? Configuration::start : Configuration::fixed;
     const double pressure = kPressure * (0.9 * share() + 0.6);  // in tension now and then
-    const Response response = part.follow(increment, cell_under(pressure), kLimited, 0.5 + 0.5 * share());
+    const Response<2> response = part.follow(increment, cell_under(pressure), kLimited, 0.5 + 0.5 * share());
     const double bears = std::max(0.0, pressure);
     ASSERT_LE(std::abs(skew_of(response)), kShare * bears * (1.0 + 1e-12)) << step;
     ASSERT_LE(response.stress.tail<2>().norm(), 4e-3 * bears * (1.0 + 1e-12)) << step;
@@ -113,8 +113,8 @@ TEST(SkewLimit, AnyPathStaysWithinBothLimits) {
 }
 
 /// A linear cell, so that only the Cosserat part is not.
-Response linear_cell(const Increment& increment) {
-  Response cell = cell_under(kPressure);
+Response<2> linear_cell(const Increment<2>& increment) {
+  Response<2> cell = cell_under(kPressure);
   cell.tangent.topLeftCorner<5, 5>() << 3e7, 1e7, 2e6, 4e6, 4e6,  //
       9e6, 2.5e7, 1e6, -3e6, -3e6,                                //
       1e6, 2e6, 2e7, 0.0, 0.0,                                    //
@@ -128,14 +128,14 @@ TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
   for (const double turn : {1e-3, 9e-3}) {
     CosseratPart start;
     start.follow(turned(1e-3), cell_under(kPressure), kLimited, 0.7);
-    Increment base = turned(turn);
+    Increment<2> base = turned(turn);
     base.displacement_gradient << -1e-3, 4e-4, 7e-4, -5e-4;
     base.curvature << 0.1, 0.2;
-    const auto answer = [&](const Increment& increment) {
+    const auto answer = [&](const Increment<2>& increment) {
       CosseratPart part = start;
       return part.follow(increment, linear_cell(increment), kLimited, 0.5);
     };
-    const Response here = answer(base);
+    const Response<2> here = answer(base);
     const bool is_at_limit = turn > 5e-3;
     const double limit = kShare * -0.5 * (here.stress[k11] + here.stress[k22]);
     ASSERT_EQ(std::abs(skew_of(here)) > 0.999 * limit, is_at_limit);
@@ -153,8 +153,8 @@ TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
       const double step = column < kCurvature1 ? 1e-6 : 1e-3;
       Vector7 strain = Vector7::Zero();
       strain[column] = step;
-      Increment ahead = base;
-      Increment behind = base;
+      Increment<2> ahead = base;
+      Increment<2> behind = base;
       Eigen::Matrix2d gradient;
       gradient << strain[k11], strain[k21], strain[k12], strain[k22];
       ahead.displacement_gradient += gradient;
@@ -178,7 +178,7 @@ TEST(SkewLimit, ALimitOfZeroLeavesNoStressAndASolvableTangent) {
   frictionless.skew_limit = 0.0;
   CosseratPart part;
   part.pressure = kPressure;
-  const Response response = part.follow(turned(0.01), cell_under(kPressure), frictionless, 1.0);
+  const Response<2> response = part.follow(turned(0.01), cell_under(kPressure), frictionless, 1.0);
   EXPECT_EQ(skew_of(response), 0.0);
   EXPECT_GT(response.tangent(k21, k21), 0.0);
   EXPECT_TRUE(part.reached(frictionless, 1.0).skew);
@@ -187,12 +187,12 @@ TEST(SkewLimit, ALimitOfZeroLeavesNoStressAndASolvableTangent) {
 
 TEST(SkewLimit, InLargeDeformationTheCoupleStressTurnsAtItsLimitAndTheSkewStressStays) {
   CosseratPart part;
-  Increment bent = turned(0.1);
+  Increment<2> bent = turned(0.1);
   bent.curvature << 100.0, 0.0;
   part.follow(bent, cell_under(kPressure), kLimited, 1.0);
   ASSERT_DOUBLE_EQ(part.couple_stress.x(), 4e-3 * kPressure);
   ASSERT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
-  Increment turn;  // body and grains, by a quarter: R - I
+  Increment<2> turn;  // body and grains, by a quarter: R - I
   turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
   turn.micro_rotation = 0.5 * M_PI;
   turn.configuration = Configuration::start;
@@ -217,7 +217,7 @@ TEST(SkewLimit, MobilisationAndCountsAreThoseOfThePoint) {
   EXPECT_NEAR(points[0].skew_mobilisation(kLimited), 0.25, 1e-12);
   points[1].follow(turned(1.0), cell_under(kPressure), kLimited, 1.0);
   EXPECT_EQ(points[1].skew_mobilisation(kLimited), 1.0);
-  Increment bent;
+  Increment<2> bent;
   bent.curvature << 100.0, 0.0;
   points[2].follow(bent, cell_under(kPressure), kLimited, 1.0);
   bent.micro_rotation = 1.0;
@@ -261,12 +261,12 @@ TEST_F(LimitedSkewAdaptiveTest, AdaptiveHasTheSameSkewStressAsACellOfItsOwn) {
   Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
   bool was_limited = false;
   for (int step = 0; step < 6; ++step) {
-    Increment increment = increment_of(compression(1e-4));
+    Increment<2> increment = increment_of(compression(1e-4));
     increment.micro_rotation = step < 4 ? 4e-4 : -1e-4;
     strain += compression(1e-4);
     const Vector7 expected = part.follow(increment, cells_.at(strain).response, kSand, 1.0).stress;
     was_limited = was_limited || part.reached(kSand, 1.0).skew;
-    Response response;
+    Response<2> response;
     sand.evaluate({&increment, 1}, {&response, 1});
     ASSERT_TRUE(sand.confirm());
     sand.commit();

@@ -18,7 +18,7 @@ struct OverlappingLaw {
   struct State {};
   double overlap;
   State initial_state() const { return {}; }
-  Response integrate(const State&, const Increment&, State&) const { return {}; }
+  Response<2> integrate(const State&, const Increment<2>&, State&) const { return {}; }
   static std::vector<std::string> field_names() { return {"void_ratio", "mean_overlap", "largest_overlap"}; }
   void fields(const State&, std::span<double> values) const {
     values[0] = 0.2;
@@ -27,20 +27,20 @@ struct OverlappingLaw {
   }
 };
 
-std::shared_ptr<Material> overlapping(double overlap) {
+std::shared_ptr<Material<2>> overlapping(double overlap) {
   return std::make_shared<LocalMaterial<OverlappingLaw>>(OverlappingLaw{overlap});
 }
 
 /// Of two materials, one above the other.
-std::string said(std::shared_ptr<Material> below, std::shared_ptr<Material> above) {
-  Problem problem;
+std::string said(std::shared_ptr<Material<2>> below, std::shared_ptr<Material<2>> above) {
+  Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {1, 2}});
   problem.mesh.regions = {{"below", {0}}, {"above", {1}}};
   problem.materials["below"] = std::move(below);
   problem.materials["above"] = std::move(above);
   problem.prescribed = {{"bottom", Dof::u2, TimeTable::constant(0.0), {}},
                         {"bottom_left", Dof::u1, TimeTable::constant(0.0), {}}};
-  return app::soft_contacts(Solver(std::move(problem), {}));
+  return app::soft_contacts(Solver<2>(std::move(problem), {}));
 }
 
 }  // namespace
@@ -54,6 +54,6 @@ TEST(soft_contacts, names_the_element_of_the_worst_point) {
 
 TEST(soft_contacts, says_nothing_up_to_five_percent_and_of_materials_without_grains) {
   const auto elastic =
-      std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw({40e6, 0.3, 10e6, 3e-3, Vector7::Zero()}));
+      std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>({40e6, 0.3, 10e6, 3e-3, Vector7::Zero()}));
   EXPECT_EQ(said(overlapping(0.05), elastic), "");
 }

@@ -24,7 +24,7 @@ Moduli moduli(int size) {
   const PlaneCell boundary(make_boundary_cell_service(test::lattice(size, size, CellRotations::free)));
   const PlaneCell* const cell = &boundary;
   const Vector7 start = cell->initial().response.stress;
-  const auto change = [&](const Increment& increment) {
+  const auto change = [&](const Increment<2>& increment) {
     PlaneRequest request;
     request.increment = increment;
     const PlaneReply reply = cell->evaluate(request);
@@ -32,9 +32,9 @@ Moduli moduli(int size) {
     return Vector7(reply.response.stress - start);
   };
   constexpr double kStrain = 1e-5;
-  Increment shear;
+  Increment<2> shear;
   shear.displacement_gradient(1, 0) = kStrain;
-  Increment bend;
+  Increment<2> bend;
   bend.curvature << 1e-4, 0.0;
   const double cosserat = std::sqrt(3.0) / 2.0 * test::kTangential / test::kThickness;
   const double couple = std::sqrt(3.0) * test::kRolling / test::kThickness;

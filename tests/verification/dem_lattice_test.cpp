@@ -20,7 +20,7 @@ using test::kThickness;
 using test::lattice;
 
 /// Stress increment of one evaluation from the packing at rest.
-Vector7 stress_increment(const PlaneCell& cell, const Increment& increment) {
+Vector7 stress_increment(const PlaneCell& cell, const Increment<2>& increment) {
   PlaneRequest request;
   request.increment = increment;
   const PlaneReply reply = cell.evaluate(request);
@@ -44,7 +44,7 @@ class Lattice : public testing::TestWithParam<int> {};
 
 TEST_P(Lattice, FreeRotationsGiveTheClassicalModuli) {
   const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::free));
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient << kStrain, 0.0, 0.0, 0.0;
   const Vector7 axial = stress_increment(*cell, increment);
   EXPECT_NEAR(axial(k11) / kStrain, kLambda + 2.0 * kShear, kTolerance * kShear);
@@ -69,14 +69,14 @@ TEST_P(Lattice, ThePackingTellsItsCosseratModuliWithFreeRotationsToo) {
 
 TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
   const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::controlled));
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient << 0.0, kStrain, 0.0,
       0.0;  // micro-rotation zero: eps21 = strain, eps12 = 0
   const Vector7 stress = stress_increment(*cell, increment);
   EXPECT_NEAR(stress(k21) / kStrain, kShear + kCosserat, kTolerance * kShear);
   EXPECT_NEAR(stress(k12) / kStrain, kShear - kCosserat, kTolerance * kShear);
   // And a rotation of the grains alone: eps21 = w, eps12 = -w.
-  Increment turn;
+  Increment<2> turn;
   turn.micro_rotation = kStrain;
   const Vector7 turned = stress_increment(*cell, turn);
   PlaneRequest request;
@@ -97,7 +97,7 @@ TEST_P(Lattice, BlockedRotationGivesTheCosseratModulusAtAnySize) {
 
 TEST_P(Lattice, CurvatureGivesTheCoupleModulusAtAnySize) {
   const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::controlled));
-  Increment bend;
+  Increment<2> bend;
   bend.curvature << 1e-3, 0.0;  // 1e-5 rad a diameter
   const Vector7 along = stress_increment(*cell, bend);
   EXPECT_NEAR(along(kCurvature1) / 1e-3, kCouple, kTolerance * kCouple);
@@ -124,7 +124,7 @@ TEST_P(Lattice, CurvatureTurnsWithTheBox) {
   definition.packing.box = turn(0.3) * definition.packing.box;
   for (Grain& grain : definition.packing.grains) grain.position = turn(0.3) * grain.position;
   const auto cell = make_plane_cell(definition);
-  Increment bend;
+  Increment<2> bend;
   bend.micro_rotation = 0.2;
   bend.displacement_gradient = turn(0.2) - Eigen::Matrix2d::Identity();
   bend.curvature << 1e-3, 0.0;  // per position before the turn

@@ -49,7 +49,7 @@ TEST_P(Paths, FollowTheIndependentCode) {
   std::int64_t steps = 0;
   for (const Row& row : reference_paths()) {
     if (row.path != GetParam() || row.increment > 10) continue;
-    Response response;
+    Response<2> response;
     if (row.increment == 0) {
       const PlaneReply reply = cell->initial();
       state = reply.state;

@@ -38,9 +38,9 @@ Vector7 factors() {
 }
 
 /// The increment whose Cosserat strain is `strain` (eps_33 = 0), without rotation of the grains.
-Increment increment_of(const Vector7& scaled) {
+Increment<2> increment_of(const Vector7& scaled) {
   const Vector7 strain = scaled.cwiseQuotient(factors());
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient << strain[k11], strain[k21], strain[k12], strain[k22];
   increment.curvature << strain[kCurvature1], strain[kCurvature2];
   return increment;

@@ -12,13 +12,13 @@ namespace polargrain::fem::test {
 /// given h22 so that s11 = lateral (Pa). `evaluate(increment)` answers from the start of the step.
 /// @return the increment that meets it. @throws std::runtime_error when Newton does not converge.
 template <class Evaluate>
-Increment biaxial_step(double vertical_strain, double lateral, const Evaluate& evaluate,
+Increment<2> biaxial_step(double vertical_strain, double lateral, const Evaluate& evaluate,
                        double first_guess = 0.0) {
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient(1, 1) = vertical_strain;
   increment.displacement_gradient(0, 0) = first_guess;
   for (int iteration = 0; iteration < 100; ++iteration) {
-    const Response response = evaluate(increment);
+    const Response<2> response = evaluate(increment);
     if (response.quality != Quality::good) {
       throw std::runtime_error(response.message);
     }

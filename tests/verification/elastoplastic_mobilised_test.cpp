@@ -24,7 +24,7 @@ using testing::kStrain;
 using testing::kSubSteps;
 using testing::micro_strength;
 
-ElastoplasticParameters sand() {
+ElastoplasticParameters<2> sand() {
   return {elasticity(), {}, micro_strength()};
 }
 
@@ -32,16 +32,16 @@ ElastoplasticParameters sand() {
 class SyntheticCell {
  public:
   struct Answer {
-    ElastoplasticState state;
+    ElastoplasticState<2> state;
     std::optional<Mobilised> mobilised;
   };
 
-  [[nodiscard]] Answer evaluate(const ElastoplasticState& start, const Increment& increment) const {
-    Increment part = increment;
+  [[nodiscard]] Answer evaluate(const ElastoplasticState<2>& start, const Increment<2>& increment) const {
+    Increment<2> part = increment;
     part.displacement_gradient /= kSubSteps;
     Answer answer{start, std::nullopt};
     for (int i = 0; i < kSubSteps; ++i) {
-      const ElastoplasticState before = answer.state;
+      const ElastoplasticState<2> before = answer.state;
       if (law_.integrate(before, part, answer.state).quality != Quality::good) {
         throw std::runtime_error("the synthetic cell failed");
       }
@@ -54,24 +54,24 @@ class SyntheticCell {
     }
     return answer;
   }
-  [[nodiscard]] ElastoplasticState initial_state() const { return law_.initial_state(); }
+  [[nodiscard]] ElastoplasticState<2> initial_state() const { return law_.initial_state(); }
   [[nodiscard]] const SubspaceModuli& moduli() const { return moduli_; }
 
  private:
-  ElastoplasticLaw law_{sand()};
+  ElastoplasticLaw<2> law_{sand()};
   SubspaceModuli moduli_{sand().elastic, sand().weights};
 };
 
 /// The true law itself along the same path in very small steps.
 Curve reference(int steps) {
-  const ElastoplasticLaw law(sand());
-  ElastoplasticState state = law.initial_state();
-  ElastoplasticState trial;
+  const ElastoplasticLaw<2> law(sand());
+  ElastoplasticState<2> state = law.initial_state();
+  ElastoplasticState<2> trial;
   Curve curve;
   for (int step = 1; step <= steps; ++step) {
     double vertical = 0.0;
-    biaxial_step(-kStrain / steps, kLateral, [&](const Increment& guess) {
-      const Response response = law.integrate(state, guess, trial);
+    biaxial_step(-kStrain / steps, kLateral, [&](const Increment<2>& guess) {
+      const Response<2> response = law.integrate(state, guess, trial);
       vertical = response.stress(k22);
       return response;
     });
@@ -85,21 +85,21 @@ Curve reference(int steps) {
 /// more: the step is repeated with what the cell shows of it until that stands still.
 Curve generalised(int steps, int most_calls) {
   const SyntheticCell cell;
-  const ElastoplasticFrame frame{cell.moduli(), sand().elastic.internal_length, 0.0};
+  const ElastoplasticFrame<2> frame{cell.moduli(), sand().elastic.internal_length, 0.0};
   const Cone<double> first = micro_strength()(0.0);
   FrozenCone cone{first.friction, first.dilatancy, kCohesion};
-  ElastoplasticState state = cell.initial_state();
-  ElastoplasticState cell_state = cell.initial_state();
+  ElastoplasticState<2> state = cell.initial_state();
+  ElastoplasticState<2> cell_state = cell.initial_state();
   Curve curve;
   int calls = 0;
   for (int step = 1; step <= steps; ++step) {
     SyntheticCell::Answer answer;
-    ElastoplasticState trial;
+    ElastoplasticState<2> trial;
     double vertical = 0.0;
     double change = 1.0;
     for (int call = 0; call < most_calls && change > kStandstill; ++call) {
-      const Increment increment = biaxial_step(-kStrain / steps, kLateral, [&](const Increment& guess) {
-        const Response response = integrate_elastoplastic(frame, cone, state, guess, trial);
+      const Increment<2> increment = biaxial_step(-kStrain / steps, kLateral, [&](const Increment<2>& guess) {
+        const Response<2> response = integrate_elastoplastic(frame, cone, state, guess, trial);
         vertical = response.stress(k22);
         return response;
       });

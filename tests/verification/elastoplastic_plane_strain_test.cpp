@@ -27,7 +27,7 @@ class PlaneStrainLimit : public testing::TestWithParam<Strength> {};
 TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   const auto& [strength, weights] = GetParam();
   const FrozenCone cone = cone_from_plane_strain(strength);
-  ElastoplasticParameters sand;
+  ElastoplasticParameters<2> sand;
   sand.elastic.young_modulus = 50e6;
   sand.elastic.poisson_ratio = 0.3;
   sand.elastic.cosserat_shear_modulus = 10e6;
@@ -35,14 +35,14 @@ TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   sand.elastic.initial_stress << kLateral, kLateral, kLateral, 0.0, 0.0, 0.0, 0.0;
   sand.weights = weights;
   sand.cone = {cone.friction, cone.dilatancy, cone.cohesion};
-  const ElastoplasticLaw law(sand);
+  const ElastoplasticLaw<2> law(sand);
 
-  ElastoplasticState state = law.initial_state();
-  ElastoplasticState trial;
-  Increment increment;
-  Response response;
+  ElastoplasticState<2> state = law.initial_state();
+  ElastoplasticState<2> trial;
+  Increment<2> increment;
+  Response<2> response;
   for (int step = 0; step < 400; ++step) {
-    increment = biaxial_step(-1e-3, kLateral, [&](const Increment& guess) {
+    increment = biaxial_step(-1e-3, kLateral, [&](const Increment<2>& guess) {
       response = law.integrate(state, guess, trial);
       return response;
     });

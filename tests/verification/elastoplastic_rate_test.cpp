@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kLength = 1.0;  // scaled and unscaled components coincide
 
-ElastoplasticParameters sand(const InvariantWeights& weights) {
-  ElastoplasticParameters parameters;
+ElastoplasticParameters<2> sand(const InvariantWeights& weights) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic.young_modulus = 50e6;
   parameters.elastic.poisson_ratio = 0.3;
   parameters.elastic.cosserat_shear_modulus = 10e6;
@@ -36,9 +36,9 @@ Vector7 path(double t) {
   return strain;
 }
 
-Increment increment_between(double from, double to) {
+Increment<2> increment_between(double from, double to) {
   const Vector7 strain = path(to) - path(from);
-  Increment increment;
+  Increment<2> increment;
   increment.displacement_gradient << strain(k11), strain(k21), strain(k12), strain(k22);
   increment.curvature << strain(kCurvature1), strain(kCurvature2);
   return increment;
@@ -52,7 +52,7 @@ struct Point {
 /// The rate equations with every matrix written out.
 class Rates {
  public:
-  explicit Rates(const ElastoplasticParameters& parameters) : cone_(parameters.cone) {
+  explicit Rates(const ElastoplasticParameters<2>& parameters) : cone_(parameters.cone) {
     const double e = parameters.elastic.young_modulus;
     const double nu = parameters.elastic.poisson_ratio;
     const double g = e / (2.0 * (1.0 + nu));
@@ -136,7 +136,7 @@ Point runge_kutta(const Rates& rates, Point point, double from, int steps) {
 class RateEquations : public testing::TestWithParam<InvariantWeights> {};
 
 TEST_P(RateEquations, StepsConvergeToThemWithFirstOrder) {
-  const ElastoplasticParameters parameters = sand(GetParam());
+  const ElastoplasticParameters<2> parameters = sand(GetParam());
   const Rates rates(parameters);
   const Vector7& initial = parameters.elastic.initial_stress;
   const double start = yield_time(rates, initial);
@@ -148,17 +148,17 @@ TEST_P(RateEquations, StepsConvergeToThemWithFirstOrder) {
   EXPECT_LE((exact.stress - coarse.stress).norm(), 1e-10 * exact.stress.norm());
   EXPECT_LE(std::abs(rates.yield(exact)), 1e-9 * exact.stress.norm());
 
-  const ElastoplasticLaw law(parameters);
+  const ElastoplasticLaw<2> law(parameters);
   std::vector<Vector7> ends;
   std::vector<double> errors;
   for (const int steps : {50, 100, 200, 400, 800}) {
-    ElastoplasticState state;
-    ElastoplasticState trial;
+    ElastoplasticState<2> state;
+    ElastoplasticState<2> trial;
     ASSERT_EQ(law.integrate(law.initial_state(), increment_between(0.0, start), state).quality,
               Quality::good);
     for (int i = 0; i < steps; ++i) {
       const double h = (1.0 - start) / steps;
-      const Increment increment = increment_between(start + i * h, start + (i + 1) * h);
+      const Increment<2> increment = increment_between(start + i * h, start + (i + 1) * h);
       ASSERT_EQ(law.integrate(state, increment, trial).quality, Quality::good);
       ASSERT_EQ(trial.regime, Regime::smooth);
       state = trial;

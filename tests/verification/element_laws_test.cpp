@@ -27,8 +27,8 @@ constexpr double kShear = kYoung / (2.0 * (1.0 + kPoisson));
 /// Newton's method meets linear laws to rounding: of stresses of 1 MPa, over 100 kPa.
 constexpr double kRounding = 1e-10;
 
-fem::ElasticParameters elastic() {
-  fem::ElasticParameters parameters;
+fem::ElasticParameters<2> elastic() {
+  fem::ElasticParameters<2> parameters;
   parameters.young_modulus = kYoung;
   parameters.poisson_ratio = kPoisson;
   parameters.cosserat_shear_modulus = 10e6;
@@ -37,17 +37,17 @@ fem::ElasticParameters elastic() {
 }
 
 LawPoint elastic_point() {
-  return LawPoint(std::make_shared<fem::LocalMaterial<fem::ElasticLaw>>(fem::ElasticLaw(elastic())),
+  return LawPoint(std::make_shared<fem::LocalMaterial<fem::ElasticLaw<2>>>(fem::ElasticLaw<2>(elastic())),
                   kPressure);
 }
 
 LawPoint cone_point(const fem::MohrCoulomb& strength) {
-  fem::ElastoplasticParameters sand;
+  fem::ElastoplasticParameters<2> sand;
   sand.elastic = elastic();
   for (const int place : {0, 1, 2}) sand.elastic.initial_stress[place] = -kPressure;
   const fem::FrozenCone cone = fem::cone_from_plane_strain(strength);
   sand.cone = {cone.friction, cone.dilatancy, cone.cohesion};
-  return LawPoint(std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw>>(fem::ElastoplasticLaw(sand)),
+  return LawPoint(std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw<2>>>(fem::ElastoplasticLaw<2>(sand)),
                   kPressure);
 }
 

@@ -23,19 +23,19 @@ constexpr double kWidth = 0.04;
 constexpr double kHeight = 0.08;
 constexpr double kConfining = 100e3;
 
-std::shared_ptr<Material> sand(double internal_length, double peak_friction_angle) {
-  ElastoplasticParameters parameters;
+std::shared_ptr<Material<2>> sand(double internal_length, double peak_friction_angle) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {40e6, 0.3, 10e6, internal_length, Vector7::Zero()};
   for (const int i : {k11, k22, k33}) parameters.elastic.initial_stress(i) = -kConfining;
   constexpr double kRange = 0.10;
   parameters.cone = hardening_cone_from_plane_strain({PiecewiseLinear::ramp(peak_friction_angle, 32, kRange),
                                                       PiecewiseLinear::ramp(10, 0, kRange),
                                                       PiecewiseLinear::ramp(1e3, 0.5e3, kRange)});
-  return std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
 }
 
-Problem biaxial(double internal_length, int columns) {
-  Problem problem;
+Problem<2> biaxial(double internal_length, int columns) {
+  Problem<2> problem;
   problem.mesh = rectangle({{kWidth, kHeight}, {columns, 2 * columns}});
   std::vector<int>& weak = problem.mesh.regions["weak"];
   std::vector<int>& rest = problem.mesh.regions["rest"];
@@ -49,7 +49,7 @@ Problem biaxial(double internal_length, int columns) {
                         {"bottom_left", Dof::u1, zero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.05 * kHeight), {}}};
   for (const char* side : {"left", "right"}) {
-    problem.edge_loads.push_back({.on = side, .pressure = TimeTable::constant(kConfining)});
+    problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::constant(kConfining)});
   }
   return problem;
 }
@@ -61,7 +61,7 @@ struct Curve {
 };
 
 /// @param steps of 0.1 % strain each.
-Curve compress(Solver& solver, int steps) {
+Curve compress(Solver<2>& solver, int steps) {
   Curve curve;
   EXPECT_TRUE(solver.equilibrate().converged);
   for (int step = 1; step <= steps; ++step) {
@@ -130,7 +130,7 @@ class Biaxial : public testing::TestWithParam<Reference> {};
 
 TEST_P(Biaxial, follows_the_reference_through_the_peak_and_the_band) {
   const Reference& reference = GetParam();
-  Solver solver(biaxial(reference.internal_length, reference.columns), {});
+  Solver<2> solver(biaxial(reference.internal_length, reference.columns), {});
   const Curve curve = compress(solver, 50);
   double largest = 0.0;
   for (const auto& [step, expected] : reference.stress_ratio) {
@@ -152,7 +152,7 @@ struct BandCut {
   double extent = 0.0;
 };
 
-BandCut cut_band(const Solver& solver, double x) {
+BandCut cut_band(const Solver<2>& solver, double x) {
   const double element_width = kWidth / std::sqrt(static_cast<double>(solver.points()) / 8);
   std::map<double, double> profile;
   for (std::size_t i = 0; i < solver.points(); ++i) {
@@ -183,7 +183,7 @@ BandCut cut_band(const Solver& solver, double x) {
 }
 
 TEST(biaxial_band, has_the_width_angle_and_rotation_of_the_reference) {
-  Solver solver(biaxial(1e-3, 16), {});
+  Solver<2> solver(biaxial(1e-3, 16), {});
   compress(solver, 50);
   const BandCut middle = cut_band(solver, 0.02);
   const double rise = cut_band(solver, 0.025).centre - cut_band(solver, 0.015).centre;
@@ -211,7 +211,7 @@ TEST(biaxial_band, has_the_width_angle_and_rotation_of_the_reference) {
 TEST(biaxial_newton, converges_quadratically_while_the_band_softens) {
   SolverOptions options;
   options.force_tolerance = options.moment_tolerance = 1e-11;
-  Solver solver(biaxial(3e-3, 8), options);
+  Solver<2> solver(biaxial(3e-3, 8), options);
   compress(solver, 41);
   const StepReport report = solver.advance(42 / 50.0);
   ASSERT_TRUE(report.converged);

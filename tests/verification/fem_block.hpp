@@ -32,7 +32,7 @@ struct Block {
   bool has_reference = true;           ///< ends at the Mohr-Coulomb stress
 };
 
-inline void distort(Mesh& mesh, double share, const std::array<int, 2>& elements) {
+inline void distort(Mesh<2>& mesh, double share, const std::array<int, 2>& elements) {
   for (Eigen::Vector2d& node : mesh.nodes) {
     const double i = node(0) / 0.04 * elements[0];
     const double j = node(1) / 0.08 * elements[1];
@@ -42,8 +42,8 @@ inline void distort(Mesh& mesh, double share, const std::array<int, 2>& elements
   }
 }
 
-inline Problem problem_of(const Block& block) {
-  ElastoplasticParameters parameters;
+inline Problem<2> problem_of(const Block& block) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {40e6, block.poisson_ratio, block.cosserat_modulus, block.internal_length,
                         Vector7::Zero()};
   for (const int i : {k11, k22, k33}) parameters.elastic.initial_stress(i) = -block.confining;
@@ -52,10 +52,10 @@ inline Problem problem_of(const Block& block) {
     friction = PiecewiseLinear::ramp(block.friction, block.softened_friction, block.softening_range);
   }
   parameters.cone = hardening_cone_from_plane_strain({friction, block.dilatancy, block.cohesion});
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, block.elements}, block.element);
   if (block.distortion > 0) distort(problem.mesh, block.distortion, block.elements);
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
   std::vector<TimeTable::Point> top{{0.0, 0.0}};
   for (const double strain : block.strains) top.push_back({static_cast<double>(top.size()), strain * 0.08});
   const TimeTable zero = TimeTable::constant(0.0);
@@ -68,7 +68,7 @@ inline Problem problem_of(const Block& block) {
   }
   if (block.confining > 0) {
     for (const char* side : {"left", "right"}) {
-      problem.edge_loads.push_back({.on = side, .pressure = TimeTable::constant(block.confining)});
+      problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::constant(block.confining)});
     }
   }
   return problem;
@@ -93,7 +93,7 @@ inline double mohr_coulomb(const Block& block) {
 inline void check_block(const Block& block) {
   SolverOptions options;
   options.reference_force = 40e6 * 1e-3 * 0.04;  // the same for all, also where nothing presses
-  Solver solver(problem_of(block), options);
+  Solver<2> solver(problem_of(block), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   int iterations = 0;
   int cuts = 0;
@@ -110,7 +110,7 @@ inline void check_block(const Block& block) {
     message = report.message;
   }
   const double stress = solver.reaction("top")(1) / 0.04;
-  const SolverState& state = solver.state();
+  const SolverState<2>& state = solver.state();
   // Work of unbalanced forces within the tolerance over the way of the top is no error of the balance.
   const double work_tolerance = 1e-5 * std::abs(state.internal_work) + 1e-8 * options.reference_force * 0.008;
   const double work_error = std::abs(state.external_work - state.internal_work);

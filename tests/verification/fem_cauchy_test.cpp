@@ -15,26 +15,26 @@ using namespace polargrain::fem;
 namespace {
 
 /// A block between rough plates, sheared and pressed: nothing is homogeneous.
-std::unique_ptr<Solver> solved_block(const std::string& element, Continuum continuum, double cosserat_modulus,
+std::unique_ptr<Solver<2>> solved_block(const std::string& element, Continuum continuum, double cosserat_modulus,
                                      double internal_length, double poisson_ratio = 0.3) {
   const TimeTable zero = TimeTable::constant(0.0);
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{1.0, 2.0}, {4, 8}}, element);
   problem.continuum = continuum;
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(
       {2 * (1 + poisson_ratio), poisson_ratio, cosserat_modulus, internal_length, Vector7::Zero()}));
   problem.prescribed = {{"bottom", Dof::u1, zero, {}},
                         {"bottom", Dof::u2, zero, {}},
                         {"top", Dof::u1, TimeTable::ramp(0.02), {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.01), {}}};
-  auto solver = std::make_unique<Solver>(std::move(problem), SolverOptions{});
+  auto solver = std::make_unique<Solver<2>>(std::move(problem), SolverOptions{});
   EXPECT_TRUE(solver->equilibrate().converged);
   EXPECT_TRUE(solver->advance(1.0).converged);
   return solver;
 }
 
 /// Largest difference of a displacement over the largest displacement.
-double difference(const Solver& one, const Solver& other) {
+double difference(const Solver<2>& one, const Solver<2>& other) {
   double largest = 0.0;
   double scale = 0.0;
   const Eigen::VectorXd& a = one.state().displacement;
@@ -62,7 +62,7 @@ TEST_P(EveryElement, cauchy_is_cosserat_without_coupling) {
 
 TEST_P(EveryElement, cauchy_stress_is_symmetric_and_knows_no_couples) {
   const auto cauchy = solved_block(GetParam(), Continuum::cauchy, 0.5, 0.2);
-  for (const Response& response : cauchy->state().responses) {
+  for (const Response<2>& response : cauchy->state().responses) {
     EXPECT_NEAR(response.stress(k12), response.stress(k21), 1e-16);
     EXPECT_EQ(response.stress(kCurvature1), 0.0);
   }
@@ -70,7 +70,7 @@ TEST_P(EveryElement, cauchy_stress_is_symmetric_and_knows_no_couples) {
   EXPECT_EQ(cauchy->state().displacement(2), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
 
 TEST(mean_dilatation, keeps_q4_from_locking_near_incompressibility) {
   // The work done on a block of nu = 0.4999 against fine Q8R: locking would show as a multiple.

@@ -18,22 +18,22 @@ namespace {
 /// Half the footing has width b = 1, cohesion is 1. @param division elements over b.
 /// @return bearing pressure over cohesion after a settlement of 0.06 b.
 double bearing_capacity_factor(int division, double internal_length, const std::string& element) {
-  ElastoplasticParameters parameters;
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {1000.0, 0.3, 1000.0 / 2.6, internal_length, Vector7::Zero()};
   parameters.cone = {0.0, 0.0, std::sqrt(3.0)};
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{5.0, 3.0}, {5 * division, 3 * division}}, element);
   for (const int node : problem.mesh.nodes_on("top")) {
     if (problem.mesh.nodes[static_cast<std::size_t>(node)](0) < 1 + 1e-9) {
       problem.mesh.node_sets["footing"].push_back(node);
     }
   }
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {{"left", Dof::u1, zero, {}},   {"left", Dof::w, zero, {}},
                         {"bottom", Dof::u1, zero, {}}, {"bottom", Dof::u2, zero, {}},
                         {"right", Dof::u1, zero, {}},  {"footing", Dof::u2, TimeTable::ramp(-0.06), {}}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   EXPECT_TRUE(solver.equilibrate().converged);
   for (int step = 1; step <= 20; ++step) {
     const StepReport report = solver.advance(step / 20.0);

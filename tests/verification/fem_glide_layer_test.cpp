@@ -20,15 +20,15 @@ namespace {
 TEST(glide_layer, has_the_published_displacement) {
   constexpr int kElements = 20;
   const TimeTable zero = TimeTable::constant(0.0);
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{1.0 / kElements, 1.0}, {1, kElements}});
-  const ElasticParameters parameters{2 * 2.0 * 1.25, 0.25, 3.0, std::sqrt(0.3), Vector7::Zero()};
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  const ElasticParameters<2> parameters{2 * 2.0 * 1.25, 0.25, 3.0, std::sqrt(0.3), Vector7::Zero()};
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   problem.prescribed = {{"all", Dof::u2, zero, {}},
                         {"bottom", Dof::u1, zero, {}},
                         {"bottom", Dof::w, zero, {}},
                         {"top", Dof::w, TimeTable::ramp(3.626860407847), {}}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   const double error = solver.mean_displacement("top")(0) / -1.65731741465 - 1;

@@ -74,7 +74,7 @@ TEST(hard_cases, a_rotation_without_any_stiffness_is_refused) {
   // Gc = 0: nothing holds a uniform micro-rotation.
   Block block{.name = "Gc = 0"};
   block.cosserat_modulus = 0;
-  Solver solver(problem_of(block), {});
+  Solver<2> solver(problem_of(block), {});
   const StepReport report = solver.equilibrate();
   std::cout << "[figure] Gc = 0: refused, " << report.message << '\n';
   EXPECT_FALSE(report.converged);
@@ -84,9 +84,9 @@ TEST(hard_cases, a_rotation_without_any_stiffness_is_refused) {
 TEST(hard_cases, no_cosserat_modulus_with_one_rotation_held_is_the_classical_block) {
   Block block{.name = "Gc = 0, one micro-rotation held"};
   block.cosserat_modulus = 0;
-  Problem problem = problem_of(block);
+  Problem<2> problem = problem_of(block);
   problem.prescribed.push_back({"bottom_left", Dof::w, TimeTable::constant(0.0), {}});
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   int iterations = 0;
   for (int step = 1; step <= 10; ++step) {
@@ -102,20 +102,20 @@ TEST(hard_cases, no_cosserat_modulus_with_one_rotation_held_is_the_classical_blo
 
 TEST(hard_cases, a_block_held_at_one_node_only_by_its_micro_rotation) {
   Block block;
-  Problem problem = problem_of(block);
+  Problem<2> problem = problem_of(block);
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {{"bottom_left", Dof::u1, zero, {}},
                         {"bottom_left", Dof::u2, zero, {}},
                         {"bottom_left", Dof::w, zero, {}}};
   for (const char* side : {"bottom", "top"}) {
-    problem.edge_loads.push_back({.on = side, .pressure = TimeTable({{0.0, 100e3}, {1.0, 250e3}})});
+    problem.boundary_loads.push_back({.on = side, .pressure = TimeTable({{0.0, 100e3}, {1.0, 250e3}})});
   }
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   ASSERT_TRUE(report.converged) << report.message;
   double error = 0.0;
-  for (const Response& response : solver.state().responses) {
+  for (const Response<2>& response : solver.state().responses) {
     error = std::max(error, std::abs(response.stress(k22) / -250e3 - 1));
   }
   std::cout << "[figure] held at one node: relative error of the stress " << error << ", iterations "

@@ -33,11 +33,11 @@ double distance(int half_steps, int elements, double last) {
   return 0.5 * (corner(half_steps / 2) + corner((half_steps + 1) / 2));
 }
 
-Mesh quarter_plate() {
+Mesh<2> quarter_plate() {
   constexpr int kRadial = 36;
   constexpr int kAround = 40;
   constexpr double kHalfWidth = 50.0;  // the hole's effect on the far edges falls as its square
-  Mesh mesh = rectangle({{1.0, 1.0}, {kRadial, kAround}});
+  Mesh<2> mesh = rectangle({{1.0, 1.0}, {kRadial, kAround}});
   for (Eigen::Vector2d& node : mesh.nodes) {
     const double share = distance(static_cast<int>(std::lround(2 * kRadial * node(0))), kRadial, 1.0);
     const double angle = node(1) * M_PI / 2;
@@ -45,8 +45,8 @@ Mesh quarter_plate() {
     const Eigen::Vector2d edge = kHalfWidth * hole / hole.lpNorm<Eigen::Infinity>();
     node = (1 - share) * hole + share * edge;
   }
-  for (const Edge& edge : mesh.boundaries.at("right")) {
-    const Eigen::Vector2d& middle = mesh.nodes[mesh.edge_nodes(edge)[2]];
+  for (const BoundarySide& edge : mesh.boundaries.at("right")) {
+    const Eigen::Vector2d& middle = mesh.nodes[mesh.side_nodes(edge)[2]];
     if (middle(0) > middle(1)) mesh.boundaries["pulled"].push_back(edge);
   }
   return mesh;
@@ -54,11 +54,11 @@ Mesh quarter_plate() {
 
 /// Stress 11 at the node where the hole meets the axis across the tension, from the four points of its
 /// element.
-double stress_at_the_hole(const Solver& solver) {
-  const Mesh& mesh = solver.problem().mesh;
+double stress_at_the_hole(const Solver<2>& solver) {
+  const Mesh<2>& mesh = solver.problem().mesh;
   const int node = mesh.node_sets.at("top_left").front();
   for (std::size_t point = 0; point < solver.points(); point += 4) {
-    const Element& element = mesh.elements[static_cast<std::size_t>(solver.element_of_point(point))];
+    const Element<2>& element = mesh.elements[static_cast<std::size_t>(solver.element_of_point(point))];
     if (element.nodes[3] != node) continue;
     // The points of an element span a bilinear field in its reference coordinates; the node is at (-1, 1).
     Eigen::Matrix4d terms;
@@ -78,18 +78,18 @@ class HoleTest : public testing::TestWithParam<Hole> {};
 TEST_P(HoleTest, concentrates_stress_as_the_closed_form_says) {
   const Hole& hole = GetParam();
   const double n2 = hole.coupling_number * hole.coupling_number;
-  const ElasticParameters parameters{2 * (1 + hole.poisson_ratio), hole.poisson_ratio, n2 / (1 - n2),
+  const ElasticParameters<2> parameters{2 * (1 + hole.poisson_ratio), hole.poisson_ratio, n2 / (1 - n2),
                                      std::sqrt(2.0) / hole.radius_over_length, Vector7::Zero()};
   const TimeTable zero = TimeTable::constant(0.0);
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = quarter_plate();
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   problem.prescribed = {{"top", Dof::u1, zero, {}},
                         {"top", Dof::w, zero, {}},
                         {"bottom", Dof::u2, zero, {}},
                         {"bottom", Dof::w, zero, {}}};
-  problem.edge_loads = {{.on = "pulled", .traction1 = TimeTable::ramp(1.0)}};
-  Solver solver(std::move(problem), {});
+  problem.boundary_loads = {{.on = "pulled", .traction[0] = TimeTable::ramp(1.0)}};
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   const double error = stress_at_the_hole(solver) / hole.concentration - 1;

@@ -19,7 +19,7 @@ namespace {
 /// One step of one element: from a shape that has turned already, turned on by 0.4 rad while it is strained unevenly.
 class OneStep {
  public:
-  OneStep(const std::string& element, Continuum continuum, std::shared_ptr<Material> material, double strain)
+  OneStep(const std::string& element, Continuum continuum, std::shared_ptr<Material<2>> material, double strain)
       : mesh_(rectangle({{0.1, 0.08}, {1, 1}}, element)),
         start_(mesh_, continuum),
         end_(mesh_, continuum),
@@ -36,7 +36,7 @@ class OneStep {
     increments_ = start_.increments_to(end_, increment);
     answers_.resize(increments_.size());
     material_->evaluate(increments_, answers_);
-    for (const Response& answer : answers_) EXPECT_EQ(answer.quality, Quality::good) << answer.message;
+    for (const Response<2>& answer : answers_) EXPECT_EQ(answer.quality, Quality::good) << answer.message;
     return end_.internal_forces(answers_);
   }
 
@@ -45,7 +45,7 @@ class OneStep {
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(increment.size(), increment.size());
     for (std::size_t e = 0; e < end_.elements(); ++e)
       whole(end_.element_dofs(e), end_.element_dofs(e)) +=
-          end_.element_tangent(e, {answers_, Linearisation::Moving{start_, increments_}});
+          end_.element_tangent(e, {answers_, Linearisation<2>::Moving{start_, increments_}});
     return whole;
   }
 
@@ -60,35 +60,35 @@ class OneStep {
       const Eigen::Vector2d strained =
           x + strain * Eigen::Vector2d(0.8 * x(0) + 0.6 * x(1) + 0.01 * std::sin(2.1 * k),
                                        -x(1) + 0.2 * x(0) + 0.01 * std::cos(1.3 * k));
-      const Eigen::Index entry = entry_of(static_cast<Eigen::Index>(node));
+      const Eigen::Index entry = entry_of<2>(static_cast<Eigen::Index>(node));
       values.segment<2>(entry) = Eigen::Rotation2Dd(angle) * strained - x;
       values(entry + 2) = angle + 0.3 * strain * std::sin(0.7 * k);
     }
     return values;
   }
 
-  Mesh mesh_;
-  Discretisation start_, end_;
-  std::shared_ptr<Material> material_;
+  Mesh<2> mesh_;
+  Discretisation<2> start_, end_;
+  std::shared_ptr<Material<2>> material_;
   Eigen::VectorXd before_;
-  std::vector<Increment> increments_;
-  std::vector<Response> answers_;
+  std::vector<Increment<2>> increments_;
+  std::vector<Response<2>> answers_;
 };
 
 TEST(LargeTangent, IsTheDerivativeOfTheForces) {
-  ElasticParameters elastic = testing::elasticity();
+  ElasticParameters<2> elastic = testing::elasticity();
   elastic.internal_length = 0.02;
   for (const bool plastic : {false, true}) {
     // An initial stress as large as the moduli shows every turn of it.
     elastic.initial_stress << -3e7, -1e7, -2e7, 6e6, 4e6, 2e5, -1e5;
-    for (const std::string& element : element_names()) {
+    for (const std::string& element : element_names<2>()) {
       for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
-        ElasticParameters of_case = elastic;
+        ElasticParameters<2> of_case = elastic;
         if (continuum == Continuum::cauchy) of_case.initial_stress << -3e7, -1e7, -2e7, 5e6, 5e6, 0, 0;
-        std::shared_ptr<Material> material = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(of_case));
+        std::shared_ptr<Material<2>> material = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(of_case));
         if (plastic)
-          material = std::make_shared<LocalMaterial<ElastoplasticLaw>>(
-              ElastoplasticLaw({of_case, {}, {PiecewiseLinear(0.8), PiecewiseLinear(0.2), 1e7}}));
+          material = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(
+              ElastoplasticLaw<2>({of_case, {}, {PiecewiseLinear(0.8), PiecewiseLinear(0.2), 1e7}}));
         OneStep step(element, continuum, material, plastic ? 0.2 : 0.3);
         (void)step.forces();
         const Eigen::MatrixXd tangent = step.tangent();

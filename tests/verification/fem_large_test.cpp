@@ -19,30 +19,30 @@ namespace {
 
 const TimeTable kZero = TimeTable::constant(0.0);
 
-Problem elastic_block(const RectangleSpecification& size, const ElasticParameters& parameters) {
-  Problem problem;
+Problem<2> elastic_block(const RectangleSpecification& size, const ElasticParameters<2>& parameters) {
+  Problem<2> problem;
   problem.mesh = rectangle(size);
   problem.deformation = Deformation::large;
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   return problem;
 }
 
 TEST(large_deformation, stress_turns_with_the_material) {
-  LocalMaterial<ElasticLaw> material(ElasticLaw({1e6, 0.3, 1e5, 0.01, Vector7{10, 20, 5, 3, 4, 1, 2}}));
+  LocalMaterial<ElasticLaw<2>> material(ElasticLaw<2>({1e6, 0.3, 1e5, 0.01, Vector7{10, 20, 5, 3, 4, 1, 2}}));
   material.allocate(1);
-  Increment increment;  // rigid rotation by 90 degrees: R - I
+  Increment<2> increment;  // rigid rotation by 90 degrees: R - I
   increment.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
   increment.micro_rotation = 0.5 * M_PI;
   increment.configuration = Configuration::start;
-  std::vector<Response> responses(1);
-  material.evaluate(std::vector<Increment>{increment}, responses);
+  std::vector<Response<2>> responses(1);
+  material.evaluate(std::vector<Increment<2>>{increment}, responses);
   // s'_ij = R s R^T with R e_1 = e_2, R e_2 = -e_1.
   const Vector7 expected{20, 10, 5, -4, -3, -2, 1};
   EXPECT_LT((responses[0].stress - expected).norm(), 1e-12);
 }
 
 TEST(large_deformation, a_block_turned_by_a_full_circle_feels_nothing) {
-  Problem problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
+  Problem<2> problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
   constexpr int kSteps = 12;
   std::vector<TimeTable::Point> cosine;
   std::vector<TimeTable::Point> sine;
@@ -57,7 +57,7 @@ TEST(large_deformation, a_block_turned_by_a_full_circle_feels_nothing) {
                         {"bottom", Dof::w, TimeTable::ramp(2 * M_PI), {}}};
   SolverOptions options;
   options.reference_force = 1e5;
-  Solver solver(std::move(problem), options);
+  Solver<2> solver(std::move(problem), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   int iterations = 0;
   for (int step = 1; step <= kSteps; ++step) {
@@ -66,7 +66,7 @@ TEST(large_deformation, a_block_turned_by_a_full_circle_feels_nothing) {
     iterations += report.iterations;
   }
   double largest = 0.0;
-  for (const Response& response : solver.state().responses)
+  for (const Response<2>& response : solver.state().responses)
     largest = std::max(largest, response.stress.norm());
   double farthest = 0.0;
   for (Eigen::Index i = 0; i < solver.state().displacement.size(); ++i) {
@@ -80,14 +80,14 @@ TEST(large_deformation, a_block_turned_by_a_full_circle_feels_nothing) {
 
 TEST(large_deformation, pressure_all_round_compresses_by_the_exponential) {
   // nu = 0 and the same pressure on every side: the stress is -p and rates add up to ln(size) = -p / E.
-  Problem problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
+  Problem<2> problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
   problem.prescribed = {{"bottom_left", Dof::u1, kZero, {}},
                         {"bottom_left", Dof::u2, kZero, {}},
                         {"bottom_right", Dof::u2, kZero, {}}};
   for (const char* side : {"left", "right", "bottom", "top"}) {
-    problem.edge_loads.push_back({.on = side, .pressure = TimeTable::ramp(0.05e6)});
+    problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::ramp(0.05e6)});
   }
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   constexpr int kSteps = 20;
   int iterations = 0;
@@ -96,7 +96,7 @@ TEST(large_deformation, pressure_all_round_compresses_by_the_exponential) {
     ASSERT_TRUE(report.converged) << report.message;
     iterations += report.iterations;
   }
-  for (const Response& response : solver.state().responses) {
+  for (const Response<2>& response : solver.state().responses) {
     EXPECT_NEAR(response.stress(k11), -0.05e6, 1.0);
     EXPECT_NEAR(response.stress(k22), -0.05e6, 1.0);
   }
@@ -111,11 +111,11 @@ TEST(large_deformation, tangent_under_pressure_is_the_derivative_of_the_residual
   // Forces of a pressure on the moved boundary against central differences, which are exact for what is
   // linear in the place of the nodes: rounding is all that may differ.
   for (const char* element : {"Q8R", "Q4", "T6"}) {
-    Problem problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
+    Problem<2> problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
     problem.mesh = rectangle({{2.0, 1.0}, {3, 2}}, element);
-    problem.edge_loads = {{.on = "top", .pressure = TimeTable::ramp(2e5)},
+    problem.boundary_loads = {{.on = "top", .pressure = TimeTable::ramp(2e5)},
                           {.on = "right", .pressure = TimeTable::constant(-1e5)}};
-    Loads loads(problem);
+    Loads<2> loads(problem);
     Eigen::VectorXd place = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size()));
     for (Eigen::Index i = 0; i < place.size(); ++i) place(i) = 0.1 * std::sin(1.7 * static_cast<double>(i));
     Eigen::VectorXd way = place;
@@ -133,13 +133,13 @@ TEST(large_deformation, tangent_under_pressure_is_the_derivative_of_the_residual
 }
 
 TEST(large_deformation, newton_converges_quadratically_under_a_following_pressure) {
-  Problem problem = elastic_block({{2.0, 1.0}, {4, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
+  Problem<2> problem = elastic_block({{2.0, 1.0}, {4, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
   problem.prescribed = {{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
   // Two tenths of Young's modulus on one side in five steps: bends and shears the block.
-  problem.edge_loads = {{.on = "left", .pressure = TimeTable::ramp(0.2e6)}};
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::ramp(0.2e6)}};
   SolverOptions options;
   options.force_tolerance = options.moment_tolerance = 1e-12;
-  Solver solver(std::move(problem), options);
+  Solver<2> solver(std::move(problem), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   StepReport report;
   for (int step = 1; step <= 5; ++step) {
@@ -162,17 +162,17 @@ TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
   constexpr double kDepth = 0.02;
   constexpr double kYoung = 1e9;
   constexpr double kLengthScale = 0.005;
-  Problem problem =
+  Problem<2> problem =
       elastic_block({{kLength, kDepth}, {40, 1}}, {kYoung, 0.0, 0.2e9, kLengthScale, Vector7::Zero()});
   problem.prescribed = {
       {"left", Dof::u1, kZero, {}}, {"bottom_left", Dof::u2, kZero, {}}, {"left", Dof::w, kZero, {}}};
   // docs/theory.md, E.1b: bending stiffness with couples; nu = 0, so G = E / 2.
   const double stiffness = kYoung * std::pow(kDepth, 3) / 12 + kYoung * kLengthScale * kLengthScale * kDepth;
   const double moment = stiffness * M_PI / kLength;
-  problem.edge_loads = {{.on = "right", .couple_traction = TimeTable::ramp(moment / kDepth)}};
+  problem.boundary_loads = {{.on = "right", .couple_traction[0] = TimeTable::ramp(moment / kDepth)}};
   SolverOptions options;
   options.reference_force = kYoung * kDepth * 0.03;
-  Solver solver(std::move(problem), options);
+  Solver<2> solver(std::move(problem), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   constexpr int kSteps = 20;
   StepReport last;
@@ -196,7 +196,7 @@ TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
 }
 
 TEST(large_deformation, an_element_turned_inside_out_is_named) {
-  Problem problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
+  Problem<2> problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
   // The top is pushed through the bottom in one go.
   problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
                         {"bottom_left", Dof::u1, kZero, {}},
@@ -204,7 +204,7 @@ TEST(large_deformation, an_element_turned_inside_out_is_named) {
   SolverOptions options;
   options.most_cuts = 0;
   options.largest_strain = 10.0;  // by default such a step is not even tried
-  Solver solver(std::move(problem), options);
+  Solver<2> solver(std::move(problem), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_FALSE(report.converged);

@@ -17,7 +17,7 @@ using namespace polargrain::fem;
 namespace {
 
 /// Nodes of straight-sided elements: corners given, middle nodes half way, shared by neighbours.
-int node_at(Mesh& mesh, const Eigen::Vector2d& position) {
+int node_at(Mesh<2>& mesh, const Eigen::Vector2d& position) {
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if ((mesh.nodes[i] - position).norm() < 1e-12) return static_cast<int>(i);
   }
@@ -26,7 +26,7 @@ int node_at(Mesh& mesh, const Eigen::Vector2d& position) {
 }
 
 /// Names all nodes on the sides of [0, 0.24] x [0, 0.12].
-void name_outline(Mesh& mesh) {
+void name_outline(Mesh<2>& mesh) {
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Eigen::Vector2d& x = mesh.nodes[i];
     const bool outside = x(0) < 1e-12 || x(0) > 0.24 - 1e-12 || x(1) < 1e-12 || x(1) > 0.12 - 1e-12;
@@ -34,8 +34,8 @@ void name_outline(Mesh& mesh) {
   }
 }
 
-Mesh patch(const std::string& element) {
-  const ElementType& type = element_type(element);
+Mesh<2> patch(const std::string& element) {
+  const ElementType<2>& type = element_type<2>(element);
   const std::vector<Eigen::Vector2d> corners{{0, 0},       {0.24, 0},    {0.24, 0.12}, {0, 0.12},
                                              {0.04, 0.02}, {0.18, 0.03}, {0.16, 0.08}, {0.08, 0.08}};
   const std::vector<std::vector<int>> quadrilaterals{
@@ -48,9 +48,9 @@ Mesh patch(const std::string& element) {
       faces.push_back({q[0], q[2], q[3]});
     }
   }
-  Mesh mesh;
+  Mesh<2> mesh;
   for (const std::vector<int>& face : faces) {
-    Element& added = mesh.elements.emplace_back(Element{&type, {}});
+    Element<2>& added = mesh.elements.emplace_back(Element<2>{&type, {}});
     for (const int corner : face) added.nodes.push_back(node_at(mesh, corners[corner]));
     if (type.nodes == type.corners) continue;
     for (std::size_t i = 0; i < face.size(); ++i) {
@@ -67,14 +67,14 @@ using StressField = std::function<Vector7(const Eigen::Vector2d&)>;
 
 struct Case {
   const char* name;
-  ElasticParameters material;
+  ElasticParameters<2> material;
   Function u1, u2, w;
   std::function<Eigen::Vector3d(const Eigen::Vector2d&)> body;
   StressField stress;
 };
 
 // G = 1000, nu = 0.25, Gc = 500, l = 0.1: lc = sqrt(2) l.
-const ElasticParameters kProvidas{2500.0, 0.25, 500.0, 0.1 * std::sqrt(2.0), Vector7::Zero()};
+const ElasticParameters<2> kProvidas{2500.0, 0.25, 500.0, 0.1 * std::sqrt(2.0), Vector7::Zero()};
 
 /// u = 1e-3 (x + y/2), 1e-3 (x + y) with the rotation and loads of one of the three tests.
 Case patch_case(const char* name, Function w, std::function<Eigen::Vector3d(const Eigen::Vector2d&)> body,
@@ -107,15 +107,15 @@ std::vector<Case> patch_cases() {
 }
 
 /// Largest error of any stress over the largest stress.
-double relative_error(const Case& test, Mesh mesh) {
-  Problem problem;
+double relative_error(const Case& test, Mesh<2> mesh) {
+  Problem<2> problem;
   problem.mesh = std::move(mesh);
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(test.material));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(test.material));
   problem.prescribed = {{"outline", Dof::u1, TimeTable::ramp(1.0), test.u1},
                         {"outline", Dof::u2, TimeTable::ramp(1.0), test.u2},
                         {"outline", Dof::w, TimeTable::ramp(1.0), test.w}};
   if (test.body) problem.body_loads = {{test.body, TimeTable::ramp(1.0)}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   EXPECT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_TRUE(report.converged) << report.message;
@@ -141,7 +141,7 @@ TEST_P(EveryElement, passes_the_patch_tests) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
 
 class QuadraticElement : public testing::TestWithParam<std::string> {};
 
@@ -150,7 +150,7 @@ TEST_P(QuadraticElement, bends_exactly) {
   // parallelograms, hence the regular mesh.
   constexpr double k = 1e-2;
   constexpr double nu = 0.3;
-  const ElasticParameters material{2600.0, nu, 500.0, 0.036, Vector7::Zero()};  // G = 1000
+  const ElasticParameters<2> material{2600.0, nu, 500.0, 0.036, Vector7::Zero()};  // G = 1000
   Case test{
       "bending",
       material,
@@ -162,7 +162,7 @@ TEST_P(QuadraticElement, bends_exactly) {
         const double s11 = -2600.0 * k * x(1) / (1 - nu * nu);
         return Vector7{s11, 0.0, nu * s11, 0.0, 0.0, 2 * 1000.0 * 0.036 * 0.036 * k, 0.0};
       }};
-  Mesh mesh = rectangle({{0.24, 0.12}, {3, 2}}, GetParam());
+  Mesh<2> mesh = rectangle({{0.24, 0.12}, {3, 2}}, GetParam());
   name_outline(mesh);
   const double error = relative_error(test, std::move(mesh));
   std::cout << "[figure] E.1b bending " << GetParam() << " relative error " << error << '\n';

@@ -34,11 +34,11 @@ Answer solve_layer(int elements, const std::string& element, Sides sides = Sides
                    int columns = 1) {
   const TimeTable zero = TimeTable::constant(0.0);
   const double width = kHeight / elements;
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{width, kHeight}, {columns, elements}, {0.0, -kHeight / 2}}, element);
-  const ElasticParameters parameters{2.5 * kShearModulus, 0.25, kCosseratModulus, kInternalLength,
+  const ElasticParameters<2> parameters{2.5 * kShearModulus, 0.25, kCosseratModulus, kInternalLength,
                                      Vector7::Zero()};
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(parameters));
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   if (sides == Sides::tied) problem.ties = {{"left", "right"}};
   const std::string held = sides == Sides::tied ? "bottom" : "all";
   problem.prescribed = {{held, Dof::u2, zero, {}},
@@ -46,7 +46,7 @@ Answer solve_layer(int elements, const std::string& element, Sides sides = Sides
                         {"bottom", Dof::w, zero, {}},
                         {"top", Dof::u1, TimeTable::ramp(1.0), {}},
                         {"top", Dof::w, zero, {}}};
-  Solver solver(std::move(problem), {});
+  Solver<2> solver(std::move(problem), {});
   EXPECT_TRUE(solver.equilibrate().converged);
   EXPECT_TRUE(solver.advance(1.0).converged);
   const double decay =

@@ -27,20 +27,20 @@ const double kYieldStress = kYield / std::sqrt(3.0);
 const double kYieldDisplacement = kYieldStress * kHeight / kShearModulus;
 
 /// @param softening h over G, negative. @param strength of the weak zone over that of the rest.
-std::shared_ptr<Material> material(double internal_length, double softening, double strength) {
-  ElastoplasticParameters parameters;
+std::shared_ptr<Material<2>> material(double internal_length, double softening, double strength) {
+  ElastoplasticParameters<2> parameters;
   parameters.elastic = {2.5 * kShearModulus, 0.25, kCosseratModulus, internal_length, Vector7::Zero()};
   const double start = strength * kYield;
   const double residual = 0.2 * start;
   parameters.cone = {
       0.0, 0.0, PiecewiseLinear::ramp(start, residual, (residual - start) / (softening * kShearModulus))};
-  return std::make_shared<LocalMaterial<ElastoplasticLaw>>(ElastoplasticLaw(parameters));
+  return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
 }
 
 /// A column of elements; the top goes to the yield displacement at time 1, rotations are free at both ends.
-Problem layer(int elements, double internal_length, double softening, double strength, double weak_height) {
+Problem<2> layer(int elements, double internal_length, double softening, double strength, double weak_height) {
   const double width = kHeight / elements;
-  Problem problem;
+  Problem<2> problem;
   problem.mesh = rectangle({{width, kHeight}, {1, elements}, {0.0, -kHeight / 2}});
   for (int e = 0; e < elements; ++e) {
     const double centre = (e + 0.5) * width - kHeight / 2;
@@ -55,13 +55,13 @@ Problem layer(int elements, double internal_length, double softening, double str
   return problem;
 }
 
-double stress_ratio(const Solver& solver) {
+double stress_ratio(const Solver<2>& solver) {
   const double width = kHeight / static_cast<double>(solver.problem().mesh.elements.size());
   return solver.reaction("top")(0) / width / kYieldStress;
 }
 
 /// Slip between the nodes nearest to y = -10 and 10: grows all through the snap-back.
-DisplacementMeasure slip_of_the_band(const Mesh& mesh) {
+DisplacementMeasure slip_of_the_band(const Mesh<2>& mesh) {
   const auto nearest = [&](double y) {
     int best = 0;
     for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {
@@ -100,7 +100,7 @@ TEST_P(SofteningLayer, follows_the_reference_and_snaps_back) {
                                                              {1.15, 0.94329},
                                                              {1.20, 0.91620},
                                                              {1.30, 0.83751}}}};
-  Solver solver(layer(elements, 3.0, -0.25, 0.995, 5.0), {});
+  Solver<2> solver(layer(elements, 3.0, -0.25, 0.995, 5.0), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(0.99).converged);
   double largest_error = 0.0;
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, SofteningLayer, testing::Values(40, 80, 160));
 TEST(arc_length, follows_the_same_path) {
   // Two ways round the limit point must pass through the same states: stress against displacement of the top.
   const auto run = [](auto advance) {
-    Solver solver(layer(40, 3.0, -0.25, 0.995, 5.0), {});
+    Solver<2> solver(layer(40, 3.0, -0.25, 0.995, 5.0), {});
     EXPECT_TRUE(solver.equilibrate().converged);
     for (int percent = 99; percent <= 125; ++percent) EXPECT_TRUE(solver.advance(percent / 100.0).converged);
     std::vector<Eigen::Vector2d> path{{solver.state().time, stress_ratio(solver)}};
@@ -160,11 +160,11 @@ TEST(arc_length, follows_the_same_path) {
     }
     return path;
   };
-  const auto by_slip = run([](Solver& solver) {
+  const auto by_slip = run([](Solver<2>& solver) {
     return solver.advance_measure(slip_of_the_band(solver.problem().mesh), 0.002 * kYieldDisplacement);
   });
   const auto by_length =
-      run([](Solver& solver) { return solver.advance_arc_length(0.02 * kYieldDisplacement); });
+      run([](Solver<2>& solver) { return solver.advance_arc_length(0.02 * kYieldDisplacement); });
   double largest = 0.0;
   for (const Eigen::Vector2d& state : by_length) {
     // The stress falls all the way: compare displacements at equal stress.
@@ -189,7 +189,7 @@ TEST(arc_length, follows_the_same_path) {
 /// limit.
 TEST(limit_point, converges_to_first_order_in_the_step) {
   const auto start = [](const SolverOptions& options) {
-    auto solver = std::make_unique<Solver>(layer(80, 3.0, -0.25, 0.995, 5.0), options);
+    auto solver = std::make_unique<Solver<2>>(layer(80, 3.0, -0.25, 0.995, 5.0), options);
     EXPECT_TRUE(solver->equilibrate().converged);
     for (int percent = 99; percent <= 130; ++percent) EXPECT_TRUE(solver->advance(percent / 100.0).converged);
     return solver;
@@ -233,7 +233,7 @@ TEST(limit_point, converges_to_first_order_in_the_step) {
 }
 
 /// Height over which points have flowed plastically in the last step.
-double active_height(const Solver& solver) {
+double active_height(const Solver<2>& solver) {
   double area = 0.0;
   for (std::size_t point = 0; point < solver.points(); ++point) {
     std::array<double, 2> values{};
@@ -257,7 +257,7 @@ TEST_P(OnsetOfLocalisation, has_the_exact_width) {
   const auto [elements, length, softening, exact] = GetParam();
   // The exact width belongs to no imperfection and no accumulated softening: one part in ten thousand is
   // weaker, and tau has fallen by half a percent at the end.
-  Solver solver(layer(elements, length, softening, 0.9999, 5.0), {});
+  Solver<2> solver(layer(elements, length, softening, 0.9999, 5.0), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(0.9979).converged);
   const DisplacementMeasure slip = slip_of_the_band(solver.problem().mesh);

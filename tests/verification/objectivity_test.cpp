@@ -19,13 +19,13 @@ namespace {
 using testing::Path;
 using testing::TurningSand;
 
-std::shared_ptr<Material> material_of(const std::string& model, const TurningSand& sand) {
-  ElasticParameters elastic = testing::elasticity();
+std::shared_ptr<Material<2>> material_of(const std::string& model, const TurningSand& sand) {
+  ElasticParameters<2> elastic = testing::elasticity();
   elastic.internal_length = 0.02;
-  if (model == "elastic") return std::make_shared<LocalMaterial<ElasticLaw>>(ElasticLaw(elastic));
+  if (model == "elastic") return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(elastic));
   if (model == "elastoplastic")
-    return std::make_shared<LocalMaterial<ElastoplasticLaw>>(
-        ElastoplasticLaw({elastic, {}, testing::micro_strength()}));
+    return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(
+        ElastoplasticLaw<2>({elastic, {}, testing::micro_strength()}));
   const double g = elastic.young_modulus / (2.0 * (1.0 + elastic.poisson_ratio));
   const coupler::CosseratParameters cosserat{g, elastic.cosserat_shear_modulus, elastic.internal_length};
   if (model == "adaptive, a cell a point") {
@@ -56,7 +56,7 @@ double error_of_turning(const std::string& model, const std::string& element, co
   const auto run = [&](double turn) {
     return testing::turned_block(material_of(model, sand), {element}, path, turn, steps);
   };
-  const std::vector<Response> straight = run(0.0);
+  const std::vector<Response<2>> straight = run(0.0);
   return testing::error_of_turning(straight, run(angle), angle);
 }
 
@@ -73,7 +73,7 @@ constexpr double kExact = 1e-7;
 
 TEST(Objectivity, EveryModelAndEveryElementTurnedByAQuarterIn20Steps) {
   for (const std::string& model : kModels) {
-    for (const std::string& element : element_names()) {
+    for (const std::string& element : element_names<2>()) {
       const double error = error_of_turning(model, element, sheared(), 0.5 * M_PI, 20);
       std::cout << "[figure] " << model << ", " << element << ", 90 degrees in 20 steps: " << error << '\n';
       EXPECT_LT(error, kExact) << model << ' ' << element;
@@ -101,20 +101,20 @@ TEST(Objectivity, TurnsOf30To360DegreesInSteps) {
 // Against the rate itself, in which nothing is assumed of how a step is split: Jaumann's rate of an elastic law. Simple
 // shear has a closed form (Dienes 1979): s12 = G sin(shear), s11 = -s22 = G (1 - cos(shear)).
 TEST(Objectivity, SimpleShearIsOfSecondOrderAgainstTheRate) {
-  const ElasticParameters parameters{1e6, 0.3, 1e5, 0.01};
+  const ElasticParameters<2> parameters{1e6, 0.3, 1e5, 0.01};
   const double g = 1e6 / 2.6;
   constexpr double kShear = 1.5;
   double before = 0.0;
   for (const int steps : {10, 20, 40, 80}) {
-    LocalMaterial<ElasticLaw> material{ElasticLaw(parameters)};
+    LocalMaterial<ElasticLaw<2>> material{ElasticLaw<2>(parameters)};
     material.allocate(1);
-    Increment increment;  // about the start of the step: simple shear over simple shear adds up
+    Increment<2> increment;  // about the start of the step: simple shear over simple shear adds up
     increment.displacement_gradient << 0.0, kShear / steps, 0.0, 0.0;
     increment.configuration = Configuration::start;
     increment.micro_rotation = std::atan2(-kShear / steps, 2.0);  // with the continuum: no skew strain
-    std::vector<Response> answer(1);
+    std::vector<Response<2>> answer(1);
     for (int step = 0; step < steps; ++step) {
-      material.evaluate(std::vector<Increment>{increment}, answer);
+      material.evaluate(std::vector<Increment<2>>{increment}, answer);
       material.commit();
     }
     const Vector7& s = answer[0].stress;

@@ -43,10 +43,10 @@ double off_pressures(const Scene& scene, double value) {
               scene.quantity({"materials", region.material, key}, coupler::Dimension::pressure))
         if (std::abs(value - *modulus) <= 0.01 * *modulus) return 1.0;
   }
-  for (const fem::EdgeLoad& load : scene.problem().edge_loads)
-    for (const fem::TimeTable* const table : {&load.pressure, &load.traction1, &load.traction2})
+  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
+    for (const fem::TimeTable* const table : {&load.pressure, &load.traction[0], &load.traction[1]})
       compare(table->largest_magnitude());
-  for (const fem::BodyLoad& load : scene.problem().body_loads)
+  for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
     compare(load.density(scene.body().least).norm() * scene.body().size().y());
   return nearest == 1e300 ? 1.0 : nearest;
 }

@@ -14,7 +14,7 @@ using coupler::Dimension;
 using coupler::Entry;
 
 /// Vertical weight at full value, N/m^3, downwards positive, of a load; and along 1.
-Eigen::Vector2d weight_of(const Scene& scene, const fem::BodyLoad& load) {
+Eigen::Vector2d weight_of(const Scene& scene, const fem::BodyLoad<2>& load) {
   const Eigen::Vector3d density = load.density(scene.body().least);
   const double factor = load.factor.largest_magnitude();
   return {factor * density.x(), -factor * density.y()};
@@ -63,12 +63,12 @@ void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
 bool carries_ground_above(const Scene& scene, double weight) {
   const double slack = 1e-6 * scene.body().size().y();
   double load_there = 0.0;
-  for (const fem::EdgeLoad& load : scene.problem().edge_loads) {
+  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads) {
     const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), load.on);
     if (std::ranges::any_of(edges, [&](const OutlineEdge& edge) {
           return edge.centre.y() > scene.body().largest.y() - slack;
         }))
-      load_there += load.pressure.at(0.0) - load.traction2.at(0.0);
+      load_there += load.pressure.at(0.0) - load.traction[1].at(0.0);
   }
   return std::abs(load_there - weight) <= 0.3 * weight;
 }
@@ -162,7 +162,7 @@ void weight(const Scene& scene, Remarks& remarks) {
 
 void free_sides(const Scene& scene, Remarks& remarks) {
   double down = 0.0;
-  for (const fem::BodyLoad& load : scene.problem().body_loads) down += weight_of(scene, load).y();
+  for (const fem::BodyLoad<2>& load : scene.problem().body_loads) down += weight_of(scene, load).y();
   if (down <= 0.0) return;
   const auto held = held_nodes(scene.problem());
   const Body& body = scene.body();
@@ -174,8 +174,8 @@ void free_sides(const Scene& scene, Remarks& remarks) {
   std::vector<std::string> names{""};
   for (const auto& [name, edges] : scene.mesh().boundaries) names.push_back(name);
   for (const std::string& name : names) {
-    const bool loaded = std::ranges::any_of(scene.problem().edge_loads,
-                                            [&](const fem::EdgeLoad& load) { return load.on == name; });
+    const bool loaded = std::ranges::any_of(scene.problem().boundary_loads,
+                                            [&](const fem::BoundaryLoad<2>& load) { return load.on == name; });
     const bool tied = std::ranges::any_of(
         scene.problem().ties, [&](const fem::Tie& tie) { return tie.on == name || tie.to == name; });
     for (const OutlineEdge& edge : edges_of(scene.mesh(), name)) {

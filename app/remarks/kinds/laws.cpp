@@ -33,10 +33,10 @@ std::optional<double> largest_value(const Scene& scene, const SceneRegion& regio
 /// The stresses that loads, weight and stress at time zero bring, Pa.
 double stress_scale(const Scene& scene) {
   double scale = 0.0;
-  for (const fem::EdgeLoad& load : scene.problem().edge_loads)
-    for (const fem::TimeTable* const table : {&load.pressure, &load.traction1, &load.traction2})
+  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
+    for (const fem::TimeTable* const table : {&load.pressure, &load.traction[0], &load.traction[1]})
       scale = std::max(scale, table->largest_magnitude());
-  for (const fem::BodyLoad& load : scene.problem().body_loads)
+  for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
     scale = std::max(scale, load.density(scene.body().least).norm() * load.factor.largest_magnitude() *
                                 scene.body().size().y());
   for (const SceneRegion& region : scene.regions())
@@ -165,16 +165,16 @@ void plain_loads(const Scene& scene, Remarks& remarks) {
     if (const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure))
       scale = std::max(scale, std::min(kOfModulus * *young, kMost));
   }
-  for (const fem::EdgeLoad& load : scene.problem().edge_loads) {
+  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads) {
     look_at_plain(fmt::format("boundary: pressure on '{}'", load.on),
                   scene.boundary_value(load.on, "pressure"), load.pressure.largest_magnitude(), scale,
                   remarks);
     const coupler::Entry* const traction = scene.boundary_value(load.on, "traction");
     if (traction == nullptr) continue;
     look_at_plain(fmt::format("boundary: traction along 1 on '{}'", load.on), traction->find("u1"),
-                  load.traction1.largest_magnitude(), scale, remarks);
+                  load.traction[0].largest_magnitude(), scale, remarks);
     look_at_plain(fmt::format("boundary: traction along 2 on '{}'", load.on), traction->find("u2"),
-                  load.traction2.largest_magnitude(), scale, remarks);
+                  load.traction[1].largest_magnitude(), scale, remarks);
   }
 }
 
@@ -191,9 +191,9 @@ double pull_on(const Scene& scene, const std::string& on, const std::vector<Outl
   }
   if (length > 0.0) normal /= length;
   double pull = 0.0;
-  for (const fem::EdgeLoad& load : scene.problem().edge_loads)
+  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
     if (load.on == on)
-      pull += load.traction1.at(time) * normal.x() + load.traction2.at(time) * normal.y() -
+      pull += load.traction[0].at(time) * normal.x() + load.traction[1].at(time) * normal.y() -
               load.pressure.at(time);
   return pull;
 }
@@ -203,7 +203,7 @@ double pull_on(const Scene& scene, const std::string& on, const std::vector<Outl
 void tension(const Scene& scene, Remarks& remarks) {
   constexpr double kRounding = 1e-6;
   std::set<std::string> seen;
-  for (const fem::EdgeLoad& load : scene.problem().edge_loads) {
+  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads) {
     if (!seen.insert(load.on).second) continue;
     const double end = scene.end_time().value_or(1.0);
     const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), load.on);

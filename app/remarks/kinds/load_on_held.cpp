@@ -29,13 +29,13 @@ bool is_zero(const fem::TimeTable& table) {
 }  // namespace
 
 void load_on_held(const Scene& scene, Remarks& remarks) {
-  const fem::Problem& problem = scene.problem();
+  const fem::Problem<2>& problem = scene.problem();
   const auto held = held_nodes(problem);
-  for (const fem::EdgeLoad& load : problem.edge_loads) {
+  for (const fem::BoundaryLoad<2>& load : problem.boundary_loads) {
     const Held here = held_along(edges_of(problem.mesh, load.on), held);
     if (!is_zero(load.pressure) && here.normal) add(scene, load.on, "pressure", "the pressure", remarks);
-    const bool first = !is_zero(load.traction1) && here.all[0];
-    if (first || (!is_zero(load.traction2) && here.all[1]))
+    const bool first = !is_zero(load.traction[0]) && here.all[0];
+    if (first || (!is_zero(load.traction[1]) && here.all[1]))
       add(scene, load.on, "traction", fmt::format("the traction along {}", first ? 1 : 2), remarks);
   }
   for (const fem::NodeLoad& load : problem.node_loads) {

@@ -37,15 +37,15 @@ Corners corners_of(const std::vector<int>& nodes) {
 /// What bears on the edges of a mesh: one edge may lie on several boundaries, each with a load.
 class Edges {
  public:
-  explicit Edges(const fem::Problem& problem) : problem_(problem) {
-    const fem::Mesh& mesh = problem.mesh;
+  explicit Edges(const fem::Problem<2>& problem) : problem_(problem) {
+    const fem::Mesh<2>& mesh = problem.mesh;
     for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
       for (int side = 0; side < mesh.elements[static_cast<std::size_t>(e)].type->corners; ++side)
-        ++elements_[corners_of(mesh.edge_nodes({e, side}))];
-    for (const fem::EdgeLoad& load : problem.edge_loads) {
+        ++elements_[corners_of(mesh.side_nodes({e, side}))];
+    for (const fem::BoundaryLoad<2>& load : problem.boundary_loads) {
       std::set<Corners>& under = under_.emplace_back();
-      for (const fem::Edge& edge : mesh.boundaries.at(load.on))
-        under.insert(corners_of(mesh.edge_nodes(edge)));
+      for (const fem::BoundarySide& edge : mesh.boundaries.at(load.on))
+        under.insert(corners_of(mesh.side_nodes(edge)));
     }
   }
 
@@ -62,21 +62,21 @@ class Edges {
     Eigen::Vector2d t = Eigen::Vector2d::Zero();
     for (std::size_t k = 0; k < under_.size(); ++k) {
       if (!under_[k].contains(corners_of(edge.nodes))) continue;
-      const fem::EdgeLoad& load = problem_.edge_loads[k];
+      const fem::BoundaryLoad<2>& load = problem_.boundary_loads[k];
       t += -load.pressure.at(0.0) * edge.normal +
-           Eigen::Vector2d(load.traction1.at(0.0), load.traction2.at(0.0));
+           Eigen::Vector2d(load.traction[0].at(0.0), load.traction[1].at(0.0));
     }
     return t;
   }
 
  private:
-  const fem::Problem& problem_;
+  const fem::Problem<2>& problem_;
   std::map<Corners, int> elements_;
   std::vector<std::set<Corners>> under_;  ///< each load
 };
 
 /// Loads may come on to the nodes of a boundary one by one, or it is tied: nothing is known of its traction.
-bool is_special(const fem::Problem& problem, const std::string& boundary,
+bool is_special(const fem::Problem<2>& problem, const std::string& boundary,
                 const std::vector<OutlineEdge>& edges) {
   for (const fem::Tie& tie : problem.ties)
     if (tie.on == boundary || tie.to == boundary) return true;

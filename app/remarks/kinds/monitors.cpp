@@ -20,9 +20,9 @@ struct Given {
   std::set<int> moved;
 };
 
-Given given(const fem::Problem& problem, fem::Dof dof) {
+Given given(const fem::Problem<2>& problem, fem::Dof dof) {
   Given nodes;
-  for (const fem::PrescribedDof& item : problem.prescribed) {
+  for (const fem::PrescribedDof<2>& item : problem.prescribed) {
     if (item.dof != dof) continue;
     for (const int node : problem.mesh.nodes_on(item.on)) {
       nodes.held.insert(node);

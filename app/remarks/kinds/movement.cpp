@@ -26,7 +26,7 @@ double largest_of_steps(const Scene& scene, const fem::TimeTable& table) {
 }  // namespace
 
 void movement(const Scene& scene, Remarks& remarks) {
-  for (const fem::PrescribedDof& item : scene.problem().prescribed) {
+  for (const fem::PrescribedDof<2>& item : scene.problem().prescribed) {
     if (item.dof == fem::Dof::w) continue;
     const double movement = largest_of_steps(scene, item.value);
     if (movement == 0.0) continue;

@@ -33,9 +33,9 @@ bool speaks_of(std::string title, std::span<const std::string_view> words) {
 constexpr fem::Dof kDofs[] = {fem::Dof::u1, fem::Dof::u2};
 
 /// By node: the displacement that the case gives it, m.
-std::vector<std::optional<double>> given_at(const fem::Problem& problem, fem::Dof dof, double time) {
+std::vector<std::optional<double>> given_at(const fem::Problem<2>& problem, fem::Dof dof, double time) {
   std::vector<std::optional<double>> given(problem.mesh.nodes.size());
-  for (const fem::PrescribedDof* const item : fem::in_precedence(problem)) {
+  for (const fem::PrescribedDof<2>* const item : fem::in_precedence(problem)) {
     if (item->dof != dof || !problem.mesh.has_nodes_on(item->on)) continue;
     for (const int node : problem.mesh.nodes_on(item->on)) {
       std::optional<double>& value = given[static_cast<std::size_t>(node)];
@@ -48,7 +48,7 @@ std::vector<std::optional<double>> given_at(const fem::Problem& problem, fem::Do
 }
 
 /// Mean over the nodes at that end of the body; nothing where one of them is free.
-std::optional<double> mean_at(const fem::Mesh& mesh, int axis, double end, double slack,
+std::optional<double> mean_at(const fem::Mesh<2>& mesh, int axis, double end, double slack,
                               const std::vector<std::optional<double>>& given) {
   double sum = 0.0;
   int count = 0;
@@ -83,9 +83,9 @@ double elastic_strain_of(const Scene& scene, const SceneRegion& region) {
   return -0.5 * ((*stress)(k11) + (*stress)(k22)) * (1.0 + *poisson) / *young;
 }
 
-const fem::PrescribedDof* largest_item(const Scene& scene, fem::Dof dof, double time) {
-  const fem::PrescribedDof* largest = nullptr;
-  for (const fem::PrescribedDof& item : scene.problem().prescribed)
+const fem::PrescribedDof<2>* largest_item(const Scene& scene, fem::Dof dof, double time) {
+  const fem::PrescribedDof<2>* largest = nullptr;
+  for (const fem::PrescribedDof<2>& item : scene.problem().prescribed)
     if (item.dof == dof &&
         (largest == nullptr || std::abs(item.value.at(time)) > std::abs(largest->value.at(time))))
       largest = &item;
@@ -112,7 +112,7 @@ void pulled_apart(const Scene& scene, Remarks& remarks) {
       stiffest = &region;
     }
   if (stiffest == nullptr || whole <= kMostElastic * elastic) return;
-  const fem::PrescribedDof& item = *largest_item(scene, kDofs[axis], *end);
+  const fem::PrescribedDof<2>& item = *largest_item(scene, kDofs[axis], *end);
   const coupler::Entry* const value = scene.boundary_value(item.on, "move");
   const bool meant_otherwise = speaks_of(scene.the_case().title, kCompression);
   remarks.push_back(

@@ -21,8 +21,8 @@ double largest_load_step(const Scene& scene) {
   double before = 0.0;
   for (const coupler::StepTarget& target : scene.the_case().plan) {
     if (target.control != coupler::StepTarget::Control::time) break;
-    for (const fem::EdgeLoad& load : scene.problem().edge_loads)
-      for (const fem::TimeTable* const table : {&load.pressure, &load.traction1, &load.traction2})
+    for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
+      for (const fem::TimeTable* const table : {&load.pressure, &load.traction[0], &load.traction[1]})
         largest = std::max(largest, std::abs(table->at(target.amount) - table->at(before)));
     before = target.amount;
   }

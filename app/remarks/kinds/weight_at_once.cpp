@@ -13,7 +13,7 @@ namespace {
 
 double weight_on(const Scene& scene, const SceneRegion& region) {
   double weight = 0.0;
-  for (const fem::BodyLoad& load : scene.problem().body_loads)
+  for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
     if (load.region.empty() || load.region == region.name)
       weight -= load.factor.at(0.0) * load.density(scene.body().least).y();
   return weight;

@@ -31,7 +31,7 @@ void weight_in_boxes(const Scene& scene, Remarks& remarks) {
     const double pressure = Scene::pressure_of(region);
     if (region.cell == nullptr || pressure <= 0.0) continue;
     double weight = 0.0;
-    for (const fem::BodyLoad& load : scene.problem().body_loads)
+    for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
       if (load.region.empty() || load.region == region.name)
         weight += load.factor.at(0.0) * load.density(scene.body().least).norm();
     const double height = height_of(scene, region);

@@ -16,7 +16,7 @@ class AdaptiveRecipe : public MaterialRecipe {
   AdaptiveRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat,
                  const AdaptivityOptions& options)
       : definition_(std::move(definition)), cosserat_(cosserat), options_(options) {}
-  [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
     std::string note;
     std::optional<CosseratParameters> cosserat;
     if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);

@@ -8,6 +8,7 @@
 #include "coupler/case/models/informed_parameters.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/resident_material.hpp"
+#include "coupler/cells/space_cell_material.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -19,7 +20,7 @@ class CellRecipe : public MaterialRecipe {
  public:
   CellRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat, int dem_steps)
       : definition_(std::move(definition)), cosserat_(cosserat), dem_steps_(dem_steps) {}
-  [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
     std::optional<CosseratParameters> cosserat;
     std::string note;
     if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
@@ -27,6 +28,12 @@ class CellRecipe : public MaterialRecipe {
       return std::make_shared<ResidentMaterial>(*pool, pool->define(definition_), cosserat, dem_steps_,
                                                 std::move(note));
     return std::make_shared<CellMaterial>(*pool, pool->define(definition_), cosserat, std::move(note));
+  }
+  [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
+    std::optional<CosseratParameters> cosserat;
+    std::string note;
+    if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
+    return std::make_shared<SpaceCellMaterial>(*pool, pool->define(definition_), cosserat, std::move(note));
   }
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
   [[nodiscard]] const CellDefinition* cell() const override { return &definition_; }
@@ -47,6 +54,11 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
   if (files.dem_steps > 0 && section.find("damping") == nullptr)
     definition.control.damping = kDampingOfResidents;
+  if (files.dimension == 3 && files.dem_steps > 0)
+    faults.push_back(section.entry().fault(section.name() +
+                                           ": explicit steps have no cells in space yet; set 'method: newton'"));
+  if (files.dimension == 3 && faults.size() == faults_before && definition.packing.dimension != 3)
+    section.fault("packing", "packing: elements in space need spheres, and this packing is of discs");
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat, files.dem_steps);
 }
@@ -57,7 +69,7 @@ MaterialModel cell_model() {
   return {
       "cell",
       "the stress of a box of grains (script, packing) and, with free rotations, a Cosserat part (G, Gc, lc)",
-      read};
+      read, true};
 }
 
 }  // namespace polargrain::coupler

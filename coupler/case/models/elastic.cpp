@@ -9,41 +9,51 @@
 namespace polargrain::coupler {
 namespace {
 
+template <int dim>
 class ElasticRecipe : public MaterialRecipe {
  public:
-  explicit ElasticRecipe(const fem::ElasticParameters& parameters) : parameters_(parameters) {}
-  [[nodiscard]] std::shared_ptr<fem::Material> make(Pool*) const override {
-    return std::make_shared<fem::LocalMaterial<fem::ElasticLaw>>(fem::ElasticLaw(parameters_));
+  explicit ElasticRecipe(const fem::ElasticParameters<dim>& parameters) : parameters_(parameters) {}
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return make_local<2>(pool); }
+  [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
+    return make_local<3>(pool);
   }
   [[nodiscard]] bool holds_micro_rotations() const override {
     return parameters_.cosserat_shear_modulus > 0.0;
   }
 
  private:
-  fem::ElasticParameters parameters_;
+  template <int wanted>
+  [[nodiscard]] std::shared_ptr<fem::Material<wanted>> make_local(Pool*) const {
+    if constexpr (wanted == dim)
+      return std::make_shared<fem::LocalMaterial<fem::ElasticLaw<dim>>>(fem::ElasticLaw<dim>(parameters_));
+    throw RunError("an elastic material of another dimension was asked for");
+  }
+
+  fem::ElasticParameters<dim> parameters_;
 };
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+template <int dim>
+std::unique_ptr<MaterialRecipe> read_elastic(Section& section, Faults& faults, const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
-  fem::ElasticParameters parameters;
-  parameters.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);
-  parameters.poisson_ratio = section.quantity("nu", Dimension::number, Limit::any);
-  read_cosserat_moduli(section, files, parameters);
-  const double confining = section.quantity_or("confining", Dimension::pressure, Limit::any, 0.0);
-  for (int i : {k11, k22, k33}) parameters.initial_stress[i] = -confining;
+  fem::ElasticParameters<dim> parameters;
+  read_elastic_parameters(section, files, parameters);
   if (faults.size() != faults_before) return nullptr;
   for (const std::string& message : fem::faults(parameters)) {
     faults.push_back(section.entry().fault(section.name() + ": " + message));
   }
   if (faults.size() != faults_before) return nullptr;
-  return std::make_unique<ElasticRecipe>(parameters);
+  return std::make_unique<ElasticRecipe<dim>>(parameters);
+}
+
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
+                                     const CaseFiles& files) {
+  return files.dimension == 3 ? read_elastic<3>(section, faults, files) : read_elastic<2>(section, faults, files);
 }
 
 }  // namespace
 
 MaterialModel elastic_model() {
-  return {"elastic", "isotropic Cosserat elasticity: E, nu, Gc, lc", read};
+  return {"elastic", "isotropic Cosserat elasticity: E, nu, Gc, lc", read, true};
 }
 
 }  // namespace polargrain::coupler

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// model: elastoplastic - Cosserat cone matched to Mohr-Coulomb in plane strain (docs/theory/plasticity.md)
+// model: elastoplastic - Cosserat cone matched to Mohr-Coulomb (docs/theory/plasticity.md)
 #include "fem/material/elastoplastic.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "coupler/case/material_model.hpp"
@@ -14,20 +15,48 @@
 namespace polargrain::coupler {
 namespace {
 
+template <int dim>
 class ElastoplasticRecipe : public MaterialRecipe {
  public:
-  explicit ElastoplasticRecipe(fem::ElastoplasticParameters parameters)
-      : parameters_(std::move(parameters)) {}
-  [[nodiscard]] std::shared_ptr<fem::Material> make(Pool*) const override {
-    return std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw>>(fem::ElastoplasticLaw(parameters_));
+  ElastoplasticRecipe(fem::ElastoplasticParameters<dim> parameters, std::string note)
+      : parameters_(std::move(parameters)), note_(std::move(note)) {}
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return make_local<2>(pool); }
+  [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
+    return make_local<3>(pool);
   }
   [[nodiscard]] bool holds_micro_rotations() const override {
     return parameters_.elastic.cosserat_shear_modulus > 0.0;
   }
+  [[nodiscard]] std::string note() const override { return note_; }
 
  private:
-  fem::ElastoplasticParameters parameters_;
+  template <int wanted>
+  [[nodiscard]] std::shared_ptr<fem::Material<wanted>> make_local(Pool*) const {
+    if constexpr (wanted == dim)
+      return std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw<dim>>>(
+          fem::ElastoplasticLaw<dim>(parameters_));
+    throw RunError("an elastoplastic material of another dimension was asked for");
+  }
+
+  fem::ElastoplasticParameters<dim> parameters_;
+  std::string note_;
 };
+
+/// The words of `match`, in the order of fem::ConeMatch.
+const std::vector<std::string> kMatches{"triaxial_compression", "triaxial_extension", "plane_strain", "inner"};
+
+/// The strength that a cone has where it was not matched; empty where that is no surprise.
+std::string note_on(const std::string& name, const fem::HardeningCone& cone, fem::ConeMatch match) {
+  if (match != fem::ConeMatch::triaxial_compression) return {};
+  double steepest = 0.0;
+  for (const double gamma_p : fem::merged_knots({&cone.friction})) steepest = std::max(steepest, cone.friction.at(gamma_p).value);
+  const std::optional<double> angle = fem::angle_in_extension({steepest, 0.0, 0.0});
+  if (angle) return {};
+  return fmt::format(
+      "{}: this cone has no limit in triaxial extension, as each from 36.9 degrees of friction in compression on; where "
+      "extension matters, take 'match: triaxial_extension' or 'inner'",
+      name);
+}
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
@@ -50,20 +79,18 @@ fem::PiecewiseLinear strength(Section& section, const std::string& key, Dimensio
   return fem::PiecewiseLinear::ramp(factor * ends[0], factor * ends[1], hardening_shear);
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+template <int dim>
+std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
-  fem::ElastoplasticParameters parameters;
-  parameters.elastic.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);
-  parameters.elastic.poisson_ratio = section.quantity("nu", Dimension::number, Limit::any);
-  read_cosserat_moduli(section, files, parameters.elastic);
-  const double confining = section.quantity_or("confining", Dimension::pressure, Limit::any, 0.0);
-  for (int i : {k11, k22, k33}) parameters.elastic.initial_stress[i] = -confining;
+  fem::ElastoplasticParameters<dim> parameters;
+  read_elastic_parameters(section, files, parameters.elastic);
   const double shear = section.quantity_or("hardening_shear", Dimension::number, Limit::positive, 0.1);
   const fem::MohrCoulombHardening mohr_coulomb{
       strength(section, "friction_angle", Dimension::angle, Limit::not_negative, kDegrees, shear),
       strength(section, "dilatancy_angle", Dimension::angle, Limit::any, kDegrees, shear),
       strength(section, "cohesion", Dimension::pressure, Limit::not_negative, 1.0, shear)};
+  const std::string word = section.choice_or("match", kMatches, dim == 2 ? "plane_strain" : "triaxial_compression");
+  const auto match = static_cast<fem::ConeMatch>(std::ranges::find(kMatches, word) - kMatches.begin());
   if (section.find("invariants") != nullptr) {
     const std::vector<double> a = section.quantities("invariants", 3, Dimension::number, Limit::any);
     parameters.weights = {a[0], a[1], a[2]};
@@ -71,7 +98,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Fault
   if (faults.size() != faults_before) return nullptr;
   std::vector<std::string> messages;
   try {
-    parameters.cone = fem::hardening_cone_from_plane_strain(mohr_coulomb);
+    parameters.cone = fem::hardening_cone(mohr_coulomb, match);
     messages = fem::faults(parameters);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) messages.push_back(fault.message);
@@ -80,14 +107,19 @@ std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Fault
     faults.push_back(section.entry().fault(section.name() + ": " + message));
   }
   if (!messages.empty()) return nullptr;
-  return std::make_unique<ElastoplasticRecipe>(std::move(parameters));
+  std::string note = note_on(section.name(), parameters.cone, match);
+  return std::make_unique<ElastoplasticRecipe<dim>>(std::move(parameters), std::move(note));
+}
+
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults, const CaseFiles& files) {
+  return files.dimension == 3 ? read_law<3>(section, faults, files) : read_law<2>(section, faults, files);
 }
 
 }  // namespace
 
 MaterialModel elastoplastic_model() {
   return {"elastoplastic", "Cosserat cone: elastic parameters, friction_angle, dilatancy_angle, cohesion",
-          read};
+          read, true};
 }
 
 }  // namespace polargrain::coupler

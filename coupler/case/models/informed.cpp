@@ -26,7 +26,7 @@ class InformedRecipe : public MaterialRecipe {
     if (cosserat_.plastic_length.is_open()) cosserat_.plastic_length.none = true;
     definition_.control.tangent = CellTangent::none;  // the law has one of its own
   }
-  [[nodiscard]] std::shared_ptr<fem::Material> make(Pool* pool) const override {
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
     InformedParameters parameters = parameters_;
     std::string note;
     // Controlled rotations leave nothing to the case: stiffness and strength are the cell's.
