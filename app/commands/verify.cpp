@@ -135,9 +135,11 @@ void check_cells(const coupler::Case& the_case, const std::vector<SampledAnswer>
   pool_options.trust_scripts = options.scripts.trusted;
   coupler::Pool pool(pool_options);
   // As a run does, so that definitions get the same numbers.
-  std::vector<std::shared_ptr<fem::Material<2>>> materials;
-  for (const auto& [region, material] : the_case.problem.materials)
-    materials.push_back(the_case.materials.at(the_case.regions.at(region))->make(&pool));
+  std::vector<std::shared_ptr<void>> materials;
+  the_case.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    for (const auto& [region, material] : problem.materials)
+      materials.push_back(the_case.materials.at(the_case.regions.at(region))->template make_for<dim>(&pool));
+  });
   std::vector<coupler::PoolRequest> requests;
   for (const SampledAnswer& answer : answers)
     requests.push_back({static_cast<std::uint32_t>(answer.definition), answer.asked});

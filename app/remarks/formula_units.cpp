@@ -115,6 +115,8 @@ Powers powers_of(coupler::Dimension dimension) {
       return {1, 0, 0};
     case coupler::Dimension::force_per_length:
       return {1, -1, 0};
+    case coupler::Dimension::moment:
+      return {1, 1, 0};
     case coupler::Dimension::unit_weight:
       return {1, -3, 0};
     case coupler::Dimension::duration:
@@ -124,9 +126,10 @@ Powers powers_of(coupler::Dimension dimension) {
   }
 }
 
-Powers powers_of(const coupler::Monitor& monitor) {
-  const bool angle = monitor.dof == fem::Dof::w;
+Powers powers_of(const coupler::Monitor& monitor, int dimension) {
+  const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
+  if (dimension == 3) return angle ? Powers{1, 1, 0} : Powers{1, 0, 0};
   return angle ? Powers{1, 0, 0} : Powers{1, -1, 0};  // of a metre of thickness
 }
 

@@ -15,7 +15,7 @@ using Powers = std::array<int, 3>;
 
 Powers powers_of(coupler::Dimension dimension);
 /// @param monitor a reaction or a displacement
-Powers powers_of(const coupler::Monitor& monitor);
+Powers powers_of(const coupler::Monitor& monitor, int dimension = 2);
 /// "N/m", "Pa", "m", "1" and the like.
 std::string text_of(const Powers& powers);
 

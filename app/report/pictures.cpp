@@ -101,7 +101,7 @@ std::map<int, double> times_of(const RunResult& result) {
 MeshPicture picture_of(const RunResult& result, const std::vector<std::string>& fields) {
   MeshPicture picture;
   picture.title = result.name;
-  if (result.fields.empty()) return picture;
+  if (result.fields.empty() || result.is_in_space()) return picture;
   const fem::FieldFile last = fem::read_vtu(result.fields.back().second);
   std::vector<std::string> names;
   for (const std::string& name : fields.empty() ? kUsualFields : fields) {

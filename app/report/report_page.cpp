@@ -411,6 +411,9 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
   for (const MeshPicture& picture : pictures)
     if (!picture.frames.empty() && !picture.fields.empty()) meshes += mesh_picture(picture);
   if (!meshes.empty()) body += "<h2>Fields</h2>\n<div class='grid'>\n" + meshes + "</div>\n";
+  for (const RunResult& result : results)
+    if (result.is_in_space())
+      body += fmt::format("<p>{} is a body in space: open <code>fields.pvd</code> in ParaView.</p>\n", escaped(result.name));
   std::string grains;
   for (const RunResult& result : results)
     if (content.grains) grains += content.grains(result);

@@ -32,6 +32,8 @@ struct RunResult {
   std::optional<CsvTable> history;
   std::optional<CsvTable> costs;
   nlohmann::ordered_json summary;  ///< null until a run has come to an end
+  /// Whether its body lies in space; pages show no picture of it then.
+  [[nodiscard]] bool is_in_space() const { return summary.is_object() && summary.value("dimension", 2) == 3; }
   std::vector<LoggedIteration> iterations;
   std::vector<LoggedWarning> warnings;
   std::string head;         ///< first line of the log: version, title, case file

@@ -13,11 +13,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using coupler::Monitor;
 
-/// Of a plane problem: forces are per metre of thickness.
-std::string unit_of(const Monitor& monitor, const std::map<std::string, std::string>& formulas) {
-  const bool turns = monitor.dof == fem::Dof::w;
+/// Forces of a plane problem are per metre of thickness.
+std::string unit_of(const Monitor& monitor, const std::map<std::string, std::string>& formulas, int dimension) {
+  const bool turns = fem::is_rotation(monitor.dof);
   switch (monitor.kind) {
     case Monitor::Kind::reaction:
+      if (dimension == 3) return turns ? "N m" : "N";
       return turns ? "N" : "N/m";
     case Monitor::Kind::displacement:
       return turns ? "rad" : "m";
@@ -46,7 +47,7 @@ std::map<std::string, std::string> units_of_formulas(const coupler::Case& the_ca
   std::map<std::string, std::string> units;
   for (const Monitor& monitor : the_case.monitors) {
     if (monitor.kind != Monitor::Kind::formula) {
-      known[monitor.name] = powers_of(monitor);
+      known[monitor.name] = powers_of(monitor, the_case.dimension());
       continue;
     }
     const auto is_known = [&](const std::string& name) { return known.contains(name); };
@@ -60,8 +61,9 @@ std::map<std::string, std::string> units_of_formulas(const coupler::Case& the_ca
   return units;
 }
 
-std::string unit_of_built_in(const std::string& name) {
-  return name.ends_with("_work") ? "J/m" : "";
+std::string unit_of_built_in(const std::string& name, int dimension) {
+  if (!name.ends_with("_work")) return "";
+  return dimension == 3 ? "J" : "J/m";
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ Json monitor_notes(const coupler::Case& the_case) {
     const auto monitor = std::ranges::find(the_case.monitors, name, &Monitor::name);
     const bool own = monitor != the_case.monitors.end();
     notes[name] = {{"kind", own ? kind_of(*monitor) : "built-in"},
-                   {"unit", own ? unit_of(*monitor, formulas) : unit_of_built_in(name)},
+                   {"unit", own ? unit_of(*monitor, formulas, the_case.dimension()) : unit_of_built_in(name, the_case.dimension())},
                    {"table", in_table}};
   };
   for (const std::string& name : the_case.table) add(name, true);

@@ -125,6 +125,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"cells", cell_figures(record.pool)},
                {"materials", material_figures(record)},
                {"proof", proof_figures(the_case, record)}};
+  if (the_case.dimension() == 3) summary["dimension"] = 3;
   // Of all that stands above, whatever it is: a key that is added is under the proof.
   summary["proof"]["summary"] = name_of_summary(summary);
   fem::write_file(file, json_text(summary));

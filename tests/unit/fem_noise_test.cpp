@@ -111,7 +111,7 @@ TEST(noise, what_it_leaves_of_the_residual_is_foreseen) {
     std::vector<Response<2>> responses(discretisation.points());
     const StressNoise noise{100.0, 40.0, 0.3};
     for (Response<2>& response : responses) response.noise = noise;
-    const Eigen::VectorXd expected = forces_of_noise(discretisation, continuum, responses);
+    const Eigen::VectorXd expected = forces_of_noise<2>(discretisation, continuum, responses);
     std::mt19937_64 generator(7);
     std::normal_distribution<double> normal;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(expected.size());

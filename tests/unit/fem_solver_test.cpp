@@ -133,7 +133,8 @@ TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answe
 
 TEST(solver, nodal_forces_balance_and_external_work_is_internal_work) {
   Problem<2> problem = biaxial(elastic(100e3));
-  problem.boundary_loads.push_back({.on = "top", .traction[0] = TimeTable::ramp(2e4)});
+  problem.boundary_loads.push_back({.on = "top"});
+  problem.boundary_loads.back().traction[0] = TimeTable::ramp(2e4);
   Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(0.5).converged);

@@ -88,7 +88,8 @@ TEST_P(HoleTest, concentrates_stress_as_the_closed_form_says) {
                         {"top", Dof::w, zero, {}},
                         {"bottom", Dof::u2, zero, {}},
                         {"bottom", Dof::w, zero, {}}};
-  problem.boundary_loads = {{.on = "pulled", .traction[0] = TimeTable::ramp(1.0)}};
+  problem.boundary_loads.push_back({.on = "pulled"});
+  problem.boundary_loads.back().traction[0] = TimeTable::ramp(1.0);
   Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);

@@ -169,7 +169,8 @@ TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
   // docs/theory.md, E.1b: bending stiffness with couples; nu = 0, so G = E / 2.
   const double stiffness = kYoung * std::pow(kDepth, 3) / 12 + kYoung * kLengthScale * kLengthScale * kDepth;
   const double moment = stiffness * M_PI / kLength;
-  problem.boundary_loads = {{.on = "right", .couple_traction[0] = TimeTable::ramp(moment / kDepth)}};
+  problem.boundary_loads.push_back({.on = "right"});
+  problem.boundary_loads.back().couple_traction[0] = TimeTable::ramp(moment / kDepth);
   SolverOptions options;
   options.reference_force = kYoung * kDepth * 0.03;
   Solver<2> solver(std::move(problem), options);
