@@ -217,6 +217,9 @@ void CellPathsRecord::write(int step, const fem::Solver& solver, const std::set<
 }
 
 CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPathsFolder) {
+  if (!fs::exists(directory))
+    throw InputError(
+        {directory.string(), 0, "there is no such directory; give the result directory of a run"});
   if (!fs::exists(folder_ / kCellsFile))
     throw InputError({directory.string(), 0,
                       "has no records of its cells (cell_paths): its case has no material with "
