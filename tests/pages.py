@@ -5,6 +5,7 @@
     tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no clauses without a subject;
                                       a page of docs/ begins with whom it is for
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
+    tests/pages.py comments         comments and texts of the sources: no clauses without a subject
     tests/pages.py paper              docs/paper has the head, sections, words and references that JOSS asks for
     tests/pages.py made               performance.md, verification.md and hard_cases.md are as their commands write them
     tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
@@ -24,6 +25,12 @@ LONGEST_SENTENCE = 30
 MEAN_SENTENCE = 16.0
 README_WORDS = 700
 HEADLESS = re.compile(r"\b(is|are) none\b|\bwhat is not\b|, what is \w+ed\b|\bas is (none|what)\b|\bthat are none\b|^(What|None) (is|are|was|were|has|of) ", re.M)
+
+
+# In comments and messages; "there is none" and "none of them" are English.
+HEADLESS_IN_CODE = re.compile(
+    r"(?<!there )\b(is|are|was|were) none\b(?! of (these|them)\b)|, what is \w+ed\b|\bwhat (of it|is not)\b|\bas is (none|what)\b"
+    r"|(^|[.;:] )(What|None|That of|Those of)\b(?![^.]*\?)")
 
 
 def without_code(text):
@@ -115,6 +122,40 @@ def check_links(pages, whole):
     return faults
 
 
+def texts_of(source):
+    """Line and text of each comment, lines that follow one another joined, and of each string, of a source."""
+    mark = r"//[/<]*" if source.suffix in (".cpp", ".hpp", ".js") else r"#"
+    block, first = [], 0
+    for number, line in enumerate(source.read_text(encoding="utf-8").splitlines() + [""], 1):
+        whole = re.match(rf"\s*{mark}( .*|$)", line)
+        if whole:
+            first = first if block else number
+            block.append(whole.group(1).strip())
+            continue
+        if block:
+            yield first, " ".join(block)
+            block = []
+        comment = re.search(rf"\s{mark} (.*)", line)
+        if comment:
+            yield number, comment.group(1)
+        for text in re.findall(r'"((?:[^"\\]|\\.)+)"', line):
+            yield number, text
+
+
+def check_comments(_, __):
+    """Comments and messages of the product. Python's own None begins no fault."""
+    faults, count = [], 0
+    folders = ["app", "band", "bench", "common", "coupler", "dem", "element", "fem", "grains_io", "python/polargrain"]
+    for source in sorted(file for folder in folders for kind in ("hpp", "cpp", "js", "py") for file in (ROOT / folder).rglob("*." + kind)):
+        for line, text in texts_of(source):
+            count += 1
+            for hit in HEADLESS_IN_CODE.finditer(text):
+                if not (source.suffix == ".py" and "None" in hit.group(0)):
+                    faults.append(f"{source.relative_to(ROOT)}:{line}: a clause without a subject: '{text[max(0, hit.start() - 30):hit.end() + 30]}'")
+    print(f"{count} comments and texts")
+    return faults
+
+
 PAPER_SECTIONS = ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement", "AI usage disclosure",
                   "Acknowledgements", "References"]
 PAPER_WORDS = range(750, 1751)
@@ -183,7 +224,7 @@ def check_keys(_, __):
 
 
 def main():
-    checks = {"words": check_words, "links": check_links, "keys": check_keys, "paper": check_paper, "made": check_made}
+    checks = {"words": check_words, "links": check_links, "comments": check_comments, "keys": check_keys, "paper": check_paper, "made": check_made}
     if len(sys.argv) < 2 or sys.argv[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

@@ -26,8 +26,8 @@ constexpr std::size_t kMostEntries = 100000;
 constexpr std::size_t kDeepest = 20;
 constexpr std::uintmax_t kLargestFile = 10'000'000;
 
-/// The first control character that no value may hold; empty: none. A text may have several lines, and tabs. What names
-/// something ends up on terminals, in logs, in tables and as a name of a file, and each has characters that steer it.
+/// The first control character that no value may hold; empty: none. A text may have several lines, and tabs. Names
+/// end up on terminals, in logs, in tables and as names of files, and each of these has characters that steer it.
 std::string forbidden_in(const std::string& text) {
   std::string lines = text;
   std::erase_if(lines, [](char c) { return c == '\n' || c == '\r' || c == '\t'; });

@@ -11,7 +11,7 @@
 namespace polargrain::fem {
 namespace {
 
-/// Stiffnesses below this share of the largest are none.
+/// Stiffnesses below this share of the largest count as zero.
 constexpr double kNothing = 1e-14;
 
 bool has_skew_stiffness(const Matrix7& d) {
