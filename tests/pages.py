@@ -7,7 +7,7 @@
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
     tests/pages.py comments         comments and texts of the sources: no clauses without a subject
     tests/pages.py paper              docs/paper has the head, sections, words and references that JOSS asks for
-    tests/pages.py made               performance.md, verification.md and hard_cases.md are as their commands write them
+    tests/pages.py made               performance.md, verification.md, hard_cases.md and figures of README.md are as commands write them
     tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
 
 Without PAGE: all pages that git knows. Tables, code and headings are no sentences; code and the bars of tables are no words.
@@ -189,8 +189,21 @@ def check_made(_, __):
     import make_verification  # pylint: disable=import-outside-toplevel
     made = {"performance.md": make_performance.page(), **make_verification.pages(make_verification.kept())}
     print(f"{len(made)} pages")
-    return [f"docs/{name}: docs/make_*.py writes another text from the kept figures" for name, text in made.items()
-            if (ROOT / "docs" / name).read_text(encoding="utf-8") != text]
+    faults = [f"docs/{name}: docs/make_*.py writes another text from the kept figures" for name, text in made.items()
+              if (ROOT / "docs" / name).read_text(encoding="utf-8") != text]
+    return faults + figures_of_readme()
+
+
+def figures_of_readme():
+    """README's figures against the kept outputs of the tests that it names."""
+    printed = (ROOT / "docs/data/verification.txt").read_text(encoding="utf-8")
+    paths = re.findall(r"path: largest error of a normal stress ([\d.]+) % in 3 increments, ([\d.]+) % in 10", printed)
+    patches = [float(error) for error in re.findall(r"^E\.1 .* relative error (\S+)$", printed, re.M)]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    short, long = (max(float(path[k]) for path in paths) for k in (0, 1))
+    faults = [] if max(patches) < 2e-14 else [f"README.md: a patch test is {max(patches)} off"]
+    told = f"{short:.1f} % in 3 increments, {long:.1f} % in 10"
+    return faults + ([] if told in readme else [f"README.md: the tests of paths give {told}"])
 
 
 KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"

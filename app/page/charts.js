@@ -22,13 +22,14 @@ function beginsAtZero(values) {
   return (least >= 0 && least <= near) || (most <= 0 && most >= -near);
 }
 
-// Ends of a logarithmic axis: the nearest of 1, 2, ... 9 times a power of ten that leave all values inside.
+// Ends of a logarithmic axis: the nearest of 1, 1.1, ... 2, 3, ... 9 times a power of ten that leave all values inside.
 function logarithmicEnds(values) {
   const positive = values.filter((value) => value > 0);
   if (positive.length === 0) return {};
   const rounded = (value, round) => {
     const power = 10 ** Math.floor(Math.log10(value));
-    return round(value / power) * power;
+    const fine = value < 2 * power ? 10 : 1; // tenths from 1 to 2
+    return (round((fine * value) / power) * power) / fine;
   };
   const least = positive.reduce((one, other) => Math.min(one, other), Infinity);
   const most = positive.reduce((one, other) => Math.max(one, other), 0);
