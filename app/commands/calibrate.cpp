@@ -261,8 +261,8 @@ Command add_calibrate(CLI::App& program, const Grains& grains) {
   CLI::App& command =
       *program.add_subcommand("calibrate", "Find parameters of contacts from laboratory curves");
   command.description(
-      "Finds parameters of contacts, variables of a script of cells, for which laboratory tests of cells give the curves of a\n"
-      "laboratory (docs/element_tests.md). Writes record.csv (a row an evaluation; the same command goes on from there),\n"
+      "Find parameters of contacts from laboratory curves\n"
+      "The parameters are variables of a script of cells (docs/element_tests.md). Writes record.csv (a row an evaluation; the same command goes on from there),\n"
       "parameters.csv (with 95 % intervals), best.in (the script) and calibration.html. Exit status 1: not converged.");
   command.add_option("LAB", options->laboratory, "CSV: the laboratory's curves, named columns")->required();
   command.add_option("SPEC", options->specification, "Specification (YAML): parameters, tests, targets")
