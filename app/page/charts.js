@@ -67,6 +67,12 @@ function axisOf(axis, values) {
   };
 }
 
+// Chart.js forgets the dashes of lines whose points have a style.
+function withDashes(chart) {
+  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((item) =>
+    ({ ...item, lineDash: chart.data.datasets[item.datasetIndex].borderDash }));
+}
+
 // Behind the last colour they begin anew, with another dash each time: 24 lines can be told apart.
 const dashes = [[], [8, 3], [2, 3]];
 
@@ -113,7 +119,8 @@ const names = {
       const gap = (dataset.pointRadius || 0) + 4;
       const sides = [point.x + gap, point.x - gap - width].filter((left) => left > area.left && left + width < chart.width);
       let place = null;
-      for (let k = 0; k < 12 && !place; ++k) {
+      // Not on its own line.
+      for (let k = dataset.showLine ? 1 : 0; k < 12 && !place; ++k) {
         const y = point.y + 13 * (k % 2 === 0 ? k / 2 : -(k + 1) / 2);
         const boxes = sides.map((left) => ({ left, right: left + width, top: y - 6, bottom: y + 6 }));
         place = boxes.find((box) => !taken.some((other) => box.left < other.right && box.right > other.left &&
@@ -187,6 +194,8 @@ for (const figure of document.querySelectorAll("figure.chart")) {
   // A long legend gets room of its own; the curves keep theirs.
   if (content.legend && content.series.length > 6)
     figure.style.height = `calc(${getComputedStyle(figure).height} + ${Math.ceil(content.series.length / 2) * 1.2}em)`;
+  // Long enough in the legend to show their dashes; marks would be drawn out.
+  const sampleWidth = content.series.every((series) => series.line) ? 34 : undefined;
   const along = (k) => content.series.flatMap((series) => series.points.map((point) => point[k]));
   const scales = { x: axisOf(content.x, along(0)), y: axisOf(content.y, along(1)) };
   const chart = new Chart(figure.querySelector("canvas"), {
@@ -198,7 +207,7 @@ for (const figure of document.querySelectorAll("figure.chart")) {
       maintainAspectRatio: false,
       scales,
       plugins: {
-        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true } },
+        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true, pointStyleWidth: sampleWidth, generateLabels: withDashes } },
         tooltip: {
           callbacks: {
             label: (item) =>
