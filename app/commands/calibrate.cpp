@@ -52,6 +52,14 @@ std::string name_of_point(const Calibration& calibration, const TargetPoint& poi
 /// A search among points that no test can reach would go on to its end and say nothing.
 void tell_missed(const Calibration& calibration, const std::vector<std::size_t>& missed) {
   if (missed.empty()) return;
+  const auto is_along = [&](const TargetPoint& point) { return point.where == TargetPoint::Where::along; };
+  const auto missed_along =
+      std::ranges::count_if(missed, [&](std::size_t k) { return is_along(calibration.points[k]); });
+  if (missed_along > 0 && missed_along == std::ranges::count_if(calibration.points, is_along))
+    throw RunError(fmt::format(
+        "no test comes as far as the points of the laboratory, the first is {}: correct the end of the test, or the unit of the "
+        "table ('factor_along' of the target, 0.01 for per cent)",
+        name_of_point(calibration, calibration.points[missed.front()])));
   tell(
       stderr,
       "warning: {} of {} points lie where not all packings came, the first is {}; each counts as {:g} errors a packing. Where "
