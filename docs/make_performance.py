@@ -157,7 +157,7 @@ With more cells single steps near the peak take more, because answers jump when 
     ("A coupled run of spheres", """512 points of 1,000 spheres between rough plates. The time is acceptable, the answer is limited. These packings are stiff (shear modulus 122 MPa under
 100 kPa): a step of a thousandth is as large as their elastic strain. Where law and cell differ by more than 0.3 the run says so. `adaptive` and `cell` are not
 practical here: `cell` takes 131 s for the first evaluation of all points.""", "spheres_512.csv",
-     ["`informed`, frozen, 80 steps to 8 %, `drift_shear: 0.002`", "now, broken off at step 65 for want of time"], ["largest"]),
+     ["`informed`, frozen, 80 steps to 8 %, `drift_shear: 0.002`", "an earlier program, to step 65"], ["largest"]),
     ("The coordinator", """10,000 cells with states of 55 kB and simulated workers that answer at once. "Own" is processor time of the coordinator. It saturates where that is
 all of an evaluation of 2.9 ms.""", "coupler_scale.csv", ["workers", "other load", "own, us an evaluation", "saturates at"], []),
     ("", """- `coupler_scale lasting 15 100000 5000 30 200`: 4.8 million evaluations in a quarter of an hour. No answer was wrong, no worker was lost.
@@ -192,7 +192,7 @@ def page():
     """@returns the text of docs/performance.md"""
     lines = ["# Performance", "",
              "*What does a computation cost, and what accuracy does it buy? For users who plan runs.*", "",
-             "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance).",
+             "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance). `git log -1 FILE` names the latest program that a file can be of.",
              "Times differ by some ten per cent between machines; ratios within a table do not. Contact models in the stock loop:",
              "[contact_loop.csv](data/performance/contact_loop.csv).", ""]
     for heading, words, name, columns, shown in SECTIONS:
