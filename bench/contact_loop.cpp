@@ -27,7 +27,7 @@ constexpr int kRounds = 3;
 constexpr int kSteps = 1000;
 constexpr int kDiscs = 1600;  // bench/contact_loop.in
 
-/// Processor time of the program's run, s; negative when it failed. What others do on the machine counts
+/// Processor time of the program's run, s; negative when it failed. Other programs on the machine count
 /// little.
 double processor_seconds(const Variant& variant, int steps) {
   const auto spent = [] {

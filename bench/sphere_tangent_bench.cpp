@@ -28,7 +28,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Those of the six symmetric strains.
+/// The columns of the six symmetric strains.
 Columns columns_of(const Matrix18& tangent) {
   Columns columns;
   for (int k = 0; k < 6; ++k) {

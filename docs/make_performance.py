@@ -146,8 +146,8 @@ additional time of the condensed tangent. "off" is the deviator against a slow r
     ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm, damping 0.12. `polargrain pack` takes damping 0.02 in space and needs a third to a quarter
 of the steps there. 10,000 spheres take 114 s with friction 0.5. Without friction they were not at rest after 8.6 minutes.""", "pack_bench.csv",
      ["packing", "grains", "seconds", "DEM steps"], ["discs, void"]),
-    ("A coupled run", """`./bootstrap demo` (200 cells, 23 steps, 2 workers) takes 30 s: grains 95.1 %, messages 1.6 %, waiting 0.9 %, finite elements 0.6 %. It
-makes 29,244 evaluations. The speed of such machines changes from day to day by more than a third.
+    ("A coupled run", """`./bootstrap demo` (200 cells, 23 steps, 29,244 evaluations) takes one minute of processor time, 94 % of it in the grains. The speed of such machines changes
+from day to day by more than a third.
 
 Newton iterations a step (most in brackets), `cases/biaxial` with 2 elements, 40 steps to 4 %: 2.4 a step to 3 % with the condensed tangent, 11.5 with Voigt's.
 With more cells single steps near the peak take more, because answers jump when grains rearrange.""", "newton.csv",
@@ -157,7 +157,7 @@ With more cells single steps near the peak take more, because answers jump when 
     ("A coupled run of spheres", """512 points of 1,000 spheres between rough plates. The time is acceptable, the answer is limited. These packings are stiff (shear modulus 122 MPa under
 100 kPa): a step of a thousandth is as large as their elastic strain. Where law and cell differ by more than 0.3 the run says so. `adaptive` and `cell` are not
 practical here: `cell` takes 131 s for the first evaluation of all points.""", "spheres_512.csv",
-     ["`informed`, frozen, 80 steps to 8 %, `drift_shear: 0.002`", "now, broken off at step 65 for want of time"], ["largest"]),
+     ["`informed`, frozen, 80 steps to 8 %, `drift_shear: 0.002`", "an earlier program, to step 65"], ["largest"]),
     ("The coordinator", """10,000 cells with states of 55 kB and simulated workers that answer at once. "Own" is processor time of the coordinator. It saturates where that is
 all of an evaluation of 2.9 ms.""", "coupler_scale.csv", ["workers", "other load", "own, us an evaluation", "saturates at"], []),
     ("", """- `coupler_scale lasting 15 100000 5000 30 200`: 4.8 million evaluations in a quarter of an hour. No answer was wrong, no worker was lost.
@@ -170,7 +170,7 @@ of a step in brackets. `cases/footing_cells` (560 points; full run: 11,243 evalu
      "adaptive_biaxial.csv", ["`tolerance`", "error of the curve", "times fewer DEM steps", "audits: mean error / bound"], []),
     ("Speed against error", """`cases/biaxial` on 2 x 4 elements (32 points, 400 discs, 23 steps to 2.3 %). Errors are the largest difference from the reference over its range. Packings
 are compared with the mean of the three largest packings.""", "bench_quick.csv",
-     ["what", "setting", "s", "DEM steps", "error of stress_ratio", "error of the peak"], ["cell size"]),
+     ["what", "setting", "DEM steps", "error of stress_ratio", "error of the peak"], ["cell size"]),
     ("", speed_words(), "", [], []),
     ("Finite elements", """Elastoplastic block between rough plates in full plastic flow, seconds a Newton iteration. The solution grows like n^1.23. Own kernels with the same
 bits cost -4 to +5.5 % against serial OpenBLAS. A Cauchy scene has two unknowns a node in place of three.""", "fem_bench.csv",
@@ -192,7 +192,7 @@ def page():
     """@returns the text of docs/performance.md"""
     lines = ["# Performance", "",
              "*What does a computation cost, and what accuracy does it buy? For users who plan runs.*", "",
-             "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance).",
+             "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance). `git log -1 FILE` names the latest program that a file can be of.",
              "Times differ by some ten per cent between machines; ratios within a table do not. Contact models in the stock loop:",
              "[contact_loop.csv](data/performance/contact_loop.csv).", ""]
     for heading, words, name, columns, shown in SECTIONS:

@@ -42,7 +42,7 @@ std::string packing_data(const Packing& packing) {
   text += fmt::format("{} atoms\n1 atom types\n\n", packing.grains.size());
   text += fmt::format("0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n", length_x, length_y,
                       space ? 0.0 : -0.5 * packing.thickness, (space ? 1.0 : 0.5) * packing.thickness);
-  // The engine's box is a right one for good unless it is told its tilt, even if that is none.
+  // The engine's box is a right one for good unless it is told its tilt, even a tilt of zero.
   text += fmt::format("{:.17g} {:.17g} {:.17g} xy xz yz\n", tilt, lean.x(), lean.y());
   text += "\nAtoms\n\n";
   for (const Grain& grain : packing.grains) {

@@ -5,8 +5,9 @@
     tests/pages.py words [PAGE...]    no sentence over 30 words, 16 in the mean, 45,000 in all, no clauses without a subject;
                                       a page of docs/ begins with whom it is for
     tests/pages.py links [PAGE...]    every link leads to a file and to a heading of it; every page of docs/ is two clicks from README.md
+    tests/pages.py comments         comments and texts of the sources: no clauses without a subject
     tests/pages.py paper              docs/paper has the head, sections, words and references that JOSS asks for
-    tests/pages.py made               performance.md, verification.md and hard_cases.md are as their commands write them
+    tests/pages.py made               performance.md, verification.md, hard_cases.md and figures of README.md are as commands write them
     tests/pages.py keys               the reference holds every key that the code reads and every command and option that it offers
 
 Without PAGE: all pages that git knows. Tables, code and headings are no sentences; code and the bars of tables are no words.
@@ -24,6 +25,12 @@ LONGEST_SENTENCE = 30
 MEAN_SENTENCE = 16.0
 README_WORDS = 700
 HEADLESS = re.compile(r"\b(is|are) none\b|\bwhat is not\b|, what is \w+ed\b|\bas is (none|what)\b|\bthat are none\b|^(What|None) (is|are|was|were|has|of) ", re.M)
+
+
+# In comments and messages; "there is none" and "none of them" are English.
+HEADLESS_IN_CODE = re.compile(
+    r"(?<!there )\b(is|are|was|were) none\b(?! of (these|them)\b)|, what is \w+ed\b|\bwhat (of it|is not)\b|\bas is (none|what)\b"
+    r"|(^|[.;:] )(What|None|That of|Those of)\b(?![^.]*\?)")
 
 
 def without_code(text):
@@ -115,6 +122,40 @@ def check_links(pages, whole):
     return faults
 
 
+def texts_of(source):
+    """Line and text of each comment, lines that follow one another joined, and of each string, of a source."""
+    mark = r"//[/<]*" if source.suffix in (".cpp", ".hpp", ".js") else r"#"
+    block, first = [], 0
+    for number, line in enumerate(source.read_text(encoding="utf-8").splitlines() + [""], 1):
+        whole = re.match(rf"\s*{mark}( .*|$)", line)
+        if whole:
+            first = first if block else number
+            block.append(whole.group(1).strip())
+            continue
+        if block:
+            yield first, " ".join(block)
+            block = []
+        comment = re.search(rf"\s{mark} (.*)", line)
+        if comment:
+            yield number, comment.group(1)
+        for text in re.findall(r'"((?:[^"\\]|\\.)+)"', line):
+            yield number, text
+
+
+def check_comments(_, __):
+    """Comments and messages of the product. Python's own None begins no fault."""
+    faults, count = [], 0
+    folders = ["app", "band", "bench", "common", "coupler", "dem", "element", "fem", "grains_io", "python/polargrain"]
+    for source in sorted(file for folder in folders for kind in ("hpp", "cpp", "js", "py") for file in (ROOT / folder).rglob("*." + kind)):
+        for line, text in texts_of(source):
+            count += 1
+            for hit in HEADLESS_IN_CODE.finditer(text):
+                if not (source.suffix == ".py" and "None" in hit.group(0)):
+                    faults.append(f"{source.relative_to(ROOT)}:{line}: a clause without a subject: '{text[max(0, hit.start() - 30):hit.end() + 30]}'")
+    print(f"{count} comments and texts")
+    return faults
+
+
 PAPER_SECTIONS = ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement", "AI usage disclosure",
                   "Acknowledgements", "References"]
 PAPER_WORDS = range(750, 1751)
@@ -148,8 +189,21 @@ def check_made(_, __):
     import make_verification  # pylint: disable=import-outside-toplevel
     made = {"performance.md": make_performance.page(), **make_verification.pages(make_verification.kept())}
     print(f"{len(made)} pages")
-    return [f"docs/{name}: docs/make_*.py writes another text from the kept figures" for name, text in made.items()
-            if (ROOT / "docs" / name).read_text(encoding="utf-8") != text]
+    faults = [f"docs/{name}: docs/make_*.py writes another text from the kept figures" for name, text in made.items()
+              if (ROOT / "docs" / name).read_text(encoding="utf-8") != text]
+    return faults + figures_of_readme()
+
+
+def figures_of_readme():
+    """README's figures against the kept outputs of the tests that it names."""
+    printed = (ROOT / "docs/data/verification.txt").read_text(encoding="utf-8")
+    paths = re.findall(r"path: largest error of a normal stress ([\d.]+) % in 3 increments, ([\d.]+) % in 10", printed)
+    patches = [float(error) for error in re.findall(r"^E\.1 .* relative error (\S+)$", printed, re.M)]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    short, long = (max(float(path[k]) for path in paths) for k in (0, 1))
+    faults = [] if max(patches) < 2e-14 else [f"README.md: a patch test is {max(patches)} off"]
+    told = f"{short:.1f} % in 3 increments, {long:.1f} % in 10"
+    return faults + ([] if told in readme else [f"README.md: the tests of paths give {told}"])
 
 
 KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
@@ -183,7 +237,7 @@ def check_keys(_, __):
 
 
 def main():
-    checks = {"words": check_words, "links": check_links, "keys": check_keys, "paper": check_paper, "made": check_made}
+    checks = {"words": check_words, "links": check_links, "comments": check_comments, "keys": check_keys, "paper": check_paper, "made": check_made}
     if len(sys.argv) < 2 or sys.argv[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

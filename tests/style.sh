@@ -8,6 +8,7 @@
 #   tests/style.sh pages              doxygen: comments without warnings; pages in build/doxygen/html
 #   tests/style.sh words [PAGE...]    Markdown: long sentences, clauses without a subject, words in all
 #   tests/style.sh links [PAGE...]    Markdown: dead links, pages that README.md does not lead to
+#   tests/style.sh comments           comments and texts of the sources: clauses without a subject
 #   tests/style.sh paper              docs/paper: sections, words and references that JOSS asks for
 #   tests/style.sh made               docs: pages of figures are as their commands write them
 #   tests/style.sh keys               Markdown: keys, commands and options that the reference leaves out
@@ -44,12 +45,12 @@ case "${1:-}" in
     mkdir -p build
     doxygen docs/Doxyfile
     ;;
-  words | links | keys | paper | made)
+  words | links | comments | keys | paper | made)
     need python3
     python3 -B tests/pages.py "$@"
     ;;
   *)
-    sed -n '3,14s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,15s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -87,7 +87,7 @@ std::string curve_chart(std::size_t y, const BenchAxes& axes, const std::vector<
     const BenchCurve& curve = result.curves[y];
     for (std::size_t k = 0; k < curve.x.size(); ++k) line.points.emplace_back(curve.x[k], curve.y[k]);
     line.line = true;
-    line.dashed = &result == &results.front();
+    if (&result == &results.front()) line.colour = "text";
     series.push_back(std::move(line));
   }
   if (series.empty()) return "";

@@ -36,8 +36,8 @@ bool same_library(const std::string& named, const std::filesystem::path& directo
                   const ContactLibraryFile& library) {
   if (named.empty() || library.path.empty()) return named.empty() && library.path.empty();
   const auto file = coupler::find_data_file(named, directory);
-  return !file || coupler::content_of(*file) ==
-                      coupler::content_of(library.path);  // read_case tells what is not there
+  return !file ||
+         coupler::content_of(*file) == coupler::content_of(library.path);  // read_case names the missing file
 }
 
 /// Packings at rest with one contact model are not at rest with another.
@@ -58,7 +58,7 @@ void check_script(const BenchOptions& options, const PackingSpecification& speci
                                    material.name, options.cases.front().string())));
     const auto file = coupler::find_data_file(material.script, directory);
     if (!file || coupler::text_of_script(*file) == specification.script)
-      continue;  // read_case tells what is not there
+      continue;  // read_case names the missing file
     faults.push_back(entry->fault(
         fmt::format("script: {} has another content than {}, the script of material '{}' in {}; give both "
                     "the same, in a copy of the specification",

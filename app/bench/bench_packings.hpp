@@ -19,7 +19,7 @@ struct BenchPacking {
 /// script than a material of the first case
 std::vector<BenchPacking> bench_packings(const BenchOptions& options);
 
-/// Makes those that are not there yet. What a packing was made from is kept beside it, so that it is made
+/// Makes the packings that are missing. Each keeps its specification and script beside it, so that it is made
 /// anew when the specification or its script has changed.
 /// @throws RunError in the engine's words
 void make_packings(const BenchOptions& options, const std::vector<BenchPacking>& packings,

@@ -13,7 +13,7 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
                          const std::vector<SizeScatter>& sizes) {
   std::string text = fmt::format(
       "<p>Reference: {}. Errors are the largest difference from its curve over {}, as a share of the curve's "
-      "range. Red: no other run is both faster and closer. White: stopped before its end. Drawing a "
+      "range. Red, the Pareto front: no other run is both faster and closer. White: stopped before its end. Drawing a "
       "rectangle with the mouse enlarges it, a double click shows all again.</p>\n",
       escaped(results.front().setting.label), escaped(axes.x));
   if (sizes.empty()) return text;
@@ -27,8 +27,18 @@ std::string introduction(const BenchAxes& axes, const std::vector<BenchResult>& 
 
 std::string table_of(const BenchTable& bench) {
   std::vector<TableRow> rows;
-  for (const BenchRow& row : bench.rows) rows.push_back({cells_of(bench, row), row.on_front ? "front" : ""});
-  return table(titles_of(bench), rows, TableOf::text);
+  for (const BenchRow& row : bench.rows) {
+    rows.push_back({cells_of(bench, row), row.on_front ? "front" : ""});
+    if (row.on_front) rows.back().cells.back() = "yes";
+  }
+  // Alone, as on a narrow page, the short titles of the text table say too little.
+  std::vector<std::string> titles = titles_of(bench);
+  for (std::string& title : titles)
+    title = title == "what"    ? "varied"
+            : title == "s"     ? "wall time, s"
+            : title == "front" ? "Pareto front"
+                               : title;
+  return table(titles, rows, TableOf::text);
 }
 
 }  // namespace

@@ -15,9 +15,12 @@ using Figures = std::vector<std::optional<double>>;
 
 std::vector<BenchColumn> columns_of(const BenchAxes& axes) {
   std::vector<BenchColumn> columns;
-  for (const std::string& y : axes.y) {
+  for (std::size_t k = 0; k < axes.y.size(); ++k) {
+    const std::string& y = axes.y[k];
+    const std::string unit =
+        k < axes.y_units.size() && !axes.y_units[k].empty() ? ", " + axes.y_units[k] : "";
     columns.push_back({"error_" + y, "error of " + y, 100.0, "{:.2f} %"});
-    columns.push_back({"peak_" + y, "its peak", 1.0, "{:.4g}"});
+    columns.push_back({"peak_" + y, "its peak" + unit, 1.0, "{:.4g}"});
     columns.push_back({"peak_error_" + y, "error of the peak", 100.0, "{:.2f} %"});
   }
   if (!axes.band) return columns;

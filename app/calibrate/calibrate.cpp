@@ -212,7 +212,7 @@ CalibrationResult calibrate(const Calibration& calibration,
     const nlopt::result end = seek(whole, kFirstStep, calibration.tolerance, calibration.evaluations);
     result.converged = end != nlopt::MAXEVAL_REACHED;
     result.end = result.converged
-                     ? fmt::format("the parameters stand still within {:.3g} of the way between their bounds",
+                     ? fmt::format("the last changes of the parameters were below {:.3g} of their ranges",
                                    calibration.tolerance)
                      : fmt::format("not converged: {} evaluations were made", calibration.evaluations);
   } catch (const nlopt::roundoff_limited&) {

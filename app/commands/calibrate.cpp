@@ -52,6 +52,14 @@ std::string name_of_point(const Calibration& calibration, const TargetPoint& poi
 /// A search among points that no test can reach would go on to its end and say nothing.
 void tell_missed(const Calibration& calibration, const std::vector<std::size_t>& missed) {
   if (missed.empty()) return;
+  const auto is_along = [&](const TargetPoint& point) { return point.where == TargetPoint::Where::along; };
+  const auto missed_along =
+      std::ranges::count_if(missed, [&](std::size_t k) { return is_along(calibration.points[k]); });
+  if (missed_along > 0 && missed_along == std::ranges::count_if(calibration.points, is_along))
+    throw RunError(fmt::format(
+        "no test comes as far as the points of the laboratory, the first is {}: correct the end of the test, or the unit of the "
+        "table ('factor_along' of the target, 0.01 for per cent)",
+        name_of_point(calibration, calibration.points[missed.front()])));
   tell(
       stderr,
       "warning: {} of {} points lie where not all packings came, the first is {}; each counts as {:g} errors a packing. Where "
@@ -261,8 +269,8 @@ Command add_calibrate(CLI::App& program, const Grains& grains) {
   CLI::App& command =
       *program.add_subcommand("calibrate", "Find parameters of contacts from laboratory curves");
   command.description(
-      "Finds parameters of contacts, variables of a script of cells, for which laboratory tests of cells give the curves of a\n"
-      "laboratory (docs/element_tests.md). Writes record.csv (a row an evaluation; the same command goes on from there),\n"
+      "Find parameters of contacts from laboratory curves\n"
+      "The parameters are variables of a script of cells (docs/element_tests.md). Writes record.csv (a row an evaluation; the same command goes on from there),\n"
       "parameters.csv (with 95 % intervals), best.in (the script) and calibration.html. Exit status 1: not converged.");
   command.add_option("LAB", options->laboratory, "CSV: the laboratory's curves, named columns")->required();
   command.add_option("SPEC", options->specification, "Specification (YAML): parameters, tests, targets")

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <memory>
 #include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/commands/all_commands.hpp"
@@ -78,16 +80,56 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
-/// The message where the first word is no command; empty where it is one, or an option.
-std::string unknown_command(const CLI::App& app, int count, char** arguments) {
-  const std::string word = count > 1 ? arguments[1] : "";
-  if (word.empty() || word.front() == '-') return {};
-  std::vector<std::string> names;
-  for (const CLI::App* const command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::ranges::find(names, word) != names.end()) return {};
-  const std::string guess = coupler::nearest(word, names);
-  return fmt::format("there is no command '{}'; {}", word,
-                     guess.empty() ? "there are " + coupler::listed(names) : "did you mean '" + guess + "'?");
+std::string guessed(const std::string& word, const std::vector<std::string>& known) {
+  const std::string guess = coupler::nearest(word, known);
+  return guess.empty() ? "" : "; did you mean '" + guess + "'?";
+}
+
+/// Replaces words of CLI11's messages.
+std::string in_other_words(std::string text) {
+  constexpr std::pair<const char*, const char*> kWords[] = {{" is required", " is missing"},
+                                                            {": At Most ", ": expected at most "},
+                                                            {": At Least ", ": expected at least "},
+                                                            {" required but received ", ", found "},
+                                                            {": Value ", ": "},
+                                                            {" not in range ", " is not a number from "}};
+  for (const auto& [theirs, ours] : kWords)
+    if (const std::size_t place = text.find(theirs); place != std::string::npos)
+      text.replace(place, std::string_view(theirs).size(), ours);
+  // "--set: 1 required KEY=VALUE missing"
+  constexpr std::string_view kOne = ": 1 required ";
+  constexpr std::string_view kMissing = " missing";
+  if (const std::size_t place = text.find(kOne); place != std::string::npos && text.ends_with(kMissing))
+    text = text.substr(0, text.size() - kMissing.size()).replace(place, kOne.size(), ": give a value, ");
+  return text;
+}
+
+/// The message on a command line that cannot be understood.
+std::string refusal(const CLI::App& app, const CLI::ParseError& error, const std::string& first_word) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const CLI::App& command = parsed.empty() ? app : *parsed.front();
+  if (parsed.empty() && !first_word.starts_with('-')) {
+    std::vector<std::string> names;
+    for (const CLI::App* const one : app.get_subcommands({})) names.push_back(one->get_name());
+    if (first_word.empty())
+      return fmt::format("give a command: {}\nSee polargrain --help", coupler::listed(names));
+    const std::string guess = guessed(first_word, names);
+    return fmt::format("there is no command '{}'{}", first_word,
+                       guess.empty() ? "; there are " + coupler::listed(names) : guess);
+  }
+  std::vector<std::string> left = app.remaining(true);
+  if (left.empty() && parsed.empty()) left.push_back(first_word);
+  std::string text = in_other_words(error.what());
+  if (!left.empty() && left.front().starts_with('-')) {
+    std::vector<std::string> options;
+    for (const CLI::Option* const option : command.get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    text = fmt::format("there is no option '{}'{}", left.front(), guessed(left.front(), options));
+  } else if (!left.empty()) {
+    text = fmt::format("'{}' is one word too many", left.front());
+  }
+  const std::string name = parsed.empty() ? "polargrain" : "polargrain " + command.get_name();
+  return fmt::format("{}: {}\nSee {} --help", name, text, name);
 }
 
 }  // namespace
@@ -108,11 +150,9 @@ int command_line(int count, char** arguments, const WorkerEngine& engine, const 
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    if (const std::string word = unknown_command(app, count, arguments); !word.empty()) {
-      tell(stderr, "{}\n", word);
-      return kInputWrong;
-    }
-    return app.exit(error) == 0 ? 0 : kInputWrong;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    tell(stderr, "{}\n", refusal(app, error, count > 1 ? arguments[1] : ""));
+    return kInputWrong;
   }
   const Command& command =
       *std::ranges::find_if(commands, [](const Command& c) { return c.options->parsed(); });

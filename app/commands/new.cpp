@@ -226,8 +226,7 @@ int write_new(const NewOptions& options, const CLI::App& command, const PackingT
 
 std::string new_description() {
   std::string text =
-      "Writes a commented case of your own into a new folder, with its packing, its script for the cells and its mesh; it "
-      "runs as it is.\n\n"
+      "Write a commented case of your own into a new folder, with all its files; it runs as it is\n\n"
       "  polargrain new biaxial -o mine --grains 100 --elements 3 6\n"
       "  polargrain new footing -o mine --rolling --scheme adaptive\n"
       "  polargrain new mesh --mesh dam.msh -o mine --pressure '200 kPa'\n\n"

@@ -36,8 +36,8 @@ struct WorkerOptions {
   ScriptRules scripts = {};  ///< which scripts it runs, whatever its coordinator says
 };
 
-/// Works for a coordinator until that ends or is gone for too long. Unless its scripts are trusted it first gives up what
-/// it does not need (coupler/pool/confinement.hpp). @returns the exit status, 0 or 1
+/// Works for a coordinator until that ends or is gone for too long. Unless its scripts are trusted it first gives up rights
+/// that it does not need (coupler/pool/confinement.hpp). @returns the exit status, 0 or 1
 /// @throws InputError when the key or the log cannot be used
 int work(const WorkerOptions& options, const WorkerEngine& engine);
 

@@ -222,6 +222,9 @@ template void CellPathsRecord::write<2>(int step, const fem::Solver<2>& solver, 
 template void CellPathsRecord::write<3>(int step, const fem::Solver<3>& solver, const std::set<std::size_t>& whole_states);
 
 CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPathsFolder) {
+  if (!fs::exists(directory))
+    throw InputError(
+        {directory.string(), 0, "there is no such directory; give the result directory of a run"});
   if (!fs::exists(folder_ / kCellsFile))
     throw InputError({directory.string(), 0,
                       "has no records of its cells (cell_paths): its case has no material with "

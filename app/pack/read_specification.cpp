@@ -62,9 +62,13 @@ SizeLaw read_sizes(const coupler::Entry& entry, coupler::Faults& faults) {
     law.shares = section.quantities("passing", law.radii.size(), coupler::Dimension::number,
                                     coupler::Limit::not_negative);
     require_ascending(section, "diameter", law.radii);
-    if (law.shares.front() != 0.0 || law.shares.back() != 1.0 ||
-        !std::is_sorted(law.shares.begin(), law.shares.end()))
-      section.fault("passing", "passing: must rise from 0 to 100 % (parts of the mass that pass each sieve)");
+    const bool is_whole = length_of(section, "passing") == law.shares.size();
+    if (is_whole &&
+        (law.shares.front() != 0.0 || law.shares.back() != 1.0 || !std::ranges::is_sorted(law.shares)))
+      section.fault(
+          "passing",
+          fmt::format("passing: must rise from 0 to 100 % (parts of the mass that pass each sieve){}",
+                      law.shares.back() == 100.0 ? "; '100' is 10000 %, write '100 %'" : ""));
   }
   section.finish();
   return law;
@@ -187,16 +191,20 @@ void doubt_sizes(const coupler::Entry& sizes, coupler::Faults& faults) {
 void doubt_numbers(const coupler::Entry& document, const PackingSpecification& specification,
                    coupler::Faults& faults) {
   if (const coupler::Entry* const sizes = document.find("sizes")) doubt_sizes(*sizes, faults);
-  if (const coupler::Entry* const pressure = document.find("pressure"))
+  if (const coupler::Entry* const pressure = document.find("pressure");
+      pressure != nullptr && pressure->text != "0")
     doubt_plain_number(*pressure, "pressure", specification.pressure < kLeastPlainPressure,
                        fmt::format("{:g} Pa, the weight of {:.2g} mm of soil", specification.pressure,
                                    specification.pressure / 18.0),
                        "kPa", faults);
-  if (const coupler::Entry* const density = document.find("density"))
-    if (specification.density < kLeastDensity)
+  if (const coupler::Entry* const density = document.find("density")) {
+    if (!coupler::is_plain_number(density->text))
+      faults.push_back(density->fault("density: give the number of kg/m3 alone, such as 2650"));
+    else if (specification.density < kLeastDensity)
       faults.push_back(density->fault(fmt::format(
           "density: {:g} kg/m3 is lighter than any grain (quartz 2650); write {:g} if it was in g/cm3",
           specification.density, 1e3 * specification.density)));
+  }
 }
 
 }  // namespace

@@ -22,16 +22,40 @@ function beginsAtZero(values) {
   return (least >= 0 && least <= near) || (most <= 0 && most >= -near);
 }
 
+// Ends of a logarithmic axis: the nearest of 1, 1.1, ... 2, 3, ... 9 times a power of ten that leave all values inside.
+function logarithmicEnds(values) {
+  const positive = values.filter((value) => value > 0);
+  if (positive.length === 0) return {};
+  const rounded = (value, round) => {
+    const power = 10 ** Math.floor(Math.log10(value));
+    const fine = value < 2 * power ? 10 : 1; // tenths from 1 to 2
+    return (round((fine * value) / power) * power) / fine;
+  };
+  const least = positive.reduce((one, other) => Math.min(one, other), Infinity);
+  const most = positive.reduce((one, other) => Math.max(one, other), 0);
+  return {
+    suggestedMin: rounded(0.95 * least, Math.floor),
+    suggestedMax: rounded(1.05 * most, Math.ceil),
+    bounds: "data",
+    afterBuildTicks(scale) { // Chart.js begins with those of the whole decade
+      scale.ticks = scale.ticks.filter(({ value }) => value >= 0.999 * scale.min && value <= 1.001 * scale.max);
+    },
+  };
+}
+
 function axisOf(axis, values) {
   const shown = (value) => (axis.percent ? short(100 * value) + " %" : short(value));
   return {
     type: axis.logarithmic ? "logarithmic" : "linear",
     grace: axis.logarithmic ? 0 : "3%",
     beginAtZero: !axis.logarithmic && beginsAtZero(values),
-    title: { display: true, text: axis.unit ? `${axis.title} (${axis.unit})` : axis.title, color: colourOf("--text") },
+    ...(axis.logarithmic ? logarithmicEnds(values) : {}),
+    title: { display: true, text: axis.unit ? `${axis.title}, ${axis.unit}` : axis.title, color: colourOf("--text") },
     grid: { color: colourOf("--faint") },
     ticks: {
       color: colourOf("--text"),
+      // Counts have no halves.
+      ...(values.every(Number.isInteger) ? { precision: 0 } : {}),
       callback(value) {
         // A logarithmic axis of more than a decade marks 1, 2 and 5 of each.
         if (axis.logarithmic && this.max > 10 * this.min && ![1, 2, 5].includes(Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9))))
@@ -41,6 +65,12 @@ function axisOf(axis, values) {
     },
     shown,
   };
+}
+
+// Chart.js forgets the dashes of lines whose points have a style.
+function withDashes(chart) {
+  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((item) =>
+    ({ ...item, lineDash: chart.data.datasets[item.datasetIndex].borderDash }));
 }
 
 // Behind the last colour they begin anew, with another dash each time: 24 lines can be told apart.
@@ -64,12 +94,18 @@ function datasetOf(series, number) {
   };
 }
 
-// Names beside points, each where it covers no other: below and above in turns, ever farther.
+// Names beside points, each where it covers no other name and no point: right or left, below and above in turns, ever farther.
 const names = {
   id: "names",
   afterDatasetsDraw(chart) {
     const context = chart.ctx;
     const taken = [];
+    chart.data.datasets.forEach((dataset, number) => {
+      if (dataset.showLine || !chart.isDatasetVisible(number)) return;
+      const size = dataset.pointRadius;
+      for (const { x, y } of chart.getDatasetMeta(number).data)
+        taken.push({ left: x - size, right: x + size, top: y - size, bottom: y + size });
+    });
     context.save();
     context.font = "12px sans-serif";
     context.fillStyle = colourOf("--text");
@@ -81,14 +117,18 @@ const names = {
         return;
       const width = context.measureText(dataset.label).width;
       const gap = (dataset.pointRadius || 0) + 4;
-      const left = point.x + gap + width > chart.width ? point.x - gap - width : point.x + gap;
-      let y = point.y + 4;
-      for (let k = 0; k < 12; ++k) {
-        y = point.y + 4 + 13 * (k % 2 === 0 ? k / 2 : -(k + 1) / 2);
-        if (!taken.some((other) => left < other.right && left + width > other.left && Math.abs(y - other.y) < 12)) break;
+      const sides = [point.x + gap, point.x - gap - width].filter((left) => left > area.left && left + width < chart.width);
+      let place = null;
+      // Not on its own line.
+      for (let k = dataset.showLine ? 1 : 0; k < 12 && !place; ++k) {
+        const y = point.y + 13 * (k % 2 === 0 ? k / 2 : -(k + 1) / 2);
+        const boxes = sides.map((left) => ({ left, right: left + width, top: y - 6, bottom: y + 6 }));
+        place = boxes.find((box) => !taken.some((other) => box.left < other.right && box.right > other.left &&
+          box.top < other.bottom && box.bottom > other.top));
       }
-      taken.push({ left, right: left + width, y });
-      context.fillText(dataset.label, left, y);
+      if (!place) return; // the mouse shows it
+      taken.push(place);
+      context.fillText(dataset.label, place.left, place.top + 10);
     });
     context.restore();
   },
@@ -154,6 +194,8 @@ for (const figure of document.querySelectorAll("figure.chart")) {
   // A long legend gets room of its own; the curves keep theirs.
   if (content.legend && content.series.length > 6)
     figure.style.height = `calc(${getComputedStyle(figure).height} + ${Math.ceil(content.series.length / 2) * 1.2}em)`;
+  // Long enough in the legend to show their dashes; marks would be drawn out.
+  const sampleWidth = content.series.every((series) => series.line) ? 34 : undefined;
   const along = (k) => content.series.flatMap((series) => series.points.map((point) => point[k]));
   const scales = { x: axisOf(content.x, along(0)), y: axisOf(content.y, along(1)) };
   const chart = new Chart(figure.querySelector("canvas"), {
@@ -165,7 +207,7 @@ for (const figure of document.querySelectorAll("figure.chart")) {
       maintainAspectRatio: false,
       scales,
       plugins: {
-        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true } },
+        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true, pointStyleWidth: sampleWidth, generateLabels: withDashes } },
         tooltip: {
           callbacks: {
             label: (item) =>

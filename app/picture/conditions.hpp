@@ -27,7 +27,7 @@ struct PlaceConditions {
   [[nodiscard]] bool is_free() const;          ///< neither support, movement, load nor tie
 };
 
-/// Those of all named boundaries, and of the node sets that have a condition, in the order of their names.
+/// The conditions of all named boundaries, and of the node sets that have a condition, in the order of their names.
 std::vector<PlaceConditions> conditions_of(const Scene& scene);
 
 }  // namespace polargrain::app

@@ -26,6 +26,25 @@ using Json = nlohmann::ordered_json;
 /// The least value that a logarithmic axis shows.
 constexpr double kLeastResidual = 1e-17;
 
+/// Raises residuals to two decades below the least residual of forces: rounding may leave those of moments ten decades below
+/// it, which would hide the rest. @returns a sentence about that, empty where no value was raised
+std::string raise_small(std::vector<ChartSeries>& series) {
+  double least = 1.0;
+  for (const ChartSeries& line : series)
+    if (line.name.find("force_noise") == std::string::npos && line.name.find("moment") == std::string::npos)
+      for (const auto& [step, value] : line.points)
+        if (value > 0.0) least = std::min(least, value);
+  const double end = std::max(kLeastResidual, std::pow(10.0, std::floor(std::log10(least)) - 2.0));
+  bool is_raised = false;
+  for (ChartSeries& line : series)
+    for (auto& [step, value] : line.points)
+      if (value < end) {
+        value = end;
+        is_raised = true;
+      }
+  return is_raised ? fmt::format("<p>Residuals below {0:.0e} are drawn at {0:.0e}.</p>\n", end) : "";
+}
+
 /// The x that is asked for, or what was moved.
 std::string x_of(const std::vector<RunResult>& results, const ReportContent& content) {
   if (content.x.empty()) return value_moved(results);
@@ -86,7 +105,7 @@ ChartSeries iterations_of(const RunResult& result, const std::string& name,
     for (std::size_t k = first; k < end; ++k)
       line.points.emplace_back(
           result.iterations[k].step + static_cast<double>(k - first) / static_cast<double>(end - first),
-          std::max(kLeastResidual, result.iterations[k].*residual));
+          result.iterations[k].*residual);
     first = end;
   }
   return line;
@@ -106,7 +125,6 @@ std::string convergence(const std::vector<RunResult>& results) {
         if (several && name != std::string_view("force_residual")) continue;
         ChartSeries line = line_of(called(name), *result.history, "step", name);
         if (std::ranges::all_of(line.points, [](const auto& point) { return point.second == 0.0; })) continue;
-        for (auto& point : line.points) point.second = std::max(kLeastResidual, point.second);
         line.dashed = name == std::string_view("force_noise");
         residuals.push_back(std::move(line));
       }
@@ -116,7 +134,8 @@ std::string convergence(const std::vector<RunResult>& results) {
     if (!several)
       iterations.push_back(iterations_of(result, called("moment"), &LoggedIteration::moment_residual));
   }
-  std::string text = "<div class='grid'>\n";
+  std::string text = raise_small(residuals) + "<div class='grid'>\n";
+  const std::string raised = raise_small(iterations);
   if (!counts.empty())
     text += chart({.title = "step"}, {.title = "iterations and cuts of the step"}, counts, true) +
             chart({.title = "step"}, {.title = "residual at the end of the step", .logarithmic = true},
@@ -126,6 +145,7 @@ std::string convergence(const std::vector<RunResult>& results) {
     text +=
         "<p>All iterations, also of attempts that were cut. The iterations of a step stand between its number and the next "
         "number; the first is the predictor.</p>\n" +
+        raised +
         chart({.title = "step"}, {.title = "residual of the iteration", .logarithmic = true}, iterations,
               true);
   return text;
@@ -323,7 +343,7 @@ std::string settings(const RunResult& result) {
   for (const auto& [key, name] : files.items())
     add("file of " + key + ", XXH3", name.is_string() ? name.get<std::string>() : "");
   begin_group("Processors");
-  add("master", figure(proof, "/processor"));
+  add("coordinator", figure(proof, "/processor"));
   const Json workers = proof.value("workers", Json::object());
   for (const auto& [worker, of] : workers.items())
     add(worker, fmt::format("{} evaluations, {}", figure(of, "/evaluations"), figure(of, "/processor")));

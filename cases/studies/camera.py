@@ -199,7 +199,7 @@ def band_of(given, name, kind):
 
 
 def through_window(given, name, subset):
-    """The grains that stand where the camera has places: what it leaves out at the rim is none of its doing in between."""
+    """The grains that stand where the camera has places: the rim, which the camera leaves out, does not count."""
     field = given.output / f"{name}-window{subset}.csv"
     if not field.exists():
         rim = 0.5 * STEP * DIAMETER

@@ -48,8 +48,8 @@ constexpr Choices choices_of(Source) {
 /// (docs/adaptivity.md). Cells with free rotations give the symmetric stress, the Cosserat part is added to it; cells
 /// with controlled rotations give everything, and an increment is also a micro-rotation and a curvature. Points with like histories share a cell; each point knows its offset from
 /// where the cell was last run, and its stress is the cell's answer carried along the tangent by that offset.
-/// Because the offset is kept, and given to the grains when the cell runs next, what a point has not yet told
-/// its cell never adds up over steps. When the estimated error of an offset exceeds the tolerance, a cell is
+/// Because the offset is kept, and given to the grains when the cell runs next, offsets
+/// never add up over steps. When the estimated error of an offset exceeds the tolerance, a cell is
 /// run from its state at the start of the step to one of the points, as often as it takes; points that this
 /// does not serve take the state along and follow a branch of their own.
 ///
@@ -57,7 +57,7 @@ constexpr Choices choices_of(Source) {
 /// method meets a function that is linear in each branch. evaluate therefore depends on the evaluations
 /// before it since the last commit or revert, though never by more than the tolerance.
 ///
-/// Some points, drawn by chance, are followed by cells of their own from the first step on. What they miss bounds the mean
+/// Some points, drawn by chance, are followed by cells of their own from the first step on. Their errors bound the mean
 /// error of all points (error_bound.hpp), and a step whose bound exceeds the tolerance is answered anew, with a
 /// smaller tolerance for estimates, before it is committed.
 class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
@@ -145,8 +145,8 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   /// Runs branches until the estimate of every point is within `allowed` (Pa). @returns false when a cell has failed
   bool settle(double allowed);
   [[nodiscard]] double estimate(std::size_t point, const Branch& branch) const;
-  /// What a run of its cell to a point makes: the point's own excursion where that is needed to hold the tolerance, else
-  /// none.
+  /// The excursion that a run of its cell to a point makes: the point's own where that is needed to hold the tolerance, else
+  /// zero.
   [[nodiscard]] Excursion excursion_of_run(std::size_t leader) const;
   /// The branch of a point's cell with the smallest estimate.
   [[nodiscard]] std::size_t best_branch(std::size_t point) const;

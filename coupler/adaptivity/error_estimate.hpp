@@ -32,7 +32,7 @@ void describe(Record& departure, Visit&& visit) {
 /// How far something has been along the last loading of a cell since that cell was last run.
 struct Excursion {
   double depth = 0.0;  ///< the farthest place, a strain
-  double back = 0.0;   ///< what of it has been taken back
+  double back = 0.0;   ///< the part of it that has been taken back
 };
 
 /// Estimates errors of linearisation for the cells of one packing.

@@ -5,12 +5,15 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "common/plain_text.hpp"
 #include "common/regular_file.hpp"
@@ -23,8 +26,8 @@ constexpr std::size_t kMostEntries = 100000;
 constexpr std::size_t kDeepest = 20;
 constexpr std::uintmax_t kLargestFile = 10'000'000;
 
-/// The first control character that no value may hold; empty: none. A text may have several lines, and tabs. What names
-/// something ends up on terminals, in logs, in tables and as a name of a file, and each has characters that steer it.
+/// The first control character that no value may hold; empty: none. A text may have several lines, and tabs. Names
+/// end up on terminals, in logs, in tables and as names of files, and each of these has characters that steer it.
 std::string forbidden_in(const std::string& text) {
   std::string lines = text;
   std::erase_if(lines, [](char c) { return c == '\n' || c == '\r' || c == '\t'; });
@@ -146,6 +149,34 @@ class Builder : public YAML::EventHandler {
   std::size_t entries_ = 0;
 };
 
+/// The bracket that is open at the end of a text, with its line; empty where all are closed. Quoted text and comments are
+/// passed over.
+std::string open_bracket(const std::string& text) {
+  std::vector<std::pair<char, int>> open;
+  char quote = 0;
+  int line = 1;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c == '\n') ++line;
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+      continue;
+    }
+    const bool after_blank =
+        k == 0 || std::string_view(" \t\n{[,:").find(text[k - 1]) != std::string_view::npos;
+    if (c == '#' && after_blank)
+      k = std::min(text.find('\n', k), text.size()) - 1;
+    else if ((c == '"' || c == '\'') && after_blank)
+      quote = c;
+    else if (c == '{' || c == '[')
+      open.emplace_back(c, line);
+    else if ((c == '}' || c == ']') && !open.empty())
+      open.pop_back();
+  }
+  if (open.empty()) return {};
+  return fmt::format("; the '{}' in line {} is not closed", open.back().first, open.back().second);
+}
+
 /// Advice on habits of writing that YAML does not take.
 std::string advice_on_line(const std::string& text, int line) {
   std::istringstream in(text);
@@ -153,7 +184,7 @@ std::string advice_on_line(const std::string& text, int line) {
   for (int k = 0; k < line; ++k) std::getline(in, found);
   const std::size_t first = found.find_first_not_of(" \t");
   const bool has_tab = found.substr(0, first).find('\t') != std::string::npos;
-  return has_tab ? "; the line begins with a tab, and only spaces may stand there" : "";
+  return has_tab ? "; the line begins with a tab, and only spaces may stand there" : open_bracket(text);
 }
 
 Entry parse(const std::string& text, const std::string& file) {
@@ -234,7 +265,11 @@ Entry load_document(const std::filesystem::path& file) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw InputError({name, 0, "cannot be read; check its permissions"});
-  return parse(text.str(), name);
+  Entry document = parse(text.str(), name);
+  if (document.kind == Entry::Kind::nothing)
+    throw InputError(
+        {name, 0, "is empty, or all of it is comments; 'polargrain new biaxial -o FOLDER' writes a case"});
+  return document;
 }
 
 void apply_setting(Entry& document, const std::string& setting) {

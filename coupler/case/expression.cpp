@@ -18,7 +18,9 @@ class ExpressionParser {
  public:
   ExpressionParser(const std::string& text, Expression& into) : text_(text), into_(into) {
     sum();
-    if (peek() != '\0') wrong("expected an operator");
+    if (peek() == '^') wrong("there are no powers, write x * x: expected one of + - * /");
+    if (peek() == '(' && is_after_name()) wrong("there are no functions: expected one of + - * /");
+    if (peek() != '\0') wrong("expected an operator, one of + - * /,");
   }
 
  private:
@@ -94,6 +96,8 @@ class ExpressionParser {
     }
     return text_.substr(start, at_ - start);
   }
+
+  [[nodiscard]] bool is_after_name() const { return at_ > 0 && is_letter(text_[at_ - 1]); }
 
   static bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 

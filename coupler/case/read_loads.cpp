@@ -61,6 +61,9 @@ bool read_supports(Section& item, const std::vector<std::string>& places, CasePa
       const std::string guess = nearest(name, known);
       item.fault("fix", fmt::format("fix: expected one of {}, found '{}'{}", listed(known), name,
                                     guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+    } else if (const Entry* const moved = item.find("move");
+               moved != nullptr && moved->find(name) != nullptr) {
+      item.fault("fix", fmt::format("fix: {} is below 'move' too; keep one of them", name));
     } else {
       prescribe(dof_of(name), fem::TimeTable::constant(0.0));
     }

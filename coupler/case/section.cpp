@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <sstream>
 
 namespace polargrain::coupler {
 namespace {
@@ -122,6 +123,31 @@ std::string in_small_letters(std::string word) {
   return word;
 }
 
+/// The number and the unit of `text`, with the unit that is meant: 100 Kpa is 100 kPa. Empty where no unit fits.
+std::string with_meant_unit(const std::string& text, Dimension dimension) {
+  const std::size_t start = text.find_last_of("0123456789. ") + 1;
+  const std::string written = in_small_letters(text.substr(start));
+  std::istringstream units(all_units());
+  for (std::string unit; units >> unit;) {
+    if (unit.ends_with(',')) unit.pop_back();
+    const std::string meant = text.substr(0, start) + unit;
+    if (in_small_letters(unit) == written && parse_quantity(meant, dimension)) return meant;
+  }
+  return {};
+}
+
+/// Advice on a text that is no quantity.
+std::string advice_on_quantity(const std::string& text, Dimension dimension) {
+  if (has_decimal_comma(text)) return kDecimalComma;
+  for (const char* const dash : {"\u2212", "\u2013", "\u2014"})
+    if (text.find(dash) != std::string::npos)
+      return "; its dash is not a minus sign: write the '-' of the keyboard";
+  for (const char* const space : {"\u00a0", "\u202f", "\u2009"})
+    if (text.find(space) != std::string::npos) return "; it holds a special space: write an ordinary one";
+  const std::string meant = with_meant_unit(text, dimension);
+  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+}
+
 }  // namespace
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
@@ -193,7 +219,7 @@ double Section::number_of(const Entry& entry, const std::string& key, Dimension 
   if (!value) {
     const std::string guess = nearest(text, words);
     faults_.push_back(entry.fault(fmt::format("{}: {}: expected {}, found '{}'{}{}", name_, key, expected,
-                                              text, has_decimal_comma(text) ? kDecimalComma : "",
+                                              text, advice_on_quantity(text, dimension),
                                               guess.empty() ? "" : "; did you mean '" + guess + "'?")));
     return 1.0;
   }
@@ -341,7 +367,11 @@ std::string Section::choice_of(const Entry& entry, const std::string& key,
 
 std::string Section::choice(const std::string& key, const std::vector<std::string>& words) {
   const Entry* entry = require(key, "one of " + listed(words));
-  return entry == nullptr ? std::string() : choice_of(*entry, key, words);
+  std::string chosen = entry == nullptr ? std::string() : choice_of(*entry, key, words);
+  // The choice decides which keys there are; without it none can be called unknown.
+  if (chosen.empty())
+    for (const Entry::Member& member : entry_.members) asked_.push_back(member.key);
+  return chosen;
 }
 
 std::string Section::choice_or(const std::string& key, const std::vector<std::string>& words,

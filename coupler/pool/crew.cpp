@@ -320,7 +320,7 @@ void Crew::greet(const Address& from, const Hello& hello) {
       return s.process && s.process->id() == hello.process;
     });
     if (seat == seats_.end() || !seat->address.id.empty())
-      return;  // none of ours, or one that is gone already
+      return;  // not one of our processes, or one that has left already
     seat->address = from;
     seat->has_reported = true;
     name = fmt::format("worker {}", seat->number);

@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kHelloPeriod{500};
 /// A worker that has heard nothing for so long says Hello again: its coordinator may have been replaced.
 constexpr std::chrono::seconds kSilence{10};
 
-/// An answer with numbers that are none is no answer: who sent it would be taken for a liar.
+/// A worker never sends NaN or infinity: the coordinator would turn it away as dishonest.
 CellReply honest(CellReply reply) {
   const bool finite = is_finite(reply.diagnostics) &&
                       (reply.response.quality == Quality::failed || is_finite(reply.response));

@@ -72,7 +72,7 @@ class Cell final : public CellOfGrains {
   StatePointer shown_;  ///< of the last evaluation, or the packing
 };
 
-/// @throws RunError when the places of its grains are none of a packing
+/// @throws RunError when the places of its grains cannot be those of a packing
 const CellDefinition& sound(const CellDefinition& definition) {
   if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
   return definition;

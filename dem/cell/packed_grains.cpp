@@ -46,7 +46,7 @@ std::int64_t whole(double value) {
   return std::bit_cast<std::int64_t>(value);
 }
 
-/// A number of `count` things counted from 1, as an index; `count` when it is none.
+/// A number of `count` things counted from 1, as an index; `count` when there is no such thing.
 std::size_t index_of(double value, std::size_t count) {
   const std::int64_t number = whole(value);
   return number >= 1 && number <= static_cast<std::int64_t>(count) ? static_cast<std::size_t>(number - 1)

@@ -91,7 +91,7 @@ class Compression {
     if (too_large(now_.overlaps))
       throw RunError(
           fmt::format("at rest under {:.5g} kPa {}: the contacts are too soft for the pressure; take a "
-                      "stiffer script, or a lower pressure",
+                      "stiffer script, or a lower pressure, and look at the units of the sizes",
                       1e-3 * reached_.pressure, description(now_.overlaps)));
     PreparedPacking prepared{box_->packing(keep_contacts_), reached_, specification_.text};
     prepared.packing.pressure = reached_.pressure;

@@ -36,7 +36,7 @@ constexpr double kStiffer = 1.2;
 /// of an increment is about this much. Chosen by differences of cells (bench/sphere_tangent_bench.cpp).
 constexpr double kHoldOnTheWay = 3e-3;
 
-/// @throws RunError when the places of its grains are none of a packing
+/// @throws RunError when the places of its grains cannot be those of a packing
 const CellDefinition& sound(const CellDefinition& definition) {
   if (const std::string fault = geometry_fault(definition.packing); !fault.empty()) throw RunError(fault);
   return definition;

@@ -18,7 +18,7 @@ std::vector<std::filesystem::path> gmsh_module_places();
 /// regions (surfaces), boundaries (curves) and node sets (points); the region and the node set `all` are
 /// added. Where surfaces have physical groups, elements outside them are left out. Clockwise elements are
 /// turned round.
-/// @param quadrilateral8 the element for quadrilaterals of 8 nodes: "Q8R" or "Q8". Those of 4 nodes become
+/// @param quadrilateral8 the element for quadrilaterals of 8 nodes: "Q8R" or "Q8". Quadrilaterals of 4 nodes become
 /// Q4, triangles of 6 nodes T6.
 /// @throws InputError when the module with Gmsh's library cannot be loaded, the file cannot be read, has
 /// elements of other kinds, leaves the plane z = 0, or a curve of a physical group is not a side of an element.

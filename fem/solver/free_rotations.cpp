@@ -15,7 +15,7 @@
 namespace polargrain::fem {
 namespace {
 
-/// Stiffnesses below this share of the largest are none.
+/// Stiffnesses below this share of the largest count as zero.
 constexpr double kNothing = 1e-14;
 
 /// Whether a tangent resists a relative rotation about each axis.

@@ -177,7 +177,7 @@ class Solver {
   /// @throws RunError before the first substep has been committed.
   StepReport advance_arc_length(double length);
 
-  /// In place of equilibrate, before explicit steps: evaluates the initial state. What is out of balance then, and the
+  /// In place of equilibrate, before explicit steps: evaluates the initial state. Forces out of balance then, and the
   /// displacements given at time 0, come in smoothly over the first advance_explicit.
   StepReport begin_explicit();
   /// Goes on to `time` in `steps` explicit steps at one rate: central differences with nodal masses that make each step stable.

@@ -133,6 +133,16 @@ TEST_F(Calibrate, TellsOfPointsThatNoTestReaches) {
             std::string::npos)
       << missed.errors;
   EXPECT_EQ(missed.errors.find("warning"), missed.errors.rfind("warning")) << "told once";
+  shorter = specification(kBoth, "  - {column: s22_Pa, error: 500, from: 0.15 %}\n");
+  shorter.replace(shorter.find("axial_strain: 1 %"), 17, "axial_strain: 0.1 %");
+  write(scratch.path() / "spec.yaml", shorter);
+  const Outcome all = run("calibrate lab.csv spec.yaml -o all -w 1");
+  EXPECT_EQ(all.status, 1);
+  EXPECT_NE(
+      all.errors.find("no test comes as far as the points of the laboratory, the first is s22_Pa of test "
+                      "'drained' at axial_strain 0.002"),
+      std::string::npos)
+      << all.errors;
   write(scratch.path() / "spec.yaml", far);
   EXPECT_EQ(run("calibrate lab.csv spec.yaml -o far -w 1").errors.find("warning"), std::string::npos);
 }

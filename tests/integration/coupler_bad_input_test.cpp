@@ -286,8 +286,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{
             "UnknownTableColumn", "table: [stress_ratio]", "table: [stress_ration]",
             "case.yaml:24: output: table: there is no monitor 'stress_ration'; did you mean 'stress_ratio'?"},
-        BadInput{"NoYaml", "steps:", "steps: [",
-                 "case.yaml:18: this is no YAML: end of sequence flow not found"},
+        BadInput{
+            "NoYaml", "steps:", "steps: [",
+            "case.yaml:18: this is no YAML: end of sequence flow not found; the '[' in line 16 is not closed"},
         BadInput{"SettingWithoutValue", "", "",
                  "--set steps.count: expected key=value, for example --set steps.count=10",
                  "--set steps.count"},

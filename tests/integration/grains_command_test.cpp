@@ -321,7 +321,7 @@ TEST_F(GrainsCommand, WhatIsNotThereIsSaid) {
   refused("out --point 8", "--point 8: the points of this run are 0 to 7, in the order of points-NNNNN.vtu");
   refused("out --point 0 --step 5", "--step 5: the run has the steps 0 to 4");
   refused("out --point 0 --step 1 --last", "--step excludes --last");
-  refused("out --step 1", "--point is required");
+  refused("out --step 1", "--point is missing");
   refused(". --point 0", "has no records of its cells");
   std::filesystem::remove(folder() / "out/cell_paths/step-00002.h5");
   const Outcome outcome = run_in(folder(), kProgram + " grains out --point 0 --last");

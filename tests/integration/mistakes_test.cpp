@@ -96,6 +96,7 @@ TEST_P(MistakeTest, HasItsMessage) {
   write(at / "bare.msh", mesh_of("1 3 2 0 1 1 2 3 4"));
   write(at / "triangle.msh", mesh_of("1 2 2 0 1 1 2 3"));
   write(at / "twice.csv", "h11,h22,h11\n1e-4,0,0\n");
+  write(at / "empty.yaml", "# later\n");
   write(at / "tab.yaml", "steps:\n\tcount: 4\n");
   std::filesystem::create_directories(at / "thesis");
   write(at / "thesis" / "chapter1.txt", "all of it");
@@ -191,6 +192,30 @@ std::vector<Mistake> mistakes() {
        "point case.yaml sand twice.csv"},
       {"TabInYaml", "title", "title", "the line begins with a tab, and only spaces may stand there",
        "check tab.yaml"},
+      {"DashForAMinusSign", "-4 mm", "\u22124 mm",
+       "found '\u22124 mm'; its dash is not a minus sign: write the '-' of the keyboard"},
+      {"SpecialSpace", "-4 mm", "-4\u00a0mm", "it holds a special space: write an ordinary one"},
+      {"UnitInOtherLetters", "pressure: 100 kPa", "pressure: 100 Kpa",
+       "found '100 Kpa'; did you mean '100 kPa'?"},
+      {"PowerInAFormula", "-top_force / (0.4 m * 100 kPa)", "top_force ^ 2",
+       "there are no powers, write x * x: expected one of + - * / at character 11"},
+      {"FunctionInAFormula", "-top_force / (0.4 m * 100 kPa)", "abs(top_force)",
+       "there are no functions: expected one of + - * / at character 4"},
+      {"OpenBracket", "tolerance: 1e-2}", "tolerance: 1e-2", "the '{' in line 11 is not closed"},
+      {"FixedAndMoved", "fix: [u1], move", "fix: [u1, u2], move",
+       "case.yaml:9: boundary item 2: fix: u2 is below 'move' too; keep one of them"},
+      {"EmptyCase", "title", "title", "empty.yaml: is empty, or all of it is comments", "check empty.yaml"},
+      {"UnknownOption", "title", "title",
+       "polargrain run: there is no option '--setp'; did you mean '--set'? See polargrain run --help",
+       "run case.yaml --setp x"},
+      {"TwoDirectories", "title", "title",
+       "polargrain report: DIR: expected at most 1, found 2 See polargrain report --help",
+       "report first second"},
+      {"WorkersInWords", "title", "title", "--workers: two is not a number from 0 to 4096",
+       "run case.yaml -w two"},
+      {"OptionWithoutValue", "title", "title", "polargrain run: --set: give a value, KEY=VALUE",
+       "run case.yaml --set"},
+      {"NoCase", "title", "title", "polargrain run: CASE is missing See polargrain run --help", "run"},
       {"NothingToResume", "title", "title", "holds no run to go on with; name its directory with -o DIR",
        "run case.yaml --resume -o nowhere"}};
 }

@@ -75,7 +75,7 @@ TEST(Expression, SaysWhatIsWrong) {
     return "accepted";
   };
   EXPECT_EQ(error_of("1 +"), "expected a number, a name or '(' at character 4 of '1 +'");
-  EXPECT_EQ(error_of("a b"), "expected an operator at character 3 of 'a b'");
+  EXPECT_EQ(error_of("a b"), "expected an operator, one of + - * /, at character 3 of 'a b'");
   EXPECT_EQ(
       error_of("3 apples"),
       "'apples' is no unit (%, m, mm, cm, um, km, Pa, kPa, MPa, GPa, rad, deg, mrad, N, kN, N/m, kN/m, MN/m, "

@@ -116,6 +116,11 @@ TEST_F(Specification, FaultsNameTheLine) {
             ":1: packing: grains: expected a whole number of at least 4, found '3'");
   EXPECT_EQ(fault("law: uniform", "law: unifrom").substr(0, 40), ":2: sizes: law: expected one of uniform,");
   EXPECT_EQ(fault("[3 mm, 7 mm]", "[7 mm, 3 mm]"), ":2: sizes: radius: the first must be the smaller one");
+  EXPECT_EQ(fault("law: uniform", "law: unifrom").find("unknown key"), std::string::npos);
+  EXPECT_NE(fault("density: 2650", "density: 2650 kg/m3")
+                .find("density: give the number of kg/m3 alone, such as 2650"),
+            std::string::npos);
+  EXPECT_EQ(fault("density: 2650", "density: 2650 kg/m3").find("lighter"), std::string::npos);
   EXPECT_EQ(fault("pressure: 100 kPa", "pressure: -1 kPa"),
             ":6: packing: pressure: must be greater than zero, found '-1 kPa'");
   EXPECT_EQ(fault("seed: 1", "seeds: 1").substr(0, 45), ":1: packing: the key 'seed' is missing; give ");
@@ -124,6 +129,11 @@ TEST_F(Specification, FaultsNameTheLine) {
   EXPECT_EQ(fault("{law: uniform, radius: [3 mm, 7 mm]}",
                   "{law: sieve, diameter: [1 mm, 2 mm], passing: [0, 90 %]}"),
             ":2: sizes: passing: must rise from 0 to 100 % (parts of the mass that pass each sieve)");
+  EXPECT_EQ(
+      fault("{law: uniform, radius: [3 mm, 7 mm]}",
+            "{law: sieve, diameter: [1 mm, 2 mm], passing: [0, 100]}"),
+      ":2: sizes: passing: must rise from 0 to 100 % (parts of the mass that pass each sieve); '100' is 10000 %, "
+      "write '100 %'");
 }
 
 }  // namespace

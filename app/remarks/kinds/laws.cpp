@@ -180,7 +180,7 @@ void plain_loads(const Scene& scene, Remarks& remarks) {
 
 namespace {
 
-/// What pulls at a boundary along its normal, all its loads together, Pa; on a curved one along the mean normal.
+/// The tension on a boundary along its normal, of all its loads together, Pa; on a curved one along the mean normal.
 double pull_on(const Scene& scene, const std::string& on, const std::vector<OutlineEdge>& edges,
                double time) {
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();

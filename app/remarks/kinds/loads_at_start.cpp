@@ -34,7 +34,7 @@ Corners corners_of(const std::vector<int>& nodes) {
   return std::minmax(nodes[0], nodes[1]);
 }
 
-/// What bears on the edges of a mesh: one edge may lie on several boundaries, each with a load.
+/// The loads on the edges of a mesh: one edge may lie on several boundaries, each with a load.
 class Edges {
  public:
   explicit Edges(const fem::Problem<2>& problem) : problem_(problem) {
