@@ -80,7 +80,7 @@ TEST_F(SpaceRun, MistakesAreToldWithLineAndRemedy) {
   expect("model: elastoplastic", "model: informed", "has no elements in space yet; there are elastic, elastoplastic, cell");
   expect("[1, 1, 2]", "[1, 1]", "elements");
   expect("fix: [u1, u2]", "fix: [u2]", "translation along 1");
-  expect("{on: bottom_front_right, fix: [u2]}", "{on: bottom, fix: [u3]}", "rotation about an axis along 3 through (0, 0, 0)");
+  expect("{on: bottom_front_right, fix: [u2]}", "{on: bottom, fix: [u3]}", "rotation about an axis along 3 through (0, 0, 0.1)");
   expect("elements: [1, 1, 2]}", "elements: [1, 1, 2]}, element: Q8R", "H20R");
   expect("top, reaction: u3", "top, reaction: u4", "u3");
 }

@@ -82,7 +82,7 @@ TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
       }
     }
     Matrix18 found = here.tangent;
-    if (reached.skew) {  // the hold is in the tangent alone
+    if (reached.skew || reached.parted) {  // the hold is in the tangent alone
       Eigen::Matrix<double, 3, 9> skew = Eigen::Matrix<double, 3, 9>::Zero();
       for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3;

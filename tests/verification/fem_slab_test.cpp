@@ -90,7 +90,9 @@ void expect_alike(const std::array<std::string, 2>& element, Deformation deforma
   ASSERT_EQ(plane.forces.size(), slab.forces.size());
   for (std::size_t step = 0; step < plane.forces.size(); ++step)
     EXPECT_NEAR(slab.forces[step] / plane.forces[step], 1.0, 1e-9) << step;
-  EXPECT_EQ(plane.iterations, slab.iterations);
+  // Residuals are sums over other nodes: an iteration may end one sooner or later.
+  for (std::size_t step = 0; step < plane.iterations.size(); ++step)
+    EXPECT_NEAR(slab.iterations[step], plane.iterations[step], 1) << step;
 }
 
 TEST(Slab, OfAnElastoplasticSpecimenIsThePlane) {
