@@ -73,7 +73,7 @@ class CaseReader {
         if (model.name != name) continue;
         case_.materials[member.key] =
             model.read(member.key, section, faults_,
-                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_),
+                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), ask_every_of(document_),
                                  case_.problem.continuum == fem::Continuum::cosserat});
         section.finish();
       }
@@ -136,7 +136,8 @@ class CaseReader {
       const auto is_among = [&](const std::vector<std::string>& names) {
         return std::find(names.begin(), names.end(), member.key) != names.end();
       };
-      if (is_among(built_in_values()) || is_among(columns_of_steps()))
+      if (is_among(built_in_values()) || is_among(columns_of_steps()) ||
+          (case_.is_explicit() && is_among(columns_of_explicit_steps())))
         monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
       // A spreadsheet computes what begins like a formula.
       const bool is_formula = member.key.find_first_of("=+-@") == 0;
@@ -332,6 +333,13 @@ const std::vector<std::string>& columns_of_steps() {
       "iterations",  "evaluations",  "force_residual",  "moment_residual",
       "force_noise", "within_noise", "within_rounding", "limited",
       "jumps",       "jump_residual"};
+  return names;
+}
+
+const std::vector<std::string>& columns_of_explicit_steps() {
+  static const std::vector<std::string> names{"explicit_steps",   "rest_steps",        "reaction_difference",
+                                              "nodes_unbalanced", "grains_unbalanced", "kinetic_share",
+                                              "hot_points",       "error_estimate"};
   return names;
 }
 

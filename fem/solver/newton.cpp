@@ -407,6 +407,7 @@ void Newton::commit(const Iterate& iterate, Balance balance, StepReport& report)
   state.time = iterate.time;
   released_ = iterate.released;
   jump_let_go_ = iterate.jump_let_go;
+  state.reactions.resize(0);
 }
 
 void Newton::add_to_strain_and_work(std::size_t point) {

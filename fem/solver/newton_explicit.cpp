@@ -28,6 +28,38 @@ Eigen::VectorXd Newton::unbalanced() const {
   return loads_at(state.time, released_, jump_let_go_) - discretisation.internal_forces(state.responses);
 }
 
+Eigen::VectorXd Newton::last_supplied() const {
+  Eigen::VectorXd forces = -unbalanced_;
+  if (released_ < 1.0) forces -= (1.0 - released_) * withheld_;
+  return forces;
+}
+
+int Newton::steps_of_wave() const {
+  Eigen::Vector2d least = problem.mesh.nodes.front();
+  Eigen::Vector2d most = least;
+  double mass = 0.0;
+  int entries = 0;
+  for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node) {
+    least = least.cwiseMin(problem.mesh.nodes[node]);
+    most = most.cwiseMax(problem.mesh.nodes[node]);
+    for (const Dof dof : {Dof::u1, Dof::u2}) {
+      const std::size_t entry = entry_of(node, dof);
+      if (!constraints.is_free(entry)) continue;
+      mass += state.mass(constraints.equation(entry));
+      ++entries;
+    }
+  }
+  double modulus = 0.0;
+  for (std::size_t i = 0; i < discretisation.points(); ++i) {
+    modulus += discretisation.point(i).volume * state.responses[i].tangent(k11, k11);
+  }
+  if (entries == 0 || !(modulus > 0.0)) return 0;
+  // The nodes that are held have mass too.
+  const double all = mass * static_cast<double>(problem.mesh.nodes.size()) / entries;
+  const double speed = std::sqrt(modulus / all);  // of modulus / volume over mass / volume
+  return static_cast<int>(std::ceil(2.0 * (most - least).maxCoeff() / speed));
+}
+
 Eigen::VectorXd Newton::stable_masses(double safety) {
   move_to_committed();
   return nodal_masses(discretisation, linearised(state.responses), safety);

@@ -81,6 +81,17 @@ void PointMaterials::settle() {
   for (Batch& batch : batches_) batch.material->settle();
 }
 
+Unrest PointMaterials::unrest() const {
+  Unrest all;
+  for (const Batch& batch : batches_) {
+    const Unrest one = batch.material->unrest();
+    all.sum += one.sum;
+    all.points += one.points;
+    all.hot += one.hot;
+  }
+  return all;
+}
+
 void PointMaterials::commit() {
   for (Batch& batch : batches_) batch.material->commit();
 }

@@ -30,6 +30,7 @@ void write_state(ArchiveWriter& archive, const SolverState& state) {
   archive.write("last_increment", values_of(state.last_increment));
   archive.write("mass", values_of(state.mass));
   archive.write("velocity", values_of(state.velocity));
+  archive.write("reactions", values_of(state.reactions));
   std::vector<double> strain;
   for (const Vector7& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
@@ -52,6 +53,7 @@ SolverState read_state(ArchiveReader& archive, std::size_t nodes, std::size_t po
   }
   state.mass = vector_of(archive.doubles("mass"));
   state.velocity = vector_of(archive.doubles("velocity"));
+  state.reactions = vector_of(archive.doubles("reactions"));
   const std::vector<double> strain = read_lists(archive, "strain", points, 7);
   state.strain.resize(points);
   for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[7 * i], 7, state.strain[i].data());
