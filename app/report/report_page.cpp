@@ -121,8 +121,9 @@ std::string convergence(const std::vector<RunResult>& results) {
     if (result.history) {
       for (const char* const name : {"iterations", "cuts"})
         counts.push_back(line_of(called(name), *result.history, "step", name));
-      for (const char* const name : {"force_residual", "moment_residual", "force_noise"}) {
+      for (const char* const name : {"force_residual", "moment_residual", "force_noise", "error_estimate"}) {
         if (several && name != std::string_view("force_residual")) continue;
+        if (std::ranges::find(result.history->names(), name) == result.history->names().end()) continue;
         ChartSeries line = line_of(called(name), *result.history, "step", name);
         if (std::ranges::all_of(line.points, [](const auto& point) { return point.second == 0.0; })) continue;
         line.dashed = name == std::string_view("force_noise");
@@ -234,6 +235,17 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   add("steps cut", of_summary("/cuts"));
   add("largest force residual", of_summary("/errors/largest_force_residual"));
   add("largest moment residual", of_summary("/errors/largest_moment_residual"));
+  begin_group("Explicit steps: how far they were from equilibrium, largest of all steps");
+  add("estimated error of the reactions", of_summary("/quasi_static/error_estimate/largest"));
+  add("the same, median of the steps", of_summary("/quasi_static/error_estimate/median"));
+  add("steps beyond the error that is allowed", of_summary("/quasi_static/error_estimate/steps_beyond"));
+  add("difference of the reactions of moved and held boundaries",
+      of_summary("/quasi_static/reaction_difference/largest"));
+  add("unbalanced ratio of the nodes", of_summary("/quasi_static/nodes_unbalanced/largest"));
+  add("unbalanced ratio of the grains", of_summary("/quasi_static/grains_unbalanced/largest"));
+  add("kinetic energy of the chosen masses over internal work",
+      of_summary("/quasi_static/kinetic_share/largest"));
+  add("share of the boxes that do not come to rest", of_summary("/quasi_static/hot_points/largest"));
   begin_group("Cost");
   // A run without cells has none of these.
   const auto of_cells = [&](const char* pointer) {

@@ -89,7 +89,8 @@ std::string RunResult::title() const {
 std::vector<std::string> RunResult::value_names() const {
   if (!history) return {};
   const std::vector<std::string>& all = history->names();
-  const auto last = std::ranges::find(all, "jump_residual");
+  auto last = std::ranges::find(all, "error_estimate");  // of explicit steps only
+  if (last == all.end()) last = std::ranges::find(all, "jump_residual");
   return last == all.end() ? all : std::vector<std::string>(last + 1, all.end());
 }
 

@@ -11,6 +11,7 @@
 #include "app/run/advice.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/proof.hpp"
+#include "app/run/quasi_static_record.hpp"
 #include "app/run/result_directory.hpp"
 #include "app/run/resume.hpp"
 #include "app/run/run_checkpoints.hpp"
@@ -187,6 +188,11 @@ class Run {
         return false;
       }
       log_notes(step);
+      if (!hot_ && report.quasi_static.hot_points > 0.0)
+        hot_ = warn_if(
+            fmt::format("{:.3g} % of the boxes do not come to rest in this step, their stress is one of "
+                        "agitation too (hot_points in history.csv)",
+                        100.0 * report.quasi_static.hot_points));
       if (!left_out_) left_out_ = warn_if(solver_->left_out());
       if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
@@ -198,7 +204,11 @@ class Run {
   fem::StepReport begin() { return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate(); }
 
   fem::StepReport take(const coupler::StepTarget& target) {
-    if (target.explicit_steps > 0) return solver_->advance_explicit(target.amount, target.explicit_steps);
+    if (target.explicit_steps > 0) {
+      fem::ExplicitOptions options = case_.explicit_options;
+      if (!files_.has_fields(step_)) options.rest = 0.0;
+      return solver_->advance_explicit(target.amount, target.explicit_steps, options);
+    }
     switch (target.control) {
       case coupler::StepTarget::Control::measure:
         return solver_->advance_measure(target.measure, target.amount);
@@ -417,6 +427,7 @@ class Run {
         record_.doubts[region] = std::move(doubt);
       }
     }
+    for (const std::string& remark : quasi_static_remarks(case_, record_)) warn(remark);
     if (pool_) record_.worker_records = pool_->worker_records();
     log_.info("{}", record_.status);
     save_sample();
@@ -445,6 +456,7 @@ class Run {
   RunRecord record_;
   int first_step_ = 0;
   int step_ = 0;                       ///< that is taken now
+  bool hot_ = false;                   ///< it was said that boxes do not come to rest
   bool left_out_ = false;              ///< it was said what small deformation leaves out
   bool soft_contacts_ = false;         ///< it was said that contacts are soft for the stress
   coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from

@@ -15,8 +15,17 @@
 namespace polargrain::app {
 namespace {
 
-std::vector<std::string> history_columns(const coupler::Case& the_case) {
+/// Those of the solver alone.
+std::vector<std::string> columns_of_steps(const coupler::Case& the_case) {
   std::vector<std::string> columns = coupler::columns_of_steps();
+  if (the_case.is_explicit())
+    columns.insert(columns.end(), coupler::columns_of_explicit_steps().begin(),
+                   coupler::columns_of_explicit_steps().end());
+  return columns;
+}
+
+std::vector<std::string> history_columns(const coupler::Case& the_case) {
+  std::vector<std::string> columns = columns_of_steps(the_case);
   for (const std::string& name : coupler::built_in_values()) {
     if (name != "time") columns.push_back(name);
   }
@@ -106,6 +115,13 @@ void RunFiles::add(const CommittedStep& step) {
                                std::to_string(report.limited),
                                std::to_string(report.jumps),
                                exact(report.jump_residual)};
+  if (case_.is_explicit()) {
+    const fem::QuasiStatic& row_of = report.quasi_static;
+    for (const int count : {report.explicit_steps, report.rest_steps}) row.push_back(std::to_string(count));
+    for (const double share : {row_of.reaction_difference, row_of.nodes_unbalanced, row_of.grains_unbalanced,
+                               row_of.kinetic_share, row_of.hot_points, row_of.error()})
+      row.push_back(exact(share));
+  }
   for (const auto& [name, value] : step.values) {
     if (name != "time") row.push_back(exact(value));
   }
@@ -185,8 +201,17 @@ std::vector<CommittedStep> steps_of_history(const std::string& history, const co
     report.limited = static_cast<int>(whole(11));
     report.jumps = static_cast<int>(whole(12));
     report.jump_residual = real(13);
+    if (the_case.is_explicit()) {
+      report.explicit_steps = static_cast<int>(whole(14));
+      report.rest_steps = static_cast<int>(whole(15));
+      report.quasi_static = {.reaction_difference = real(16),
+                             .kinetic_share = real(19),
+                             .nodes_unbalanced = real(17),
+                             .grains_unbalanced = real(18),
+                             .hot_points = real(20)};
+    }
     step.values.emplace_back("time", report.time);
-    for (std::size_t c = coupler::columns_of_steps().size(); c < cells.size(); ++c)
+    for (std::size_t c = columns_of_steps(the_case).size(); c < cells.size(); ++c)
       step.values.emplace_back(columns[c], real(c));
     steps.push_back(std::move(step));
   }

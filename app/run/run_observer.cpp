@@ -25,8 +25,10 @@ void log_step(spdlog::logger& log, const fem::StepReport& report, double largest
   }
   if (report.explicit_steps > 0) {
     log.info(
-        "  {} explicit steps, mean force residual {:.3e}, kinetic energy {:.2e} of the internal work, time {:.6g}",
-        report.explicit_steps, report.force_residual, report.kinetic_share, report.time);
+        "  {} explicit steps, {} of them to come to rest, mean force residual {:.3e}, kinetic energy of the chosen masses "
+        "{:.2e} of the internal work, reactions differ by {:.2e}, grains unbalanced by {:.2e}, time {:.6g}",
+        report.explicit_steps, report.rest_steps, report.force_residual, report.quasi_static.kinetic_share,
+        report.quasi_static.reaction_difference, report.quasi_static.grains_unbalanced, report.time);
     return;
   }
   log.info("  {} after {} iterations, {} cuts, {} evaluations, time {:.6g}",

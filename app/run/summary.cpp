@@ -8,6 +8,7 @@
 #include "app/run/json_text.hpp"
 #include "app/run/monitor_notes.hpp"
 #include "app/run/proof.hpp"
+#include "app/run/quasi_static_record.hpp"
 #include "app/run/run_remarks.hpp"
 #include "common/error.hpp"
 #include "common/processor.hpp"
@@ -126,6 +127,7 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"materials", material_figures(record)},
                {"proof", proof_figures(the_case, record)}};
   if (the_case.dimension() == 3) summary["dimension"] = 3;
+  if (the_case.is_explicit()) summary["quasi_static"] = quasi_static_figures(the_case, record);
   // Of all that stands above, whatever it is: a key that is added is under the proof.
   summary["proof"]["summary"] = name_of_summary(summary);
   fem::write_file(file, json_text(summary));
@@ -135,7 +137,9 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
   constexpr std::size_t kMostRows = 20;
   std::string text = fmt::format("{:>6}", "step");
   for (const std::string& name : the_case.table) text += fmt::format("  {:>15}", name);
-  text += fmt::format("  {:>17}\n", "Newton iterations");
+  const bool is_explicit = the_case.is_explicit();
+  text += is_explicit ? fmt::format("  {:>15}  {:>15}\n", "explicit steps", "error estimate")
+                      : fmt::format("  {:>17}\n", "Newton iterations");
   const std::size_t count = record.steps.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kMostRows - 1) / kMostRows);
   for (std::size_t s = 0; s < count; ++s) {
@@ -144,7 +148,9 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
     text += fmt::format("{:>6}", step.step);
     for (const std::string& name : the_case.table)
       text += fmt::format("  {:>15.6g}", value_of(step.values, name));
-    text += fmt::format("  {:>17}\n", step.report.iterations);
+    text += is_explicit ? fmt::format("  {:>15}  {:>13.2g} %\n", step.report.explicit_steps,
+                                      100.0 * step.report.quasi_static.error())
+                        : fmt::format("  {:>17}\n", step.report.iterations);
   }
   if (record.within_noise > 0) {
     text += fmt::format("{} substeps were accepted above the tolerance, within the noise of the stresses\n",
@@ -164,6 +170,7 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
         "by the end of its step\n",
         record.jumps, record.jump_residual);
   }
+  text += quasi_static_text(the_case, record);
   return text;
 }
 

@@ -57,6 +57,8 @@ struct Case {
   std::map<std::string, std::string> regions;                              ///< region: name of its material
   std::vector<StepTarget> plan;                                            ///< the steps, in their order
   fem::SolverOptions solver;
+  fem::ExplicitOptions explicit_options;  ///< of rows whose fields are written; others do not come to rest
+  double explicit_error = 0.02;           ///< error of the reactions that is allowed in explicit steps
   std::vector<Monitor> monitors;
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files

@@ -7,5 +7,7 @@ namespace polargrain::coupler {
 
 /// The columns of history.csv that describe a step, in their order; monitors follow them and may not have their names.
 const std::vector<std::string>& columns_of_steps();
+/// Those behind them that a run with explicit steps has besides.
+const std::vector<std::string>& columns_of_explicit_steps();
 
 }  // namespace polargrain::coupler

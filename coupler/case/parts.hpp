@@ -50,6 +50,8 @@ void read_steps(const Entry& entry, CaseParts& parts);
 inline constexpr int kDemSteps = 5;
 /// DEM steps an explicit step; 0 where the case asks for another method. Materials are read before the steps.
 int dem_steps_of(const Entry& document);
+/// Explicit steps after which the cells of `informed` follow; 0 where the case asks for another method.
+int ask_every_of(const Entry& document);
 /// Reads the keys of `method: explicit` and gives each step of the plan its explicit steps.
 void read_explicit(Section& steps, CaseParts& parts);
 

@@ -79,8 +79,8 @@ class CaseReader {
         }
         case_.materials[member.key] =
             model.read(member.key, section, faults_,
-                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), case_.dimension(),
-                                 !is_classical()});
+                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), ask_every_of(document_),
+                                 case_.dimension(), !is_classical()});
         section.finish();
       }
     }
@@ -164,7 +164,8 @@ class CaseReader {
       const auto is_among = [&](const std::vector<std::string>& names) {
         return std::find(names.begin(), names.end(), member.key) != names.end();
       };
-      if (is_among(built_in_values()) || is_among(columns_of_steps()))
+      if (is_among(built_in_values()) || is_among(columns_of_steps()) ||
+          (case_.is_explicit() && is_among(columns_of_explicit_steps())))
         monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
       // A spreadsheet computes what begins like a formula.
       const bool is_formula = member.key.find_first_of("=+-@") == 0;
@@ -366,6 +367,13 @@ const std::vector<std::string>& columns_of_steps() {
       "iterations",  "evaluations",  "force_residual",  "moment_residual",
       "force_noise", "within_noise", "within_rounding", "limited",
       "jumps",       "jump_residual"};
+  return names;
+}
+
+const std::vector<std::string>& columns_of_explicit_steps() {
+  static const std::vector<std::string> names{"explicit_steps",   "rest_steps",        "reaction_difference",
+                                              "nodes_unbalanced", "grains_unbalanced", "kinetic_share",
+                                              "hot_points",       "error_estimate"};
   return names;
 }
 

@@ -19,6 +19,13 @@ constexpr double kPace = 1.5e-4;
 /// A step has at least so many DEM steps: one is unstable.
 constexpr int kLeastDemSteps = 2;
 
+/// Explicit steps after which cells that inform a law follow it: some 1e-3 of strain at the default pace and four rows of
+/// elements, as in a step of Newton's method.
+constexpr int kAskEvery = 20;
+
+/// Unbalanced forces of the nodes over the loads, at rest.
+constexpr double kRest = 1e-3;
+
 /// Explicit steps of a case: more would not end.
 constexpr double kMostExplicitSteps = 1e8;
 
@@ -51,25 +58,39 @@ double longest_way(const fem::Problem<dim>& problem, double start, double end) {
   return longest;
 }
 
-}  // namespace
-
-int dem_steps_of(const Entry& document) {
+/// A whole number of explicit steps, before the steps are read; 0 where the case asks for another method.
+int early(const Entry& document, const std::string& key, int least, int otherwise) {
   const Entry* const steps = document.find("steps");
   const Entry* const method = steps == nullptr ? nullptr : steps->find("method");
   if (method == nullptr || method->text != "explicit") return 0;
   Faults faults;  // read once more, with its faults, by read_explicit
   Section section(*steps, "steps", faults);
-  return section.whole_or("dem_steps", kLeastDemSteps, kDemSteps);
+  return section.whole_or(key, least, otherwise);
+}
+
+}  // namespace
+
+int dem_steps_of(const Entry& document) {
+  return early(document, "dem_steps", kLeastDemSteps, kDemSteps);
+}
+
+int ask_every_of(const Entry& document) {
+  return early(document, "ask_every", 1, kAskEvery);
 }
 
 void read_explicit(Section& steps, CaseParts& parts) {
   Case& result = parts.result;
   static_cast<void>(steps.whole_or("dem_steps", kLeastDemSteps, kDemSteps));
+  static_cast<void>(steps.whole_or("ask_every", 1, kAskEvery));
   const double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
   steps.require_below("pace", 0.01, "a boundary would run into its elements like a hammer");
   const int given = steps.whole_or("explicit_steps", 0, 0);
   if (given > 0 && steps.find("pace") != nullptr)
     steps.fault("pace", "pace: `explicit_steps` says it already; leave one of them out");
+  result.explicit_error =
+      steps.quantity_or("error", Dimension::number, Limit::positive, result.explicit_error);
+  steps.require_below("error", 1.0, "it is a share of the reactions, 2 % is '2 %' or 0.02");
+  if (steps.choice_or("rest_at_output", {"yes", "no"}, "no") == "yes") result.explicit_options.rest = kRest;
   const double end = result.plan.empty() ? 0.0 : result.plan.back().amount;
   const double size =
       parts.has_mesh ? result.with_problem([](const auto& problem) { return smallest_element(problem.mesh); }) : 1.0;

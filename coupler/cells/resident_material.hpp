@@ -46,6 +46,7 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
   /// Brings the diagnostics and the states of all boxes; to be called before results or checkpoints are written. Has a
   /// part in the bits that follow. @throws RunError between evaluate and commit
   void settle() override;
+  [[nodiscard]] fem::Unrest unrest() const override;
   /// @throws RunError when boxes have moved since the last settle
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
@@ -80,6 +81,7 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
 
   void take(PointState& point, const ResidentAnswer& answer) const;
   [[nodiscard]] LimitsReached reached(const PointState& point) const;
+  void forget_unrest();
   /// All boxes begin at the last settle.
   void start();
 
@@ -94,6 +96,9 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> points_;
+  std::vector<double>
+      unrest_;  ///< by point: sum of unbalanced_force_ratio over the steps since the last settle
+  int unrest_steps_ = 0;
   bool has_moved_ = false;   ///< since the last commit
   bool is_settled_ = false;  ///< nobody has moved since the last settle
 };

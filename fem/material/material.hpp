@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/increment.hpp"
 #include "common/response.hpp"
+#include "fem/material/unrest.hpp"
 
 namespace polargrain::fem {
 
@@ -61,6 +62,9 @@ class Material {
   /// Asked at the end of a row of explicit steps, when results are about to be written: a material whose points go on
   /// without being looked at looks at them now.
   virtual void settle() {}
+
+  /// Means over the steps since the last settle.
+  [[nodiscard]] virtual Unrest unrest() const { return {}; }
 
   virtual void commit() = 0;
   virtual void revert() = 0;

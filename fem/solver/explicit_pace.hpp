@@ -2,19 +2,23 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
+#include <vector>
 
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/solver.hpp"
 
 namespace polargrain::fem {
 
-/// The loading time over a row of explicit steps: an even rate, which steps from rest come to evenly over a ramp. These are
-/// so many more that the rate behind the ramp is that of the rows to follow.
+/// The loading time over a row of explicit steps: an even rate, which steps from rest come to evenly over a ramp, in this
+/// row or over several. Rows are so much longer for it that the rate behind the ramp is the same in all.
 class ExplicitPace {
  public:
-  /// @param steps of a row without a ramp, at least 1 @param ramp steps; 0: the nodes move already
-  ExplicitPace(double start, double end, int steps, int ramp)
-      : start_(start), end_(end), ramp_(std::min(ramp, 2 * steps)), steps_(steps + ramp_ / 2) {}
+  /// @param steps of a row without a ramp, at least 1 @param ramp steps @param since_rest steps of the rows before, since
+  /// the nodes were at rest
+  ExplicitPace(double start, double end, int steps, int ramp, int since_rest)
+      : start_(start), end_(end), ramp_(ramp), before_(std::min(since_rest, ramp)) {
+    while (way(steps_) < steps) ++steps_;
+  }
 
   [[nodiscard]] int steps() const { return steps_; }
   /// Share of the way after this step, 1 after the last.
@@ -22,10 +26,18 @@ class ExplicitPace {
   [[nodiscard]] double time(int step) const {
     return step >= steps_ ? end_ : start_ + fraction(step) * (end_ - start_);
   }
+  /// Of the last `count` steps; of none where there are fewer.
+  [[nodiscard]] std::vector<double> last_times(int count) const {
+    std::vector<double> last;
+    if (count > steps_) return last;
+    for (int step = steps_ - count + 1; step <= steps_; ++step) last.push_back(time(step));
+    return last;
+  }
 
  private:
-  /// Sum of the speeds min(1, k / ramp) of the first steps.
-  [[nodiscard]] double way(int step) const {
+  /// Sum of the speeds min(1, k / ramp) of the first steps of the row.
+  [[nodiscard]] double way(int step) const { return way_from_rest(before_ + step) - way_from_rest(before_); }
+  [[nodiscard]] double way_from_rest(int step) const {
     const double inside = std::min(step, ramp_);
     return (ramp_ > 0 ? inside * (inside + 1.0) / (2.0 * ramp_) : 0.0) + (step - inside);
   }
@@ -33,7 +45,8 @@ class ExplicitPace {
   double start_;
   double end_;
   int ramp_;
-  int steps_;
+  int before_;  ///< steps of the ramp that are behind
+  int steps_ = 1;
 };
 
 /// ExplicitOptions::rotation_damping at the unknowns that are micro-rotations, zero at the others.

@@ -435,6 +435,7 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
   state.time = iterate.time;
   released_ = iterate.released;
   jump_let_go_ = iterate.jump_let_go;
+  state.reactions.resize(0);
 }
 
 template <int dim>

@@ -70,6 +70,10 @@ class Newton {
   [[nodiscard]] Eigen::VectorXd unbalanced() const;
   /// The same of the last evaluation, which go_on has committed.
   [[nodiscard]] const Eigen::VectorXd& last_unbalanced() const { return unbalanced_; }
+  /// Internal forces less loads of the same, without forces that are held back at the start.
+  [[nodiscard]] Eigen::VectorXd last_supplied() const;
+  /// Steps that a wave of compression needs through the mesh there and back, with the masses of the state.
+  [[nodiscard]] int steps_of_wave() const;
   /// nodal_masses of the committed state.
   [[nodiscard]] Eigen::VectorXd stable_masses(double safety);
   /// Share that committed steps have let go of the forces held back at the start.

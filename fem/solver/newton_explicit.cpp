@@ -31,6 +31,41 @@ Eigen::VectorXd Newton<dim>::unbalanced() const {
 }
 
 template <int dim>
+Eigen::VectorXd Newton<dim>::last_supplied() const {
+  Eigen::VectorXd forces = -unbalanced_;
+  if (released_ < 1.0) forces -= (1.0 - released_) * withheld_;
+  return forces;
+}
+
+template <int dim>
+int Newton<dim>::steps_of_wave() const {
+  using Place = typename Cosserat<dim>::Place;
+  Place least = problem.mesh.nodes.front();
+  Place most = least;
+  double mass = 0.0;
+  int entries = 0;
+  for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node) {
+    least = least.cwiseMin(problem.mesh.nodes[node]);
+    most = most.cwiseMax(problem.mesh.nodes[node]);
+    for (std::size_t i = 0; i < dim; ++i) {
+      const std::size_t entry = entry_of<dim>(node) + i;
+      if (!constraints.is_free(entry)) continue;
+      mass += state.mass(constraints.equation(entry));
+      ++entries;
+    }
+  }
+  double modulus = 0.0;
+  for (std::size_t i = 0; i < discretisation.points(); ++i) {
+    modulus += discretisation.point(i).volume * state.responses[i].tangent(0, 0);
+  }
+  if (entries == 0 || !(modulus > 0.0)) return 0;
+  // The nodes that are held have mass too.
+  const double all = mass * static_cast<double>(problem.mesh.nodes.size()) / entries;
+  const double speed = std::sqrt(modulus / all);  // of modulus / volume over mass / volume
+  return static_cast<int>(std::ceil(2.0 * (most - least).maxCoeff() / speed));
+}
+
+template <int dim>
 Eigen::VectorXd Newton<dim>::stable_masses(double safety) {
   move_to_committed();
   return nodal_masses(discretisation, linearised(state.responses), safety);
@@ -40,8 +75,12 @@ Eigen::VectorXd Newton<dim>::stable_masses(double safety) {
 template Attempt Newton<2>::go_on(double, double, const Eigen::VectorXd&, StepReport&);
 template Eigen::VectorXd Newton<2>::unbalanced() const;
 template Eigen::VectorXd Newton<2>::stable_masses(double);
+template Eigen::VectorXd Newton<2>::last_supplied() const;
+template int Newton<2>::steps_of_wave() const;
 template Attempt Newton<3>::go_on(double, double, const Eigen::VectorXd&, StepReport&);
 template Eigen::VectorXd Newton<3>::unbalanced() const;
 template Eigen::VectorXd Newton<3>::stable_masses(double);
+template Eigen::VectorXd Newton<3>::last_supplied() const;
+template int Newton<3>::steps_of_wave() const;
 
 }  // namespace polargrain::fem

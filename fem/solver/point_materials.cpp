@@ -89,6 +89,18 @@ void PointMaterials<dim>::settle() {
 }
 
 template <int dim>
+Unrest PointMaterials<dim>::unrest() const {
+  Unrest all;
+  for (const Batch& batch : batches_) {
+    const Unrest one = batch.material->unrest();
+    all.sum += one.sum;
+    all.points += one.points;
+    all.hot += one.hot;
+  }
+  return all;
+}
+
+template <int dim>
 void PointMaterials<dim>::commit() {
   for (Batch& batch : batches_) batch.material->commit();
 }

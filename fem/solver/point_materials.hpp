@@ -26,6 +26,8 @@ class PointMaterials {
   /// Whether all materials stand by their answers (Material::confirm).
   [[nodiscard]] bool confirm();
   void settle();
+  /// Sums over the materials.
+  [[nodiscard]] Unrest unrest() const;
   void commit();
   void revert();
   /// The committed states of all materials, each under a number of its own.

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/packed_values.hpp"
 #include "common/prefixed_archive.hpp"
 #include "fem/element/dofs.hpp"
 #include "fem/solver/explicit_pace.hpp"
@@ -18,6 +22,11 @@
 #include "fem/solver/substeps.hpp"
 
 namespace polargrain::fem {
+namespace {
+
+constexpr int kRampIsOver = 1 << 30;  // explicit steps since rest, more than any ramp has
+
+}  // namespace
 
 namespace {
 
@@ -46,7 +55,8 @@ struct Solver<dim>::Implementation : Newton<dim> {
   using Newton<dim>::state;
   using Newton<dim>::trouble;
 
-  Trouble last_trouble;  ///< of the last attempt that failed
+  Trouble last_trouble;      ///< of the last attempt that failed
+  int steps_since_rest = 0;  ///< explicit ones, as far as they count for a ramp
 
   /// Goes the whole of a step in substeps, cut where an attempt fails. Shares of the step, not times or
   /// lengths, are what is cut, so that a step under another control may follow.
@@ -277,48 +287,90 @@ StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitO
   Implementation& self = *implementation_;
   SolverState<dim>& state = self.state;
   StepReport report;
-  const bool from_rest = state.velocity.size() == 0;
-  if (from_rest) {
+  const bool first = state.velocity.size() == 0;
+  if (first) {
     state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
     state.velocity = Eigen::VectorXd::Zero(self.constraints.unknowns());
   } else if (state.velocity.size() != self.constraints.unknowns() ||
              state.mass.size() != state.velocity.size()) {
     throw RunError("the checkpoint holds explicit steps of another problem");
   }
-  const ExplicitPace pace(state.time, time, steps, from_rest ? options.ramp : 0);
+  const int wave = self.steps_of_wave();
+  const int ramp = options.ramp > 0 ? options.ramp : wave;
+  const ExplicitPace pace(state.time, time, steps, ramp, self.steps_since_rest);
   const Eigen::VectorXd damping = damping_of_rotations(self.problem, self.constraints, options);
+  RowOfForces<dim> row(self.constraints, pace.steps(), pace.last_times(2 * wave));
   Eigen::VectorXd forces = self.constraints.restrict_to_free(self.unbalanced());
   Residual sum;
   double kinetic = 0.0;
-  for (int step = 1; step <= pace.steps(); ++step) {
+  // @returns whether it could be taken; the report says why not
+  const auto step_to = [&](double end, double released) {
     state.velocity =
         ((1.0 - 0.5 * damping.array()) * state.velocity.array() + forces.array() / state.mass.array()) /
         (1.0 + 0.5 * damping.array());
-    const double released = from_rest ? pace.fraction(step) : self.released();
-    const Attempt went = self.go_on(pace.time(step), released, state.velocity, report);
+    const Attempt went = self.go_on(end, released, state.velocity, report);
     if (!went.converged) {
       self.last_trouble = self.trouble(went.reason, report);
-      report.message = fmt::format("explicit step {} of {}: {}", step, pace.steps(), went.reason);
+      report.message =
+          fmt::format("explicit step {} of {}: {}", report.explicit_steps + 1, pace.steps(), went.reason);
       report.time = state.time;
-      return report;
+      return false;
     }
     ++report.explicit_steps;
-    const Eigen::VectorXd& unbalanced = self.last_unbalanced();
-    forces = self.constraints.restrict_to_free(unbalanced);
-    const Residual residual = self.relative(unbalanced);
+    forces = self.constraints.restrict_to_free(self.last_unbalanced());
+    return true;
+  };
+  for (int step = 1; step <= pace.steps(); ++step) {
+    if (!step_to(pace.time(step), first ? pace.fraction(step) : self.released())) return report;
+    const Residual residual = self.relative(self.last_unbalanced());
     sum.force += residual.force / pace.steps();
     sum.moment += residual.moment / pace.steps();
     if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
       self.observer->iterated({state.time, 0, step, residual.force, residual.moment});
     kinetic = std::max(kinetic, 0.5 * state.velocity.cwiseAbs2().dot(state.mass));
+    row.add(self.last_supplied());
   }
+  QuasiStatic& reached = report.quasi_static;
+  if (state.internal_work != 0.0) reached.kinetic_share = kinetic / std::abs(state.internal_work);
+  reached.reaction_difference = row.difference(external_forces());
+  Eigen::VectorXd reactions = row.reactions();
+  if (options.rest > 0.0) {
+    // Kinetic damping (Cundall 1976): the nodes stop whenever they are fastest, which is where they pass their balance.
+    double before = 0.0;
+    sum = self.relative(self.last_unbalanced());
+    while (sum.force > options.rest && report.rest_steps < options.most_rest_steps) {
+      if (!step_to(time, self.released())) return report;
+      ++report.rest_steps;
+      sum = self.relative(self.last_unbalanced());
+      const double energy = 0.5 * state.velocity.cwiseAbs2().dot(state.mass);
+      // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
+      // drive the fastest waves.
+      if (energy < before) state.velocity = -0.5 * forces.cwiseQuotient(state.mass);
+      before = energy < before ? 0.0 : energy;
+    }
+    state.velocity.setZero();
+    RowOfForces<dim> at_rest(self.constraints, 1, {});
+    at_rest.add(self.last_supplied());
+    reactions = at_rest.reactions();
+    reached.reaction_difference = at_rest.difference(external_forces());
+  }
+  reached.nodes_unbalanced = sum.force;
+  if (const Unrest unrest = self.materials.unrest(); unrest.points > 0) {
+    reached.grains_unbalanced = unrest.sum / static_cast<double>(unrest.points);
+    reached.hot_points = static_cast<double>(unrest.hot) / static_cast<double>(unrest.points);
+  }
+  // A ramp that is over stays over, even where the next row would have a longer one.
+  self.steps_since_rest = options.rest > 0.0 ? 0
+                          : self.steps_since_rest + pace.steps() >= ramp
+                              ? kRampIsOver
+                              : self.steps_since_rest + pace.steps();
+  state.reactions = reactions;
   self.materials.settle();
   report.converged = true;
   report.substeps = 1;
   report.time = state.time;
   report.force_residual = sum.force;
   report.moment_residual = sum.moment;
-  if (state.internal_work != 0.0) report.kinetic_share = kinetic / std::abs(state.internal_work);
   return report;
 }
 
@@ -337,6 +389,8 @@ const SolverState<dim>& Solver<dim>::state() const {
 template <int dim>
 void Solver<dim>::save(ArchiveWriter& archive) const {
   write_state(archive, state());
+  const std::array<double, 1> since_rest{static_cast<double>(implementation_->steps_since_rest)};
+  archive.write("explicit_steps_since_rest", std::span<const double>(since_rest));
   PrefixedWriter materials(archive, "materials/");
   implementation_->materials.save(materials);
 }
@@ -344,6 +398,7 @@ template <int dim>
 void Solver<dim>::restore(ArchiveReader& archive) {
   Implementation& self = *implementation_;
   self.state = read_state<dim>(archive, problem().mesh.nodes.size(), points());
+  self.steps_since_rest = static_cast<int>(read_lists(archive, "explicit_steps_since_rest", 1, 1)[0]);
   PrefixedReader materials(archive, "materials/");
   self.materials.restore(materials);
   self.move_to_committed();
@@ -381,7 +436,8 @@ Eigen::VectorXd Solver<dim>::external_forces() const {
 
 template <int dim>
 typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::string>& on) const {
-  const Eigen::VectorXd supplied = internal_forces() - external_forces();
+  const Eigen::VectorXd supplied =
+      state().reactions.size() > 0 ? state().reactions : internal_forces() - external_forces();
   typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
   for (const int node : problem().mesh.nodes_on(on)) {
     for (const Dof dof : node_dofs<dim>()) {

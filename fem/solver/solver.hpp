@@ -8,6 +8,7 @@
 #include "common/archive.hpp"
 #include "common/response.hpp"
 #include "fem/solver/problem.hpp"
+#include "fem/solver/quasi_static.hpp"
 #include "fem/solver/trouble.hpp"
 
 namespace polargrain::fem {
@@ -59,7 +60,12 @@ struct SolverOptions {
 struct ExplicitOptions {
   double safety = 0.6;            ///< a step over the critical one; stiffness may grow by 1 / safety^2
   double rotation_damping = 1.0;  ///< share of the speed of a micro-rotation that a step takes away
-  int ramp = 20;                  ///< steps over which the first of them come to their speed
+  /// Steps over which nodes at rest come to their speed. 0: as many as a wave needs through the mesh there and back; such a
+  /// ramp hardly excites the slowest wave.
+  int ramp = 0;
+  /// Force residual that the nodes come to at the end of the row, their boundaries held; 0: they go on as they are.
+  double rest = 0.0;
+  int most_rest_steps = 2000;  ///< for that
 };
 
 /// After one evaluation of all materials.
@@ -89,8 +95,9 @@ struct StepReport {
   int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
   int jumps = 0;            ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
   int explicit_steps = 0;   ///< that it took; 0 where it was balanced by iterations
-  double kinetic_share = 0.0;  ///< of explicit steps: largest kinetic energy over the internal work so far
-  double jump_residual = 0.0;  ///< the largest force residual that one of them left, let go since
+  int rest_steps = 0;       ///< of them: after the last movement, see ExplicitOptions::rest
+  QuasiStatic quasi_static;             ///< of explicit steps
+  double jump_residual = 0.0;           ///< the largest force residual that one of them left, let go since
   std::vector<double> force_residuals;  ///< by iteration, of the last attempt
   std::vector<double> moment_residuals;
   double material_seconds = 0.0;
@@ -140,6 +147,8 @@ struct SolverState {
   // Of explicit steps, in the order of the equations; empty before the first of them.
   Eigen::VectorXd mass;      ///< nodal_masses
   Eigen::VectorXd velocity;  ///< nodal values a step
+  /// Nodal forces of the supports at the end of the last row of them (RowOfForces); empty where that row was no explicit one.
+  Eigen::VectorXd reactions;
 };
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
@@ -211,7 +220,8 @@ class Solver {
   [[nodiscard]] Eigen::VectorXd internal_forces() const;
   [[nodiscard]] Eigen::VectorXd external_forces() const;
   /// Sum over the nodes of boundaries and node sets, each node once, of the forces of the supports: force along each axis
-  /// (N; in the plane per m of thickness) and nodal moments, in the order of node_dofs.
+  /// (N; in the plane per m of thickness) and nodal moments, in the order of node_dofs. Behind explicit steps they are
+  /// those of SolverState::reactions.
   [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::vector<std::string>& on) const;
   [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::string& on) const { return reaction(std::vector{on}); }
   /// Mean displacement over the nodes of boundaries and node sets, each node once, in the order of node_dofs: m, rad.

@@ -31,6 +31,7 @@ void write_state(ArchiveWriter& archive, const SolverState<dim>& state) {
   archive.write("last_increment", values_of(state.last_increment));
   archive.write("mass", values_of(state.mass));
   archive.write("velocity", values_of(state.velocity));
+  archive.write("reactions", values_of(state.reactions));
   std::vector<double> strain;
   for (const typename Cosserat<dim>::Vector& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
@@ -54,6 +55,7 @@ SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size
   }
   state.mass = vector_of(archive.doubles("mass"));
   state.velocity = vector_of(archive.doubles("velocity"));
+  state.reactions = vector_of(archive.doubles("reactions"));
   const std::vector<double> strain = read_lists(archive, "strain", points, Cosserat<dim>::components);
   state.strain.resize(points);
   for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[Cosserat<dim>::components * i], Cosserat<dim>::components, state.strain[i].data());

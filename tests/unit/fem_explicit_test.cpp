@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <iostream>
 
 #include "common/memory_archive.hpp"
 #include "fem/material/elastic.hpp"
@@ -11,6 +12,7 @@
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/explicit_pace.hpp"
 #include "fem/solver/nodal_masses.hpp"
+#include "fem/solver/quasi_static.hpp"
 #include "fem/solver/solver.hpp"
 
 using namespace polargrain;
@@ -51,7 +53,7 @@ double force_on_top(const Solver<2>& solver) {
 }
 
 TEST(explicit_pace, comes_to_its_speed_evenly_and_ends_where_it_should) {
-  const ExplicitPace pace(2.0, 3.0, 100, 20);
+  const ExplicitPace pace(2.0, 3.0, 100, 20, 0);
   EXPECT_EQ(pace.steps(), 110);
   EXPECT_EQ(pace.time(0), 2.0);
   EXPECT_EQ(pace.time(110), 3.0);
@@ -59,8 +61,20 @@ TEST(explicit_pace, comes_to_its_speed_evenly_and_ends_where_it_should) {
   EXPECT_NEAR(pace.time(50) - pace.time(49), rate, 1e-12);
   EXPECT_NEAR(pace.time(1) - pace.time(0), rate / 20.0, 1e-12);
   EXPECT_NEAR(rate, 1.0 / 100.0, 1e-4);  // that of the rows to follow
-  const ExplicitPace moving(0.0, 1.0, 4, 0);
+  const ExplicitPace moving(0.0, 1.0, 4, 20, 20);
+  EXPECT_EQ(moving.steps(), 4);
   for (int step = 0; step <= 4; ++step) EXPECT_DOUBLE_EQ(moving.time(step), step / 4.0);
+}
+
+// A ramp may be longer than a row: the speed goes on growing in the next one, without a jump.
+TEST(explicit_pace, ramps_go_on_in_the_next_row) {
+  const ExplicitPace first(0.0, 1.0, 4, 40, 0);
+  EXPECT_EQ(first.steps(), 18);  // 18 * 19 / 80 = 4.3
+  const ExplicitPace second(1.0, 2.0, 4, 40, first.steps());
+  const double last = first.time(18) - first.time(17);
+  const double next = second.time(1) - second.time(0);
+  EXPECT_NEAR(next / last, 19.0 / 18.0, 0.1);  // rows end between two steps
+  EXPECT_EQ(second.time(second.steps()), 2.0);
 }
 
 // Every element type: the largest eigenvalue of the whole mesh, supports left out, is at most 4 safety^2, and not far below.
@@ -169,6 +183,96 @@ TEST(explicit_steps, let_imbalance_in_slowly) {
   ASSERT_TRUE(solver.begin_explicit().converged);
   ASSERT_TRUE(solver.advance_explicit(1.0, 4000).converged);
   EXPECT_NEAR(force_on_top(solver), force_on_top(newton), 0.005 * std::abs(force_on_top(newton)));
+}
+
+// Forces that grow evenly are met exactly, what swings within the time of a wave is gone, and a row shorter than two waves
+// keeps its last step.
+TEST(row_of_forces, ends_on_the_line_through_its_last_means) {
+  const Problem<2> problem = biaxial();
+  const Constraints<2> constraints(problem);
+  const std::size_t held = problem.mesh.nodes_on("bottom").front();
+  const auto entry = static_cast<Eigen::Index>(entry_of<2>(held, Dof::u2));
+  const int size = static_cast<int>(3 * problem.mesh.nodes.size());
+  const auto reaction_of = [&](int steps, int fitted, auto force) {
+    std::vector<double> times;
+    for (int k = steps - fitted + 1; k <= steps; ++k) times.push_back(0.01 * k);
+    RowOfForces row(constraints, steps, times);
+    for (int k = 1; k <= steps; ++k) {
+      Eigen::VectorXd supplied = Eigen::VectorXd::Zero(size);
+      supplied(entry) = force(k);
+      row.add(supplied);
+    }
+    return row.reactions()(entry);
+  };
+  EXPECT_NEAR(reaction_of(100, 40, [](int k) { return 3.0 + 0.5 * k; }), 53.0, 1e-10);
+  for (const double phase : {0.0, 1.0, 2.0})
+    EXPECT_NEAR(reaction_of(100, 40, [&](int k) { return std::sin(phase + 0.31415926535897932 * k); }), 0.0,
+                1e-10);
+  EXPECT_DOUBLE_EQ(reaction_of(30, 0, [](int k) { return k < 30 ? 0.0 : 7.0; }), 7.0);
+}
+
+// By hand: 3 and 4 N/m at a free node, unbalanced by turns, over 10 N/m that go in and out along 2.
+TEST(row_of_forces, tells_what_supports_and_loads_leave_unbalanced) {
+  const Problem<2> problem = biaxial();
+  const Constraints<2> constraints(problem);
+  const auto held = static_cast<Eigen::Index>(
+      entry_of<2>(static_cast<std::size_t>(problem.mesh.nodes_on("bottom").front()), Dof::u2));
+  std::size_t free = 0;
+  while (!constraints.is_free(entry_of<2>(free, Dof::u2))) ++free;
+  RowOfForces row(constraints, 2, {});
+  Eigen::VectorXd supplied = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * problem.mesh.nodes.size()));
+  Eigen::VectorXd loads = supplied;
+  supplied(held) = 10.0;
+  loads(static_cast<Eigen::Index>(entry_of<2>(free, Dof::u2))) = -10.0;
+  for (const double force : {3.0, -4.0}) {
+    supplied(static_cast<Eigen::Index>(entry_of<2>(free, Dof::u2))) = force;
+    row.add(supplied);
+  }
+  EXPECT_DOUBLE_EQ(row.difference(loads), std::sqrt(12.5) / 10.0);
+}
+
+// What a run says of itself holds here, where the answer is known: over the rows the error of the reaction is below the estimate,
+// at any pace, and the estimate falls with the pace.
+TEST(explicit_steps, estimate_the_error_of_their_reactions) {
+  constexpr int kRows = 10;
+  double before = HUGE_VAL;
+  for (const int steps : {200, 800, 3200}) {
+    Solver<2> newton(biaxial(), {});
+    ASSERT_TRUE(newton.equilibrate().converged);
+    Solver<2> solver(biaxial(), {});
+    ASSERT_TRUE(solver.begin_explicit().converged);
+    double error = 0.0;
+    double estimate = 0.0;
+    for (int row = 1; row <= kRows; ++row) {
+      ASSERT_TRUE(newton.advance(0.1 * row).converged);
+      const StepReport report = solver.advance_explicit(0.1 * row, steps / kRows);
+      error += std::pow(force_on_top(solver) / force_on_top(newton) - 1.0, 2);
+      estimate += std::pow(report.quasi_static.error(), 2);
+      EXPECT_GT(report.quasi_static.kinetic_share, 0.0);
+      EXPECT_EQ(report.quasi_static.hot_points, 0.0);  // a law has no grains
+    }
+    std::cout << "[figure] " << steps << " steps: error over estimate " << std::sqrt(error / estimate)
+              << '\n';
+    EXPECT_LT(error, estimate) << steps;
+    EXPECT_LT(estimate, 0.25 * before) << steps;
+    before = estimate;
+  }
+}
+
+// Brought to rest, a fast row is where Newton's method is, to the residual that was asked for.
+TEST(explicit_steps, come_to_rest) {
+  Solver<2> newton(biaxial(), {});
+  ASSERT_TRUE(newton.equilibrate().converged);
+  ASSERT_TRUE(newton.advance(1.0).converged);
+  Solver<2> solver(biaxial(), {});
+  ASSERT_TRUE(solver.begin_explicit().converged);
+  const StepReport report = solver.advance_explicit(1.0, 100, {.rest = 1e-4});
+  ASSERT_TRUE(report.converged) << report.message;
+  EXPECT_GT(report.rest_steps, 10);
+  EXPECT_EQ(report.time, 1.0);
+  EXPECT_LE(report.force_residual, 1e-4);
+  EXPECT_NEAR(force_on_top(solver) / force_on_top(newton), 1.0, 1e-3);
+  EXPECT_TRUE(solver.state().velocity.isZero(0.0));
 }
 
 TEST(explicit_steps, go_on_from_an_archive_to_the_same_bits) {

@@ -123,6 +123,29 @@ TEST_F(ResidentMaterialTest, AReadOutBringsDiagnosticsAndGrains) {
   EXPECT_EQ(pool.counts().states_fetched, fetched);
 }
 
+// By hand: the service's ratio is 0.9^5 of that before and 4.0951 times a fifth of the stretch, so that the mean of two steps is
+// 1.0608 stretches. Beyond 10 % a box is hot. A read-out begins a new mean.
+TEST_F(ResidentMaterialTest, UnrestIsAMeanOverTheStepsAndHotBoxesAreCounted) {
+  Pool pool(options(2));
+  ResidentMaterial sand = material(pool);
+  EXPECT_EQ(sand.unrest().points, 0U);
+  std::vector<Increment<2>> stretches(kPoints);
+  for (std::size_t p = 0; p < kPoints; ++p) stretches[p].displacement_gradient(0, 0) = p < 5 ? 0.2 : 0.05;
+  std::vector<Response<2>> responses(kPoints);
+  for (int k = 0; k < 2; ++k) {
+    sand.evaluate(stretches, responses);
+    sand.commit();
+  }
+  const fem::Unrest unrest = sand.unrest();
+  EXPECT_EQ(unrest.points, kPoints);
+  EXPECT_EQ(unrest.hot, 5U);
+  const double first = 0.2 * (1.0 - std::pow(0.9, 5)) / 0.1;
+  const double mean = 0.5 * first * (2.0 + std::pow(0.9, 5));
+  EXPECT_NEAR(unrest.sum, mean * (5 * 0.2 + 15 * 0.05), 1e-12);
+  sand.settle();
+  EXPECT_EQ(sand.unrest().points, 0U);
+}
+
 TEST_F(ResidentMaterialTest, ARunGoesOnFromItsCheckpointToTheSameBits) {
   Pool pool(options(2));
   for (const int steps : {0, 3}) {

@@ -7,6 +7,7 @@
 #include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
+#include "coupler/cells/gathered_material.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -14,14 +15,16 @@ namespace {
 class AdaptiveRecipe : public MaterialRecipe {
  public:
   AdaptiveRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat,
-                 const AdaptivityOptions& options)
-      : definition_(std::move(definition)), cosserat_(cosserat), options_(options) {}
+                 const AdaptivityOptions& options, int ask_every)
+      : definition_(std::move(definition)), cosserat_(cosserat), options_(options), ask_every_(ask_every) {}
   [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
     std::string note;
     std::optional<CosseratParameters> cosserat;
     if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
-    return std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat, options_,
-                                              note);
+    auto material = std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat,
+                                                       options_, note);
+    if (ask_every_ == 0) return material;
+    return std::make_shared<GatheredMaterial>(std::move(material), ask_every_);
   }
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
@@ -29,6 +32,7 @@ class AdaptiveRecipe : public MaterialRecipe {
   CellDefinition definition_;
   std::optional<CosseratChoice> cosserat_;
   AdaptivityOptions options_;
+  int ask_every_;  ///< explicit steps that are taken together; 0: Newton's method
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
@@ -44,10 +48,9 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
         "tangent: an adaptive material carries stresses along the tangent, and the affine one is no "
         "derivative of the stress once contacts slide; leave the key out");
   }
-  refuse_explicit_steps(section, files);
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) options.mean_diameter = 2.0 * definition.packing.mean_radius();
-  return std::make_unique<AdaptiveRecipe>(std::move(definition), cosserat, options);
+  return std::make_unique<AdaptiveRecipe>(std::move(definition), cosserat, options, files.ask_every);
 }
 
 }  // namespace

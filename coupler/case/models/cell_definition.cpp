@@ -176,14 +176,6 @@ CellDefinition read_cell_without_packing(const std::string& name, Section& secti
   return definition;
 }
 
-void refuse_explicit_steps(Section& section, const CaseFiles& files) {
-  if (files.dem_steps == 0) return;
-  section.fault(
-      "model",
-      "model: this one brings its cells to rest at every step, which explicit steps do not; use `cell`, or "
-      "`method: newton` below `steps`");
-}
-
 bool read_controlled(Section& section, CellDefinition& definition) {
   if (section.choice_or("rotations", {"free", "controlled"}, "free") != "controlled") return false;
   definition.control.rotations = CellRotations::controlled;

@@ -28,7 +28,4 @@ bool read_controlled(Section& section, CellDefinition& definition);
 std::optional<CosseratChoice> read_rotations(Section& section, CellDefinition& definition,
                                              const CaseFiles& files);
 
-/// A fault where the case goes in explicit steps, which this model cannot.
-void refuse_explicit_steps(Section& section, const CaseFiles& files);
-
 }  // namespace polargrain::coupler

@@ -9,6 +9,7 @@
 #include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
+#include "coupler/cells/gathered_material.hpp"
 #include "coupler/cells/informed_material.hpp"
 
 namespace polargrain::coupler {
@@ -17,8 +18,9 @@ namespace {
 class InformedRecipe : public MaterialRecipe {
  public:
   InformedRecipe(CellDefinition definition, const InformedParameters& parameters,
-                 const std::optional<CosseratChoice>& cosserat)
-      : definition_(std::move(definition)),
+                 const std::optional<CosseratChoice>& cosserat, int ask_every)
+      : ask_every_(ask_every),
+        definition_(std::move(definition)),
         tangent_(definition_.control.tangent),
         parameters_(parameters),
         cosserat_(cosserat.value_or(CosseratChoice{})) {
@@ -37,18 +39,35 @@ class InformedRecipe : public MaterialRecipe {
       definition.control.tangent = tangent_;
       with_tangent = calls_of(*pool, pool->define(std::move(definition)));
     }
-    return std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters, note,
-                                              std::move(with_tangent));
+    auto material = std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters,
+                                                       note, std::move(with_tangent));
+    if (ask_every_ == 0) return material;
+    return std::make_shared<GatheredMaterial>(std::move(material), ask_every_);
   }
   [[nodiscard]] bool knows_s33() const override { return true; }  // the law's
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
+  int ask_every_;  ///< explicit steps after which the cells follow; 0: Newton's method
   CellDefinition definition_;
   CellTangent tangent_;  ///< of the case: for points that go by their cells
   InformedParameters parameters_;
   CosseratChoice cosserat_;
 };
+
+/// Explicit steps are too many to bring cells to rest in each of them.
+void refuse_asking_each_step(Section& section, const InformedParameters& parameters, const CaseFiles& files) {
+  if (files.ask_every == 0) return;
+  if (parameters.update == InformedUpdate::fixed_point)
+    section.fault(
+        "update",
+        "update: in explicit steps the cells are asked every few steps, so the cone is that of the steps before; "
+        "write frozen, or leave the key out");
+  if (parameters.beyond_mismatch == BeyondMismatch::cell)
+    section.fault(
+        "beyond_mismatch",
+        "beyond_mismatch: in explicit steps a law cannot go over to its cell; write tell or stop, or use `model: cell`");
+}
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
                                      const CaseFiles& files) {
@@ -65,10 +84,10 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                     section.find("lp") != nullptr ? "lp" : "the lp that comes with 'lc: measured'"));
   }
   read_adaptivity_options(section);  // checked, and no more: see there
-  refuse_explicit_steps(section, files);
+  refuse_asking_each_step(section, parameters, files);
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
-  return std::make_unique<InformedRecipe>(std::move(definition), parameters, cosserat);
+  return std::make_unique<InformedRecipe>(std::move(definition), parameters, cosserat, files.ask_every);
 }
 
 }  // namespace

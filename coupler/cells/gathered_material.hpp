@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "coupler/cells/grains_of_points.hpp"
+#include "fem/material/material.hpp"
+
+namespace polargrain::coupler {
+
+/// A material of Newton's method in explicit steps, which are too small to bring its cells to rest in each of them. It takes
+/// several together: its answer is that to the way since it committed last, and it commits after so many
+/// steps, and whenever results are written. In between it goes to and fro without loss, however it yields.
+class GatheredMaterial : public fem::Material<2>, public GrainsOfPoints {
+ public:
+  /// @param material not null, shows grains (GrainsOfPoints) @param steps that are taken together, at least 1
+  /// @throws RunError when there are none, or the material shows no grains
+  GatheredMaterial(std::shared_ptr<fem::Material<2>> material, int steps);
+
+  void allocate(std::size_t points) override;
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  void commit() override;
+  void revert() override;
+  void settle() override;
+  /// @throws RunError between settle and the next one
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+
+  void set_initial_stress(std::size_t point, const Vector7& stress) override {
+    material_->set_initial_stress(point, stress);
+  }
+  [[nodiscard]] bool can_turn() const override { return material_->can_turn(); }
+  [[nodiscard]] double moment_length() const override { return material_->moment_length(); }
+  [[nodiscard]] std::vector<std::string> field_names() const override { return material_->field_names(); }
+  void fields(std::size_t point, std::span<double> values) const override {
+    material_->fields(point, values);
+  }
+  [[nodiscard]] std::vector<fem::Figure> figures() const override { return material_->figures(); }
+  [[nodiscard]] std::string doubt() const override { return material_->doubt(); }
+  [[nodiscard]] std::vector<std::string> take_notes() override { return material_->take_notes(); }
+  [[nodiscard]] StatePointer grains_of(std::size_t point) const override { return grains_->grains_of(point); }
+  [[nodiscard]] std::string at_limits() const override { return grains_->at_limits(); }
+
+ private:
+  std::shared_ptr<fem::Material<2>> material_;
+  const GrainsOfPoints* grains_;  ///< the same
+  int steps_;
+  bool was_dropped_ = false;      ///< the step that was evaluated last
+  int gathered_ = 0;              ///< steps since the material committed last
+  std::vector<Increment<2>> way_;    ///< by point, over these steps
+  std::vector<Increment<2>> trial_;  ///< the same with the step on trial
+};
+
+}  // namespace polargrain::coupler
