@@ -88,7 +88,8 @@ std::string errors() {
                                Strain{"deviatoric 1e-4", 1e-4 * DrivenCell::Vector(half, -half, 0.0)},
                                Strain{"volume 1e-4", 1e-4 * DrivenCell::Vector(-half, -half, 0.0)}}) {
     const DrivenCell::Vector before = DrivenCell::stress(way.at().response);
-    const Response<2> truth = DrivenCell(cell_of({10000, 0.06, 1e-6}), way.at()).answer(strain.value).response;
+    const Response<2> truth =
+        DrivenCell(cell_of({10000, 0.06, 1e-6}), way.at()).answer(strain.value).response;
     const DrivenCell::Vector change = DrivenCell::stress(truth) - before;
     const DrivenCell::Vector derivative = DrivenCell::tangent(truth) * strain.value;
     for (const Setting& setting :

@@ -16,9 +16,9 @@ namespace polargrain {
 template <int dim>
 struct Cosserat {
   static_assert(dim == 2 || dim == 3);
-  static constexpr int rotations = dim == 2 ? 1 : 3;   ///< of a node: about e_3, or about e_1, e_2, e_3
-  static constexpr int dofs = dim + rotations;         ///< of a node: displacements, then micro-rotations
-  static constexpr int stresses = dim == 2 ? 5 : 9;    ///< with s33 of the plane
+  static constexpr int rotations = dim == 2 ? 1 : 3;  ///< of a node: about e_3, or about e_1, e_2, e_3
+  static constexpr int dofs = dim + rotations;        ///< of a node: displacements, then micro-rotations
+  static constexpr int stresses = dim == 2 ? 5 : 9;   ///< with s33 of the plane
   static constexpr int couples = dim == 2 ? 2 : 9;
   static constexpr int components = stresses + couples;
 

@@ -77,9 +77,11 @@ struct Response : Trust {
 
 template <RecordOf<Response<3>> Record, class Visit>
 void describe(Record& response, Visit&& visit) {
-  visit(FieldNotes{"", "Pa, N/m", "stress s_ij (i: normal of the face, tension positive), then couple stress m_ij"},
+  visit(FieldNotes{"", "Pa, N/m",
+                   "stress s_ij (i: normal of the face, tension positive), then couple stress m_ij"},
         response.stress);
-  visit(FieldNotes{"tangent", "Pa, N", "d stress / d strain, both in the order of the stress"}, response.tangent);
+  visit(FieldNotes{"tangent", "Pa, N", "d stress / d strain, both in the order of the stress"},
+        response.tangent);
   describe(trust_of(response), visit);
 }
 

@@ -34,14 +34,17 @@ void tell_cells(const coupler::Case& the_case, const PackingsAtRest& packings) {
 /// What there is of a body in space: no faults, and the size of the run. Remarks and pictures are of the plane.
 int check_in_space(const CheckOptions& options, const coupler::Case& the_case) {
   if (!options.picture.empty())
-    throw InputError({"", 0, "--picture: bodies in space have no picture yet; run one step and open fields.pvd in ParaView"});
+    throw InputError(
+        {"", 0,
+         "--picture: bodies in space have no picture yet; run one step and open fields.pvd in ParaView"});
   const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
   const fem::Mesh<3>& mesh = the_case.space->mesh;
   std::size_t points = 0;
   for (const fem::Element<3>& element : mesh.elements) points += element.type->quadrature.size();
   tell(stdout, "{}: no faults; {} elements in space, {} nodes, {} unknowns, {} points, {} steps, {}\n",
-       options.case_file.string(), mesh.elements.size(), mesh.nodes.size(), fem::entry_of<3>(mesh.nodes.size()), points,
-       the_case.steps(), the_case.needs_workers() ? "needs workers" : "needs no workers");
+       options.case_file.string(), mesh.elements.size(), mesh.nodes.size(),
+       fem::entry_of<3>(mesh.nodes.size()), points, the_case.steps(),
+       the_case.needs_workers() ? "needs workers" : "needs no workers");
   tell_cells(the_case, packings);
   tell(stdout, "Remarks are made on cases of the plane alone.\n");
   return 0;

@@ -169,7 +169,8 @@ void CellPathsRecord::write_cells(const fem::Solver<dim>& solver) {
 }
 
 template <int dim>
-void CellPathsRecord::write(int step, const fem::Solver<dim>& solver, const std::set<std::size_t>& whole_states) {
+void CellPathsRecord::write(int step, const fem::Solver<dim>& solver,
+                            const std::set<std::size_t>& whole_states) {
   if (!case_.needs_workers()) return;
   const fs::path folder = directory_ / kCellPathsFolder;
   std::error_code error;
@@ -218,8 +219,10 @@ void CellPathsRecord::write(int step, const fem::Solver<dim>& solver, const std:
   write_file_of(step_file(folder, step), std::move(archive));
 }
 
-template void CellPathsRecord::write<2>(int step, const fem::Solver<2>& solver, const std::set<std::size_t>& whole_states);
-template void CellPathsRecord::write<3>(int step, const fem::Solver<3>& solver, const std::set<std::size_t>& whole_states);
+template void CellPathsRecord::write<2>(int step, const fem::Solver<2>& solver,
+                                        const std::set<std::size_t>& whole_states);
+template void CellPathsRecord::write<3>(int step, const fem::Solver<3>& solver,
+                                        const std::set<std::size_t>& whole_states);
 
 CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPathsFolder) {
   if (!fs::exists(directory))

@@ -57,8 +57,8 @@ void add_load(PlaceConditions& place, const fem::NodeLoad& load, double time, st
   }
   place.pull = (place.pull + Eigen::Vector2d::Unit(fem::place_of<2>(load.dof)) * (value > 0.0 ? 1.0 : -1.0))
                    .normalized();
-  add(words,
-      fmt::format("force {} of {:.4g} N/m at each node", kNames[static_cast<std::size_t>(fem::place_of<2>(load.dof))], value));
+  add(words, fmt::format("force {} of {:.4g} N/m at each node",
+                         kNames[static_cast<std::size_t>(fem::place_of<2>(load.dof))], value));
 }
 
 }  // namespace

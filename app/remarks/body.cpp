@@ -71,7 +71,8 @@ Body body_of(const fem::Mesh<2>& mesh) {
 std::vector<OutlineEdge> edges_of(const fem::Mesh<2>& mesh, const std::string& boundary) {
   std::vector<OutlineEdge> edges;
   if (!boundary.empty()) {
-    for (const fem::BoundarySide& edge : mesh.boundaries.at(boundary)) edges.push_back(outline_edge(mesh, edge));
+    for (const fem::BoundarySide& edge : mesh.boundaries.at(boundary))
+      edges.push_back(outline_edge(mesh, edge));
     return edges;
   }
   std::set<std::pair<int, int>> named;

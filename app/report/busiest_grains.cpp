@@ -51,7 +51,8 @@ std::optional<Busiest> busiest_of(const RunResult& result, const CellPaths& path
 
 std::string busiest_grains(const RunResult& result, const ScriptRules& scripts,
                            const WorkerEngine& engine) try {
-  if (result.is_at_work || result.fields.empty() || result.is_in_space() || !fs::exists(result.directory / kCellPathsFolder))
+  if (result.is_at_work || result.fields.empty() || result.is_in_space() ||
+      !fs::exists(result.directory / kCellPathsFolder))
     return "";
   const CellPaths paths(result.directory);
   const std::vector<int> kept = paths.steps();

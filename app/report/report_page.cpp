@@ -445,7 +445,8 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
   if (!meshes.empty()) body += "<h2>Fields</h2>\n<div class='grid'>\n" + meshes + "</div>\n";
   for (const RunResult& result : results)
     if (result.is_in_space())
-      body += fmt::format("<p>{} is a body in space: open <code>fields.pvd</code> in ParaView.</p>\n", escaped(result.name));
+      body += fmt::format("<p>{} is a body in space: open <code>fields.pvd</code> in ParaView.</p>\n",
+                          escaped(result.name));
   std::string grains;
   for (const RunResult& result : results)
     if (content.grains) grains += content.grains(result);

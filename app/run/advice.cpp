@@ -48,7 +48,8 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh<dim>& mesh) {
   double share = 0.0;
   for (const fem::Trouble::Node& node : trouble.nodes) {
     const Lines places = places_of(mesh, node.number);
-    nodes.push_back(fmt::format("{}{}{}, of {} {}", at<dim>(mesh.nodes[static_cast<std::size_t>(node.number)]),
+    nodes.push_back(fmt::format("{}{}{}, of {} {}",
+                                at<dim>(mesh.nodes[static_cast<std::size_t>(node.number)]),
                                 places.empty() ? "" : " on ", fmt::join(places, " and "),
                                 elements_at(mesh, node.number).size() == 1 ? "element" : "elements",
                                 fmt::join(elements_at(mesh, node.number), ", ")));
@@ -132,8 +133,8 @@ std::string without_stress(const fem::Solver<dim>& solver) {
       "  {} of {} points carry hardly any stress, least point {} of element {} at {} ({}): their grains have "
       "parted, and the tangent of a box of loose grains gives no direction. If that stops the run, some "
       "pressure left on the free surface may help, and a weight raised slowly at first ('factor' of 'body')",
-      lost, solver.points(), *least, solver.element_of_point(*least), at<dim>(solver.position_of_point(*least)),
-      words_of(solver, values, *least));
+      lost, solver.points(), *least, solver.element_of_point(*least),
+      at<dim>(solver.position_of_point(*least)), words_of(solver, values, *least));
 }
 
 template <int dim>
@@ -142,8 +143,8 @@ std::string points_without_answer(const fem::Trouble& trouble, const fem::Solver
   std::string text = fmt::format("  {} of {} points have no good answer:", trouble.not_good, solver.points());
   for (const fem::Trouble::Point& point : trouble.points)
     text += fmt::format("\n    point {} of element {} at {}: {}", point.number,
-                        solver.element_of_point(point.number), at<dim>(solver.position_of_point(point.number)),
-                        point.message);
+                        solver.element_of_point(point.number),
+                        at<dim>(solver.position_of_point(point.number)), point.message);
   return text;
 }
 
@@ -224,7 +225,8 @@ Lines what_is_seen(const fem::Trouble& trouble, const fem::Solver<dim>& solver) 
 }  // namespace
 
 template <int dim>
-std::string advice(const fem::Trouble& trouble, const fem::Solver<dim>& solver, const coupler::Case& the_case) {
+std::string advice(const fem::Trouble& trouble, const fem::Solver<dim>& solver,
+                   const coupler::Case& the_case) {
   const Lines keys = keys_of(trouble, the_case);
   Lines parts = what_is_seen(trouble, solver);
   parts.push_back(far_from_balance(trouble));
@@ -234,7 +236,8 @@ std::string advice(const fem::Trouble& trouble, const fem::Solver<dim>& solver, 
 }
 
 template <int dim>
-std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver<dim>& solver, const Remarks& remarks) {
+std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver<dim>& solver,
+                            const Remarks& remarks) {
   Lines parts = what_is_seen(trouble, solver);
   parts.emplace_back(
       "  step 0 brings the stress at time zero (of the packings, or initial_stress) into balance with the loads and supports at "
@@ -247,9 +250,13 @@ std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver<dim>&
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
 
-template std::string advice<2>(const fem::Trouble& trouble, const fem::Solver<2>& solver, const coupler::Case& the_case);
-template std::string advice<3>(const fem::Trouble& trouble, const fem::Solver<3>& solver, const coupler::Case& the_case);
-template std::string advice_at_start<2>(const fem::Trouble& trouble, const fem::Solver<2>& solver, const Remarks& remarks);
-template std::string advice_at_start<3>(const fem::Trouble& trouble, const fem::Solver<3>& solver, const Remarks& remarks);
+template std::string advice<2>(const fem::Trouble& trouble, const fem::Solver<2>& solver,
+                               const coupler::Case& the_case);
+template std::string advice<3>(const fem::Trouble& trouble, const fem::Solver<3>& solver,
+                               const coupler::Case& the_case);
+template std::string advice_at_start<2>(const fem::Trouble& trouble, const fem::Solver<2>& solver,
+                                        const Remarks& remarks);
+template std::string advice_at_start<3>(const fem::Trouble& trouble, const fem::Solver<3>& solver,
+                                        const Remarks& remarks);
 
 }  // namespace polargrain::app

@@ -12,11 +12,13 @@ namespace polargrain::app {
 /// good answer and why, what the cells there say, and which keys of the case are worth trying, with the reason of each.
 /// Lines, each begun with two blanks; empty when nothing is known.
 template <int dim>
-std::string advice(const fem::Trouble& trouble, const fem::Solver<dim>& solver, const coupler::Case& the_case);
+std::string advice(const fem::Trouble& trouble, const fem::Solver<dim>& solver,
+                   const coupler::Case& the_case);
 
 /// The same of step 0, which brings the stress at time zero into balance with the loads: no key of the steps helps there.
 /// @param remarks on the case, of which those about time zero are repeated
 template <int dim>
-std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver<dim>& solver, const Remarks& remarks);
+std::string advice_at_start(const fem::Trouble& trouble, const fem::Solver<dim>& solver,
+                            const Remarks& remarks);
 
 }  // namespace polargrain::app

@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 using coupler::Monitor;
 
 /// Forces of a plane problem are per metre of thickness.
-std::string unit_of(const Monitor& monitor, const std::map<std::string, std::string>& formulas, int dimension) {
+std::string unit_of(const Monitor& monitor, const std::map<std::string, std::string>& formulas,
+                    int dimension) {
   const bool turns = fem::is_rotation(monitor.dof);
   switch (monitor.kind) {
     case Monitor::Kind::reaction:
@@ -76,7 +77,8 @@ Json monitor_notes(const coupler::Case& the_case) {
     const auto monitor = std::ranges::find(the_case.monitors, name, &Monitor::name);
     const bool own = monitor != the_case.monitors.end();
     notes[name] = {{"kind", own ? kind_of(*monitor) : "built-in"},
-                   {"unit", own ? unit_of(*monitor, formulas, the_case.dimension()) : unit_of_built_in(name, the_case.dimension())},
+                   {"unit", own ? unit_of(*monitor, formulas, the_case.dimension())
+                                : unit_of_built_in(name, the_case.dimension())},
                    {"table", in_table}};
   };
   for (const std::string& name : the_case.table) add(name, true);

@@ -38,7 +38,9 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
   return values;
 }
 
-template MonitorValues monitor_values<2>(const std::vector<coupler::Monitor>& monitors, const fem::Solver<2>& solver);
-template MonitorValues monitor_values<3>(const std::vector<coupler::Monitor>& monitors, const fem::Solver<3>& solver);
+template MonitorValues monitor_values<2>(const std::vector<coupler::Monitor>& monitors,
+                                         const fem::Solver<2>& solver);
+template MonitorValues monitor_values<3>(const std::vector<coupler::Monitor>& monitors,
+                                         const fem::Solver<3>& solver);
 
 }  // namespace polargrain::app

@@ -467,10 +467,11 @@ class Run {
 
 /// Takes all steps and tells of their end. @returns as run
 template <int dim>
-int go(const RunOptions& options, coupler::Case the_case, const std::filesystem::path& directory, const DirectoryLock& lock,
-       std::optional<coupler::Listening> listening, std::unique_ptr<coupler::Checkpoint> from, Remarks remarks) {
+int go(const RunOptions& options, coupler::Case the_case, const std::filesystem::path& directory,
+       const DirectoryLock& lock, std::optional<coupler::Listening> listening,
+       std::unique_ptr<coupler::Checkpoint> from, Remarks remarks) {
   Run<dim> the_run(options, std::move(the_case), directory, lock, std::move(listening), std::move(from),
-              std::move(remarks));
+                   std::move(remarks));
   const bool done = the_run.go();
   const RunRecord& record = the_run.record();
   if (!options.quiet) {
@@ -509,11 +510,10 @@ int run(const RunOptions& options) {
     if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());
   }
   if (!options.quiet && !remarks.empty()) tell(stderr, "{}", text_of(remarks));
-  return the_case.dimension() == 3
-             ? go<3>(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from),
-                     std::move(remarks))
-             : go<2>(options, std::move(the_case), directory, *lock, std::move(listening), std::move(from),
-                     std::move(remarks));
+  return the_case.dimension() == 3 ? go<3>(options, std::move(the_case), directory, *lock,
+                                           std::move(listening), std::move(from), std::move(remarks))
+                                   : go<2>(options, std::move(the_case), directory, *lock,
+                                           std::move(listening), std::move(from), std::move(remarks));
 }
 
 }  // namespace polargrain::app

@@ -124,9 +124,9 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   };
   /// A cell during the step: where it was, or run onward to a point. The first branches are the cells.
   struct Branch {
-    std::size_t cell = 0;    ///< it comes from
-    Increment<2> place = {};    ///< from that cell to here
-    std::size_t leader = 0;  ///< point it was run to
+    std::size_t cell = 0;     ///< it comes from
+    Increment<2> place = {};  ///< from that cell to here
+    std::size_t leader = 0;   ///< point it was run to
     PlaneReply answer = {};
     Departure departure = {};
     bool was_run = false;
@@ -215,7 +215,7 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   std::vector<Branch> branches_;
   std::vector<std::vector<std::size_t>> branches_of_cell_;
   std::vector<std::size_t> branch_of_point_;
-  std::vector<Increment<2>> target_;             ///< from the cell's place to the point's
+  std::vector<Increment<2>> target_;          ///< from the cell's place to the point's
   std::vector<Excursion> excursions_;         ///< of the points, at their targets
   std::map<std::size_t, std::size_t> turns_;  ///< branches at the farthest places of leaders, by leader
   std::vector<Increment<2>> increments_;

@@ -28,7 +28,8 @@ double Departure::over(double size) const {
   return error * (x <= 1.0 ? x * std::sqrt(x) : x * x);
 }
 
-double ErrorEstimate::of(const Response<2>& answer, const Departure& departure, const Increment<2>& offset) const {
+double ErrorEstimate::of(const Response<2>& answer, const Departure& departure,
+                         const Increment<2>& offset) const {
   const double size = measure_.size(offset);
   if (size == 0.0) return 0.0;
   if (!departure.known()) return HUGE_VAL;
@@ -42,8 +43,8 @@ double ErrorEstimate::onward(const Departure& departure, const Increment<2>& off
   return onward_of(measure_.strain(offset), departure);
 }
 
-double ErrorEstimate::of_history(const Response<2>& answer, const Departure& departure, const Excursion& point,
-                                 const Excursion& cell) const {
+double ErrorEstimate::of_history(const Response<2>& answer, const Departure& departure,
+                                 const Excursion& point, const Excursion& cell) const {
   // Two that have not turned back differ in their places alone, which is no matter of history.
   const double missed = std::min(std::abs(point.depth - cell.depth), std::max(point.back, cell.back));
   if (missed == 0.0) return 0.0;

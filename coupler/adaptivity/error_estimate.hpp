@@ -48,7 +48,8 @@ class ErrorEstimate {
   /// Estimated error (Pa) of carrying `answer` by `offset`: the part of the departure, and half of the stress
   /// that separates the answer's tangent from the elastic one along all of the offset that does not continue
   /// the last loading. Infinite where nothing is known.
-  [[nodiscard]] double of(const Response<2>& answer, const Departure& departure, const Increment<2>& offset) const;
+  [[nodiscard]] double of(const Response<2>& answer, const Departure& departure,
+                          const Increment<2>& offset) const;
 
   /// How far an offset goes on along the last loading of a cell, a strain; 0 where it goes back.
   [[nodiscard]] double onward(const Departure& departure, const Increment<2>& offset) const;
@@ -57,8 +58,8 @@ class ErrorEstimate {
   /// way back is stiff: a way out and back that only one of them has gone leaves this stress between them. It shows no
   /// offset.
   /// @param answer of the cell before both excursions
-  [[nodiscard]] double of_history(const Response<2>& answer, const Departure& departure, const Excursion& point,
-                                  const Excursion& cell) const;
+  [[nodiscard]] double of_history(const Response<2>& answer, const Departure& departure,
+                                  const Excursion& point, const Excursion& cell) const;
 
   /// Learns from a run from `start` to `end` over `offset` about both ends.
   /// @param at_start updated: the largest error seen from there

@@ -13,7 +13,7 @@ enum class Dimension {
   length,
   pressure,
   angle,
-  force,             ///< also a moment per thickness
+  force,  ///< also a moment per thickness
   moment,
   force_per_length,  ///< per thickness
   unit_weight,

@@ -91,7 +91,8 @@ class CaseReader {
   }
 
   [[nodiscard]] bool is_classical() const {
-    return case_.with_problem([](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
+    return case_.with_problem(
+        [](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
   }
 
   static std::vector<std::string> models_in_space() {
@@ -112,9 +113,8 @@ class CaseReader {
     for (const Entry::Member& member : entry.members) {
       const std::string material = regions.text(member.key, "the name of a material");
       if (parts_.has_mesh && !known.contains(member.key)) {
-        faults_.push_back(
-            member.value.fault(fmt::format("regions: the mesh has no region '{}'; it has {}", member.key,
-                                           CaseParts::names_of(known))));
+        faults_.push_back(member.value.fault(fmt::format("regions: the mesh has no region '{}'; it has {}",
+                                                         member.key, CaseParts::names_of(known))));
       }
       if (!material.empty() && !material_lines_.contains(material)) {
         const std::string guess = nearest(material, keys_of(material_lines_));
@@ -211,12 +211,13 @@ class CaseReader {
     const bool reaction = section.find("reaction") != nullptr;
     const bool displacement = section.find("displacement") != nullptr;
     if (reaction == displacement && entry.kind == Entry::Kind::map) {
-      faults_.push_back(
-          entry.fault(section.name() + ": expected either 'reaction' or 'displacement', each one of " +
-                      listed(dof_names(case_.dimension())) + ", or a formula"));
+      faults_.push_back(entry.fault(section.name() +
+                                    ": expected either 'reaction' or 'displacement', each one of " +
+                                    listed(dof_names(case_.dimension())) + ", or a formula"));
     } else {
       monitor.kind = reaction ? Monitor::Kind::reaction : Monitor::Kind::displacement;
-      const std::string dof = section.choice(reaction ? "reaction" : "displacement", dof_names(case_.dimension()));
+      const std::string dof =
+          section.choice(reaction ? "reaction" : "displacement", dof_names(case_.dimension()));
       if (!dof.empty()) monitor.dof = dof_of(dof);
     }
     section.finish();
@@ -313,22 +314,24 @@ class CaseReader {
   void check_micro_rotations() {
     if (is_classical()) return;
     const bool fixed = case_.with_problem([](const auto& problem) {
-      return std::ranges::any_of(problem.prescribed, [](const auto& item) { return fem::is_rotation(item.dof); });
+      return std::ranges::any_of(problem.prescribed,
+                                 [](const auto& item) { return fem::is_rotation(item.dof); });
     });
     if (fixed) return;
     for (const auto& [name, recipe] : case_.materials) {
       if (recipe->holds_micro_rotations()) return;
     }
-    faults_.push_back(document_.find("materials")
-                          ->fault(fmt::format(
-                              "materials: Gc is zero everywhere and no boundary fixes {0}, so nothing "
-                              "holds the micro-rotations; set 'continuum: cauchy', give Gc, or fix {0}",
-                              case_.dimension() == 2 ? "w" : "w1, w2 or w3")));
+    faults_.push_back(
+        document_.find("materials")
+            ->fault(fmt::format("materials: Gc is zero everywhere and no boundary fixes {0}, so nothing "
+                                "holds the micro-rotations; set 'continuum: cauchy', give Gc, or fix {0}",
+                                case_.dimension() == 2 ? "w" : "w1, w2 or w3")));
   }
 
   /// The faults that the finite elements find in the whole.
   void check_whole() {
-    for (const std::string& message : case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
+    for (const std::string& message :
+         case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
       faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));
     }
   }

@@ -93,7 +93,8 @@ void read_explicit(Section& steps, CaseParts& parts) {
   if (steps.choice_or("rest_at_output", {"yes", "no"}, "no") == "yes") result.explicit_options.rest = kRest;
   const double end = result.plan.empty() ? 0.0 : result.plan.back().amount;
   const double size =
-      parts.has_mesh ? result.with_problem([](const auto& problem) { return smallest_element(problem.mesh); }) : 1.0;
+      parts.has_mesh ? result.with_problem([](const auto& problem) { return smallest_element(problem.mesh); })
+                     : 1.0;
   double time = 0.0;
   double all = 0.0;
   for (StepTarget& target : result.plan) {
@@ -101,8 +102,8 @@ void read_explicit(Section& steps, CaseParts& parts) {
       steps.fault("method", "method: explicit steps follow the time; give the stages `until`, or use newton");
       return;
     }
-    const double way = result.with_problem(
-        [&](const auto& problem) { return longest_way(problem, time, target.amount); });
+    const double way =
+        result.with_problem([&](const auto& problem) { return longest_way(problem, time, target.amount); });
     const double wanted =
         given > 0 ? std::round(given * (target.amount - time) / end) : std::ceil(way / (pace * size));
     if (given == 0 && way == 0.0 && parts.has_mesh) {

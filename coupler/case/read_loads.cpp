@@ -79,8 +79,8 @@ bool read_tractions(Section& item, const std::vector<std::string>& places, CaseP
   const auto dimension = [](fem::Dof dof) {
     return fem::is_rotation(dof) ? Dimension::force_per_length : Dimension::pressure;
   };
-  const bool traction =
-      dof_tables(item, "traction", dimension, Single::constant, parts, [&](fem::Dof dof, const fem::TimeTable& value) {
+  const bool traction = dof_tables(
+      item, "traction", dimension, Single::constant, parts, [&](fem::Dof dof, const fem::TimeTable& value) {
         const auto place = static_cast<std::size_t>(fem::place_of<dim>(dof));
         (fem::is_rotation(dof) ? load.couple_traction[place - dim] : load.traction[place]) = value;
       });
@@ -102,7 +102,8 @@ bool read_node_forces(Section& item, const std::vector<std::string>& places, Cas
   return dof_tables(item, "node_force", dimension, Single::constant, parts,
                     [&](fem::Dof dof, const fem::TimeTable& value) {
                       parts.result.with_problem([&](auto& problem) {
-                        for (const std::string& place : places) problem.node_loads.push_back({place, dof, value});
+                        for (const std::string& place : places)
+                          problem.node_loads.push_back({place, dof, value});
                       });
                     });
 }
@@ -193,7 +194,8 @@ void read_initial_stress_item(const Entry& entry, const std::string& name, CaseP
   } else if (given) {
     using Counts = Cosserat<dim>;
     const auto components = given_components<dim>();
-    const std::vector<double> s = item.quantities("stress", components.size(), Dimension::pressure, Limit::any);
+    const std::vector<double> s =
+        item.quantities("stress", components.size(), Dimension::pressure, Limit::any);
     typename Counts::Vector stress = Counts::Vector::Zero();
     for (std::size_t k = 0; k < components.size(); ++k) {
       const auto [i, j] = components[k];
@@ -240,7 +242,8 @@ void read_body_loads(const Entry& entry, CaseParts& parts) {
   if (!is_list(entry, "body", "{unit_weight: 18 kN/m3}", parts.faults)) return;
   for (std::size_t i = 0; i < entry.items.size(); ++i) {
     const std::string name = fmt::format("body item {}", i + 1);
-    parts.result.space ? read_body_item<3>(entry.items[i], name, parts) : read_body_item<2>(entry.items[i], name, parts);
+    parts.result.space ? read_body_item<3>(entry.items[i], name, parts)
+                       : read_body_item<2>(entry.items[i], name, parts);
   }
 }
 

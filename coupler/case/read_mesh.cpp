@@ -115,9 +115,10 @@ void read_box(const Entry& entry, const std::string& element, CaseParts& parts) 
   }
   section.finish();
   if (count > kMostElementsInSpace)
-    section.fault("elements",
-                  fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken",
-                              count, 1e-9 * kBytesOfElementInSpace * count, kMostElementsInSpace));
+    section.fault(
+        "elements",
+        fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken",
+                    count, 1e-9 * kBytesOfElementInSpace * count, kMostElementsInSpace));
   if (parts.faults.size() != faults_before || element.empty()) return;
   parts.result.space->mesh = fem::box(specification, element);
   if (has_patch) make_patch<3>(patch, section, parts.result.space->mesh);
@@ -171,8 +172,8 @@ void read_mesh(const Entry& entry, CaseParts& parts) {
   } else if (file) {
     read_file(mesh, element, parts);
   } else if (entry.kind == Entry::Kind::map) {
-    parts.faults.push_back(
-        entry.fault("mesh: the key 'rectangle' is missing; give a map with size and elements, a 'box' in space, or a 'file'"));
+    parts.faults.push_back(entry.fault(
+        "mesh: the key 'rectangle' is missing; give a map with size and elements, a 'box' in space, or a 'file'"));
   }
   mesh.finish();
   parts.has_mesh = parts.faults.size() == faults_before;

@@ -36,7 +36,8 @@ fem::DisplacementMeasure read_measure(const Entry& entry, const std::string& nam
   const auto add_mean = [&](const std::string& key, const std::string& place, double sign) {
     if (place.empty()) return;
     parts.check_places(section, key, {place});
-    const bool known = parts.result.with_problem([&](const auto& problem) { return problem.mesh.has_nodes_on(place); });
+    const bool known =
+        parts.result.with_problem([&](const auto& problem) { return problem.mesh.has_nodes_on(place); });
     if (!parts.has_mesh || !known || dof.empty()) return;
     const std::vector<int> nodes =
         parts.result.with_problem([&](const auto& problem) { return problem.mesh.nodes_on(place); });

@@ -76,14 +76,13 @@ double share_of_limit(double stress, std::optional<double> limit, double pressur
 }  // namespace
 
 Response<2> CosseratPart::follow(const Increment<2>& increment, const Response<2>& cell,
-                              const CosseratParameters& cosserat, double kept) {
+                                 const CosseratParameters& cosserat, double kept) {
   const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increment);
   const Vector7 strain = step.stretch.strain();
   const double couple_modulus = contacts_kept * cosserat.couple_modulus();
   skew_stress += 2.0 * contacts_kept * cosserat.cosserat_shear_modulus * (strain[k21] - strain[k12]);  // A.4
   couple_stress += couple_modulus * step.stretch.curvature;                                            // A.4
-  if (increment.configuration != Configuration::fixed)
-    couple_stress = fem::rotated(couple_stress, step.turn);
+  if (increment.configuration != Configuration::fixed) couple_stress = fem::rotated(couple_stress, step.turn);
   Response<2> response = joined_to(cell, cosserat);
   if (response.quality == Quality::failed) return response;
   if (cosserat.skew_limit) limit_skew(response, *cosserat.skew_limit, cosserat.cosserat_shear_modulus);

@@ -57,8 +57,8 @@ struct CosseratPart {
 
   /// Goes along an increment. @param cell the answer of the cell to it @param kept contacts of the cell now over those
   /// of its packing @returns the answer of the point, as joined_to, with the tangent of the stresses that are at their limits
-  Response<2> follow(const Increment<2>& increment, const Response<2>& cell, const CosseratParameters& cosserat,
-                  double kept);
+  Response<2> follow(const Increment<2>& increment, const Response<2>& cell,
+                     const CosseratParameters& cosserat, double kept);
   /// The answer of a point where nothing has happened: the symmetric part of the answer of its cell, with this part.
   [[nodiscard]] Response<2> joined_to(const Response<2>& cell, const CosseratParameters& cosserat) const;
   /// Reduces both stresses to the limits of a cell under `pressure` (Pa).

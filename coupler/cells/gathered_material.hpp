@@ -45,8 +45,8 @@ class GatheredMaterial : public fem::Material<2>, public GrainsOfPoints {
   std::shared_ptr<fem::Material<2>> material_;
   const GrainsOfPoints* grains_;  ///< the same
   int steps_;
-  bool was_dropped_ = false;      ///< the step that was evaluated last
-  int gathered_ = 0;              ///< steps since the material committed last
+  bool was_dropped_ = false;         ///< the step that was evaluated last
+  int gathered_ = 0;                 ///< steps since the material committed last
   std::vector<Increment<2>> way_;    ///< by point, over these steps
   std::vector<Increment<2>> trial_;  ///< the same with the step on trial
 };

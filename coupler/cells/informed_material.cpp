@@ -38,7 +38,8 @@ Increment<2> part_of(Increment<2> increment, int part, int parts) {
 /// state stay, the tangent sees the hardening. A frozen cone alone would let Newton's method overshoot.
 void add_hardening(const fem::ElastoplasticFrame<2>& frame, const fem::FrozenCone& before,
                    const fem::FrozenCone& after, const fem::ElastoplasticState<2>& start,
-                   const Increment<2>& increment, const fem::ElastoplasticState<2>& end, Response<2>& response) {
+                   const Increment<2>& increment, const fem::ElastoplasticState<2>& end,
+                   Response<2>& response) {
   const double step = end.gamma_p - start.gamma_p;
   if (end.regime != fem::Regime::smooth || !(step > 1e-12 * (1.0 + end.gamma_p)) ||
       before.friction == after.friction)
@@ -193,7 +194,8 @@ void InformedMaterial::limit_skew_of_laws(std::span<Response<2>> responses) {
   }
 }
 
-void InformedMaterial::evaluate_own(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
+void InformedMaterial::evaluate_own(std::span<const Increment<2>> increments,
+                                    std::span<Response<2>> responses) {
   std::vector<PlaneRequest> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
@@ -226,10 +228,10 @@ fem::ElastoplasticFrame<2> InformedMaterial::frame_of(std::size_t point) const {
 }
 
 Response<2> InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame<2>& frame,
-                                               const fem::Mobilisation& mobilisation,
-                                               const fem::ElastoplasticState<2>& start,
-                                               const Increment<2>& increment,
-                                               fem::ElastoplasticState<2>& end) const {
+                                                  const fem::Mobilisation& mobilisation,
+                                                  const fem::ElastoplasticState<2>& start,
+                                                  const Increment<2>& increment,
+                                                  fem::ElastoplasticState<2>& end) const {
   Vector7 scale = Vector7::Ones();
   scale.tail<2>().setConstant(frame.length);
   Vector7 unscale = Vector7::Ones();
@@ -254,7 +256,7 @@ Response<2> InformedMaterial::integrate(std::size_t point, const Increment<2>& i
 }
 
 Response<2> InformedMaterial::integrate_stretch(std::size_t point, const Increment<2>& increment,
-                                             fem::ElastoplasticState<2>& end) const {
+                                                fem::ElastoplasticState<2>& end) const {
   const PointState& before = committed_[point];
   const fem::FrozenCone& cone = before.mobilisation.cone;
   const fem::ElastoplasticState<2>& start = before.law;
@@ -274,8 +276,8 @@ Response<2> InformedMaterial::integrate_stretch(std::size_t point, const Increme
 }
 
 Response<2> InformedMaterial::integrate_updated(std::size_t point, const Increment<2>& stretch,
-                                             const fem::Mobilisation& mobilisation,
-                                             fem::ElastoplasticState<2>& end) const {
+                                                const fem::Mobilisation& mobilisation,
+                                                fem::ElastoplasticState<2>& end) const {
   const fem::ElastoplasticState<2>& start = committed_[point].law;
   const fem::ElastoplasticFrame<2> frame = frame_of(point);
   if (mobilisation.unloading) return integrate_unloading(frame, mobilisation, start, stretch, end);
@@ -284,7 +286,8 @@ Response<2> InformedMaterial::integrate_updated(std::size_t point, const Increme
   return response;
 }
 
-void InformedMaterial::evaluate_frozen(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
+void InformedMaterial::evaluate_frozen(std::span<const Increment<2>> increments,
+                                       std::span<Response<2>> responses) {
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (!committed_[point].own.active) responses[point] = integrate(point, increments[point]);

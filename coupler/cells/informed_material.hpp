@@ -114,9 +114,10 @@ class InformedMaterial : public fem::Material<2>, public GrainsOfPoints {
   [[nodiscard]] Response<2> integrate(std::size_t point, const Increment<2>& increment);
   /// A step inside of the cone, or back to it, with the stiffness and contraction that the cell shows there.
   [[nodiscard]] Response<2> integrate_unloading(const fem::ElastoplasticFrame<2>& frame,
-                                             const fem::Mobilisation& mobilisation,
-                                             const fem::ElastoplasticState<2>& start, const Increment<2>& increment,
-                                             fem::ElastoplasticState<2>& end) const;
+                                                const fem::Mobilisation& mobilisation,
+                                                const fem::ElastoplasticState<2>& start,
+                                                const Increment<2>& increment,
+                                                fem::ElastoplasticState<2>& end) const;
   /// The standard invariant leaves skew stress elastic: it returns to its limit behind the law, which goes by the same limit
   /// as the part of a cell (cosserat_part.hpp).
   void limit_skew_of_laws(std::span<Response<2>> responses);
@@ -130,11 +131,11 @@ class InformedMaterial : public fem::Material<2>, public GrainsOfPoints {
   void evaluate_own(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
   /// The answer of the law to the stretch of a step, and where it ends, in the axes of the start of the step.
   [[nodiscard]] Response<2> integrate_stretch(std::size_t point, const Increment<2>& stretch,
-                                           fem::ElastoplasticState<2>& end) const;
+                                              fem::ElastoplasticState<2>& end) const;
   /// The same with friction and dilatancy of the step itself.
   [[nodiscard]] Response<2> integrate_updated(std::size_t point, const Increment<2>& stretch,
-                                           const fem::Mobilisation& mobilisation,
-                                           fem::ElastoplasticState<2>& end) const;
+                                              const fem::Mobilisation& mobilisation,
+                                              fem::ElastoplasticState<2>& end) const;
   /// The increment that the grains of a cell feel.
   [[nodiscard]] Increment<2> felt(const Increment<2>& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.

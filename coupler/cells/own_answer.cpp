@@ -28,7 +28,7 @@ OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneR
 }
 
 Response<2> own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment<2>& increment,
-                    const PlaneReply& reply, OwnAnswer& end) {
+                       const PlaneReply& reply, OwnAnswer& end) {
   const Response<2>& cell = reply.response;
   end = start;
   const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increment);
@@ -44,8 +44,8 @@ Response<2> own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, cons
   end.strained += size;
 
   Response<2> response = rules.controlled ? cell
-                                       : end.cosserat.follow(increment, cell, rules.cosserat,
-                                                             rules.packing.kept(reply.diagnostics));
+                                          : end.cosserat.follow(increment, cell, rules.cosserat,
+                                                                rules.packing.kept(reply.diagnostics));
   if (response.quality == Quality::failed) return response;
   const double left = share_left(rules, end.strained);
   if (!(left > 0.0)) {

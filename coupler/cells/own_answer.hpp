@@ -50,6 +50,6 @@ OwnAnswer left_law(const OwnAnswerRules& rules, const Vector7& law, const PlaneR
 /// The answer of a point that goes by its cell. @param start at the start of the step @param cell the answer of the cell
 /// to the increment @param end gets the point at the end of the step
 Response<2> own_answer(const OwnAnswerRules& rules, const OwnAnswer& start, const Increment<2>& increment,
-                    const PlaneReply& cell, OwnAnswer& end);
+                       const PlaneReply& cell, OwnAnswer& end);
 
 }  // namespace polargrain::coupler

@@ -12,7 +12,7 @@ namespace polargrain::coupler {
 
 /// The request of a point to a cell.
 struct PlaneRequest {
-  StatePointer state;   ///< null: the packing
+  StatePointer state;      ///< null: the packing
   Increment<2> increment;  ///< about the start of the step (increment_for_cell)
 };
 

@@ -17,7 +17,8 @@ namespace polargrain::coupler {
 namespace {
 
 bool is_zero(const Increment<3>& increment) {
-  return increment.displacement_gradient.isZero(0.0) && increment.rotation.isZero(0.0) && increment.curvature.isZero(0.0);
+  return increment.displacement_gradient.isZero(0.0) && increment.rotation.isZero(0.0) &&
+         increment.curvature.isZero(0.0);
 }
 
 /// increment_for_cell (cell_increment.hpp) in space. @param free grains turn as they like: no rotation, no curvature
@@ -49,7 +50,8 @@ StressNoise noise_of(const Vector18& stress, const CellDiagnostics& cell, double
 }  // namespace
 
 SpaceCellMaterial::SpaceCellMaterial(Pool& pool, std::uint32_t definition,
-                                     const std::optional<CosseratParameters>& cosserat, const std::string& note)
+                                     const std::optional<CosseratParameters>& cosserat,
+                                     const std::string& note)
     : pool_(pool), definition_(definition), cosserat_(cosserat), at_limits_(cosserat.has_value()) {
   if (!note.empty()) notes_.push_back(note);
   const CellDefinition& cell = pool.definition(definition);
@@ -85,9 +87,10 @@ void SpaceCellMaterial::evaluate(std::span<const Increment<3>> increments, std::
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (is_zero(increments[point])) continue;
-    requests.push_back({definition_,
-                        {committed_[point].state, increment_for_cell(increments[point], cosserat_.has_value())},
-                        point});
+    requests.push_back(
+        {definition_,
+         {committed_[point].state, increment_for_cell(increments[point], cosserat_.has_value())},
+         point});
   }
   std::vector<CellReply> replies = pool_.evaluate(requests);
   for (std::size_t r = 0; r < replies.size(); ++r) {

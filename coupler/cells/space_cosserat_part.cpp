@@ -89,7 +89,8 @@ Response<3> SpaceCosseratPart::follow(const Increment<3>& increment, const Respo
     if (skew_stress.norm() > limit) {
       Eigen::Matrix<double, 3, 18> elastic = Eigen::Matrix<double, 3, 18>::Zero();
       elastic.leftCols<9>() = skew_modulus * skew;
-      Eigen::Matrix<double, 3, 18> change = rows_at_limit<3>(skew_stress, limit, elastic, slope_of(*cosserat.skew_limit));
+      Eigen::Matrix<double, 3, 18> change =
+          rows_at_limit<3>(skew_stress, limit, elastic, slope_of(*cosserat.skew_limit));
       change.leftCols<9>() += 2.0 * CosseratPart::kHold * cosserat.cosserat_shear_modulus * skew;
       const Eigen::Matrix<double, 3, 18> before = skew * response.tangent.topRows<9>();
       response.tangent.topRows<9>() += 0.5 * skew.transpose() * (change - before);
@@ -123,7 +124,8 @@ Response<3> SpaceCosseratPart::joined_to(const Response<3>& cell, const Cosserat
   const double modulus = std::max(contacts_kept, CosseratPart::kHold) * cosserat.cosserat_shear_modulus;
   response.tangent.topLeftCorner<9, 9>() =
       symmetric * cell.tangent.topLeftCorner<9, 9>() * symmetric + modulus * skew.transpose() * skew;
-  response.tangent.bottomRightCorner<9, 9>() = contacts_kept * cosserat.couple_modulus() * Matrix9::Identity();
+  response.tangent.bottomRightCorner<9, 9>() =
+      contacts_kept * cosserat.couple_modulus() * Matrix9::Identity();
   return response;
 }
 
@@ -153,7 +155,8 @@ LimitsReached SpaceCosseratPart::reached(const CosseratParameters& cosserat, dou
   reached.skew = is_at(skew_mobilisation(cosserat), cosserat.skew_limit);
   reached.couple = is_at(couple_mobilisation(cosserat), cosserat.plastic_length);
   const bool no_skew = !(contacts_kept > 0.0) || (cosserat.skew_limit && (reached.parted || reached.skew));
-  const bool no_couple = !(contacts_kept > 0.0) || (cosserat.plastic_length && (reached.parted || reached.couple));
+  const bool no_couple =
+      !(contacts_kept > 0.0) || (cosserat.plastic_length && (reached.parted || reached.couple));
   reached.held = cosserat.has_rotations && no_skew && no_couple;
   return reached;
 }

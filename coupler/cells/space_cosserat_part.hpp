@@ -24,8 +24,8 @@ struct SpaceCosseratPart {
 
   /// Goes along an increment. @param cell the answer of the cell to it @param kept contacts of the cell now over those
   /// of its packing @returns the answer of the point, with the tangent of the stresses that are at their limits
-  Response<3> follow(const Increment<3>& increment, const Response<3>& cell, const CosseratParameters& cosserat,
-                     double kept);
+  Response<3> follow(const Increment<3>& increment, const Response<3>& cell,
+                     const CosseratParameters& cosserat, double kept);
   /// The answer of a point where nothing has happened: the symmetric part of the answer of its cell, with this part.
   [[nodiscard]] Response<3> joined_to(const Response<3>& cell, const CosseratParameters& cosserat) const;
   /// Reduces both stresses to the limits of a cell under `pressure` (Pa).
@@ -42,7 +42,8 @@ template <RecordOf<SpaceCosseratPart> Record, class Visit>
 void describe(Record& part, Visit&& visit) {
   visit(FieldNotes{"skew_stress", "Pa", "s32 - s23, s13 - s31, s21 - s12", "_1 _2 _3"}, part.skew_stress);
   visit(FieldNotes{"couple_stress", "N/m", "couple stress m11, m12 to m33"}, part.couple_stress);
-  visit(FieldNotes{"contacts_kept", "1", "contacts of the cell over those of its packing"}, part.contacts_kept);
+  visit(FieldNotes{"contacts_kept", "1", "contacts of the cell over those of its packing"},
+        part.contacts_kept);
   visit(FieldNotes{"pressure", "Pa", "mean pressure of the cell"}, part.pressure);
 }
 

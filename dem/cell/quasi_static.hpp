@@ -115,7 +115,8 @@ class QuasiStatic {
 
   /// Stress and couple stress of the contacts in the laboratory, without a tangent; no couple stress where rotations are
   /// free. @param thickness of the box, m
-  [[nodiscard]] Response<2> read_out(std::span<const Contact> contacts, const Box& box, double thickness) const;
+  [[nodiscard]] Response<2> read_out(std::span<const Contact> contacts, const Box& box,
+                                     double thickness) const;
 
  private:
   CellControl control_;

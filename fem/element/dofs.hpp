@@ -13,10 +13,14 @@ namespace polargrain::fem {
 enum class Dof : int { u1 = 0, u2, u3, w1, w2, w3, w = w3 };
 
 /// @returns whether it is a micro-rotation
-[[nodiscard]] constexpr bool is_rotation(Dof dof) { return dof >= Dof::w1; }
+[[nodiscard]] constexpr bool is_rotation(Dof dof) {
+  return dof >= Dof::w1;
+}
 
 /// Axis that it is along or about, from 0.
-[[nodiscard]] constexpr int axis_of(Dof dof) { return static_cast<int>(dof) % 3; }
+[[nodiscard]] constexpr int axis_of(Dof dof) {
+  return static_cast<int>(dof) % 3;
+}
 
 /// All unknowns of a node, in their order in nodal vectors.
 template <int dim>

@@ -17,8 +17,8 @@ namespace {
 template <int dim>
 const std::vector<ElementType<dim>>& element_types() {
   if constexpr (dim == 2) {
-    static const std::vector<ElementType<2>> types{quadrilateral8_reduced(), quadrilateral8(), quadrilateral4(),
-                                                   triangle6()};
+    static const std::vector<ElementType<2>> types{quadrilateral8_reduced(), quadrilateral8(),
+                                                   quadrilateral4(), triangle6()};
     return types;
   } else {
     static const std::vector<ElementType<3>> types{hexahedron20_reduced(), hexahedron20(), hexahedron8(),

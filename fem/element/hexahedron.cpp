@@ -14,14 +14,8 @@ constexpr int kCorners = 8;
 constexpr int kVtkHexahedron = 12;
 constexpr int kVtkQuadraticHexahedron = 25;
 
-const std::array<Eigen::Vector3d, kCorners> kCornerPositions{{{-1, -1, -1},
-                                                              {1, -1, -1},
-                                                              {1, 1, -1},
-                                                              {-1, 1, -1},
-                                                              {-1, -1, 1},
-                                                              {1, -1, 1},
-                                                              {1, 1, 1},
-                                                              {-1, 1, 1}}};
+const std::array<Eigen::Vector3d, kCorners> kCornerPositions{
+    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
 /// Corners of each edge, in the order of its middle node.
 const std::vector<std::array<int, 2>> kEdges{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                                              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
@@ -35,7 +29,8 @@ ShapeFunctions<3> trilinear(const Eigen::Vector3d& position) {
     const Eigen::Vector3d& at = kCornerPositions[static_cast<std::size_t>(a)];
     const Eigen::Array3d f = 1.0 + position.array() * at.array();
     shape.value(a) = 0.125 * f(0) * f(1) * f(2);
-    shape.derivative.row(a) << 0.125 * at(0) * f(1) * f(2), 0.125 * at(1) * f(0) * f(2), 0.125 * at(2) * f(0) * f(1);
+    shape.derivative.row(a) << 0.125 * at(0) * f(1) * f(2), 0.125 * at(1) * f(0) * f(2),
+        0.125 * at(2) * f(0) * f(1);
   }
   return shape;
 }
@@ -103,8 +98,9 @@ ElementType<3> hexahedron20() {
 }
 ElementType<3> hexahedron8() {
   static const ElementType<2> face = quadrilateral4();
-  return {"H8",      kCorners, kCorners, kVtkHexahedron, gauss_cube(2), positions(false),
-          trilinear, true,     faces(kFaces, {}, kCorners, face)};
+  return {"H8",           kCorners,      kCorners,
+          kVtkHexahedron, gauss_cube(2), positions(false),
+          trilinear,      true,          faces(kFaces, {}, kCorners, face)};
 }
 
 }  // namespace polargrain::fem

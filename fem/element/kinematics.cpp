@@ -16,7 +16,8 @@ using NodeColumns = Eigen::Map<const Eigen::Matrix<double, Cosserat<dim>::dofs, 
 
 /// Rotation and curvature of the field of micro-rotations.
 template <int dim>
-void add_micro_rotation(const PointGeometry<dim>& point, const NodeColumns<dim>& values, Increment<dim>& increment) {
+void add_micro_rotation(const PointGeometry<dim>& point, const NodeColumns<dim>& values,
+                        Increment<dim>& increment) {
   const auto rotations = values.template bottomRows<Cosserat<dim>::rotations>();
   if constexpr (dim == 2) {
     increment.micro_rotation = rotations.row(0).dot(point.shape);
@@ -53,13 +54,15 @@ std::vector<PointGeometry<dim>> point_geometries(const ElementType<dim>& type, c
   }
   if (type.mean_dilatation) {
     mean /= volume;
-    for (PointGeometry<dim>& point : points) point.dilatation_correction = (1.0 / dim) * (mean - point.gradient);
+    for (PointGeometry<dim>& point : points)
+      point.dilatation_correction = (1.0 / dim) * (mean - point.gradient);
   }
   return points;
 }
 
 template <int dim>
-Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum, const Eigen::VectorXd& dofs) {
+Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum,
+                            const Eigen::VectorXd& dofs) {
   Increment<dim> increment;
   const NodeColumns<dim> values(dofs.data(), Cosserat<dim>::dofs, point.shape.size());
   auto& h = increment.displacement_gradient;
@@ -79,8 +82,8 @@ Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum
 }
 
 template <int dim>
-Increment<dim> large_increment_at(const PointGeometry<dim>& start, Continuum continuum, const Eigen::VectorXd& dofs,
-                                  double dilatation) {
+Increment<dim> large_increment_at(const PointGeometry<dim>& start, Continuum continuum,
+                                  const Eigen::VectorXd& dofs, double dilatation) {
   using Gradient = typename Cosserat<dim>::Gradient;
   Increment<dim> increment;
   increment.configuration = Configuration::start;
@@ -110,7 +113,8 @@ StrainMatrix<dim> strain_matrix(const PointGeometry<dim>& point, Continuum conti
     for (int j = 0; j < dim; ++j) node(Counts::stress_place(j, j), j) = gradient(j);
     if (point.dilatation_correction.size() > 0) {
       for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j) node(Counts::stress_place(i, i), j) += point.dilatation_correction(a, j);
+        for (int j = 0; j < dim; ++j)
+          node(Counts::stress_place(i, i), j) += point.dilatation_correction(a, j);
     }
     for (int i = 0; i < dim; ++i) {
       for (int j = 0; j < dim; ++j) {
@@ -123,7 +127,8 @@ StrainMatrix<dim> strain_matrix(const PointGeometry<dim>& point, Continuum conti
         }
         node(row, j) = gradient(i);
         for (int k = 0; k < Counts::rotations; ++k)
-          if (const int sign = permutation(i, j, Counts::axis(k)); sign != 0) node(row, dim + k) = -sign * point.shape(a);
+          if (const int sign = permutation(i, j, Counts::axis(k)); sign != 0)
+            node(row, dim + k) = -sign * point.shape(a);
       }
     }
     if (continuum == Continuum::cauchy) continue;
@@ -135,8 +140,10 @@ StrainMatrix<dim> strain_matrix(const PointGeometry<dim>& point, Continuum conti
 
 template Cosserat<2>::Gradient jacobian<2>(const VectorRows<2>& nodes, const ShapeFunctions<2>& shape);
 template Cosserat<3>::Gradient jacobian<3>(const VectorRows<3>& nodes, const ShapeFunctions<3>& shape);
-template std::vector<PointGeometry<2>> point_geometries<2>(const ElementType<2>& type, const VectorRows<2>& nodes);
-template std::vector<PointGeometry<3>> point_geometries<3>(const ElementType<3>& type, const VectorRows<3>& nodes);
+template std::vector<PointGeometry<2>> point_geometries<2>(const ElementType<2>& type,
+                                                           const VectorRows<2>& nodes);
+template std::vector<PointGeometry<3>> point_geometries<3>(const ElementType<3>& type,
+                                                           const VectorRows<3>& nodes);
 template Increment<2> increment_at<2>(const PointGeometry<2>& point, Continuum continuum,
                                       const Eigen::VectorXd& dofs);
 template Increment<3> increment_at<3>(const PointGeometry<3>& point, Continuum continuum,

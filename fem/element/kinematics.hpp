@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/increment.hpp"
 #include "common/cosserat.hpp"
+#include "common/increment.hpp"
 #include "fem/element/element_type.hpp"
 
 namespace polargrain::fem {
@@ -37,15 +37,16 @@ std::vector<PointGeometry<dim>> point_geometries(const ElementType<dim>& type, c
 
 /// The increment that the point feels (docs/theory.md, A.1). @param dofs the unknowns of each node in turn.
 template <int dim>
-Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum, const Eigen::VectorXd& dofs);
+Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum,
+                            const Eigen::VectorXd& dofs);
 
 /// The same in large deformation: gradients about the start of the step (Configuration::start).
 /// @param start the geometry at the start of the step @param dofs their changes over the step
 /// @param dilatation by which lengths are multiplied so that the volume ratio is that of the element: 1 but for
 /// elements with mean dilatation (F-bar: de Souza Neto and others 1996)
 template <int dim>
-Increment<dim> large_increment_at(const PointGeometry<dim>& start, Continuum continuum, const Eigen::VectorXd& dofs,
-                             double dilatation);
+Increment<dim> large_increment_at(const PointGeometry<dim>& start, Continuum continuum,
+                                  const Eigen::VectorXd& dofs, double dilatation);
 
 /// A row a component of Cosserat<dim>, a column an unknown of the element.
 template <int dim>

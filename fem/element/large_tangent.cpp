@@ -97,7 +97,8 @@ Eigen::VectorXd change_of_shape(const PointGeometry<2>& end, const Eigen::Matrix
 
 template <>
 Eigen::MatrixXd large_tangent<2>(const PointGeometry<2>& end, const PointGeometry<2>& start,
-                              const Increment<2>& increment, Continuum continuum, const Response<2>& response) {
+                                 const Increment<2>& increment, Continuum continuum,
+                                 const Response<2>& response) {
   const auto nodes = end.shape.size();
   const StepKinematics step(increment, continuum);
   const Eigen::Matrix2d s = in_plane(response.stress);
@@ -142,7 +143,7 @@ class SpaceStep {
         cosserat_(continuum == Continuum::cosserat) {}
 
   struct Variation {
-    Vector18 strain = Vector18::Zero();                ///< in the axes of the end
+    Vector18 strain = Vector18::Zero();              ///< in the axes of the end
     Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();  ///< dR R^T
   };
 
@@ -154,11 +155,14 @@ class SpaceStep {
     Increment<3> stretch;
     stretch.displacement_gradient = 4.0 * parts_.inverse * change.stretch * parts_.inverse;
     if (cosserat_) {
-      const Eigen::Vector3d turned = inverse_right_jacobian(parts_.vector) * change.spin;  // of the vector of R
-      const Eigen::Matrix3d of_back = back * cross_matrix(right_jacobian(-0.5 * parts_.vector) * (-0.5 * turned));
+      const Eigen::Vector3d turned =
+          inverse_right_jacobian(parts_.vector) * change.spin;  // of the vector of R
+      const Eigen::Matrix3d of_back =
+          back * cross_matrix(right_jacobian(-0.5 * parts_.vector) * (-0.5 * turned));
       stretch.rotation = of_back * increment_.rotation - turned;
-      stretch.curvature = 2.0 * (of_back * increment_.curvature * parts_.inverse -
-                                 back * increment_.curvature * parts_.inverse * change.stretch * parts_.inverse);
+      stretch.curvature =
+          2.0 * (of_back * increment_.curvature * parts_.inverse -
+                 back * increment_.curvature * parts_.inverse * change.stretch * parts_.inverse);
     }
     Variation made{rotated(stretch.strain(), parts_.rotation), {}};
     made.spin = parts_.rotation * cross_matrix(change.spin) * parts_.rotation.transpose();
@@ -218,7 +222,8 @@ Eigen::VectorXd change_of_shape(const PointGeometry<3>& end, const Eigen::Matrix
 
 template <>
 Eigen::MatrixXd large_tangent<3>(const PointGeometry<3>& end, const PointGeometry<3>& start,
-                                 const Increment<3>& increment, Continuum continuum, const Response<3>& response) {
+                                 const Increment<3>& increment, Continuum continuum,
+                                 const Response<3>& response) {
   const auto nodes = end.shape.size();
   const SpaceStep step(increment, continuum);
   const Eigen::Matrix3d s = tensor(response.stress, 0);

@@ -13,7 +13,8 @@ namespace polargrain::fem {
 /// @param start, end geometry of the point at both ends of the step @param increment that the material was given
 template <int dim>
 Eigen::MatrixXd large_tangent(const PointGeometry<dim>& end, const PointGeometry<dim>& start,
-                              const Increment<dim>& increment, Continuum continuum, const Response<dim>& response);
+                              const Increment<dim>& increment, Continuum continuum,
+                              const Response<dim>& response);
 
 /// The further stiffness of elements with mean dilatation: their mean gradients change with the shape of the element.
 /// @param points of the element at the end of the step @param answers as many

@@ -37,15 +37,9 @@ const ElementType<1>& line2() {
 }
 
 const ElementType<1>& line3() {
-  static const ElementType<1> type{"L3",
-                                   3,
-                                   2,
-                                   kVtkQuadraticEdge,
-                                   three_points(),
-                                   {Position(-1.0), Position(1.0), Position(0.0)},
-                                   quadratic,
-                                   false,
-                                   {}};
+  static const ElementType<1> type{
+      "L3",      3,     2, kVtkQuadraticEdge, three_points(), {Position(-1.0), Position(1.0), Position(0.0)},
+      quadratic, false, {}};
   return type;
 }
 

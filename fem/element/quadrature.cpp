@@ -45,7 +45,10 @@ std::vector<QuadraturePoint<3>> tetrahedron_four_points() {
   const double near = (5.0 + 3.0 * std::sqrt(5.0)) / 20.0;
   const double far = (5.0 - std::sqrt(5.0)) / 20.0;
   constexpr double weight = 1.0 / 24.0;
-  return {{{far, far, far}, weight}, {{near, far, far}, weight}, {{far, near, far}, weight}, {{far, far, near}, weight}};
+  return {{{far, far, far}, weight},
+          {{near, far, far}, weight},
+          {{far, near, far}, weight},
+          {{far, far, near}, weight}};
 }
 
 }  // namespace polargrain::fem

@@ -56,14 +56,28 @@ constexpr int kVtkQuad = 9;
 constexpr int kVtkQuadraticQuad = 23;
 
 ElementType<2> serendipity_type(const char* name, int points) {
-  return {name,        8,    4, kVtkQuadraticQuad, gauss_square(points), {kNodes.begin(), kNodes.end()},
-          serendipity, false, sides_of_polygon(4, true)};
+  return {name,
+          8,
+          4,
+          kVtkQuadraticQuad,
+          gauss_square(points),
+          {kNodes.begin(), kNodes.end()},
+          serendipity,
+          false,
+          sides_of_polygon(4, true)};
 }
 
 }  // namespace
 
 ElementType<2> quadrilateral4() {
-  return {"Q4", 4, 4, kVtkQuad, gauss_square(2), {kNodes.begin(), kNodes.begin() + 4}, bilinear, true,
+  return {"Q4",
+          4,
+          4,
+          kVtkQuad,
+          gauss_square(2),
+          {kNodes.begin(), kNodes.begin() + 4},
+          bilinear,
+          true,
           sides_of_polygon(4, false)};
 }
 ElementType<2> quadrilateral8_reduced() {

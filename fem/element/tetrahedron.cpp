@@ -40,8 +40,8 @@ ElementType<3> tetrahedron10() {
   static const ElementType<2> face = triangle6();
   std::vector<Eigen::Vector3d> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const auto& [first, second] : kEdges)
-    positions.push_back(0.5 *
-                        (positions[static_cast<std::size_t>(first)] + positions[static_cast<std::size_t>(second)]));
+    positions.push_back(
+        0.5 * (positions[static_cast<std::size_t>(first)] + positions[static_cast<std::size_t>(second)]));
   return {"T10",
           kCorners + static_cast<int>(kEdges.size()),
           kCorners,

@@ -19,8 +19,8 @@ ScaledMatrix<double, dim> side_tangent(const ConeReturn<double, dim>& end, const
 
   ScaledVector<double, dim> q_direction = ScaledVector<double, dim>::Zero();       // a: dq at fixed zeta
   ScaledVector<double, dim> return_direction = ScaledVector<double, dim>::Zero();  // sum_k (c_k / w_k) s_k
-  std::array<double, 3> retained_stiffness{};                            // d_k / w_k
-  double q_softening = 0.0;                                              // A: -dq / d zeta
+  std::array<double, 3> retained_stiffness{};                                      // d_k / w_k
+  double q_softening = 0.0;                                                        // A: -dq / d zeta
   for (std::size_t k = 0; k < 3; ++k) {
     const double c = moduli.return_stiffness(k);
     const double w = 1.0 + zeta * c;
@@ -31,10 +31,11 @@ ScaledMatrix<double, dim> side_tangent(const ConeReturn<double, dim>& end, const
   }
   const double dilatancy = cone.dilatancy + end.gamma_increment * cone.dilatancy_slope;
   double mean = stress.mean;
-  if constexpr (dim == 2) mean = end.stress.template head<3>().sum() / 3.0;  // the order of the sum decides its last bit
-  const double hardening = cone.friction_slope * mean - cone.cohesion_slope -
-                           moduli.bulk * cone.friction * dilatancy;  // H
-  const double multiplier_growth = q - zeta * q_softening;           // (3/2) d lambda / d zeta
+  if constexpr (dim == 2)
+    mean = end.stress.template head<3>().sum() / 3.0;  // the order of the sum decides its last bit
+  const double hardening =
+      cone.friction_slope * mean - cone.cohesion_slope - moduli.bulk * cone.friction * dilatancy;  // H
+  const double multiplier_growth = q - zeta * q_softening;  // (3/2) d lambda / d zeta
   const ScaledVector<double, dim> zeta_gradient =
       ((1.0 + 2.0 / 3.0 * hardening * zeta) * q_direction + cone.friction * moduli.bulk * one) /
       (q_softening - 2.0 / 3.0 * hardening * multiplier_growth);
@@ -82,9 +83,9 @@ ScaledMatrix<double, dim> apex_tangent(const Split<double, dim>& trial, const Co
 /// (docs/theory/plasticity.md, B.5, B.6). Not symmetric where dilatancy and friction differ.
 /// @param trial the trial stress that `end` was returned from; `end` must carry no fault.
 template <int size>
-Eigen::Matrix<double, size, size> consistent_tangent(const Eigen::Matrix<double, size, 1>& trial,
-                                                     const ConeReturn<double, dimension_of_components<size>>& end,
-                                                     const SubspaceModuli& moduli) {
+Eigen::Matrix<double, size, size> consistent_tangent(
+    const Eigen::Matrix<double, size, 1>& trial, const ConeReturn<double, dimension_of_components<size>>& end,
+    const SubspaceModuli& moduli) {
   constexpr int dim = dimension_of_components<size>;
   switch (end.regime) {
     case Regime::smooth:

@@ -32,10 +32,10 @@ std::vector<std::string> faults(const ElasticParameters<dim>& parameters) {
   const double transpose = parameters.couple_transpose_ratio;
   // The eigenvalues of the couple law on spherical, symmetric deviatoric and skew curvatures.
   if (!(3.0 * trace + transpose + 1.0 >= 0.0 && std::abs(transpose) <= 1.0)) {
-    messages.push_back(
-        fmt::format("the couple moduli must not be negative: beta over gamma must lie from -1 to 1, found {}, and "
-                    "3 alpha + beta over gamma must be at least -1, found {}",
-                    transpose, 3.0 * trace + transpose));
+    messages.push_back(fmt::format(
+        "the couple moduli must not be negative: beta over gamma must lie from -1 to 1, found {}, and "
+        "3 alpha + beta over gamma must be at least -1, found {}",
+        transpose, 3.0 * trace + transpose));
   }
   return messages;
 }
@@ -64,11 +64,13 @@ typename Cosserat<dim>::Matrix elastic_stiffness(const ElasticParameters<dim>& p
   }
   const double gamma = 2.0 * g * parameters.internal_length * parameters.internal_length;
   for (int i = 0; i < dim; ++i)
-    for (int k = 0; k < Counts::rotations; ++k) d(Counts::couple_place(i, k), Counts::couple_place(i, k)) = gamma;
+    for (int k = 0; k < Counts::rotations; ++k)
+      d(Counts::couple_place(i, k), Counts::couple_place(i, k)) = gamma;
   if constexpr (dim == 3) {
     for (int i = 0; i < dim; ++i) {
       for (int j = 0; j < dim; ++j) {
-        d(Counts::couple_place(i, j), Counts::couple_place(j, i)) += parameters.couple_transpose_ratio * gamma;
+        d(Counts::couple_place(i, j), Counts::couple_place(j, i)) +=
+            parameters.couple_transpose_ratio * gamma;
         d(Counts::couple_place(i, i), Counts::couple_place(j, j)) += parameters.couple_trace_ratio * gamma;
       }
     }
@@ -77,7 +79,8 @@ typename Cosserat<dim>::Matrix elastic_stiffness(const ElasticParameters<dim>& p
 }
 
 template <int dim>
-ElasticLaw<dim>::ElasticLaw(const ElasticParameters<dim>& parameters) : initial_stress_(parameters.initial_stress) {
+ElasticLaw<dim>::ElasticLaw(const ElasticParameters<dim>& parameters)
+    : initial_stress_(parameters.initial_stress) {
   if (const auto messages = faults(parameters); !messages.empty()) {
     throw RunError(fmt::format("elastic material: {}", fmt::join(messages, "; ")));
   }

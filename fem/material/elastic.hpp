@@ -13,10 +13,10 @@ namespace polargrain::fem {
 /// Isotropic Cosserat elasticity, in the plane in plane strain (docs/theory.md, A.4).
 template <int dim>
 struct ElasticParameters {
-  double young_modulus = 0.0;                ///< E, Pa
-  double poisson_ratio = 0.0;                ///< nu, in (-1, 0.5)
-  double cosserat_shear_modulus = 0.0;       ///< Gc, Pa
-  double internal_length = 0.0;              ///< lc, m; the couple modulus gamma is 2 G lc^2
+  double young_modulus = 0.0;           ///< E, Pa
+  double poisson_ratio = 0.0;           ///< nu, in (-1, 0.5)
+  double cosserat_shear_modulus = 0.0;  ///< Gc, Pa
+  double internal_length = 0.0;         ///< lc, m; the couple modulus gamma is 2 G lc^2
   /// In the order of Cosserat<dim>, Pa and N/m.
   typename Cosserat<dim>::Vector initial_stress = Cosserat<dim>::Vector::Zero();
   /// alpha and beta over gamma in m_ij = alpha kappa_kk d_ij + beta kappa_ji + gamma kappa_ij. The plane does not feel them.
@@ -58,7 +58,8 @@ class ElasticLaw {
   [[nodiscard]] static State unpacked(std::span<const double> values) {
     return {Vector(Eigen::Map<const Vector>(values.data()))};
   }
-  [[nodiscard]] Response<dim> integrate(const State& start, const Increment<dim>& increment, State& trial) const {
+  [[nodiscard]] Response<dim> integrate(const State& start, const Increment<dim>& increment,
+                                        State& trial) const {
     return integrate(start, increment.strain(), trial);
   }
   [[nodiscard]] Response<dim> integrate(const State& start, const Vector& strain, State& trial) const;

@@ -39,8 +39,10 @@ typename Cosserat<dim>::Vector component_scale(double length) {
 }
 
 template <int dim, class ConeAt>
-Response<dim> integrate(const ElastoplasticFrame<dim>& frame, const ConeAt& cone, const ElastoplasticState<dim>& start,
-                   const typename Cosserat<dim>::Vector& strain_increment, ElastoplasticState<dim>& trial) {
+Response<dim> integrate(const ElastoplasticFrame<dim>& frame, const ConeAt& cone,
+                        const ElastoplasticState<dim>& start,
+                        const typename Cosserat<dim>::Vector& strain_increment,
+                        ElastoplasticState<dim>& trial) {
   const typename Cosserat<dim>::Vector scale = component_scale<dim>(frame.length);
   const ScaledVector<double, dim> strain = strain_increment.cwiseProduct(scale);
   const ScaledVector<double, dim> trial_stress = start.scaled_stress + elastic_stress(frame.moduli, strain);
@@ -68,28 +70,30 @@ Response<dim> integrate(const ElastoplasticFrame<dim>& frame, const ConeAt& cone
 }  // namespace
 
 template <int dim>
-typename Cosserat<dim>::Vector ElastoplasticFrame<dim>::unscaled_stress(const ScaledVector<double, dim>& scaled) const {
+typename Cosserat<dim>::Vector ElastoplasticFrame<dim>::unscaled_stress(
+    const ScaledVector<double, dim>& scaled) const {
   return scaled.cwiseProduct(component_scale<dim>(length));
 }
 
 template <int dim>
 Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const HardeningCone& cone,
-                                 const ElastoplasticState<dim>& start, const Increment<dim>& increment,
-                                 ElastoplasticState<dim>& trial) {
+                                      const ElastoplasticState<dim>& start, const Increment<dim>& increment,
+                                      ElastoplasticState<dim>& trial) {
   return integrate(frame, cone, start, increment.strain(), trial);
 }
 
 template <int dim>
 Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const HardeningCone& cone,
-                                 const ElastoplasticState<dim>& start, const typename Cosserat<dim>::Vector& strain,
-                                 ElastoplasticState<dim>& trial) {
+                                      const ElastoplasticState<dim>& start,
+                                      const typename Cosserat<dim>::Vector& strain,
+                                      ElastoplasticState<dim>& trial) {
   return integrate(frame, cone, start, strain, trial);
 }
 
 template <int dim>
 Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const FrozenCone& cone,
-                                 const ElastoplasticState<dim>& start, const Increment<dim>& increment,
-                                 ElastoplasticState<dim>& trial) {
+                                      const ElastoplasticState<dim>& start, const Increment<dim>& increment,
+                                      ElastoplasticState<dim>& trial) {
   return integrate(frame, cone, start, increment.strain(), trial);
 }
 
@@ -105,7 +109,8 @@ ElastoplasticLaw<dim>::ElastoplasticLaw(const ElastoplasticParameters<dim>& para
 }
 
 template <int dim>
-ElastoplasticState<dim> ElastoplasticLaw<dim>::initial_state(const typename Cosserat<dim>::Vector& stress) const {
+ElastoplasticState<dim> ElastoplasticLaw<dim>::initial_state(
+    const typename Cosserat<dim>::Vector& stress) const {
   State state;
   state.scaled_stress = stress;
   if (frame_.length > 0.0) {
@@ -140,12 +145,26 @@ void ElastoplasticLaw<dim>::fields(const State& state, std::span<double> values)
   values[1] = static_cast<double>(state.regime);
 }
 
-template Response<2> integrate_elastoplastic<2>(const ElastoplasticFrame<2>& frame, const HardeningCone& cone, const ElastoplasticState<2>& start, const Increment<2>& increment, ElastoplasticState<2>& trial);
-template Response<3> integrate_elastoplastic<3>(const ElastoplasticFrame<3>& frame, const HardeningCone& cone, const ElastoplasticState<3>& start, const Increment<3>& increment, ElastoplasticState<3>& trial);
-template Response<2> integrate_elastoplastic<2>(const ElastoplasticFrame<2>& frame, const HardeningCone& cone, const ElastoplasticState<2>& start, const Cosserat<2>::Vector& strain, ElastoplasticState<2>& trial);
-template Response<3> integrate_elastoplastic<3>(const ElastoplasticFrame<3>& frame, const HardeningCone& cone, const ElastoplasticState<3>& start, const Cosserat<3>::Vector& strain, ElastoplasticState<3>& trial);
-template Response<2> integrate_elastoplastic<2>(const ElastoplasticFrame<2>& frame, const FrozenCone& cone, const ElastoplasticState<2>& start, const Increment<2>& increment, ElastoplasticState<2>& trial);
-template Response<3> integrate_elastoplastic<3>(const ElastoplasticFrame<3>& frame, const FrozenCone& cone, const ElastoplasticState<3>& start, const Increment<3>& increment, ElastoplasticState<3>& trial);
+template Response<2> integrate_elastoplastic<2>(const ElastoplasticFrame<2>& frame, const HardeningCone& cone,
+                                                const ElastoplasticState<2>& start,
+                                                const Increment<2>& increment, ElastoplasticState<2>& trial);
+template Response<3> integrate_elastoplastic<3>(const ElastoplasticFrame<3>& frame, const HardeningCone& cone,
+                                                const ElastoplasticState<3>& start,
+                                                const Increment<3>& increment, ElastoplasticState<3>& trial);
+template Response<2> integrate_elastoplastic<2>(const ElastoplasticFrame<2>& frame, const HardeningCone& cone,
+                                                const ElastoplasticState<2>& start,
+                                                const Cosserat<2>::Vector& strain,
+                                                ElastoplasticState<2>& trial);
+template Response<3> integrate_elastoplastic<3>(const ElastoplasticFrame<3>& frame, const HardeningCone& cone,
+                                                const ElastoplasticState<3>& start,
+                                                const Cosserat<3>::Vector& strain,
+                                                ElastoplasticState<3>& trial);
+template Response<2> integrate_elastoplastic<2>(const ElastoplasticFrame<2>& frame, const FrozenCone& cone,
+                                                const ElastoplasticState<2>& start,
+                                                const Increment<2>& increment, ElastoplasticState<2>& trial);
+template Response<3> integrate_elastoplastic<3>(const ElastoplasticFrame<3>& frame, const FrozenCone& cone,
+                                                const ElastoplasticState<3>& start,
+                                                const Increment<3>& increment, ElastoplasticState<3>& trial);
 template class ElastoplasticFrame<2>;
 template class ElastoplasticFrame<3>;
 template class ElastoplasticLaw<2>;

@@ -57,19 +57,20 @@ struct ElastoplasticFrame {
 /// `trial` equal to `start`. Response::tangent is consistent with the step (plus the apex share).
 template <int dim>
 Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const HardeningCone& cone,
-                                 const ElastoplasticState<dim>& start, const Increment<dim>& increment,
-                                 ElastoplasticState<dim>& trial);
+                                      const ElastoplasticState<dim>& start, const Increment<dim>& increment,
+                                      ElastoplasticState<dim>& trial);
 /// The same with mobilised friction and dilatancy given from outside for this step (B.9).
 template <int dim>
 Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const FrozenCone& cone,
-                                 const ElastoplasticState<dim>& start, const Increment<dim>& increment,
-                                 ElastoplasticState<dim>& trial);
+                                      const ElastoplasticState<dim>& start, const Increment<dim>& increment,
+                                      ElastoplasticState<dim>& trial);
 
 /// The same along a strain; in the plane eps_33 need not be zero.
 template <int dim>
 Response<dim> integrate_elastoplastic(const ElastoplasticFrame<dim>& frame, const HardeningCone& cone,
-                                 const ElastoplasticState<dim>& start, const typename Cosserat<dim>::Vector& strain,
-                                 ElastoplasticState<dim>& trial);
+                                      const ElastoplasticState<dim>& start,
+                                      const typename Cosserat<dim>::Vector& strain,
+                                      ElastoplasticState<dim>& trial);
 
 /// The elastoplastic material as a local law (local_material.hpp).
 template <int dim>
@@ -89,10 +90,12 @@ class ElastoplasticLaw {
     state.scaled_stress = fem::rotated(state.scaled_stress, turn);
     return state;
   }
-  [[nodiscard]] Response<dim> integrate(const State& start, const Increment<dim>& increment, State& trial) const {
+  [[nodiscard]] Response<dim> integrate(const State& start, const Increment<dim>& increment,
+                                        State& trial) const {
     return integrate_elastoplastic(frame_, cone_, start, increment, trial);
   }
-  [[nodiscard]] Response<dim> integrate(const State& start, const typename Cosserat<dim>::Vector& strain, State& trial) const {
+  [[nodiscard]] Response<dim> integrate(const State& start, const typename Cosserat<dim>::Vector& strain,
+                                        State& trial) const {
     return integrate_elastoplastic(frame_, cone_, start, strain, trial);
   }
 

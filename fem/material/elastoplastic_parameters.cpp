@@ -125,10 +125,10 @@ void check_initial_stress(const ElastoplasticParameters<dim>& parameters, const 
       const double one = initial(Counts::stress_place(i, j));
       const double other = initial(Counts::stress_place(j, i));
       if (parameters.elastic.cosserat_shear_modulus != 0.0 || one == other) continue;
-      found.push_back(
-          fmt::format("the initial stress has s{0}{1} = {2} and s{1}{0} = {3} Pa, but with Gc = 0 nothing carries "
-                      "their difference; make them equal or give Gc > 0",
-                      i + 1, j + 1, one, other));
+      found.push_back(fmt::format(
+          "the initial stress has s{0}{1} = {2} and s{1}{0} = {3} Pa, but with Gc = 0 nothing carries "
+          "their difference; make them equal or give Gc > 0",
+          i + 1, j + 1, one, other));
       return;
     }
   }

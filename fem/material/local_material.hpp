@@ -36,15 +36,17 @@ namespace polargrain::fem {
 template <class Law>
 inline constexpr int dimension_of = 2;
 template <class Law>
-  requires requires { Law::dimension; }
+requires requires {
+  Law::dimension;
+}
 inline constexpr int dimension_of<Law> = Law::dimension;
 
 template <class Law>
 using StressOf = typename Cosserat<dimension_of<Law>>::Vector;
 
 template <class Law>
-concept LocalLaw = requires(const Law law, const typename Law::State start, const Increment<dimension_of<Law>> increment,
-                            typename Law::State trial) {
+concept LocalLaw = requires(const Law law, const typename Law::State start,
+                            const Increment<dimension_of<Law>> increment, typename Law::State trial) {
   { law.initial_state() } -> std::same_as<typename Law::State>;
   { law.integrate(start, increment, trial) } -> std::same_as<Response<dimension_of<Law>>>;
 };
@@ -77,8 +79,9 @@ concept LawWithArchive = requires(const typename Law::State state, std::span<con
 
 /// The law also follows strains along e_3.
 template <class Law>
-concept LawOfStrain = dimension_of<Law> == 2 && requires(const Law law, const typename Law::State start, const StressOf<Law> strain,
-                               typename Law::State trial) {
+concept LawOfStrain = dimension_of<Law>
+== 2 && requires(const Law law, const typename Law::State start, const StressOf<Law> strain,
+                 typename Law::State trial) {
   { law.integrate(start, strain, trial) } -> std::same_as<Response<dimension_of<Law>>>;
 };
 

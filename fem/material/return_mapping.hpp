@@ -63,7 +63,8 @@ struct YieldEquation {
   std::array<double, 3> relative{};  ///< r_k = c_k / (2G)
 
   template <int dim>
-  YieldEquation(const SubspaceModuli& m, const ConeAt& c, const Scalar& gamma, const Split<Scalar, dim>& trial)
+  YieldEquation(const SubspaceModuli& m, const ConeAt& c, const Scalar& gamma,
+                const Split<Scalar, dim>& trial)
       : moduli(m), cone_at(c), gamma_p(gamma), mean(trial.mean) {
     for (std::size_t k = 0; k < 3; ++k) {
       squared[k] = square_of_part(trial, k, m.couples);
@@ -181,8 +182,9 @@ bool solve_yield_equation(const YieldEquation<Scalar, ConeAt>& equation, double 
 /// Two-mechanism return to the tip, B.5: explicit, for any dilatancy. `cone` is the one at the end of the
 /// step.
 template <class Scalar, int dim>
-void return_to_apex(const Split<Scalar, dim>& trial, const SubspaceModuli& moduli, const Scalar& gamma_increment,
-                    const Cone<Scalar>& cone, ConeReturn<Scalar, dim>& result) {
+void return_to_apex(const Split<Scalar, dim>& trial, const SubspaceModuli& moduli,
+                    const Scalar& gamma_increment, const Cone<Scalar>& cone,
+                    ConeReturn<Scalar, dim>& result) {
   result.regime = Regime::apex;
   result.gamma_increment = gamma_increment;
   result.cone = cone;
@@ -197,8 +199,8 @@ void return_to_apex(const Split<Scalar, dim>& trial, const SubspaceModuli& modul
 /// Return to the side of the cone, B.4. `trial_q` and `trial_yield` (Pa) belong to the trial state and
 /// result.cone to the start of the step.
 template <class Scalar, int dim, class ConeAt>
-void return_to_side(const Split<Scalar, dim>& trial, const YieldEquation<Scalar, ConeAt>& equation, double trial_q,
-                    double trial_yield, double scale, ConeReturn<Scalar, dim>& result) {
+void return_to_side(const Split<Scalar, dim>& trial, const YieldEquation<Scalar, ConeAt>& equation,
+                    double trial_q, double trial_yield, double scale, ConeReturn<Scalar, dim>& result) {
   const SubspaceModuli& moduli = equation.moduli;
   result.regime = Regime::smooth;
   // Exact for perfect plasticity with the default invariant weights.

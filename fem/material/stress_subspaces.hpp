@@ -91,11 +91,14 @@ struct Split {
     } else {
       using Space = Cosserat<3>;
       for (ScaledVector<Scalar, dim>& one : part) one.setZero();
-      mean = (whole(Space::stress_place(0, 0)) + whole(Space::stress_place(1, 1)) + whole(Space::stress_place(2, 2))) / 3.0;
+      mean = (whole(Space::stress_place(0, 0)) + whole(Space::stress_place(1, 1)) +
+              whole(Space::stress_place(2, 2))) /
+             3.0;
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
           const int place = Space::stress_place(i, j);
-          part[0](place) = 0.5 * (whole(place) + whole(Space::stress_place(j, i))) - (i == j ? mean : Scalar(0.0));
+          part[0](place) =
+              0.5 * (whole(place) + whole(Space::stress_place(j, i))) - (i == j ? mean : Scalar(0.0));
           part[1](place) = 0.5 * (whole(place) - whole(Space::stress_place(j, i)));
         }
       }
@@ -123,13 +126,15 @@ void add_volumetric(Eigen::Matrix<double, size, size>& matrix, double factor) {
     matrix.template topLeftCorner<3, 3>().array() += factor;
   } else {
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) matrix(Cosserat<3>::stress_place(i, i), Cosserat<3>::stress_place(j, j)) += factor;
+      for (int j = 0; j < 3; ++j)
+        matrix(Cosserat<3>::stress_place(i, i), Cosserat<3>::stress_place(j, j)) += factor;
   }
 }
 
 /// sum_k factor_k Pi_k: the matrix that scales each subspace by its own factor, the couples with their shape besides.
 template <class Scalar, int dim = 2>
-ScaledMatrix<Scalar, dim> subspace_matrix(const std::array<Scalar, 3>& factor, const CoupleShape& shape = {}) {
+ScaledMatrix<Scalar, dim> subspace_matrix(const std::array<Scalar, 3>& factor,
+                                          const CoupleShape& shape = {}) {
   ScaledMatrix<Scalar, dim> matrix = ScaledMatrix<Scalar, dim>::Zero();
   if constexpr (dim == 2) {
     (void)shape;
@@ -168,7 +173,8 @@ ScaledMatrix<double, dim> elastic_stiffness(const SubspaceModuli& moduli) {
 
 /// The couple law without gamma: kappa + beta/gamma kappa^T + alpha/gamma tr kappa 1. In the plane kappa itself.
 template <class Scalar, int size>
-Eigen::Matrix<Scalar, size, 1> shaped(const Eigen::Matrix<Scalar, size, 1>& couples, const CoupleShape& shape) {
+Eigen::Matrix<Scalar, size, 1> shaped(const Eigen::Matrix<Scalar, size, 1>& couples,
+                                      const CoupleShape& shape) {
   if constexpr (size == Cosserat<2>::components) {
     (void)shape;
     return couples;

@@ -15,7 +15,8 @@ using GridPlace = std::array<int, 3>;
 /// Numbers nodes on a grid of half-element spacing, only where some element has a node.
 class HalfGrid {
  public:
-  HalfGrid(const BoxSpecification& specification, Mesh<3>& mesh) : specification_(specification), mesh_(mesh) {
+  HalfGrid(const BoxSpecification& specification, Mesh<3>& mesh)
+      : specification_(specification), mesh_(mesh) {
     std::size_t places = 1;
     for (std::size_t i = 0; i < 3; ++i) {
       counts_[i] = 2 * specification.elements[i] + 1;
@@ -68,7 +69,8 @@ void check(const BoxSpecification& specification) {
     if (!(specification.size[i] > 0.0))
       throw RunError(fmt::format("the size of a box must be positive, not {}", specification.size[i]));
     if (specification.elements[i] < 1)
-      throw RunError(fmt::format("a box needs at least 1 element each way, not {}", specification.elements[i]));
+      throw RunError(
+          fmt::format("a box needs at least 1 element each way, not {}", specification.elements[i]));
   }
 }
 
@@ -105,7 +107,8 @@ constexpr std::array<Face, 6> kFaces{
 
 void name_edges_and_corners(const HalfGrid& grid, Mesh<3>& mesh) {
   // In the order of names: bottom or top, front or back, left or right.
-  const std::array<std::array<std::string, 2>, 3> names{{{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
+  const std::array<std::array<std::string, 2>, 3> names{
+      {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
   for (int x = -1; x < 2; ++x)
     for (int y = -1; y < 2; ++y)
       for (int z = -1; z < 2; ++z) {

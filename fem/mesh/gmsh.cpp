@@ -62,7 +62,9 @@ GmshReaderFunction reader_function(const std::filesystem::path& mesh_file,
 class Reader {
  public:
   Reader(std::filesystem::path file, std::string_view quadrilateral8, GmshContent content)
-      : file_(std::move(file)), quadrilateral8_(element_type<2>(quadrilateral8)), content_(std::move(content)) {}
+      : file_(std::move(file)),
+        quadrilateral8_(element_type<2>(quadrilateral8)),
+        content_(std::move(content)) {}
 
   Mesh<2> read() {
     if (!content_.error.empty()) fail(fmt::format("Gmsh cannot read it: {}", content_.error));
@@ -274,7 +276,7 @@ std::vector<std::filesystem::path> gmsh_module_places() {
 }
 
 Mesh<2> read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8,
-               const std::vector<std::filesystem::path>& module_places) {
+                  const std::vector<std::filesystem::path>& module_places) {
   if (const std::string reason = why_no_input(file); !reason.empty())
     throw InputError(Fault{file.string(), 0, reason});
   // Gmsh takes a text of any other name for one of its scripts, and would run it.
@@ -296,6 +298,5 @@ Mesh<2> read_gmsh(const std::filesystem::path& file, std::string_view quadrilate
 Mesh<2> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8) {
   return Reader(file, quadrilateral8, std::move(content)).read();
 }
-
 
 }  // namespace polargrain::fem

@@ -23,9 +23,10 @@ std::vector<std::filesystem::path> gmsh_module_places();
 /// @throws InputError when the module with Gmsh's library cannot be loaded, the file cannot be read, has
 /// elements of other kinds, leaves the plane z = 0, or a curve of a physical group is not a side of an element.
 Mesh<2> read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8 = "Q8R",
-               const std::vector<std::filesystem::path>& module_places = gmsh_module_places());
+                  const std::vector<std::filesystem::path>& module_places = gmsh_module_places());
 
 /// The mesh that Gmsh's library has read from the file. @throws InputError as read_gmsh
-Mesh<2> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8 = "Q8R");
+Mesh<2> mesh_of(const std::filesystem::path& file, GmshContent content,
+                std::string_view quadrilateral8 = "Q8R");
 
 }  // namespace polargrain::fem

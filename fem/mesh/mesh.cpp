@@ -15,7 +15,8 @@ namespace polargrain::fem {
 
 template <int dim>
 const ElementSide<dim>& Mesh<dim>::side_of(const BoundarySide& side) const {
-  return elements.at(static_cast<std::size_t>(side.element)).type->sides.at(static_cast<std::size_t>(side.side));
+  return elements.at(static_cast<std::size_t>(side.element))
+      .type->sides.at(static_cast<std::size_t>(side.side));
 }
 
 template <int dim>
@@ -92,7 +93,7 @@ std::vector<std::string> distorted_elements(const Mesh<dim>& mesh) {
     const VectorRows<dim> positions = mesh.element_positions(static_cast<int>(e));
     // Corners bound the determinant of straight-sided elements; the points are where it is used.
     std::vector<typename Cosserat<dim>::Place> places(type.node_positions.begin(),
-                                        type.node_positions.begin() + type.corners);
+                                                      type.node_positions.begin() + type.corners);
     for (const QuadraturePoint<dim>& point : type.quadrature) places.push_back(point.position);
     for (const typename Cosserat<dim>::Place& place : places) {
       const ShapeFunctions<dim> shape = type.shape_functions(place);

@@ -13,7 +13,7 @@ namespace polargrain::fem {
 template <int dim>
 struct Element {
   const ElementType<dim>* type;  ///< never null; element types live as long as the program
-  std::vector<int> nodes;   ///< type->nodes numbers into Mesh::nodes, in the order of ElementType
+  std::vector<int> nodes;        ///< type->nodes numbers into Mesh::nodes, in the order of ElementType
 };
 
 /// Side `side` of element `element`: an edge in the plane, a face in space, seen from inside the body (ElementType::sides).
@@ -28,8 +28,8 @@ struct Mesh {
   std::vector<typename Cosserat<dim>::Place> nodes;  ///< positions, m
   std::vector<Element<dim>> elements;
   std::map<std::string, std::vector<BoundarySide>> boundaries;  ///< named parts of the boundary
-  std::map<std::string, std::vector<int>> regions;      ///< named sets of elements
-  std::map<std::string, std::vector<int>> node_sets;    ///< named sets of nodes
+  std::map<std::string, std::vector<int>> regions;              ///< named sets of elements
+  std::map<std::string, std::vector<int>> node_sets;            ///< named sets of nodes
 
   [[nodiscard]] const ElementSide<dim>& side_of(const BoundarySide& side) const;
   /// Global nodes of a side: the corners, then the middle nodes if there are any.

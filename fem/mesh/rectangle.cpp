@@ -82,8 +82,10 @@ Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view 
       const bool triangles = parts.size() == 2;
       if (row == 0) mesh.boundaries["bottom"].push_back({first, 0});
       if (column == columns - 1) mesh.boundaries["right"].push_back({first, 1});
-      if (row == rows - 1) mesh.boundaries["top"].push_back(triangles ? BoundarySide{first + 1, 1} : BoundarySide{first, 2});
-      if (column == 0) mesh.boundaries["left"].push_back(triangles ? BoundarySide{first + 1, 2} : BoundarySide{first, 3});
+      if (row == rows - 1)
+        mesh.boundaries["top"].push_back(triangles ? BoundarySide{first + 1, 1} : BoundarySide{first, 2});
+      if (column == 0)
+        mesh.boundaries["left"].push_back(triangles ? BoundarySide{first + 1, 2} : BoundarySide{first, 3});
     }
   }
   mesh.node_sets["bottom_left"] = {grid.node(0, 0)};
@@ -96,6 +98,5 @@ Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view 
   std::iota(mesh.regions["all"].begin(), mesh.regions["all"].end(), 0);
   return mesh;
 }
-
 
 }  // namespace polargrain::fem

@@ -228,11 +228,12 @@ void add_space_measures(std::vector<Field>& fields, const Field& stress) {
     principal.values.insert(principal.values.end(), found.principal.begin(), found.principal.end());
     for (int i = 0; i < 3; ++i) {
       const auto direction = found.directions.col(i);
-      directions[static_cast<std::size_t>(i)].values.insert(directions[static_cast<std::size_t>(i)].values.end(),
-                                                            {direction(0), direction(1), direction(2)});
+      directions[static_cast<std::size_t>(i)].values.insert(
+          directions[static_cast<std::size_t>(i)].values.end(), {direction(0), direction(1), direction(2)});
     }
   }
-  for (Field* const field : {&p, &q, &ratio, &lode, &friction, &principal, &directions[0], &directions[1], &directions[2]})
+  for (Field* const field :
+       {&p, &q, &ratio, &lode, &friction, &principal, &directions[0], &directions[1], &directions[2]})
     fields.push_back(std::move(*field));
 }
 

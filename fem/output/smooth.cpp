@@ -12,7 +12,8 @@ template <int dim>
 Eigen::MatrixXd extrapolation(const ElementType<dim>& type) {
   const auto points = static_cast<Eigen::Index>(type.quadrature.size());
   const Eigen::Index terms = points < dim + 1 ? 1 : dim + 1;
-  const auto rows_of = [terms](Eigen::MatrixXd& rows, Eigen::Index row, const typename Cosserat<dim>::Place& position) {
+  const auto rows_of = [terms](Eigen::MatrixXd& rows, Eigen::Index row,
+                               const typename Cosserat<dim>::Place& position) {
     rows(row, 0) = 1.0;
     if (terms > 1) rows.row(row).template tail<dim>() = position.transpose();
   };

@@ -71,7 +71,8 @@ SpaceStressMeasures measures_of(const Vector18& stress) {
     if (found.directions(place, i) < 0.0) found.directions.col(i) *= -1.0;
   }
   // -J3 is positive in triaxial compression, where the angle is zero.
-  const double cosine = -13.5 * deviator.determinant() / (found.deviatoric * found.deviatoric * found.deviatoric);
+  const double cosine =
+      -13.5 * deviator.determinant() / (found.deviatoric * found.deviatoric * found.deviatoric);
   found.lode_angle = arc_cosine(std::clamp(cosine, -1.0, 1.0)) / 3.0 * 180.0 / std::numbers::pi;
   const double centre = 0.5 * (found.principal(0) + found.principal(2));
   const double radius = 0.5 * (found.principal(2) - found.principal(0));

@@ -29,7 +29,8 @@ Discretisation<dim>::Discretisation(const Mesh<dim>& mesh, Continuum continuum)
   first_point_.push_back(0);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const int number = static_cast<int>(e);
-    for (PointGeometry<dim>& point : point_geometries<dim>(*mesh.elements[e].type, mesh.element_positions(number))) {
+    for (PointGeometry<dim>& point :
+         point_geometries<dim>(*mesh.elements[e].type, mesh.element_positions(number))) {
       points_.push_back(std::move(point));
       element_of_point_.push_back(number);
     }
@@ -88,7 +89,7 @@ double Discretisation<dim>::volume_of(std::size_t e) const {
 
 template <int dim>
 std::vector<Increment<dim>> Discretisation<dim>::increments_to(const Discretisation<dim>& end,
-                                                     const Eigen::VectorXd& nodal) const {
+                                                               const Eigen::VectorXd& nodal) const {
   std::vector<Increment<dim>> all;
   all.reserve(points_.size());
   for (std::size_t e = 0; e < elements(); ++e) {
@@ -97,8 +98,8 @@ std::vector<Increment<dim>> Discretisation<dim>::increments_to(const Discretisat
     const double of_element = mean ? end.volume_of(e) / volume_of(e) : 1.0;
     for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
       const double own = end.points_[i].volume / points_[i].volume;
-      all.push_back(
-          large_increment_at<dim>(points_[i], continuum_, local, mean ? length_ratio<dim>(of_element / own) : 1.0));
+      all.push_back(large_increment_at<dim>(points_[i], continuum_, local,
+                                            mean ? length_ratio<dim>(of_element / own) : 1.0));
     }
   }
   return all;
@@ -120,7 +121,7 @@ Eigen::VectorXd Discretisation<dim>::internal_forces(std::span<const Response<di
 
 template <int dim>
 Eigen::VectorXd Discretisation<dim>::linearised_forces(const Linearisation<dim>& of,
-                                                  const Eigen::VectorXd& nodal) const {
+                                                       const Eigen::VectorXd& nodal) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (std::size_t e = 0; e < elements(); ++e) {
     const Eigen::VectorXd u = gather(e, nodal);
@@ -136,8 +137,8 @@ Eigen::MatrixXd Discretisation<dim>::element_tangent(std::size_t e, const Linear
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
     if (const auto& moving = of.moving) {
-      tangent +=
-          large_tangent<dim>(points_[i], moving->start.point(i), moving->increments[i], continuum_, of.answers[i]);
+      tangent += large_tangent<dim>(points_[i], moving->start.point(i), moving->increments[i], continuum_,
+                                    of.answers[i]);
       continue;
     }
     const auto b = strain_matrix<dim>(points_[i], continuum_);
@@ -147,7 +148,7 @@ Eigen::MatrixXd Discretisation<dim>::element_tangent(std::size_t e, const Linear
   if (of.moving && mesh_.elements[e].type->mean_dilatation) {
     const std::size_t points = first_point_[e + 1] - first_point_[e];
     tangent += mean_dilatation_stiffness<dim>(std::span(points_).subspan(first_point_[e], points),
-                                         std::span(of.answers).subspan(first_point_[e], points));
+                                              std::span(of.answers).subspan(first_point_[e], points));
   }
   return tangent;
 }

@@ -55,7 +55,7 @@ class Discretisation {
   /// The same in large deformation, this discretisation being the start of the step.
   /// @param end where the nodal values lead to
   [[nodiscard]] std::vector<Increment<dim>> increments_to(const Discretisation<dim>& end,
-                                                     const Eigen::VectorXd& nodal) const;
+                                                          const Eigen::VectorXd& nodal) const;
   /// Nodal forces of the stresses: the sum of B^T s times volume.
   [[nodiscard]] Eigen::VectorXd internal_forces(std::span<const Response<dim>> responses) const;
   /// Tangent times nodal displacements, without forming the tangent.

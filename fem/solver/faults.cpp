@@ -80,8 +80,8 @@ template <int dim>
 using GivenValues = std::map<std::pair<int, Dof>, const PrescribedDof<dim>*>;
 
 template <int dim>
-bool gives_alike(const Problem<dim>& problem, const PrescribedDof<dim>& a, int node_a, const PrescribedDof<dim>& b,
-                 int node_b) {
+bool gives_alike(const Problem<dim>& problem, const PrescribedDof<dim>& a, int node_a,
+                 const PrescribedDof<dim>& b, int node_b) {
   const auto factor = [&](const PrescribedDof<dim>& item, int node) {
     return item.profile ? item.profile(problem.mesh.nodes[static_cast<std::size_t>(node)]) : 1.0;
   };
@@ -124,8 +124,7 @@ GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, Messages& me
           "{} is given two different values at the node {}, on '{}' and on "
           "'{}': give it once there, or give that node an item of its own, on {}: a set of nodes goes before "
           "boundaries",
-          name_of<dim>(item.dof), place_text<dim>(at), other.on, item.on,
-          set_of(problem.mesh, node)));
+          name_of<dim>(item.dof), place_text<dim>(at), other.on, item.on, set_of(problem.mesh, node)));
       told = true;
     }
   }
@@ -149,7 +148,8 @@ void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, Mess
         const PrescribedDof<dim>* b = item_at(leader, dof);
         if (a == nullptr && b == nullptr) continue;
         if (a != nullptr && b != nullptr && gives_alike(problem, *a, follower, *b, leader)) continue;
-        const typename Cosserat<dim>::Place& at = mesh.nodes[static_cast<std::size_t>(a != nullptr ? follower : leader)];
+        const typename Cosserat<dim>::Place& at =
+            mesh.nodes[static_cast<std::size_t>(a != nullptr ? follower : leader)];
         messages.push_back(fmt::format(
             "{} is given at the node {}, and not alike at the node it is tied to ('{}' to '{}'): give it "
             "on both sides or on neither",

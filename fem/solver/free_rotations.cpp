@@ -39,8 +39,10 @@ template <int dim>
 bool has_couple_stiffness(const typename Cosserat<dim>::Matrix& d, double element_volume) {
   using Counts = Cosserat<dim>;
   const double area = dim == 2 ? element_volume : std::pow(element_volume, 2.0 / 3.0);
-  const double couple = d.template bottomRightCorner<Counts::couples, Counts::couples>().cwiseAbs().maxCoeff();
-  return couple > kNothing * area * d.template topLeftCorner<Counts::stresses, Counts::stresses>().cwiseAbs().maxCoeff();
+  const double couple =
+      d.template bottomRightCorner<Counts::couples, Counts::couples>().cwiseAbs().maxCoeff();
+  return couple > kNothing * area *
+                      d.template topLeftCorner<Counts::stresses, Counts::stresses>().cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -48,9 +50,12 @@ bool has_couple_stiffness(const typename Cosserat<dim>::Matrix& d, double elemen
 // Each rotation of a node is followed for itself: couple stiffness hands the resistance about an axis on within an element.
 template <int dim>
 std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>& discretisation,
-                                const Constraints<dim>& constraints, std::span<const Response<dim>> responses) {
+                                const Constraints<dim>& constraints,
+                                std::span<const Response<dim>> responses) {
   constexpr auto rotations = static_cast<std::size_t>(Cosserat<dim>::rotations);
-  const auto number_of = [](int node, std::size_t k) { return rotations * static_cast<std::size_t>(node) + k; };
+  const auto number_of = [](int node, std::size_t k) {
+    return rotations * static_cast<std::size_t>(node) + k;
+  };
   const auto dof_of = [](std::size_t k) { return node_dofs<dim>()[dim + k]; };
   const std::size_t count = rotations * mesh.nodes.size();
   std::vector<std::size_t> root(count);
@@ -83,7 +88,8 @@ std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>
   std::vector<char> held(count, 0);
   const auto for_each = [&](auto visit) {
     for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
-      for (std::size_t k = 0; k < rotations; ++k) visit(node, rotations * node + k, entry_of<dim>(node, dof_of(k)));
+      for (std::size_t k = 0; k < rotations; ++k)
+        visit(node, rotations * node + k, entry_of<dim>(node, dof_of(k)));
   };
   for_each([&](std::size_t, std::size_t item, std::size_t entry) {
     const int equation = constraints.equation(entry);
@@ -106,7 +112,11 @@ std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>
       free.size(), place_text<dim>(mesh.nodes[*free.begin()]), dim == 2 ? "w" : "w1, w2 and w3");
 }
 
-template std::string unresisted_rotation<2>(const Mesh<2>& mesh, const Discretisation<2>& discretisation, const Constraints<2>& constraints, std::span<const Response<2>> responses);
-template std::string unresisted_rotation<3>(const Mesh<3>& mesh, const Discretisation<3>& discretisation, const Constraints<3>& constraints, std::span<const Response<3>> responses);
+template std::string unresisted_rotation<2>(const Mesh<2>& mesh, const Discretisation<2>& discretisation,
+                                            const Constraints<2>& constraints,
+                                            std::span<const Response<2>> responses);
+template std::string unresisted_rotation<3>(const Mesh<3>& mesh, const Discretisation<3>& discretisation,
+                                            const Constraints<3>& constraints,
+                                            std::span<const Response<3>> responses);
 
 }  // namespace polargrain::fem

@@ -17,6 +17,7 @@ namespace polargrain::fem {
 /// @return a message that says where and what to do; empty when every rotation is held.
 template <int dim>
 std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>& discretisation,
-                                const Constraints<dim>& constraints, std::span<const Response<dim>> responses);
+                                const Constraints<dim>& constraints,
+                                std::span<const Response<dim>> responses);
 
 }  // namespace polargrain::fem

@@ -22,7 +22,8 @@ InitialStress<dim> geostatic_stress(const Ground& ground, std::string region) {
 template <int dim>
 BodyLoad<dim> gravity(double unit_weight, TimeTable factor, std::string region) {
   return {[unit_weight](const typename Cosserat<dim>::Place&) {
-            return typename Cosserat<dim>::NodeValues(-unit_weight * Cosserat<dim>::NodeValues::Unit(dim - 1));
+            return
+                typename Cosserat<dim>::NodeValues(-unit_weight * Cosserat<dim>::NodeValues::Unit(dim - 1));
           },
           std::move(factor), std::move(region)};
 }

@@ -17,6 +17,7 @@ template <int dim = 2>
 InitialStress<dim> geostatic_stress(const Ground& ground, std::string region = "");
 /// Gravity, at its full value at all times unless a table says otherwise.
 template <int dim = 2>
-BodyLoad<dim> gravity(double unit_weight, TimeTable factor = TimeTable::constant(1.0), std::string region = "");
+BodyLoad<dim> gravity(double unit_weight, TimeTable factor = TimeTable::constant(1.0),
+                      std::string region = "");
 
 }  // namespace polargrain::fem

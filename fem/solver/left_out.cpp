@@ -42,7 +42,9 @@ std::string left_out_by_small_deformation(const Discretisation<dim>& discretisat
       100.0 * rotation, 100.0 * strain);
 }
 
-template std::string left_out_by_small_deformation<2>(const Discretisation<2>& discretisation, const Eigen::VectorXd& displacement);
-template std::string left_out_by_small_deformation<3>(const Discretisation<3>& discretisation, const Eigen::VectorXd& displacement);
+template std::string left_out_by_small_deformation<2>(const Discretisation<2>& discretisation,
+                                                      const Eigen::VectorXd& displacement);
+template std::string left_out_by_small_deformation<3>(const Discretisation<3>& discretisation,
+                                                      const Eigen::VectorXd& displacement);
 
 }  // namespace polargrain::fem

@@ -20,9 +20,9 @@ template <int dim>
 struct SidePoint {
   double weight;
   Eigen::VectorXd shape;
-  VectorRows<dim - 1> derivative;       ///< of the shape functions by the side's own coordinates
+  VectorRows<dim - 1> derivative;                ///< of the shape functions by the side's own coordinates
   Eigen::Matrix<double, dim, dim - 1> tangents;  ///< d x / d xi
-  Place<dim> normal;                    ///< outward; as long as an area of 1 of the reference side becomes
+  Place<dim> normal;  ///< outward; as long as an area of 1 of the reference side becomes
 };
 
 template <int dim>
@@ -35,8 +35,8 @@ std::vector<SidePoint<dim>> points_of_side(const Mesh<dim>& mesh, const Boundary
     SidePoint<dim> point;
     point.tangents.setZero();
     for (std::size_t a = 0; a < numbers.size(); ++a) {
-      point.tangents +=
-          mesh.nodes[static_cast<std::size_t>(numbers[a])] * shape.derivative.row(static_cast<Eigen::Index>(a));
+      point.tangents += mesh.nodes[static_cast<std::size_t>(numbers[a])] *
+                        shape.derivative.row(static_cast<Eigen::Index>(a));
     }
     if constexpr (dim == 2) {
       point.normal = {point.tangents(1), -point.tangents(0)};
@@ -53,7 +53,8 @@ std::vector<SidePoint<dim>> points_of_side(const Mesh<dim>& mesh, const Boundary
 
 /// Nodal vector of a traction given by the outward normal. Both are per area of the reference side.
 template <int dim, class Traction>
-Eigen::VectorXd side_forces(const Mesh<dim>& mesh, const std::vector<BoundarySide>& sides, Traction traction) {
+Eigen::VectorXd side_forces(const Mesh<dim>& mesh, const std::vector<BoundarySide>& sides,
+                            Traction traction) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(entry_of<dim>(static_cast<Eigen::Index>(mesh.nodes.size())));
   for (const BoundarySide& side : sides) {
     const std::vector<int> numbers = mesh.side_nodes(side);
@@ -82,7 +83,8 @@ typename Cosserat<dim>::Gradient normal_slope(const SidePoint<dim>& point, Eigen
   if constexpr (dim == 2) {
     slope << 0.0, point.derivative(b), -point.derivative(b), 0.0;
   } else {
-    slope = point.derivative(b, 1) * cross_matrix(point.tangents.col(0)) - point.derivative(b, 0) * cross_matrix(point.tangents.col(1));
+    slope = point.derivative(b, 1) * cross_matrix(point.tangents.col(0)) -
+            point.derivative(b, 0) * cross_matrix(point.tangents.col(1));
   }
   return slope;
 }
@@ -100,7 +102,8 @@ LoadStiffness unit_pressure_stiffness(const Mesh<dim>& mesh, const BoundarySide&
     for (Eigen::Index b = 0; b < point.shape.size(); ++b) {
       const typename Cosserat<dim>::Gradient slope = normal_slope<dim>(point, b);
       for (Eigen::Index a = 0; a < point.shape.size(); ++a)
-        stiffness.values.template block<dim, dim>(dim * a, dim * b) -= (point.weight * point.shape(a)) * slope;
+        stiffness.values.template block<dim, dim>(dim * a, dim * b) -=
+            (point.weight * point.shape(a)) * slope;
     }
   }
   return stiffness;
@@ -135,7 +138,8 @@ void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLo
     parts_.push_back({side_forces<dim>(problem.mesh, sides, traction), &table});
   };
   for (int i = 0; i < dim; ++i) add(load.traction[static_cast<std::size_t>(i)], i);
-  for (int k = 0; k < Cosserat<dim>::rotations; ++k) add(load.couple_traction[static_cast<std::size_t>(k)], dim + k);
+  for (int k = 0; k < Cosserat<dim>::rotations; ++k)
+    add(load.couple_traction[static_cast<std::size_t>(k)], dim + k);
 }
 
 template <int dim>

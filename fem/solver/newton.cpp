@@ -205,8 +205,9 @@ bool Newton<dim>::factorise(const std::vector<Response<dim>>& responses, double 
 }
 
 template <int dim>
-bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate, const std::vector<Response<dim>>& responses,
-                        const Eigen::VectorXd& right_side, Correction& change, StepReport& report) {
+bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
+                             const std::vector<Response<dim>>& responses, const Eigen::VectorXd& right_side,
+                             Correction& change, StepReport& report) {
   if (!factorise(responses, iterate.time, report)) return false;
   const Stopwatch watch(report.solve_seconds);
   const auto add_solution = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
@@ -246,7 +247,7 @@ void Newton<dim>::move(Iterate& iterate, const Correction& change, double fracti
 
 template <int dim>
 void Newton<dim>::line_search(Iterate& iterate, const Correction& change, double excess_before,
-                         StepReport& report) {
+                              StepReport& report) {
   double fraction = 1.0;
   double best_fraction = 1.0;
   double best = excess(iterate.residual);
@@ -351,7 +352,8 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
   for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
     const bool predictor = iteration == 1;
     const std::vector<Response<dim>>& known = predictor ? state.responses : trial_;
-    if (!correction(goal, iterate, known, right_side, change, report)) return {false, why_singular<dim>(known)};
+    if (!correction(goal, iterate, known, right_side, change, report))
+      return {false, why_singular<dim>(known)};
     const Attempt limited = predictor ? limit_predictor(goal, iterate, change, report)
                                       : limit_correction(iterate, change, report);
     if (!limited.converged) return limited;

@@ -125,8 +125,8 @@ class Newton {
   void find_increments(const Eigen::VectorXd& displacement_increment);
   [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
-                                const std::vector<Response<dim>>& responses, const Eigen::VectorXd& right_side,
-                                Correction& change, StepReport& report);
+                                const std::vector<Response<dim>>& responses,
+                                const Eigen::VectorXd& right_side, Correction& change, StepReport& report);
   [[nodiscard]] double allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const;
   [[nodiscard]] Attempt limit_correction(Iterate& iterate, Correction& change, StepReport& report) const;
   [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
@@ -147,7 +147,7 @@ class Newton {
   LinearSolver linear_solver_;
   Anderson anderson_;
   bool converges_fast_ = false;      ///< the last iteration needs no acceleration
-  Discretisation<dim> start_;             ///< large deformation: at the start of the step
+  Discretisation<dim> start_;        ///< large deformation: at the start of the step
   std::string inverted_;             ///< names an element the last iterate turns inside out
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;

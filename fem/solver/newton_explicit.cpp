@@ -71,7 +71,6 @@ Eigen::VectorXd Newton<dim>::stable_masses(double safety) {
   return nodal_masses(discretisation, linearised(state.responses), safety);
 }
 
-
 template Attempt Newton<2>::go_on(double, double, const Eigen::VectorXd&, StepReport&);
 template Eigen::VectorXd Newton<2>::unbalanced() const;
 template Eigen::VectorXd Newton<2>::stable_masses(double);

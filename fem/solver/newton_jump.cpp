@@ -27,7 +27,6 @@ Attempt Newton<dim>::pass_jump(StepReport& report) {
   return {false, "a material does not stand by its answer"};
 }
 
-
 template Attempt Newton<2>::pass_jump(StepReport&);
 template Attempt Newton<3>::pass_jump(StepReport&);
 

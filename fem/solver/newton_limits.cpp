@@ -54,7 +54,7 @@ Attempt Newton<dim>::limit_correction(Iterate& iterate, Correction& change, Step
 
 template <int dim>
 Attempt Newton<dim>::limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
-                                StepReport& report) const {
+                                     StepReport& report) const {
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(iterate.displacement.size());
   const double share = allowed_share(nothing, iterate.displacement + change.displacement);
   if (share == 1.0) return {true, ""};
@@ -98,7 +98,6 @@ Correction Newton<dim>::last_step_drawn_on(const StepGoal& goal, const Iterate& 
   }
   return drawn_on;
 }
-
 
 template double Newton<2>::allowed_share(const Eigen::VectorXd&, const Eigen::VectorXd&) const;
 template Attempt Newton<2>::limit_correction(Iterate&, Correction&, StepReport&) const;

@@ -61,7 +61,6 @@ Trouble Newton<dim>::trouble(const std::string& reason, const StepReport& report
   return trouble;
 }
 
-
 template Trouble Newton<2>::trouble(const std::string&, const StepReport&) const;
 template Trouble Newton<3>::trouble(const std::string&, const StepReport&) const;
 

@@ -41,7 +41,8 @@ Eigen::MatrixXd scaled(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
 }  // namespace
 
 template <int dim>
-Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, double safety) {
+Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
+                             double safety) {
   // Central differences are stable up to an eigenvalue of 4 with steps of 1.
   const double allowed = 4.0 * safety * safety;
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(discretisation.nodal_size());
@@ -73,7 +74,9 @@ Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Li
   return masses;
 }
 
-template Eigen::VectorXd nodal_masses<2>(const Discretisation<2>& discretisation, const Linearisation<2>& of, double safety);
-template Eigen::VectorXd nodal_masses<3>(const Discretisation<3>& discretisation, const Linearisation<3>& of, double safety);
+template Eigen::VectorXd nodal_masses<2>(const Discretisation<2>& discretisation, const Linearisation<2>& of,
+                                         double safety);
+template Eigen::VectorXd nodal_masses<3>(const Discretisation<3>& discretisation, const Linearisation<3>& of,
+                                         double safety);
 
 }  // namespace polargrain::fem

@@ -15,6 +15,7 @@ namespace polargrain::fem {
 /// consistent matrix, scaled to the mass of the element (Hinton, Rock and Zienkiewicz 1976)
 /// @throws RunError when an element has no stiffness at all
 template <int dim>
-Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, double safety);
+Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
+                             double safety);
 
 }  // namespace polargrain::fem

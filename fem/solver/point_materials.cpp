@@ -38,7 +38,8 @@ PointMaterials<dim>::PointMaterials(const Problem<dim>& problem, const Discretis
 }
 
 template <int dim>
-void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem, const Discretisation<dim>& discretisation) {
+void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem,
+                                               const Discretisation<dim>& discretisation) {
   for (const InitialStress<dim>& item : problem.initial_stresses) {
     std::vector<char> here(discretisation.elements(), item.region.empty() ? 1 : 0);
     if (!item.region.empty()) {
@@ -55,7 +56,8 @@ void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem, cons
 }
 
 template <int dim>
-void PointMaterials<dim>::evaluate(const std::vector<Increment<dim>>& increments, std::vector<Response<dim>>& responses) {
+void PointMaterials<dim>::evaluate(const std::vector<Increment<dim>>& increments,
+                                   std::vector<Response<dim>>& responses) {
   for (Batch& batch : batches_) {
     for (std::size_t i = 0; i < batch.points.size(); ++i) batch.increments[i] = increments[batch.points[i]];
     batch.material->evaluate(batch.increments, batch.responses);

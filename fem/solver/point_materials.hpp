@@ -34,7 +34,9 @@ class PointMaterials {
   void save(ArchiveWriter& archive) const;
   void restore(ArchiveReader& archive);
 
-  [[nodiscard]] std::pair<const Material<dim>*, std::size_t> at(std::size_t point) const { return at_[point]; }
+  [[nodiscard]] std::pair<const Material<dim>*, std::size_t> at(std::size_t point) const {
+    return at_[point];
+  }
 
  private:
   /// One batch a material, not one a region, so that a material sees all its points at once.

@@ -33,14 +33,15 @@ template <std::size_t count>
 std::array<TimeTable, count> zero_tables() {
   return [&]<std::size_t... i>(std::index_sequence<i...>) {
     return std::array<TimeTable, count>{((void)i, TimeTable::constant(0.0))...};
-  }(std::make_index_sequence<count>());
+  }
+  (std::make_index_sequence<count>());
 }
 
 /// Traction on a boundary, per area: t = -pressure n + traction, and couple traction.
 template <int dim>
 struct BoundaryLoad {
-  std::string on;                                 ///< boundary
-  TimeTable pressure = TimeTable::constant(0.0);  ///< Pa, pushing into the body when positive
+  std::string on;                                            ///< boundary
+  TimeTable pressure = TimeTable::constant(0.0);             ///< Pa, pushing into the body when positive
   std::array<TimeTable, dim> traction = zero_tables<dim>();  ///< Pa, along each axis
   /// N/m, about e_3; in space about each axis.
   std::array<TimeTable, Cosserat<dim>::rotations> couple_traction = zero_tables<Cosserat<dim>::rotations>();

@@ -40,7 +40,8 @@ double QuasiStatic::error() const {
 }
 
 template <int dim>
-RowOfForces<dim>::RowOfForces(const Constraints<dim>& constraints, int steps, const std::vector<double>& times)
+RowOfForces<dim>::RowOfForces(const Constraints<dim>& constraints, int steps,
+                              const std::vector<double>& times)
     : constraints_(constraints),
       weights_(times.size() < 2 ? std::vector<double>{1.0} : weights_of_means(times)),
       steps_(steps) {}

@@ -7,8 +7,8 @@
 namespace polargrain::fem {
 
 template <int dim>
-Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints, double reference_force,
-                 double reference_length) {
+Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints,
+                 double reference_force, double reference_length) {
   double force = 0.0;
   double moment = 0.0;
   for (Eigen::Index entry = 0; entry < unbalanced.size(); ++entry) {
@@ -38,8 +38,10 @@ bool StagnationWatch::stagnates(double excess) {
   return smallest_.back() > kProgress * smallest_[smallest_.size() - 1 - window_];
 }
 
-template Residual measure<2>(const Eigen::VectorXd& unbalanced, const Constraints<2>& constraints, double reference_force, double reference_length);
-template Residual measure<3>(const Eigen::VectorXd& unbalanced, const Constraints<3>& constraints, double reference_force, double reference_length);
+template Residual measure<2>(const Eigen::VectorXd& unbalanced, const Constraints<2>& constraints,
+                             double reference_force, double reference_length);
+template Residual measure<3>(const Eigen::VectorXd& unbalanced, const Constraints<3>& constraints,
+                             double reference_force, double reference_length);
 template double sum_of_reactions<2>(const Eigen::VectorXd& forces, const Constraints<2>& constraints);
 template double sum_of_reactions<3>(const Eigen::VectorXd& forces, const Constraints<3>& constraints);
 

@@ -16,8 +16,8 @@ struct Residual {
 /// Sums of absolute values over the free entries of `unbalanced`, relative to the references. Zero
 /// over a reference of zero is zero.
 template <int dim>
-Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints, double reference_force,
-                 double reference_length);
+Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints,
+                 double reference_force, double reference_length);
 
 /// Sum of the absolute forces (not moments) at the given entries of a nodal vector.
 template <int dim>

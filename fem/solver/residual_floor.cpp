@@ -20,7 +20,8 @@ double square(double x) {
 template <int dim>
 Eigen::VectorXd forces_of_noise(const Discretisation<dim>& discretisation, Continuum continuum,
                                 std::span<const Response<dim>> responses) {
-  if (std::all_of(responses.begin(), responses.end(), [](const Response<dim>& r) { return r.noise.is_zero(); })) {
+  if (std::all_of(responses.begin(), responses.end(),
+                  [](const Response<dim>& r) { return r.noise.is_zero(); })) {
     return {};
   }
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(discretisation.nodal_size());
@@ -48,7 +49,8 @@ Eigen::VectorXd forces_of_noise(const Discretisation<dim>& discretisation, Conti
         double all = 0.0;
         for (const double one : d) all += one;
         for (int k = 0; k < Cosserat<dim>::rotations; ++k)
-          variance(entry[dim + k]) += volume * (square(point.shape(a) * noise.skew) + all * square(noise.couple));
+          variance(entry[dim + k]) +=
+              volume * (square(point.shape(a) * noise.skew) + all * square(noise.couple));
       }
     }
   }
@@ -57,7 +59,8 @@ Eigen::VectorXd forces_of_noise(const Discretisation<dim>& discretisation, Conti
 
 template <int dim>
 Eigen::VectorXd forces_of_rounding(const Discretisation<dim>& discretisation, Continuum continuum,
-                                   std::span<const Response<dim>> responses, const Eigen::VectorXd& increment) {
+                                   std::span<const Response<dim>> responses,
+                                   const Eigen::VectorXd& increment) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.nodal_size());
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
     const std::vector<int>& dofs = discretisation.element_dofs(e);
@@ -66,16 +69,23 @@ Eigen::VectorXd forces_of_rounding(const Discretisation<dim>& discretisation, Co
       const PointGeometry<dim>& point = discretisation.point(i);
       const StrainMatrix<dim> b = strain_matrix<dim>(point, continuum).cwiseAbs();
       const typename Cosserat<dim>::Vector strain = b * moved;
-      const typename Cosserat<dim>::Vector stress = responses[i].stress.cwiseAbs() + responses[i].tangent.cwiseAbs() * strain;
+      const typename Cosserat<dim>::Vector stress =
+          responses[i].stress.cwiseAbs() + responses[i].tangent.cwiseAbs() * strain;
       forces(dofs) += point.volume * (b.transpose() * stress);
     }
   }
   return std::numeric_limits<double>::epsilon() * forces;
 }
 
-template Eigen::VectorXd forces_of_noise<2>(const Discretisation<2>& discretisation, Continuum continuum, std::span<const Response<2>> responses);
-template Eigen::VectorXd forces_of_noise<3>(const Discretisation<3>& discretisation, Continuum continuum, std::span<const Response<3>> responses);
-template Eigen::VectorXd forces_of_rounding<2>(const Discretisation<2>& discretisation, Continuum continuum, std::span<const Response<2>> responses, const Eigen::VectorXd& increment);
-template Eigen::VectorXd forces_of_rounding<3>(const Discretisation<3>& discretisation, Continuum continuum, std::span<const Response<3>> responses, const Eigen::VectorXd& increment);
+template Eigen::VectorXd forces_of_noise<2>(const Discretisation<2>& discretisation, Continuum continuum,
+                                            std::span<const Response<2>> responses);
+template Eigen::VectorXd forces_of_noise<3>(const Discretisation<3>& discretisation, Continuum continuum,
+                                            std::span<const Response<3>> responses);
+template Eigen::VectorXd forces_of_rounding<2>(const Discretisation<2>& discretisation, Continuum continuum,
+                                               std::span<const Response<2>> responses,
+                                               const Eigen::VectorXd& increment);
+template Eigen::VectorXd forces_of_rounding<3>(const Discretisation<3>& discretisation, Continuum continuum,
+                                               std::span<const Response<3>> responses,
+                                               const Eigen::VectorXd& increment);
 
 }  // namespace polargrain::fem

@@ -22,6 +22,7 @@ Eigen::VectorXd forces_of_noise(const Discretisation<dim>& discretisation, Conti
 /// added up at a node, B^T (|s| + |D| |B| |u|) times volume, with the displacements `increment` of the step.
 template <int dim>
 Eigen::VectorXd forces_of_rounding(const Discretisation<dim>& discretisation, Continuum continuum,
-                                   std::span<const Response<dim>> responses, const Eigen::VectorXd& increment);
+                                   std::span<const Response<dim>> responses,
+                                   const Eigen::VectorXd& increment);
 
 }  // namespace polargrain::fem

@@ -94,7 +94,8 @@ std::string direction_text(const Eigen::Vector3d& direction) {
 }
 
 /// A motion of space in words. @param motion translations, then rotations about `centre` times `length`.
-std::string describe(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& centre, double length) {
+std::string describe(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& centre,
+                     double length) {
   constexpr double kSmall = 1e-8;
   const Eigen::Vector3d shift = motion.head<3>();
   const Eigen::Vector3d spin = motion.tail<3>() / length;
@@ -103,13 +104,13 @@ std::string describe(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vec
   Eigen::Vector3d on_axis = centre + spin.cross(shift) / spin.squaredNorm();
   for (double& x : on_axis) x = std::abs(x) < kSmall * length ? 0.0 : x;  // rounding must not show as 1e-18
   return fmt::format("{} about an axis along {} through ({:.6g}, {:.6g}, {:.6g})",
-                     std::abs(pitch) < kSmall * length ? "rotation" : "screw motion", direction_text(spin), on_axis(0),
-                     on_axis(1), on_axis(2));
+                     std::abs(pitch) < kSmall * length ? "rotation" : "screw motion", direction_text(spin),
+                     on_axis(0), on_axis(1), on_axis(2));
 }
 
 /// Free motions of one part in space: pure translations first, then those that rotate.
-std::vector<std::string> free_motions(const Eigen::Matrix<double, 6, 6>& normal_matrix, const Eigen::Vector3d& centre,
-                                      double length) {
+std::vector<std::string> free_motions(const Eigen::Matrix<double, 6, 6>& normal_matrix,
+                                      const Eigen::Vector3d& centre, double length) {
   using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(normal_matrix, Eigen::ComputeFullV);
   const double threshold = 1e-10 * svd.singularValues()(0);  // as in the plane
@@ -117,8 +118,9 @@ std::vector<std::string> free_motions(const Eigen::Matrix<double, 6, 6>& normal_
   for (int i = 0; i < 6; ++i) free += svd.singularValues()(i) <= threshold ? 1 : 0;
   std::vector<std::string> texts;
   if (free == 0) return texts;
-  if (free == 6) return {"translation along 1", "translation along 2", "translation along 3",
-                         "rotation about 1",    "rotation about 2",    "rotation about 3"};
+  if (free == 6)
+    return {"translation along 1", "translation along 2", "translation along 3",
+            "rotation about 1",    "rotation about 2",    "rotation about 3"};
   const Motions motions = svd.matrixV().rightCols(free);
   // The rotations that are free, and for each of them the motion with the least translation.
   const Eigen::JacobiSVD<Eigen::Matrix<double, 3, Eigen::Dynamic>> spins(motions.bottomRows<3>(),
@@ -185,7 +187,8 @@ std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum con
     for (const auto& [follower, leader] : tied) {
       if (part_of[static_cast<std::size_t>(follower)] != part) continue;
       const Place arm =
-          (mesh.nodes[static_cast<std::size_t>(leader)] - mesh.nodes[static_cast<std::size_t>(follower)]) / length;
+          (mesh.nodes[static_cast<std::size_t>(leader)] - mesh.nodes[static_cast<std::size_t>(follower)]) /
+          length;
       for (int i = 0; i < dim; ++i) {
         Row row = row_of<dim>(static_cast<Dof>(i), arm);
         row.template head<dim>().setZero();
@@ -200,7 +203,11 @@ std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum con
   return messages;
 }
 
-template std::vector<std::string> free_rigid_motions<2>(const Mesh<2>& mesh, Continuum continuum, const std::vector<PrescribedDof<2>>& prescribed, const std::vector<Tie>& ties);
-template std::vector<std::string> free_rigid_motions<3>(const Mesh<3>& mesh, Continuum continuum, const std::vector<PrescribedDof<3>>& prescribed, const std::vector<Tie>& ties);
+template std::vector<std::string> free_rigid_motions<2>(const Mesh<2>& mesh, Continuum continuum,
+                                                        const std::vector<PrescribedDof<2>>& prescribed,
+                                                        const std::vector<Tie>& ties);
+template std::vector<std::string> free_rigid_motions<3>(const Mesh<3>& mesh, Continuum continuum,
+                                                        const std::vector<PrescribedDof<3>>& prescribed,
+                                                        const std::vector<Tie>& ties);
 
 }  // namespace polargrain::fem

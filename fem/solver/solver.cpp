@@ -86,7 +86,7 @@ struct Solver<dim>::Implementation : Newton<dim> {
 
 template <int dim>
 void Solver<dim>::Implementation::tell_cut(double tried, const std::string& reason, double next,
-                                      StepReport& report) {
+                                           StepReport& report) {
   ++report.cuts;
   if (!observer) return;
   observer->cut(tried, reason, next);
@@ -108,7 +108,7 @@ std::optional<Residual> Solver<dim>::Implementation::start(StepReport& report) {
 
 template <int dim>
 Solver<dim>::Implementation::Passing Solver<dim>::Implementation::pass(StepGoal goal, double largest,
-                                                             StepReport& report) {
+                                                                       StepReport& report) {
   const auto may_pass = [&](double most) {
     return report.jumps < options.most_jumps && best_residual() <= most;
   };
@@ -453,7 +453,8 @@ template <int dim>
 typename Cosserat<dim>::NodeValues Solver<dim>::mean_displacement(const std::vector<std::string>& on) const {
   const std::vector<int> nodes = problem().mesh.nodes_on(on);
   typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
-  for (const int node : nodes) sum += state().displacement.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
+  for (const int node : nodes)
+    sum += state().displacement.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
   return sum / static_cast<double>(nodes.size());
 }
 

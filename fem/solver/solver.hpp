@@ -136,14 +136,14 @@ class Observer {
 template <int dim>
 struct SolverState {
   double time = 0.0;
-  Eigen::VectorXd displacement;     ///< the entries of node_dofs for each node
-  std::vector<typename Cosserat<dim>::Vector> strain;      ///< by point, accumulated
+  Eigen::VectorXd displacement;                        ///< the entries of node_dofs for each node
+  std::vector<typename Cosserat<dim>::Vector> strain;  ///< by point, accumulated
   std::vector<Response<dim>> responses;  ///< by point: stress and tangent of the last converged step
-  double reference_force = 0.0;     ///< 0: not fixed yet
-  Eigen::VectorXd last_increment;   ///< of the displacements in the last committed substep; empty at first
-  double next_step = 0.0;           ///< after a cut: share of a step to try next; 0: as asked for
-  double external_work = 0.0;       ///< J per m of thickness, loads and reactions, trapezoidal, since time 0
-  double internal_work = 0.0;       ///< the same from stress and strain
+  double reference_force = 0.0;          ///< 0: not fixed yet
+  Eigen::VectorXd last_increment;  ///< of the displacements in the last committed substep; empty at first
+  double next_step = 0.0;          ///< after a cut: share of a step to try next; 0: as asked for
+  double external_work = 0.0;      ///< J per m of thickness, loads and reactions, trapezoidal, since time 0
+  double internal_work = 0.0;      ///< the same from stress and strain
   // Of explicit steps, in the order of the equations; empty before the first of them.
   Eigen::VectorXd mass;      ///< nodal_masses
   Eigen::VectorXd velocity;  ///< nodal values a step
@@ -223,9 +223,12 @@ class Solver {
   /// (N; in the plane per m of thickness) and nodal moments, in the order of node_dofs. Behind explicit steps they are
   /// those of SolverState::reactions.
   [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::vector<std::string>& on) const;
-  [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::string& on) const { return reaction(std::vector{on}); }
+  [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::string& on) const {
+    return reaction(std::vector{on});
+  }
   /// Mean displacement over the nodes of boundaries and node sets, each node once, in the order of node_dofs: m, rad.
-  [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::vector<std::string>& on) const;
+  [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(
+      const std::vector<std::string>& on) const;
   [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::string& on) const {
     return mean_displacement(std::vector{on});
   }

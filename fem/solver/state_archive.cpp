@@ -33,7 +33,8 @@ void write_state(ArchiveWriter& archive, const SolverState<dim>& state) {
   archive.write("velocity", values_of(state.velocity));
   archive.write("reactions", values_of(state.reactions));
   std::vector<double> strain;
-  for (const typename Cosserat<dim>::Vector& point : state.strain) strain.insert(strain.end(), point.begin(), point.end());
+  for (const typename Cosserat<dim>::Vector& point : state.strain)
+    strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
   write_records(archive, "responses", std::span<const Response<dim>>(state.responses));
 }
@@ -58,7 +59,8 @@ SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size
   state.reactions = vector_of(archive.doubles("reactions"));
   const std::vector<double> strain = read_lists(archive, "strain", points, Cosserat<dim>::components);
   state.strain.resize(points);
-  for (std::size_t i = 0; i < points; ++i) std::copy_n(&strain[Cosserat<dim>::components * i], Cosserat<dim>::components, state.strain[i].data());
+  for (std::size_t i = 0; i < points; ++i)
+    std::copy_n(&strain[Cosserat<dim>::components * i], Cosserat<dim>::components, state.strain[i].data());
   state.responses = read_records<Response<dim>>(archive, "responses", points);
   return state;
 }

@@ -6,7 +6,8 @@
 namespace polargrain::fem {
 
 template <int dim>
-TangentMatrix<dim>::TangentMatrix(const Discretisation<dim>& discretisation, const Constraints<dim>& constraints)
+TangentMatrix<dim>::TangentMatrix(const Discretisation<dim>& discretisation,
+                                  const Constraints<dim>& constraints)
     : discretisation_(discretisation),
       constraints_(constraints),
       matrix_(constraints.unknowns(), constraints.unknowns()) {
@@ -67,7 +68,7 @@ void TangentMatrix<dim>::find_places() {
 
 template <int dim>
 const Eigen::SparseMatrix<double>& TangentMatrix<dim>::assemble(const Linearisation<dim>& of,
-                                                           const std::vector<LoadStiffness>& loads) {
+                                                                const std::vector<LoadStiffness>& loads) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   auto place = places_.begin();

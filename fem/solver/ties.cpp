@@ -51,9 +51,9 @@ TiedNodes tied_nodes(const Mesh<dim>& mesh, const Tie& tie) {
     const auto nearest = std::min_element(leaders.begin(), leaders.end(),
                                           [&](int a, int b) { return distance(a) < distance(b); });
     if (distance(*nearest) > kMatch * apart.norm()) {
-      return fault(
-          fmt::format("'{}' has no node at {}, where '{}' moved by {} has one: a tie needs the same nodes on both sides",
-                      tie.to, place_text<dim>(place), tie.on, place_text<dim>(apart)));
+      return fault(fmt::format(
+          "'{}' has no node at {}, where '{}' moved by {} has one: a tie needs the same nodes on both sides",
+          tie.to, place_text<dim>(place), tie.on, place_text<dim>(apart)));
     }
     tied.pairs.emplace_back(node, *nearest);
     leaders.erase(nearest);  // each once

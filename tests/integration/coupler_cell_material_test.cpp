@@ -266,7 +266,8 @@ TEST_F(CellMaterialTest, AFailedCellFailsItsPointAlone) {
   sand.revert();
   increments.assign(2, Increment<2>{});
   sand.evaluate(increments, responses);
-  for (const Response<2>& response : responses) EXPECT_EQ(response.stress, testing::fake_stress(Increment<2>{}));
+  for (const Response<2>& response : responses)
+    EXPECT_EQ(response.stress, testing::fake_stress(Increment<2>{}));
 }
 
 }  // namespace

@@ -162,13 +162,14 @@ coupler::PoolOptions pool_options(const std::filesystem::path& directory) {
 /// One element, every displacement and rotation given: a homogeneous displacement gradient, rotations of
 /// given curvature that vanish at the origin.
 fem::Problem<2> homogeneous(const Eigen::Matrix2d& gradient, std::shared_ptr<fem::Material<2>> material,
-                         const Eigen::Vector2d& curvature = Eigen::Vector2d::Zero()) {
+                            const Eigen::Vector2d& curvature = Eigen::Vector2d::Zero()) {
   fem::Problem<2> problem;
   problem.mesh = fem::rectangle({{0.4, 0.8}, {1, 1}});
   problem.materials["all"] = std::move(material);
   for (const int i : {0, 1}) {
     const Eigen::Vector2d row = gradient.row(i).transpose();
-    problem.prescribed.push_back({"all", fem::node_dofs<2>()[static_cast<std::size_t>(i)], fem::TimeTable::ramp(1.0),
+    problem.prescribed.push_back({"all", fem::node_dofs<2>()[static_cast<std::size_t>(i)],
+                                  fem::TimeTable::ramp(1.0),
                                   [row](const Eigen::Vector2d& x) { return row.dot(x); }});
   }
   problem.prescribed.push_back({"all", fem::Dof::w, fem::TimeTable::ramp(1.0),

@@ -58,7 +58,8 @@ Reports replayed(const CellDefinition& definition, const std::vector<Increment<2
 }
 
 /// Where the engine's own loop steps the cell too: all digits.
-void expect_equal_replay(CellDefinition definition, const std::vector<Increment<2>>& path, std::size_t first) {
+void expect_equal_replay(CellDefinition definition, const std::vector<Increment<2>>& path,
+                         std::size_t first) {
   definition.control.loop = CellLoop::engine;
   const Reports both = replayed(definition, path, first);
   EXPECT_EQ(both.printed, both.expected);
@@ -81,7 +82,7 @@ Increment<2> increment(double h11, double h12, double h21, double h22) {
 
 /// Compression, then shear that turns the box.
 const std::vector<Increment<2>> kPath{increment(5e-4, 0.0, 0.0, -1e-3), increment(2e-4, 4e-4, -1e-3, -5e-4),
-                                   increment(1e-4, 1e-3, 2e-3, -1e-3)};
+                                      increment(1e-4, 1e-3, 2e-3, -1e-3)};
 
 TEST(Replay, PrintsTheStressesOfTheCellFromThePackingOn) {
   expect_equal_replay(test::demo_cell(), kPath, 0);

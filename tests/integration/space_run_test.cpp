@@ -16,9 +16,13 @@ const std::string kProgram = POLARGRAIN;
 
 std::string law_case(const std::string& mesh, const std::string& material) {
   return "title: Triaxial compression\n"
-         "mesh: {box: {size: [0.1 m, 0.1 m, 0.2 m], elements: " + mesh + "}\n"
+         "mesh: {box: {size: [0.1 m, 0.1 m, 0.2 m], elements: " +
+         mesh +
+         "}\n"
          "materials: {sand: {model: elastoplastic, E: 50 MPa, nu: 0.25, Gc: 20 MPa, lc: 5 mm, friction_angle: 30 deg, "
-         "dilatancy_angle: 5 deg, cohesion: 0.1 kPa, confining: 100 kPa" + material + "}}\n"
+         "dilatancy_angle: 5 deg, cohesion: 0.1 kPa, confining: 100 kPa" +
+         material +
+         "}}\n"
          "regions: {all: sand}\n"
          "boundary:\n"
          "  - {on: bottom, fix: [u3]}\n"
@@ -51,14 +55,16 @@ TEST_F(SpaceRun, ALawCarriesItsTriaxialStrength) {
     EXPECT_NEAR(last_force("law") / expected, 1.0, 1e-8) << mesh;
     std::filesystem::remove_all(folder() / "law");
   }
-  const Outcome report = run_in(folder(), kProgram + " run case.yaml -o law --quiet && " + kProgram + " report law && " + kProgram + " verify law");
+  const Outcome report = run_in(folder(), kProgram + " run case.yaml -o law --quiet && " + kProgram +
+                                              " report law && " + kProgram + " verify law");
   EXPECT_EQ(report.status, 0) << report.errors;
   EXPECT_NE(content(folder() / "law" / "report.html").find("body in space"), std::string::npos);
   EXPECT_NE(content(folder() / "law" / "summary.json").find("\"unit\": \"N\""), std::string::npos);
 }
 
 /// What `check` says of a case with something replaced.
-std::string faults_of(const std::filesystem::path& folder, std::string text, const std::string& from, const std::string& to) {
+std::string faults_of(const std::filesystem::path& folder, std::string text, const std::string& from,
+                      const std::string& to) {
   const auto place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from;
   text.replace(place, from.size(), to);
@@ -77,10 +83,12 @@ TEST_F(SpaceRun, MistakesAreToldWithLineAndRemedy) {
   };
   expect("fix: [u3]", "fix: [w]", "fix: expected one of u1, u2, u3, w1, w2, w3, found 'w'");
   expect("lc: 5 mm", "lc: 0 mm", "must be above zero in space");
-  expect("model: elastoplastic", "model: informed", "has no elements in space yet; there are elastic, elastoplastic, cell");
+  expect("model: elastoplastic", "model: informed",
+         "has no elements in space yet; there are elastic, elastoplastic, cell");
   expect("[1, 1, 2]", "[1, 1]", "elements");
   expect("fix: [u1, u2]", "fix: [u2]", "translation along 1");
-  expect("{on: bottom_front_right, fix: [u2]}", "{on: bottom, fix: [u3]}", "rotation about an axis along 3 through (0, 0, 0.1)");
+  expect("{on: bottom_front_right, fix: [u2]}", "{on: bottom, fix: [u3]}",
+         "rotation about an axis along 3 through (0, 0, 0.1)");
   expect("elements: [1, 1, 2]}", "elements: [1, 1, 2]}, element: Q8R", "H20R");
   expect("top, reaction: u3", "top, reaction: u4", "u3");
 }
@@ -92,19 +100,20 @@ TEST_F(SpaceRun, BoxesOfSpheresGiveTheSameBytes) {
         "script: cells/spheres_hooke_radii.in\npressure: 100 kPa\nfriction: 0.2\nseed: 5\n");
   const Outcome made = run_in(folder(), kProgram + " pack spheres.yaml -o spheres.h5");
   ASSERT_EQ(made.status, 0) << made.errors;
-  write(folder() / "case.yaml",
-        "title: One element of spheres in space\n"
-        "mesh: {box: {size: [0.1 m, 0.1 m, 0.1 m], elements: [1, 1, 1]}}\n"
-        "materials: {sand: {model: cell, script: cells/spheres_hooke_radii.in, packing: spheres.h5, lc: 20 mm}}\n"
-        "regions: {all: sand}\n"
-        "boundary:\n"
-        "  - {on: bottom, fix: [u3]}\n"
-        "  - {on: left, fix: [u1]}\n"
-        "  - {on: front, fix: [u2]}\n"
-        "  - {on: top, move: {u3: -0.5 mm}}\n"
-        "  - {on: [right, back], pressure: 100 kPa}\n"
-        "steps: {count: 4, tolerance: 2e-2}\n"
-        "monitors: {force: {on: top, reaction: u3}}\n");
+  write(
+      folder() / "case.yaml",
+      "title: One element of spheres in space\n"
+      "mesh: {box: {size: [0.1 m, 0.1 m, 0.1 m], elements: [1, 1, 1]}}\n"
+      "materials: {sand: {model: cell, script: cells/spheres_hooke_radii.in, packing: spheres.h5, lc: 20 mm}}\n"
+      "regions: {all: sand}\n"
+      "boundary:\n"
+      "  - {on: bottom, fix: [u3]}\n"
+      "  - {on: left, fix: [u1]}\n"
+      "  - {on: front, fix: [u2]}\n"
+      "  - {on: top, move: {u3: -0.5 mm}}\n"
+      "  - {on: [right, back], pressure: 100 kPa}\n"
+      "steps: {count: 4, tolerance: 2e-2}\n"
+      "monitors: {force: {on: top, reaction: u3}}\n");
   const Outcome one = run_in(folder(), kProgram + " run case.yaml -o one -w 1 --quiet");
   ASSERT_EQ(one.status, 0) << one.errors;
   const Outcome two = run_in(folder(), kProgram + " run case.yaml -o two -w 2 --quiet");

@@ -37,7 +37,7 @@ struct Block {
 
 /// @returns the stresses at the end; empty where the run does not get there
 inline std::vector<Response<2>> turned_block(std::shared_ptr<fem::Material<2>> material, const Block& block,
-                                          const Path& path, double angle, int steps) {
+                                             const Path& path, double angle, int steps) {
   using namespace fem;
   Problem<2> problem;
   problem.deformation = Deformation::large;
@@ -83,8 +83,8 @@ inline std::vector<Response<2>> turned_block(std::shared_ptr<fem::Material<2>> m
 
 /// Largest difference of the stress of a point, over the largest stress of the straight run. Infinite where one has not
 /// come to its end.
-inline double error_of_turning(const std::vector<Response<2>>& straight, const std::vector<Response<2>>& turned,
-                               double angle) {
+inline double error_of_turning(const std::vector<Response<2>>& straight,
+                               const std::vector<Response<2>>& turned, double angle) {
   if (straight.empty() || turned.empty()) return HUGE_VAL;
   const Eigen::Matrix2d r = Eigen::Rotation2Dd(angle).toRotationMatrix();
   double size = 0.0;

@@ -174,8 +174,9 @@ TEST_F(AdaptiveMaterialTest, AnExcursionIsPaidInOneRun) {
 TEST_F(AdaptiveMaterialTest, WithinAStepTheAnswerIsLinearAndRepeatable) {
   AdaptiveMaterial sand = material(3, 0.05);
   const auto increments = [](double amount) {
-    return std::vector<Increment<2>>{increment_of(compression(amount)), increment_of(compression(1.01 * amount)),
-                                  increment_of(compression(0.98 * amount))};
+    return std::vector<Increment<2>>{increment_of(compression(amount)),
+                                     increment_of(compression(1.01 * amount)),
+                                     increment_of(compression(0.98 * amount))};
   };
   std::vector<Response<2>> first(3), second(3), between(3), again(3);
   sand.evaluate(increments(1.00e-3), first);
@@ -207,7 +208,7 @@ TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
   cells_.breaks_at = 5e-3;
   AdaptiveMaterial sand = material(3, 0.02);
   std::vector<Increment<2>> increments{increment_of(compression(1e-4)), increment_of(compression(6e-3)),
-                                    increment_of(compression(1e-4))};
+                                       increment_of(compression(1e-4))};
   std::vector<Response<2>> responses(3);
   sand.evaluate(increments, responses);
   EXPECT_EQ(responses[1].quality, Quality::failed);

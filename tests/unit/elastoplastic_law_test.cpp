@@ -268,12 +268,12 @@ TEST(ElastoplasticLaw, FrozenConeOfOnePointGivesTheSameAsAConstantLaw) {
   sand.cone = {0.9, 0.25, 500.0};
   const ElastoplasticLaw<2> law(sand);
   const ElastoplasticFrame<2> frame{SubspaceModuli(sand.elastic, sand.weights), sand.elastic.internal_length,
-                                 sand.apex_stiffness_share};
+                                    sand.apex_stiffness_share};
   ElastoplasticState<2> a;
   ElastoplasticState<2> b;
   const Response<2> from_law = law.integrate(law.initial_state(), shear_and_bend(5e-3), a);
-  const Response<2> from_cone = integrate_elastoplastic(frame, FrozenCone{0.9, 0.25, 500.0}, law.initial_state(),
-                                                     shear_and_bend(5e-3), b);
+  const Response<2> from_cone = integrate_elastoplastic(frame, FrozenCone{0.9, 0.25, 500.0},
+                                                        law.initial_state(), shear_and_bend(5e-3), b);
   EXPECT_EQ(from_law.stress, from_cone.stress);
   EXPECT_EQ(from_law.tangent, from_cone.tangent);
   EXPECT_EQ(a.gamma_p, b.gamma_p);

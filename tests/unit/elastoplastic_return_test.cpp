@@ -102,8 +102,8 @@ TEST_P(ReturnMapping, EndsOnOrInsideTheCone) {
     const Split<double> split(end.stress);
     const Split<double> trial_split(trial);
     const double q = deviatoric_stress(split, moduli);
-    const double scale = deviatoric_stress(trial_split, moduli) + cone.cohesion +
-                         cone.friction * std::abs(trial_split.mean);
+    const double scale =
+        deviatoric_stress(trial_split, moduli) + cone.cohesion + cone.friction * std::abs(trial_split.mean);
     const double yield = cone.yield_function(q, split.mean) / scale;
     if (end.regime == Regime::elastic) {
       EXPECT_LE(yield, 1e-12);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-ElastoplasticParameters<3> sand(double trace = 0.0, double transpose = 0.0, const InvariantWeights& weights = {}) {
+ElastoplasticParameters<3> sand(double trace = 0.0, double transpose = 0.0,
+                                const InvariantWeights& weights = {}) {
   ElastoplasticParameters<3> made;
   made.elastic.young_modulus = 40e6;
   made.elastic.poisson_ratio = 0.25;
@@ -92,7 +93,8 @@ TEST(ConeInSpace, TangentIsTheComplexStep) {
         by_steps.col(column) = stress_of(stepped).second.stress.imag() / kStep;
       }
       // The return is solved to 1e-13 of the stress, which its derivative feels once more.
-      EXPECT_LT((tangent - by_steps).norm(), 1e-10 * elastic_stiffness<3>(moduli).norm()) << variant.name << state;
+      EXPECT_LT((tangent - by_steps).norm(), 1e-10 * elastic_stiffness<3>(moduli).norm())
+          << variant.name << state;
     }
     EXPECT_GT(smooth, 100) << variant.name;
     EXPECT_GT(apex, 3) << variant.name;
@@ -139,7 +141,8 @@ TEST(ConeInSpace, IsThePlanesLawInPlaneStrain) {
         const Response<2> b = plane.integrate(from_plane, strain, in_plane);
         ASSERT_EQ(a.quality, b.quality);
         EXPECT_LT((Vector7(a.stress(places)) - b.stress).norm(), 1e-11 * b.stress.norm()) << variant.name;
-        EXPECT_LT((Matrix7(a.tangent(places, places)) - b.tangent).norm(), 1e-9 * b.tangent.norm()) << variant.name;
+        EXPECT_LT((Matrix7(a.tangent(places, places)) - b.tangent).norm(), 1e-9 * b.tangent.norm())
+            << variant.name;
       }
     }
   }

@@ -76,7 +76,8 @@ TEST_P(EveryElement, increments_agree_with_the_strain_matrix) {
   const Mesh<2> mesh = distorted();
   const Eigen::VectorXd nodal = Eigen::VectorXd::LinSpaced(3 * mesh.nodes.size(), -1.0, 2.0).array().sin();
   for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
-    for (const PointGeometry<2>& point : point_geometries(*mesh.elements[0].type, mesh.element_positions(0))) {
+    for (const PointGeometry<2>& point :
+         point_geometries(*mesh.elements[0].type, mesh.element_positions(0))) {
       const Vector7 direct = increment_at(point, continuum, nodal).strain();
       EXPECT_LT((direct - strain_matrix(point, continuum) * nodal).norm(), 1e-14);
     }

@@ -44,7 +44,7 @@ Problem<2> biaxial(Deformation deformation = Deformation::small, double shorteni
                         {"top", Dof::u1, zero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-shortening), {}}};
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(kPressure)},
-                        {.on = "right", .pressure = TimeTable::constant(kPressure)}};
+                            {.on = "right", .pressure = TimeTable::constant(kPressure)}};
   return problem;
 }
 
@@ -175,7 +175,8 @@ TEST(explicit_steps, tell_when_they_are_unstable) {
 // Forces that are out of balance at time 0 come in, and do not hit.
 TEST(explicit_steps, let_imbalance_in_slowly) {
   Problem<2> problem = biaxial(Deformation::small, 0.0);
-  problem.boundary_loads[0].pressure = problem.boundary_loads[1].pressure = TimeTable::constant(0.5 * kPressure);
+  problem.boundary_loads[0].pressure = problem.boundary_loads[1].pressure =
+      TimeTable::constant(0.5 * kPressure);
   Solver<2> newton(problem, {});
   ASSERT_TRUE(newton.equilibrate().converged);
   problem.materials["all"] = elastic();

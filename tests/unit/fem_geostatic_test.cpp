@@ -26,7 +26,8 @@ Problem<2> ground(const std::string& element) {
   parameters.cone = {cone.friction, cone.dilatancy, cone.cohesion};
   Problem<2> problem;
   problem.mesh = rectangle({{4.0, 3.0}, {4, 3}}, element);
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
+  problem.materials["all"] =
+      std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {
       {"left", Dof::u1, zero, {}}, {"right", Dof::u1, zero, {}}, {"bottom", Dof::u2, zero, {}}};

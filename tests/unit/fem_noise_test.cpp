@@ -265,7 +265,7 @@ TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_a
                         {"bottom_left", Dof::u1, kZero, {}},
                         {"top", Dof::u2, TimeTable::constant(-0.0008), {}}};
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)},
-                        {.on = "right", .pressure = TimeTable::constant(100e3)}};
+                            {.on = "right", .pressure = TimeTable::constant(100e3)}};
   Solver<2> solver(std::move(problem), {});
   const StepReport report = solver.equilibrate();
   ASSERT_TRUE(report.converged) << report.message;

@@ -35,7 +35,7 @@ Problem<2> biaxial(std::shared_ptr<Material<2>> material, double confining = 100
                         {"bottom_left", Dof::u1, kZero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(confining)},
-                        {.on = "right", .pressure = TimeTable::constant(confining)}};
+                            {.on = "right", .pressure = TimeTable::constant(confining)}};
   return problem;
 }
 

@@ -43,8 +43,8 @@ TEST(free_rigid_motions, names_each_free_motion) {
 
 TEST(free_rigid_motions, a_held_micro_rotation_holds_the_rotation_of_a_cosserat_body_only) {
   const std::vector<PrescribedDof<2>> supports{{"bottom_left", Dof::u1, kZero, {}},
-                                            {"bottom_left", Dof::u2, kZero, {}},
-                                            {"bottom_left", Dof::w, kZero, {}}};
+                                               {"bottom_left", Dof::u2, kZero, {}},
+                                               {"bottom_left", Dof::w, kZero, {}}};
   EXPECT_EQ(free_motions(supports), Strings{});
   EXPECT_EQ(free_motions(supports, Continuum::cauchy), Strings{"rotation about (0, 0)"});
 }
@@ -82,7 +82,8 @@ TEST(free_rigid_motions, parts_that_are_tied_are_one) {
     mesh.elements.push_back(element);
   }
   for (const int node : mesh.nodes_on("left")) mesh.node_sets["other left"].push_back(node + shift);
-  const std::vector<PrescribedDof<2>> supports{{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  const std::vector<PrescribedDof<2>> supports{{"bottom", Dof::u1, kZero, {}},
+                                               {"bottom", Dof::u2, kZero, {}}};
   EXPECT_EQ(free_rigid_motions(mesh, Continuum::cosserat, supports).size(), 3U);
   EXPECT_EQ(free_rigid_motions(mesh, Continuum::cosserat, supports, {{"left", "other left"}}), Strings{});
 }

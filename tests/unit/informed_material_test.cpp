@@ -144,7 +144,8 @@ Curve compress(fem::Material<2>& material, int steps, double tolerance) {
 }
 
 Curve reference() {
-  fem::LocalMaterial<fem::ElastoplasticLaw<2>> law{fem::ElastoplasticLaw<2>({elasticity(), {}, micro_strength()})};
+  fem::LocalMaterial<fem::ElastoplasticLaw<2>> law{
+      fem::ElastoplasticLaw<2>({elasticity(), {}, micro_strength()})};
   return compress(law, 9600, 1e-10);
 }
 

@@ -108,7 +108,7 @@ class AdaptiveMaterialTest : public ::testing::Test {
 
   /// Takes a step and follows the true strains. @returns the answers
   std::vector<Response<2>> step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients,
-                             Configuration configuration = Configuration::fixed) {
+                                Configuration configuration = Configuration::fixed) {
     std::vector<Increment<2>> increments;
     for (std::size_t p = 0; p < gradients.size(); ++p) {
       increments.push_back(increment_of(gradients[p]));

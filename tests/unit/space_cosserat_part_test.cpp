@@ -28,7 +28,8 @@ Response<3> cell(const Increment<3>& increment) {
 /// A cell with free rotations feels the symmetric gradient alone.
 Increment<3> felt(const Increment<3>& increment) {
   Increment<3> made;
-  made.displacement_gradient = 0.5 * (increment.displacement_gradient + increment.displacement_gradient.transpose());
+  made.displacement_gradient =
+      0.5 * (increment.displacement_gradient + increment.displacement_gradient.transpose());
   return made;
 }
 
@@ -93,7 +94,8 @@ TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
       found.topLeftCorner<9, 9>() -= CosseratPart::kHold * 5e6 * skew.transpose() * skew;
     }
     EXPECT_LT((found - expected).topRows<9>().norm(), 1e-6 * expected.topRows<9>().norm()) << state;
-    EXPECT_LT((found - expected).bottomRows<9>().norm(), 1e-6 * expected.bottomRows<9>().norm() + 1e-9) << state;
+    EXPECT_LT((found - expected).bottomRows<9>().norm(), 1e-6 * expected.bottomRows<9>().norm() + 1e-9)
+        << state;
   }
   EXPECT_GT(at_skew, 10);
   EXPECT_GT(at_couple, 10);

@@ -13,7 +13,7 @@ namespace polargrain::fem::test {
 /// @return the increment that meets it. @throws std::runtime_error when Newton does not converge.
 template <class Evaluate>
 Increment<2> biaxial_step(double vertical_strain, double lateral, const Evaluate& evaluate,
-                       double first_guess = 0.0) {
+                          double first_guess = 0.0) {
   Increment<2> increment;
   increment.displacement_gradient(1, 1) = vertical_strain;
   increment.displacement_gradient(0, 0) = first_guess;

@@ -47,8 +47,9 @@ LawPoint cone_point(const fem::MohrCoulomb& strength) {
   for (const int place : {0, 1, 2}) sand.elastic.initial_stress[place] = -kPressure;
   const fem::FrozenCone cone = fem::cone_from_plane_strain(strength);
   sand.cone = {cone.friction, cone.dilatancy, cone.cohesion};
-  return LawPoint(std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw<2>>>(fem::ElastoplasticLaw<2>(sand)),
-                  kPressure);
+  return LawPoint(
+      std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw<2>>>(fem::ElastoplasticLaw<2>(sand)),
+      kPressure);
 }
 
 /// Grains in space that are none: Hencky's law, Kirchhoff stress from the logarithm of the stretch. Its tangent is that

@@ -55,7 +55,8 @@ inline Problem<2> problem_of(const Block& block) {
   Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, block.elements}, block.element);
   if (block.distortion > 0) distort(problem.mesh, block.distortion, block.elements);
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
+  problem.materials["all"] =
+      std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
   std::vector<TimeTable::Point> top{{0.0, 0.0}};
   for (const double strain : block.strains) top.push_back({static_cast<double>(top.size()), strain * 0.08});
   const TimeTable zero = TimeTable::constant(0.0);

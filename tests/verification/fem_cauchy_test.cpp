@@ -15,8 +15,9 @@ using namespace polargrain::fem;
 namespace {
 
 /// A block between rough plates, sheared and pressed: nothing is homogeneous.
-std::unique_ptr<Solver<2>> solved_block(const std::string& element, Continuum continuum, double cosserat_modulus,
-                                     double internal_length, double poisson_ratio = 0.3) {
+std::unique_ptr<Solver<2>> solved_block(const std::string& element, Continuum continuum,
+                                        double cosserat_modulus, double internal_length,
+                                        double poisson_ratio = 0.3) {
   const TimeTable zero = TimeTable::constant(0.0);
   Problem<2> problem;
   problem.mesh = rectangle({{1.0, 2.0}, {4, 8}}, element);

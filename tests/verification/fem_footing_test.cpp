@@ -28,7 +28,8 @@ double bearing_capacity_factor(int division, double internal_length, const std::
       problem.mesh.node_sets["footing"].push_back(node);
     }
   }
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
+  problem.materials["all"] =
+      std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {{"left", Dof::u1, zero, {}},   {"left", Dof::w, zero, {}},
                         {"bottom", Dof::u1, zero, {}}, {"bottom", Dof::u2, zero, {}},

@@ -79,7 +79,7 @@ TEST_P(HoleTest, concentrates_stress_as_the_closed_form_says) {
   const Hole& hole = GetParam();
   const double n2 = hole.coupling_number * hole.coupling_number;
   const ElasticParameters<2> parameters{2 * (1 + hole.poisson_ratio), hole.poisson_ratio, n2 / (1 - n2),
-                                     std::sqrt(2.0) / hole.radius_over_length, Vector7::Zero()};
+                                        std::sqrt(2.0) / hole.radius_over_length, Vector7::Zero()};
   const TimeTable zero = TimeTable::constant(0.0);
   Problem<2> problem;
   problem.mesh = quarter_plate();

@@ -19,7 +19,8 @@ namespace {
 /// One step of one element: from a shape that has turned already, turned on by 0.4 rad while it is strained unevenly.
 class OneStep {
  public:
-  OneStep(const std::string& element, Continuum continuum, std::shared_ptr<Material<2>> material, double strain)
+  OneStep(const std::string& element, Continuum continuum, std::shared_ptr<Material<2>> material,
+          double strain)
       : mesh_(rectangle({{0.1, 0.08}, {1, 1}}, element)),
         start_(mesh_, continuum),
         end_(mesh_, continuum),
@@ -85,7 +86,8 @@ TEST(LargeTangent, IsTheDerivativeOfTheForces) {
       for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
         ElasticParameters<2> of_case = elastic;
         if (continuum == Continuum::cauchy) of_case.initial_stress << -3e7, -1e7, -2e7, 5e6, 5e6, 0, 0;
-        std::shared_ptr<Material<2>> material = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(of_case));
+        std::shared_ptr<Material<2>> material =
+            std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(of_case));
         if (plastic)
           material = std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(
               ElastoplasticLaw<2>({of_case, {}, {PiecewiseLinear(0.8), PiecewiseLinear(0.2), 1e7}}));

@@ -114,7 +114,7 @@ TEST(large_deformation, tangent_under_pressure_is_the_derivative_of_the_residual
     Problem<2> problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
     problem.mesh = rectangle({{2.0, 1.0}, {3, 2}}, element);
     problem.boundary_loads = {{.on = "top", .pressure = TimeTable::ramp(2e5)},
-                          {.on = "right", .pressure = TimeTable::constant(-1e5)}};
+                              {.on = "right", .pressure = TimeTable::constant(-1e5)}};
     Loads<2> loads(problem);
     Eigen::VectorXd place = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(problem.mesh.nodes.size()));
     for (Eigen::Index i = 0; i < place.size(); ++i) place(i) = 0.1 * std::sin(1.7 * static_cast<double>(i));

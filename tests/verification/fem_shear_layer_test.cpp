@@ -37,7 +37,7 @@ Answer solve_layer(int elements, const std::string& element, Sides sides = Sides
   Problem<2> problem;
   problem.mesh = rectangle({{width, kHeight}, {columns, elements}, {0.0, -kHeight / 2}}, element);
   const ElasticParameters<2> parameters{2.5 * kShearModulus, 0.25, kCosseratModulus, kInternalLength,
-                                     Vector7::Zero()};
+                                        Vector7::Zero()};
   problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   if (sides == Sides::tied) problem.ties = {{"left", "right"}};
   const std::string held = sides == Sides::tied ? "bottom" : "all";

@@ -29,8 +29,8 @@ std::shared_ptr<Material<dim>> sand(double weaker, double transpose) {
   made.elastic.couple_transpose_ratio = transpose;
   for (int i = 0; i < dim; ++i) made.elastic.initial_stress(Cosserat<dim>::stress_place(i, i)) = -kPressure;
   if constexpr (dim == 2) made.elastic.initial_stress(k33) = -kPressure;
-  made.cone = hardening_cone({PiecewiseLinear::ramp(weaker * 40.0, weaker * 35.0, 0.1), PiecewiseLinear::ramp(10.0, 5.0, 0.1),
-                              PiecewiseLinear(100.0)},
+  made.cone = hardening_cone({PiecewiseLinear::ramp(weaker * 40.0, weaker * 35.0, 0.1),
+                              PiecewiseLinear::ramp(10.0, 5.0, 0.1), PiecewiseLinear(100.0)},
                              ConeMatch::plane_strain);
   return std::make_shared<LocalMaterial<ElastoplasticLaw<dim>>>(ElastoplasticLaw<dim>(made));
 }
@@ -53,7 +53,8 @@ History biaxial(const std::array<std::string, 2>& element, Deformation deformati
   // The weak corner: the first element; the sides by the place of their nodes, in the plane's words.
   problem.mesh.regions["weak"] = {0};
   problem.mesh.regions["rest"].clear();
-  for (int e = 1; e < static_cast<int>(problem.mesh.elements.size()); ++e) problem.mesh.regions["rest"].push_back(e);
+  for (int e = 1; e < static_cast<int>(problem.mesh.elements.size()); ++e)
+    problem.mesh.regions["rest"].push_back(e);
   problem.materials["weak"] = sand<dim>(0.95, transpose);
   problem.materials["rest"] = sand<dim>(1.0, transpose);
   const std::string low = dim == 2 ? "bottom" : "front";

@@ -38,7 +38,8 @@ std::shared_ptr<Material<2>> material(double internal_length, double softening, 
 }
 
 /// A column of elements; the top goes to the yield displacement at time 1, rotations are free at both ends.
-Problem<2> layer(int elements, double internal_length, double softening, double strength, double weak_height) {
+Problem<2> layer(int elements, double internal_length, double softening, double strength,
+                 double weak_height) {
   const double width = kHeight / elements;
   Problem<2> problem;
   problem.mesh = rectangle({{width, kHeight}, {1, elements}, {0.0, -kHeight / 2}});

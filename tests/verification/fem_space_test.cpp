@@ -47,7 +47,8 @@ void straighten(Mesh<3>& mesh) {
         for (int c = b + 1; c < element.type->corners; ++c)
           if (2.0 * reference[a] == reference[b] + reference[c] &&
               (element.type->corners == 4 || (reference[b] - reference[c]).norm() == 2.0))
-            mesh.nodes[element.nodes[a]] = 0.5 * (mesh.nodes[element.nodes[b]] + mesh.nodes[element.nodes[c]]);
+            mesh.nodes[element.nodes[a]] =
+                0.5 * (mesh.nodes[element.nodes[b]] + mesh.nodes[element.nodes[c]]);
   }
 }
 
@@ -57,7 +58,8 @@ Mesh<3> shaken_cube(const std::string& element) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> shake(-0.06, 0.06);
   for (Place& x : mesh.nodes)
-    if (x.minCoeff() > 1e-9 && x.maxCoeff() < 1.0 - 1e-9) x += Place(shake(random), shake(random), shake(random));
+    if (x.minCoeff() > 1e-9 && x.maxCoeff() < 1.0 - 1e-9)
+      x += Place(shake(random), shake(random), shake(random));
   straighten(mesh);
   return mesh;
 }
@@ -66,9 +68,8 @@ Mesh<3> shaken_cube(const std::string& element) {
 void prescribe(Problem<3>& problem, const std::vector<std::string>& places, const NodeField& field) {
   for (const std::string& place : places)
     for (const Dof dof : kDofs)
-      problem.prescribed.push_back({place, dof, TimeTable::ramp(1.0), [field, dof](const Place& x) {
-                                      return field(x)(place_of<3>(dof));
-                                    }});
+      problem.prescribed.push_back({place, dof, TimeTable::ramp(1.0),
+                                    [field, dof](const Place& x) { return field(x)(place_of<3>(dof)); }});
 }
 
 const std::vector<std::string> kFaces{"left", "right", "front", "back", "bottom", "top"};
@@ -81,8 +82,8 @@ SolverOptions exact() {
 
 struct Patch {
   const char* name;
-  Eigen::Vector3d turned;      ///< rotation beside that of the continuum
-  Eigen::Matrix3d curvature;   ///< d w_j / d x_i
+  Eigen::Vector3d turned;     ///< rotation beside that of the continuum
+  Eigen::Matrix3d curvature;  ///< d w_j / d x_i
 };
 
 const Eigen::Matrix3d kGradient = (Eigen::Matrix3d() << 1, .5, -.3, 1, 1, .4, .2, -.6, .8).finished() * 1e-3;
@@ -124,7 +125,8 @@ double patch_error(const std::string& element, bool shaken, const Patch& patch, 
                                   Cosserat<3>::NodeValues load = Cosserat<3>::NodeValues::Zero();
                                   for (int j = 0; j < 3; ++j) {
                                     const Place step = 0.5 * Place::Unit(j);
-                                    load.head<3>() -= (stress(x + step) - stress(x - step)).row(j).transpose();
+                                    load.head<3>() -=
+                                        (stress(x + step) - stress(x - step)).row(j).transpose();
                                   }
                                   load.tail<3>() = -2.0 * axial(stress(x).transpose());  // -e_ijk s_jk
                                   return load;
@@ -181,7 +183,8 @@ int zero_modes(const std::string& element, std::array<int, 3> elements, const El
     const std::vector<int>& dofs = discretisation.element_dofs(e);
     stiffness(dofs, dofs) += discretisation.element_tangent(e, {answers});
   }
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues();
   return static_cast<int>((values.array() < 1e-9 * values(values.size() - 1)).count());
 }
 
@@ -223,8 +226,8 @@ TEST(SpaceElements, BendingWithCoupleStressIsExact) {
   problem.materials["all"] = elastic(of);
   prescribe(problem, {"bottom", "top"}, [=](const Place& x) {
     Cosserat<3>::NodeValues v;
-    v << poisson * x(0) * x(1), 0.5 * (x(2) * x(2) - poisson * (x(0) * x(0) - x(1) * x(1))), -x(1) * x(2), -x(2), 0.0,
-        -poisson * x(0);
+    v << poisson * x(0) * x(1), 0.5 * (x(2) * x(2) - poisson * (x(0) * x(0) - x(1) * x(1))), -x(1) * x(2),
+        -x(2), 0.0, -poisson * x(0);
     return Cosserat<3>::NodeValues(bend * v);
   });
   const std::vector<Place> nodes = problem.mesh.nodes;
@@ -267,8 +270,9 @@ double glide_error(int elements, double beta) {
   EXPECT_TRUE(report.converged) << report.message;
   double error = 0.0;
   for (std::size_t node = 0; node < nodes.size(); ++node)
-    error = std::max(error, std::abs(solver.state().displacement(static_cast<Eigen::Index>(entry_of<3>(node, Dof::w3))) -
-                                     std::sinh(2.0 * nodes[node](1))));
+    error = std::max(
+        error, std::abs(solver.state().displacement(static_cast<Eigen::Index>(entry_of<3>(node, Dof::w3))) -
+                        std::sinh(2.0 * nodes[node](1))));
   return error / 3.626860408;
 }
 
@@ -294,7 +298,8 @@ Eigen::Vector3d roll_up(int steps, const Eigen::Vector3d& turned) {
   for (Place& x : problem.mesh.nodes) x = whole * x;
   problem.materials["all"] = elastic(parameters(2.6, 0.3, 0.5, 0.3));
   const auto centre_at = [&](double t) -> Place {
-    return whole * Place(0.0, t == 0.0 ? 0.0 : -kLength / t * (1.0 - std::cos(t)), t == 0.0 ? kLength : kLength / t * std::sin(t));
+    return whole * Place(0.0, t == 0.0 ? 0.0 : -kLength / t * (1.0 - std::cos(t)),
+                         t == 0.0 ? kLength : kLength / t * std::sin(t));
   };
   const std::vector<Place> nodes = problem.mesh.nodes;
   const std::vector<int> end = problem.mesh.nodes_on("top");
@@ -307,7 +312,8 @@ Eigen::Vector3d roll_up(int steps, const Eigen::Vector3d& turned) {
       std::vector<TimeTable::Point> points;
       for (int k = 0; k <= steps; ++k) {
         const double t = 1.5 * k / steps;
-        const Place moved = centre_at(t) + rotation_by(t * axis) * (nodes[node] - centre_at(0.0)) - nodes[node];
+        const Place moved =
+            centre_at(t) + rotation_by(t * axis) * (nodes[node] - centre_at(0.0)) - nodes[node];
         points.push_back({1.0 * k / steps, is_rotation(dof) ? t * axis(axis_of(dof)) : moved(axis_of(dof))});
       }
       problem.prescribed.push_back({name, dof, TimeTable(points), {}});
@@ -326,7 +332,8 @@ Eigen::Vector3d roll_up(int steps, const Eigen::Vector3d& turned) {
   const Eigen::VectorXd forces = solver.internal_forces();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (const int node : end) {
-    const Place arm = nodes[node] + solver.state().displacement.segment<3>(entry_of<3>(node)) - centre_at(1.5);
+    const Place arm =
+        nodes[node] + solver.state().displacement.segment<3>(entry_of<3>(node)) - centre_at(1.5);
     moment += arm.cross(forces.segment<3>(entry_of<3>(node))) + forces.segment<3>(entry_of<3>(node, Dof::w1));
   }
   return whole.transpose() * moment;

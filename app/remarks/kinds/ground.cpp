@@ -174,8 +174,8 @@ void free_sides(const Scene& scene, Remarks& remarks) {
   std::vector<std::string> names{""};
   for (const auto& [name, edges] : scene.mesh().boundaries) names.push_back(name);
   for (const std::string& name : names) {
-    const bool loaded = std::ranges::any_of(scene.problem().boundary_loads,
-                                            [&](const fem::BoundaryLoad<2>& load) { return load.on == name; });
+    const bool loaded = std::ranges::any_of(
+        scene.problem().boundary_loads, [&](const fem::BoundaryLoad<2>& load) { return load.on == name; });
     const bool tied = std::ranges::any_of(
         scene.problem().ties, [&](const fem::Tie& tie) { return tie.on == name || tie.to == name; });
     for (const OutlineEdge& edge : edges_of(scene.mesh(), name)) {

@@ -16,7 +16,8 @@ std::vector<const fem::TimeTable*> tables_of(const fem::Problem<2>& problem) {
   std::vector<const fem::TimeTable*> tables;
   for (const fem::PrescribedDof<2>& item : problem.prescribed) tables.push_back(&item.value);
   for (const fem::BoundaryLoad<2>& load : problem.boundary_loads)
-    tables.insert(tables.end(), {&load.pressure, &load.traction[0], &load.traction[1], &load.couple_traction[0]});
+    tables.insert(tables.end(),
+                  {&load.pressure, &load.traction[0], &load.traction[1], &load.couple_traction[0]});
   for (const fem::NodeLoad& load : problem.node_loads) tables.push_back(&load.value);
   for (const fem::BodyLoad<2>& load : problem.body_loads) tables.push_back(&load.factor);
   return tables;

@@ -55,8 +55,8 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   if (files.dem_steps > 0 && section.find("damping") == nullptr)
     definition.control.damping = kDampingOfResidents;
   if (files.dimension == 3 && files.dem_steps > 0)
-    faults.push_back(section.entry().fault(section.name() +
-                                           ": explicit steps have no cells in space yet; set 'method: newton'"));
+    faults.push_back(section.entry().fault(
+        section.name() + ": explicit steps have no cells in space yet; set 'method: newton'"));
   if (files.dimension == 3 && faults.size() == faults_before && definition.packing.dimension != 3)
     section.fault("packing", "packing: elements in space need spheres, and this packing is of discs");
   if (faults.size() != faults_before) return nullptr;

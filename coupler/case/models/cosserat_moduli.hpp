@@ -19,14 +19,16 @@ void read_cosserat_moduli(Section& section, const CaseFiles& files, fem::Elastic
   parameters.couple_trace_ratio = section.quantity_or("alpha", Dimension::number, Limit::any, 0.0);
   parameters.couple_transpose_ratio = section.quantity_or("beta", Dimension::number, Limit::any, 0.0);
   if (section.find("lc") != nullptr && parameters.internal_length == 0.0)
-    section.fault("lc",
-                  "lc: must be above zero in space: without couple stiffness elements with fewer points than their nodes "
-                  "have motions that cost no energy; give lc, or set 'continuum: cauchy'");
+    section.fault(
+        "lc",
+        "lc: must be above zero in space: without couple stiffness elements with fewer points than their nodes "
+        "have motions that cost no energy; give lc, or set 'continuum: cauchy'");
 }
 
 /// Reads E, nu, Gc, lc and the isotropic initial stress `confining`.
 template <int dim>
-void read_elastic_parameters(Section& section, const CaseFiles& files, fem::ElasticParameters<dim>& parameters) {
+void read_elastic_parameters(Section& section, const CaseFiles& files,
+                             fem::ElasticParameters<dim>& parameters) {
   parameters.young_modulus = section.quantity("E", Dimension::pressure, Limit::positive);
   parameters.poisson_ratio = section.quantity("nu", Dimension::number, Limit::any);
   read_cosserat_moduli(section, files, parameters);

@@ -13,7 +13,9 @@ template <int dim>
 class ElasticRecipe : public MaterialRecipe {
  public:
   explicit ElasticRecipe(const fem::ElasticParameters<dim>& parameters) : parameters_(parameters) {}
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return make_local<2>(pool); }
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
+    return make_local<2>(pool);
+  }
   [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
     return make_local<3>(pool);
   }
@@ -47,7 +49,8 @@ std::unique_ptr<MaterialRecipe> read_elastic(Section& section, Faults& faults, c
 
 std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
                                      const CaseFiles& files) {
-  return files.dimension == 3 ? read_elastic<3>(section, faults, files) : read_elastic<2>(section, faults, files);
+  return files.dimension == 3 ? read_elastic<3>(section, faults, files)
+                              : read_elastic<2>(section, faults, files);
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ class ElastoplasticRecipe : public MaterialRecipe {
  public:
   ElastoplasticRecipe(fem::ElastoplasticParameters<dim> parameters, std::string note)
       : parameters_(std::move(parameters)), note_(std::move(note)) {}
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return make_local<2>(pool); }
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
+    return make_local<2>(pool);
+  }
   [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
     return make_local<3>(pool);
   }
@@ -43,13 +45,15 @@ class ElastoplasticRecipe : public MaterialRecipe {
 };
 
 /// The words of `match`, in the order of fem::ConeMatch.
-const std::vector<std::string> kMatches{"triaxial_compression", "triaxial_extension", "plane_strain", "inner"};
+const std::vector<std::string> kMatches{"triaxial_compression", "triaxial_extension", "plane_strain",
+                                        "inner"};
 
 /// The strength that a cone has where it was not matched; empty where that is no surprise.
 std::string note_on(const std::string& name, const fem::HardeningCone& cone, fem::ConeMatch match) {
   if (match != fem::ConeMatch::triaxial_compression) return {};
   double steepest = 0.0;
-  for (const double gamma_p : fem::merged_knots({&cone.friction})) steepest = std::max(steepest, cone.friction.at(gamma_p).value);
+  for (const double gamma_p : fem::merged_knots({&cone.friction}))
+    steepest = std::max(steepest, cone.friction.at(gamma_p).value);
   const std::optional<double> angle = fem::angle_in_extension({steepest, 0.0, 0.0});
   if (angle) return {};
   return fmt::format(
@@ -89,7 +93,8 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
       strength(section, "friction_angle", Dimension::angle, Limit::not_negative, kDegrees, shear),
       strength(section, "dilatancy_angle", Dimension::angle, Limit::any, kDegrees, shear),
       strength(section, "cohesion", Dimension::pressure, Limit::not_negative, 1.0, shear)};
-  const std::string word = section.choice_or("match", kMatches, dim == 2 ? "plane_strain" : "triaxial_compression");
+  const std::string word =
+      section.choice_or("match", kMatches, dim == 2 ? "plane_strain" : "triaxial_compression");
   const auto match = static_cast<fem::ConeMatch>(std::ranges::find(kMatches, word) - kMatches.begin());
   if (section.find("invariants") != nullptr) {
     const std::vector<double> a = section.quantities("invariants", 3, Dimension::number, Limit::any);
@@ -111,7 +116,8 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
   return std::make_unique<ElastoplasticRecipe<dim>>(std::move(parameters), std::move(note));
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults, const CaseFiles& files) {
+std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
+                                     const CaseFiles& files) {
   return files.dimension == 3 ? read_law<3>(section, faults, files) : read_law<2>(section, faults, files);
 }
 
