@@ -155,7 +155,7 @@ def hard_cases_page(figures):
         if match:
             name, outcome, time, of, iterations, cuts, stress, error = match.groups()
             outcome = outcome if outcome == "to the end" else f"{outcome} (at {time} of {of})"
-            rows.append(f"| {name} | {iterations} | {cuts} | {float(stress):.6g} | {error or ''} | {outcome} |")
+            rows.append(f"    {name:<44}{iterations:>10}{cuts:>6}{float(stress):>14.6g}{error or '':>15}  {outcome}")
         else:
             others.append(f"    {figure}")
     return "\n".join([
@@ -164,8 +164,7 @@ def hard_cases_page(figures):
         "`docs/make_verification.py` writes this page from `fem_hard_cases_test` and `fem_many_elements_test`. A block is",
         "compressed or extended in ten steps a leg, to a tolerance of 1e-8. The error is relative to the Mohr-Coulomb stress",
         "at which a homogeneous block must end. With friction at the platens, or after a stop, there is no exact answer.", "",
-        "| case | iterations | cuts | axial stress, kPa | error | what happened |", "|---|---|---|---|---|---|",
-        *rows, "", "Refused cases, and cases of another kind:", "", *others, ""])
+        f"    {'case':<44}{'iterations':>10}{'cuts':>6}{'stress, kPa':>14}{'error':>15}  what happened", *rows, "", "Refused cases, and cases of another kind:", "", *others, ""])
 
 
 def keep(results):

@@ -31,7 +31,7 @@ void tell_cells(const coupler::Case& the_case, const PackingsAtRest& packings) {
     tell(stdout, "material '{}': moduli of the packing at rest: {}\n", name, packing.moduli.text());
 }
 
-/// What there is of a body in space: no faults, and the size of the run. Remarks and pictures are of the plane.
+/// Checks a body in space: its faults, and the size of the run. Remarks and pictures are of the plane.
 int check_in_space(const CheckOptions& options, const coupler::Case& the_case) {
   if (!options.picture.empty())
     throw InputError(

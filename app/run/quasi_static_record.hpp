@@ -30,7 +30,7 @@ nlohmann::ordered_json quasi_static_figures(const coupler::Case& the_case, const
 /// The same as lines under the table of a run; empty for a run without explicit steps.
 std::string quasi_static_text(const coupler::Case& the_case, const RunRecord& record);
 
-/// What went beyond its tolerance, a sentence each with its remedy. For the log and the user.
+/// Measures beyond their tolerance, a sentence each with its remedy. For the log and the user.
 std::vector<std::string> quasi_static_remarks(const coupler::Case& the_case, const RunRecord& record);
 
 }  // namespace polargrain::app

@@ -15,7 +15,7 @@
 namespace polargrain::app {
 namespace {
 
-/// Those of the solver alone.
+/// Columns of the solver alone.
 std::vector<std::string> columns_of_steps(const coupler::Case& the_case) {
   std::vector<std::string> columns = coupler::columns_of_steps();
   if (the_case.is_explicit())

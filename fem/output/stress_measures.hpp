@@ -40,7 +40,7 @@ struct SpaceStressMeasures {
   double mobilised_friction = 0.0;  ///< of the first and the last principal stress, degrees
 };
 
-/// @param stress in the order of Cosserat<3>
+/// Of a stress in the order of Cosserat<3>.
 SpaceStressMeasures measures_of(const Vector18& stress);
 
 }  // namespace polargrain::fem
