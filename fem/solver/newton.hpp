@@ -55,6 +55,8 @@ class Newton {
   [[nodiscard]] Residual initial_residual();
   /// Holds back the imbalance of the committed state until steps release it (StepGoal::released).
   void withhold_imbalance();
+  /// Whether that has been done.
+  [[nodiscard]] bool withholds() const { return withheld_.size() > 0; }
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
   /// Largest force residual that the best iterate of the last attempt has; infinite without an iterate to commit.

@@ -289,6 +289,8 @@ StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitO
   StepReport report;
   const bool first = state.velocity.size() == 0;
   if (first) {
+    // A run that goes on from behind its begin has its state, and nothing is held back yet.
+    if (!self.withholds()) self.withhold_imbalance();
     state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
     state.velocity = Eigen::VectorXd::Zero(self.constraints.unknowns());
   } else if (state.velocity.size() != self.constraints.unknowns() ||
