@@ -3,8 +3,8 @@
 //
 //   build/release/bench/pack_bench > pack.log      from the root of the project; the table goes to standard
 //   error
-//   build/release/bench/pack_bench spheres 1000 0.5 [engine] > pack.log      one packing; `discs` or `spheres`, grains,
-//   friction, LIGGGHTS's loop
+//   build/release/bench/pack_bench spheres 1000 0.5 [automatic|engine [seed]] > pack.log      one packing; `discs` or
+//   `spheres`, grains, friction, loop
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -70,9 +70,10 @@ int main(int count, char** words) {
     const bool space = std::string_view(words[1]) == "spheres";
     polargrain::PackingSpecification asked =
         specification(space ? 3 : 2, std::atoi(words[2]), std::atof(words[3]));
-    if (count > 4) asked.loop = polargrain::CellLoop::engine;
-    measure(fmt::format("{}, friction {}{}", words[1], words[3], count > 4 ? ", LIGGGHTS's loop" : "").c_str(),
-            asked);
+    const bool engine = count > 4 && std::string_view(words[4]) == "engine";
+    if (engine) asked.loop = polargrain::CellLoop::engine;
+    if (count > 5) asked.seed = static_cast<std::uint64_t>(std::atoi(words[5]));
+    measure(fmt::format("{}, friction {}{}", words[1], words[3], engine ? ", LIGGGHTS's loop" : "").c_str(), asked);
     return 0;
   }
   for (const int grains : {400, 2000}) {

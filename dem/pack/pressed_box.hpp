@@ -69,11 +69,12 @@ class PressedBox {
   virtual void renew_time_step(double damping_rate) = 0;
   /// Which loop takes the steps, in words (stepping_note).
   [[nodiscard]] virtual const std::string& stepping() const = 0;
-  /// The gravity of the grains; null unless the box was made with Fall::yes.
-  [[nodiscard]] FixGravity* gravity() { return gravity_; }
+  /// Lets the grains of a box that was made with Fall::yes fall, as FixGravity::begin.
+  void begin_fall(double acceleration, double floor_stiffness, double damping);
+  [[nodiscard]] double unrest() const;  ///< FixGravity::unrest
 
  protected:
-  FixGravity* gravity_ = nullptr;
+  FixGravity* gravity_ = nullptr;  // none unless the box was made with Fall::yes
 };
 
 /// Whether the grains of a box fall under gravity.

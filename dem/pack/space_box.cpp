@@ -13,6 +13,7 @@
 #include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/pressed_box.hpp"
 #include "dem/sphere_loop/choose_box.hpp"
+#include "dem/sphere_loop/sphere_box.hpp"
 #include "dem/spheres/space_contact.hpp"
 #include "dem/spheres/sphere_engine.hpp"
 
@@ -46,6 +47,10 @@ class PressedSpheres final : public PressedBox {
       stiffest_.see(probe.contacts());
     }
     grains_ = choose_box(engine_, specification.loop);
+    if (auto* const box = dynamic_cast<SphereBox*>(grains_.get()); box != nullptr && gravity_ != nullptr)
+      box->further_forces = [this](const double* spheres, double* forces) {
+        gravity_->act_on_rows(spheres, forces);
+      };
     stepping_ = stepping_note(specification.loop, "the loop over spheres", sphere_combination(lammps),
                               name_of(best_instruction_set()));
   }
