@@ -108,13 +108,20 @@ void NetworkSolver<Motions, MostRightSides, Number>::take_child(const Matrix& ma
   const int width = Motions * child.border + right_sides_;
   passed_end_ -= Motions * static_cast<std::size_t>(child.border) * width;
   const Number* from = passed_.data() + passed_end_;
+  // Grains that stand side by side in both fronts are one piece.
+  pieces_.clear();
+  for (const int grain : border) {
+    if (pieces_.empty() || pieces_.back().begin + pieces_.back().length != local_[grain])
+      pieces_.push_back({local_[grain], 0});
+    pieces_.back().length += Motions;
+  }
   for (const int grain : border)
     for (int k = 0; k < Motions; ++k) {
       Number* to = matrix.values + (local_[grain] + k) * matrix.stride;
-      for (const int other : border) {
-        Number* place = to + local_[other];
-        for (int unknown = 0; unknown < Motions; ++unknown) place[unknown] += from[unknown];
-        from += Motions;
+      for (const Piece& piece : pieces_) {
+        Number* const place = to + piece.begin;
+        for (int column = 0; column < piece.length; ++column) place[column] += from[column];
+        from += piece.length;
       }
       for (int side = 0; side < right_sides_; ++side) to[matrix.rows + side] += *from++;
     }

@@ -73,6 +73,12 @@ class NetworkSolver {
     int stride = 0;
   };
 
+  /// Columns of an open front.
+  struct Piece {
+    int begin = 0;
+    int length = 0;
+  };
+
   void start(std::span<const Contact> contacts, int grains, int right_sides);
   [[nodiscard]] Matrix open(std::size_t front, double spring, std::span<const double> torques);
   void add_contact(const Matrix& matrix, const Contact& contact, const Equations& added) const;
@@ -89,6 +95,7 @@ class NetworkSolver {
   std::vector<std::size_t> waiting_;  // closed fronts whose parent is not open yet
   std::size_t passed_end_ = 0;
   std::vector<int> local_;  // first row in the open front, by grain
+  std::vector<Piece> pieces_;
   std::vector<Number> known_;
   std::vector<double> solution_;
 };
