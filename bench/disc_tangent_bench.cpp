@@ -106,8 +106,8 @@ int main_of_bench(int packings) {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
   setenv("OMPI_MCA_btl", "self", 1);
   dem::start_engine_process();
-  fmt::print(stderr, "Distance of tangents from differences of 2e-4, increments of {}\n\n{:>4} {:>7} {:>8}", kIncrement,
-             "seed", "strain", "sliding%");
+  fmt::print(stderr, "Distance of tangents from differences of 2e-4, increments of {}\n\n{:>4} {:>7} {:>8}",
+             kIncrement, "seed", "strain", "sliding%");
   for (const double hold : kHolds) fmt::print(stderr, " {:>7.0e}", hold);
   fmt::print(stderr, "\n");
   std::vector<std::vector<double>> all;

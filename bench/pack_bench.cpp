@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <ctime>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -45,10 +45,11 @@ void measure(const char* what, const polargrain::PackingSpecification& asked) {
   double steps = 0.0;
   try {
     const auto tell = [](const polargrain::PackingReached& now) {
-      fmt::print("[pack] {:9.0f} steps: void ratio {:.5f}, pressure {:.5g}, anisotropy {:.2e}, shear {:.2e}, contacts "
-                 "{:.4f}, unbalanced {:.2e}\n",
-                 now.dem_steps, now.void_ratio, now.pressure, now.anisotropy, now.shear, now.coordination_number,
-                 now.unbalanced_force_ratio);
+      fmt::print(
+          "[pack] {:9.0f} steps: void ratio {:.5f}, pressure {:.5g}, anisotropy {:.2e}, shear {:.2e}, contacts "
+          "{:.4f}, unbalanced {:.2e}\n",
+          now.dem_steps, now.void_ratio, now.pressure, now.anisotropy, now.shear, now.coordination_number,
+          now.unbalanced_force_ratio);
     };
     const polargrain::PreparedPacking made = polargrain::dem::prepare_packing(asked, tell);
     reached = fmt::format("{:10.4f} {:10.3f}", made.reached.void_ratio, made.reached.coordination_number);
@@ -73,7 +74,8 @@ int main(int count, char** words) {
     const bool engine = count > 4 && std::string_view(words[4]) == "engine";
     if (engine) asked.loop = polargrain::CellLoop::engine;
     if (count > 5) asked.seed = static_cast<std::uint64_t>(std::atoi(words[5]));
-    measure(fmt::format("{}, friction {}{}", words[1], words[3], engine ? ", LIGGGHTS's loop" : "").c_str(), asked);
+    measure(fmt::format("{}, friction {}{}", words[1], words[3], engine ? ", LIGGGHTS's loop" : "").c_str(),
+            asked);
     return 0;
   }
   for (const int grains : {400, 2000}) {
@@ -85,6 +87,7 @@ int main(int count, char** words) {
   measure("discs, void ratio 0.22 (steps of the last try)", asked);
   for (const int grains : {400, 2000})
     for (const double friction : {0.0, 0.5})
-      measure(fmt::format("spheres in space, friction {}", friction).c_str(), specification(3, grains, friction));
+      measure(fmt::format("spheres in space, friction {}", friction).c_str(),
+              specification(3, grains, friction));
   return 0;
 }

@@ -90,8 +90,9 @@ void bench(const std::string& name, CellDefinition definition, const Eigen::Vect
       };
       const Matrix18 whole = tangent.classical(loaded.network(3e-3)).value();
       const Matrix18 single = quick.classical(loaded.network(3e-3)).value();
-      fmt::print(stderr, "{} {:>7.1f} {:>7.1f} {:>8.1e}{}\n", line, milliseconds(tangent), milliseconds(quick),
-                 (single - whole).norm() / whole.norm(), quick.repeated() > 0 ? " repeated" : "");
+      fmt::print(stderr, "{} {:>7.1f} {:>7.1f} {:>8.1e}{}\n", line, milliseconds(tangent),
+                 milliseconds(quick), (single - whole).norm() / whole.norm(),
+                 quick.repeated() > 0 ? " repeated" : "");
     }
     request.state = cell->evaluate(request).state;
   }

@@ -73,11 +73,12 @@ std::string stepping_note(CellLoop asked, const std::string& loop, const DiscSel
   std::string note(kSteppingNote);
   if (asked == CellLoop::engine) return note + "LIGGGHTS's own loop, as `loop: engine` asks";
   if (!selection.combination)
-    return note + fmt::format("LIGGGHTS's own loop, which is slower: {} does not take {}", loop, selection.reason);
+    return note +
+           fmt::format("LIGGGHTS's own loop, which is slower: {} does not take {}", loop, selection.reason);
   if (asked == CellLoop::plain)
     return note + fmt::format("the plain twin of {} ({})", loop, selection.combination->name());
-  return note + fmt::format("{} ({}{}{})", loop, selection.combination->name(), instructions.empty() ? "" : "; ",
-                            instructions);
+  return note + fmt::format("{} ({}{}{})", loop, selection.combination->name(),
+                            instructions.empty() ? "" : "; ", instructions);
 }
 
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,

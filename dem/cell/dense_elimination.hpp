@@ -41,7 +41,8 @@ bool eliminate(const FrontMatrixOf<Number>& front, InstructionSet set);
 /// @param known values of the unknowns that are not pivots, one row each, as many columns as right-hand sides
 /// @param known_stride of rows, at least the right-hand sides, rounded up to a multiple of kRowSlackOf
 template <typename Number>
-void substitute_back(const FrontMatrixOf<Number>& factors, const Number* known, int known_stride, InstructionSet set);
+void substitute_back(const FrontMatrixOf<Number>& factors, const Number* known, int known_stride,
+                     InstructionSet set);
 
 extern template bool eliminate(const FrontMatrixOf<double>&, InstructionSet);
 extern template bool eliminate(const FrontMatrixOf<float>&, InstructionSet);

@@ -25,7 +25,7 @@ int stride_of(int columns) {
 /// Plans the elimination and makes room for all that it will write.
 template <int Motions, int MostRightSides, typename Number>
 void NetworkSolver<Motions, MostRightSides, Number>::start(std::span<const Contact> contacts, int grains,
-                                                   int right_sides) {
+                                                           int right_sides) {
   right_sides_ = right_sides;
   plan_.make(contacts, grains);
   places_.clear();
@@ -64,12 +64,12 @@ void NetworkSolver<Motions, MostRightSides, Number>::start(std::span<const Conta
 /// The equations of a front with what its grains have without contacts.
 template <int Motions, int MostRightSides, typename Number>
 FrontMatrixOf<Number> NetworkSolver<Motions, MostRightSides, Number>::open(std::size_t front, double spring,
-                                                         std::span<const double> torques) {
+                                                                           std::span<const double> torques) {
   const auto& [pivots_begin, pivots, border_begin, border, contacts_begin, contacts, children] =
       plan_.fronts()[front];
   const int rows = Motions * (pivots + border);
   const Matrix matrix{factors_.data() + places_[front].factors, rows, rows + right_sides_,
-                           places_[front].stride, Motions * pivots};
+                      places_[front].stride, Motions * pivots};
   std::fill_n(matrix.values, static_cast<std::size_t>(rows) * matrix.stride, 0.0);
   int row = 0;
   for (const int grain : plan_.order().subspan(pivots_begin, pivots)) {
@@ -89,7 +89,7 @@ FrontMatrixOf<Number> NetworkSolver<Motions, MostRightSides, Number>::open(std::
 
 template <int Motions, int MostRightSides, typename Number>
 void NetworkSolver<Motions, MostRightSides, Number>::add_contact(const Matrix& matrix, const Contact& contact,
-                                                         const Equations& added) const {
+                                                                 const Equations& added) const {
   const int grains[2] = {local_[contact.first], local_[contact.second]};
   for (int row = 0; row < 2 * Motions; ++row) {
     Number* to = matrix.values + (grains[row / Motions] + row % Motions) * matrix.stride;
@@ -149,8 +149,8 @@ void NetworkSolver<Motions, MostRightSides, Number>::substitute() {
       for (int unknown = 0; unknown < Motions; ++unknown, known += kKnownStride)
         std::copy_n(solution(grain) + unknown * kStride, right_sides_, known);
     const int rows = Motions * (front.pivots + front.border);
-    const Matrix factors{factors_.data() + places_[k].factors, rows, rows + right_sides_,
-                              places_[k].stride, Motions * front.pivots};
+    const Matrix factors{factors_.data() + places_[k].factors, rows, rows + right_sides_, places_[k].stride,
+                         Motions * front.pivots};
     substitute_back(factors, static_cast<const Number*>(known_.data()), kKnownStride, set_);
     const Number* solved = factors.values + factors.rows;
     for (const int grain : plan_.order().subspan(front.pivots_begin, front.pivots))

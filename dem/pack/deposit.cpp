@@ -144,8 +144,8 @@ Packing deposit(const PackingSpecification& specification, const Packing& rain,
   const double weight = specification.pressure * specification.share_of_axis[1] * floor_area;
   const double diameter = 2.0 * box->mean_radius();
   const double on_the_floor = floor_area / (diameter * (rain.dimension == 3 ? diameter : rain.thickness));
-  box->begin_fall(weight / rain.grain_mass(),
-                        weight / on_the_floor / (kFloorOverlap * box->mean_radius()), kLocalDamping);
+  box->begin_fall(weight / rain.grain_mass(), weight / on_the_floor / (kFloorOverlap * box->mean_radius()),
+                  kLocalDamping);
   PackingReached reached;
   for (std::int64_t chunk = 1; chunk == 1 || box->unrest() > kRest; ++chunk) {
     if (reached.dem_steps > static_cast<double>(specification.most_steps))

@@ -52,7 +52,9 @@ void FixGravity::act(GrainOf grain) {
 }
 
 void FixGravity::post_force(int) {
-  act([this](int k) { return FallingGrain{atom->x[k], atom->v[k], atom->omega[k], atom->f[k], atom->torque[k]}; });
+  act([this](int k) {
+    return FallingGrain{atom->x[k], atom->v[k], atom->omega[k], atom->f[k], atom->torque[k]};
+  });
 }
 
 void FixGravity::act_on_rows(const double* grains, double* forces) {

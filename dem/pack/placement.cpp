@@ -79,7 +79,8 @@ class Placed {
     const Eigen::Array3d place(grain.position.x(), grain.position.y(), grain.height);
     Eigen::Array3i bin;
     for (int axis = 0; axis < 3; ++axis)
-      bin[axis] = std::clamp(static_cast<int>(place[axis] / sides_[axis] * counts_[axis]), 0, counts_[axis] - 1);
+      bin[axis] =
+          std::clamp(static_cast<int>(place[axis] / sides_[axis] * counts_[axis]), 0, counts_[axis] - 1);
     return bin;
   }
   [[nodiscard]] std::size_t number(const Eigen::Array3i& bin) const {

@@ -21,7 +21,8 @@ SphereEngine::SphereEngine(const Packing& packing, const std::string& script, co
 }
 
 SphereEngine::SphereEngine(const CellDefinition& definition)
-    : SphereEngine(definition.packing, definition.script, definition.script_file, definition.contact_library) {
+    : SphereEngine(definition.packing, definition.script, definition.script_file,
+                   definition.contact_library) {
   if (definition.packing.state) restore_packing([&] { restore(*definition.packing.state); });
 }
 

@@ -16,7 +16,8 @@ class SphereEngine : public GrainEngine {
   explicit SphereEngine(const CellDefinition& definition);
   /// Without them. @param after_script see GrainEngine
   SphereEngine(const Packing& packing, const std::string& script, const std::string& script_file,
-               const ContactLibraryFile& contact_library, const std::function<void(Engine&)>& after_script = {});
+               const ContactLibraryFile& contact_library,
+               const std::function<void(Engine&)>& after_script = {});
   FixSpaceStrain& strain() { return *strain_; }
   [[nodiscard]] const FixSpaceStrain& strain() const { return *strain_; }
 

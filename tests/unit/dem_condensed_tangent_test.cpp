@@ -99,14 +99,13 @@ TYPED_TEST(DenseKernels, GiveTheSameBitsWithEveryInstructionSet) {
     std::vector<TypeParam> known((front.rows - front.pivots + 1) * kKnown, TypeParam(0.25));
     for (const InstructionSet set : instruction_sets()) {
       std::vector<TypeParam> values = random_front<TypeParam>(front);
-      const FrontMatrixOf<TypeParam> matrix{values.data(), front.rows, front.rows + front.sides, front.stride(),
-                                            front.pivots};
+      const FrontMatrixOf<TypeParam> matrix{values.data(), front.rows, front.rows + front.sides,
+                                            front.stride(), front.pivots};
       ASSERT_TRUE(eliminate(matrix, set));
       substitute_back(matrix, static_cast<const TypeParam*>(known.data()), kKnown, set);
       // The slack of a row may be used, but nothing before the next row's begin is part of the matrix.
       for (int row = 0; row < front.rows; ++row)
-        for (int k = front.rows + front.sides; k < front.stride(); ++k)
-          values[row * front.stride() + k] = 0;
+        for (int k = front.rows + front.sides; k < front.stride(); ++k) values[row * front.stride() + k] = 0;
       if (expected.empty()) expected = values;
       EXPECT_EQ(values, expected) << front.pivots << " of " << front.rows;
     }

@@ -47,7 +47,8 @@ void expect_the_same(const Moved& fast, const Moved& engine, double pressure) {
   for (std::size_t k = 0; k < fast.packing.grains.size(); ++k) {
     const Grain& one = fast.packing.grains[k];
     const Grain& other = engine.packing.grains[k];
-    farthest = std::max({farthest, (one.position - other.position).norm(), std::abs(one.height - other.height)});
+    farthest =
+        std::max({farthest, (one.position - other.position).norm(), std::abs(one.height - other.height)});
   }
   EXPECT_LE(farthest, 1e-12);  // m; spheres of 3 to 7 mm
 }
@@ -143,8 +144,9 @@ TEST(PackLoop, PackingsFromALooseStartAreStatisticallyThose) {
     const Made engine = made_by(CellLoop::engine, friction, kPackings);
     const auto [voids, within] = difference(fast.void_ratios, engine.void_ratios);
     const auto [contacts, contacts_within] = difference(fast.contacts, engine.contacts);
-    std::printf("[figure] friction %g, %d packings: void ratio apart by %.4f +- %.4f, contacts a grain by %.3f +- %.3f\n",
-                friction, kPackings, voids, within, contacts, contacts_within);
+    std::printf(
+        "[figure] friction %g, %d packings: void ratio apart by %.4f +- %.4f, contacts a grain by %.3f +- %.3f\n",
+        friction, kPackings, voids, within, contacts, contacts_within);
     // Twice the interval of 95 %: one in a thousand.
     EXPECT_LE(std::abs(voids), 2.0 * within);
     EXPECT_LE(std::abs(contacts), 2.0 * contacts_within);
@@ -156,7 +158,8 @@ TEST(PackLoop, SaysWhichLoopStepsTheGrains) {
   const auto note = [](const PackingSpecification& specification) {
     return prepare_packing(specification, {}).stepping;
   };
-  EXPECT_TRUE(note(asked).starts_with(std::string(kSteppingNote) + "the loop over spheres (hooke/radii, history"))
+  EXPECT_TRUE(
+      note(asked).starts_with(std::string(kSteppingNote) + "the loop over spheres (hooke/radii, history"))
       << note(asked);
   asked.loop = CellLoop::engine;
   EXPECT_EQ(note(asked), std::string(kSteppingNote) + "LIGGGHTS's own loop, as `loop: engine` asks");

@@ -368,12 +368,15 @@ TEST(SphereTangent, SinglePrecisionHasTheDigitsOfATangent) {
   const SpaceNetwork network = sheared_network().network(kHoldOfCells);
   CondensedSpaceTangent whole(best_instruction_set(), EliminationDigits::whole);
   CondensedSpaceTangent single;
-  const auto distance = [](const Matrix18& one, const Matrix18& other) { return (one - other).norm() / other.norm(); };
+  const auto distance = [](const Matrix18& one, const Matrix18& other) {
+    return (one - other).norm() / other.norm();
+  };
   const double free = distance(single.classical(network).value(), whole.classical(network).value());
   const double held = distance(single.cosserat(network, sheared_network().weights).value(),
                                whole.cosserat(network, sheared_network().weights).value());
-  std::printf("[figure] sheared spheres: single precision is %.1e off with free rotations, %.1e with controlled ones\n",
-              free, held);
+  std::printf(
+      "[figure] sheared spheres: single precision is %.1e off with free rotations, %.1e with controlled ones\n",
+      free, held);
   EXPECT_EQ(single.repeated(), 0);
   // A thousandth is asked of a tangent, and differences of the cell scatter by more. Ten such states gave 1e-7 to 1e-5.
   EXPECT_LT(free, 1e-4);
