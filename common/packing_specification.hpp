@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/cell.hpp"
 #include "common/contact_library_file.hpp"
 #include "common/packing.hpp"
 
@@ -78,6 +79,7 @@ struct PackingSpecification {
   double inertial_number = 1.2e-2;       ///< greatest rate of compression, under the pressure aimed at
   double damping = kDampingInPlane;      ///< as CellControl::damping; more holds the slow motions up
   std::int64_t most_steps = 2'000'000;
+  CellLoop loop = CellLoop::automatic;  ///< that steps spheres; discs are stepped by the engine's own
 };
 
 /// The values that a packing reached. No times: equal specifications give equal files.
@@ -137,6 +139,7 @@ struct PreparedPacking {
   Packing packing;
   PackingReached reached;
   std::string specification;  ///< text of the user's specification
+  std::string stepping;       ///< which loop made it, in words (kSteppingNote); not in the file
 };
 
 /// Brings a packing to rest under a script and a pressure. @param specification script, pressure and definition of

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -14,9 +15,11 @@
 #include "app/remarks/packing_at_rest.hpp"
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
+#include "common/plain_text.hpp"
 #include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
+#include "common/stepping_note.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "fem/output/write_file.hpp"
 #include "grains_io/packing_data.hpp"
@@ -41,9 +44,20 @@ bool make_in_child(const PackingWork& make, const std::filesystem::path& output,
                            reached.dem_steps, reached.void_ratio, 1e-3 * reached.pressure,
                            reached.unbalanced_force_ratio));
     };
-    write_packing_file(output, make(progress));
+    const PreparedPacking made = make(progress);
+    tell(stdout, "{}\n", made.stepping);
+    write_packing_file(output, made);
   };
   return run_in_child(log, work, !quiet);
+}
+
+/// The line of a log that says which loop has stepped the grains; empty where there is none.
+std::string stepping_of(const std::filesystem::path& log) {
+  std::ifstream stream(log);
+  std::string found;
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(kSteppingNote)) found = without_control_characters(line);
+  return found;
 }
 
 /// The largest and the smallest eigenvalue of the fabric, each with its direction.
@@ -62,7 +76,9 @@ std::string fabric_text(const PackingReached& reached, int dimension) {
   return fmt::format("{}, {}", one(dimension - 1), one(0));
 }
 
-void report(const PreparedPacking& packing, double seconds, const std::filesystem::path& file) {
+/// @param stepping which loop has stepped the grains (kSteppingNote), or nothing
+void report(const PreparedPacking& packing, const std::string& stepping, double seconds,
+            const std::filesystem::path& file) {
   const PackingReached& reached = packing.reached;
   const double width = packing.packing.box.col(0).norm();  // the bedding may be turned
   tell(stdout,
@@ -74,13 +90,15 @@ void report(const PreparedPacking& packing, double seconds, const std::filesyste
        "  fabric                 {}\n"
        "  friction while made    {:.4g}{}\n"
        "  DEM steps              {:.0f}\n"
-       "  seconds                {:.2f}\n",
+       "  seconds                {:.2f}\n"
+       "{}",
        file.string(), packing.packing.grains.size(), width, packing.packing.box.determinant() / width,
        packing.packing.dimension == 3 ? fmt::format(" x {:.6g} m", packing.packing.thickness) : "",
        reached.void_ratio, reached.coordination_number, 100.0 * reached.rattlers, 1e-3 * reached.pressure,
        reached.anisotropy, reached.shear, reached.unbalanced_force_ratio, reached.unbalanced_moment_ratio,
        fabric_text(reached, packing.packing.dimension), reached.friction,
-       packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps, seconds);
+       packing.packing.state ? " (tangential forces are kept)" : "", reached.dem_steps, seconds,
+       stepping.empty() ? "" : fmt::format("  {}\n", stepping));
 }
 
 /// A packing with what its file records; of a CSV file that is the pressure at most.
@@ -102,14 +120,16 @@ PackingSpecification settling(const PackOptions& options) {
 
 }  // namespace
 
-void make_packing_file(const PackingWork& make, const std::filesystem::path& output,
-                       const PackingTools& tools, bool quiet) {
+std::string make_packing_file(const PackingWork& make, const std::filesystem::path& output,
+                              const PackingTools& tools, bool quiet) {
   std::filesystem::path log = output;
   log += ".log";
   if (!make_in_child(make, output, tools, quiet, log))
     throw RunError(fmt::format("the packing could not be made (the engine's output is in {}):\n{}",
                                log.string(), coupler::log_excerpt(log)));
+  const std::string stepping = stepping_of(log);
   std::filesystem::remove(log);
+  return stepping;
 }
 
 int pack(const PackOptions& options, const PackingTools& tools) {
@@ -129,11 +149,11 @@ int pack(const PackOptions& options, const PackingTools& tools) {
     return tools.settle(specification, packing_to_settle(options.settle.front()), progress);
   };
   const auto start = Clock::now();
-  make_packing_file(make, options.output, tools, options.quiet);
+  const std::string stepping = make_packing_file(make, options.output, tools, options.quiet);
   const double seconds = seconds_since(start);
   if (options.quiet) return 0;
   const PreparedPacking made = read_packing_file(options.output);
-  report(made, seconds, options.output);
+  report(made, stepping, seconds, options.output);
   if (options.moduli)
     tell(stdout, "  {}\n",
          options.moduli({options.output.stem().string(), specification.script_file, specification.script,

@@ -40,9 +40,9 @@ using PackingWork = std::function<PreparedPacking(const std::function<void(const
 
 /// Does such work in a process of its own (an engine error ends its process), whose whole output goes to a log beside the
 /// packing; the log is removed when all went well. @param output is written whole or not at all
-/// @throws RunError in the engine's words
-void make_packing_file(const PackingWork& make, const std::filesystem::path& output,
-                       const PackingTools& tools, bool quiet);
+/// @returns which loop has stepped the grains, in words (kSteppingNote) @throws RunError in the engine's words
+std::string make_packing_file(const PackingWork& make, const std::filesystem::path& output,
+                              const PackingTools& tools, bool quiet);
 
 /// Makes a packing after a specification, in a process of its own (an engine error ends its process), whose
 /// whole output goes to a log beside the packing. The log is removed when all went well.

@@ -153,6 +153,8 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
   positive("damping", specification.damping);
   if (specification.damping >= 1.0) top.fault("damping", "damping: must be less than 1");
   specification.most_steps = top.whole_or("most_steps", 1, static_cast<int>(specification.most_steps));
+  const std::string loop = top.choice_or("loop", {"automatic", "engine"}, "automatic");
+  specification.loop = loop == "engine" ? CellLoop::engine : CellLoop::automatic;
 }
 
 void require_dimension(const PackingSpecification& specification, coupler::Faults& faults) {

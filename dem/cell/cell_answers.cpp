@@ -68,18 +68,22 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
   response.message = std::move(reason);
 }
 
+std::string stepping_note(CellLoop asked, const std::string& loop, const DiscSelection& selection,
+                          std::string_view instructions) {
+  std::string note(kSteppingNote);
+  if (asked == CellLoop::engine) return note + "LIGGGHTS's own loop, as `loop: engine` asks";
+  if (!selection.combination)
+    return note +
+           fmt::format("LIGGGHTS's own loop, which is slower: {} does not take {}", loop, selection.reason);
+  if (asked == CellLoop::plain)
+    return note + fmt::format("the plain twin of {} ({})", loop, selection.combination->name());
+  return note + fmt::format("{} ({}{}{})", loop, selection.combination->name(),
+                            instructions.empty() ? "" : "; ", instructions);
+}
+
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
                             const DiscSelection& selection, std::string_view instructions) {
-  std::string note(kSteppingNote);
-  if (control.loop == CellLoop::engine)
-    note += "LIGGGHTS's own loop, as `loop: engine` asks";
-  else if (!selection.combination)
-    note += fmt::format("LIGGGHTS's own loop, which is slower: {} does not take {}", loop, selection.reason);
-  else if (control.loop == CellLoop::plain)
-    note += fmt::format("the plain twin of {} ({})", loop, selection.combination->name());
-  else
-    note += fmt::format("{} ({}{}{})", loop, selection.combination->name(), instructions.empty() ? "" : "; ",
-                        instructions);
+  const std::string note = stepping_note(control.loop, loop, selection, instructions);
   return remark.empty() ? note : remark + "\n" + note;
 }
 

@@ -46,9 +46,13 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
            const CellControl& control, const Equilibrium& rest, std::span<const Contact> contacts,
            const Inertia& inertia, double time_step, double most_void_ratio);
 
-/// The remarks of a cell on its packing at rest, a line each: `remark`, if there is one, and which loop steps its grains.
+/// Which loop steps the grains of a scene, in words (kSteppingNote).
 /// @param loop that takes the scenes it knows: "the loop over discs" @param selection its verdict on this scene
 /// @param instructions that it is compiled for, or nothing
+std::string stepping_note(CellLoop asked, const std::string& loop, const DiscSelection& selection,
+                          std::string_view instructions = {});
+
+/// The remarks of a cell on its packing at rest, a line each: `remark`, if there is one, and its stepping_note.
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
                             const DiscSelection& selection, std::string_view instructions = {});
 

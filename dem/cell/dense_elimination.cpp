@@ -12,35 +12,38 @@ namespace {
 // Bodies that are compiled once for each instruction set must end up inside the function that names it.
 #define POLARGRAIN_INLINE [[gnu::always_inline]] inline
 
-/// Pivots eliminated together.
-constexpr int kPanel = 8;
+/// Pivots eliminated together: as many as the widest vectors hold.
+template <typename Number>
+constexpr int kPanelOf = kRowSlackOf<Number>;
 
 /// The pivot in place is kept when it is at least this fraction of the largest.
 constexpr double kPivotThreshold = 0.1;
 
 /// Vectors of one instruction set, and the tile of a matrix that fits its registers and leaves some for a row
 /// of u and an entry of l.
-template <int Doubles, int TileRows, int TileVectors>
+template <typename Scalar, int Bytes, int TileRows, int TileVectors>
 struct Registers {
-  using Vector [[gnu::vector_size(Doubles * sizeof(double))]] = double;
-  static constexpr int width = Doubles;
+  using Number = Scalar;
+  using Vector [[gnu::vector_size(Bytes)]] = Scalar;
+  static constexpr int width = Bytes / sizeof(Scalar);
+  static constexpr int panel = kPanelOf<Scalar>;
   static constexpr int rows = TileRows;
   static constexpr int vectors = TileVectors;
 };
 
-template <typename Vector>
-POLARGRAIN_INLINE void load(Vector& to, const double* from) {
+template <typename Vector, typename Number>
+POLARGRAIN_INLINE void load(Vector& to, const Number* from) {
   std::memcpy(&to, from, sizeof(Vector));
 }
 
-template <typename Vector>
-POLARGRAIN_INLINE void store(double* to, const Vector& from) {
+template <typename Vector, typename Number>
+POLARGRAIN_INLINE void store(Number* to, const Vector& from) {
   std::memcpy(to, &from, sizeof(Vector));
 }
 
 /// c -= l u for a tile of `Rows` rows, kept in registers.
-template <typename Registers, int Rows>
-POLARGRAIN_INLINE void subtract_tile(double* c, int c_stride, const double* l, int l_stride, const double* u,
+template <typename Registers, int Rows, typename Number = typename Registers::Number>
+POLARGRAIN_INLINE void subtract_tile(Number* c, int c_stride, const Number* l, int l_stride, const Number* u,
                                      int u_stride, int depth) {
   typename Registers::Vector sums[Rows][Registers::vectors];
   for (int row = 0; row < Rows; ++row)
@@ -57,10 +60,10 @@ POLARGRAIN_INLINE void subtract_tile(double* c, int c_stride, const double* l, i
       store(c + row * c_stride + v * Registers::width, sums[row][v]);
 }
 
-/// c -= l u; writes up to kRowSlack columns more than `columns`.
-template <typename Registers, int Rows = Registers::rows>
-POLARGRAIN_INLINE void subtract_product(double* c, int c_stride, const double* l, int l_stride,
-                                        const double* u, int u_stride, int rows, int columns, int depth) {
+/// c -= l u; writes up to kRowSlackOf columns more than `columns`.
+template <typename Registers, int Rows = Registers::rows, typename Number = typename Registers::Number>
+POLARGRAIN_INLINE void subtract_product(Number* c, int c_stride, const Number* l, int l_stride,
+                                        const Number* u, int u_stride, int rows, int columns, int depth) {
   constexpr int width = Registers::vectors * Registers::width;
   int row = 0;
   for (; row + Rows <= rows; row += Rows)
@@ -74,7 +77,8 @@ POLARGRAIN_INLINE void subtract_product(double* c, int c_stride, const double* l
 }
 
 /// Brings a large enough pivot to row k of column k.
-POLARGRAIN_INLINE bool choose_pivot(const FrontMatrix& front, int k) {
+template <typename Number>
+POLARGRAIN_INLINE bool choose_pivot(const FrontMatrixOf<Number>& front, int k) {
   const auto entry = [&front, k](int row) { return std::abs(front.values[row * front.stride + k]); };
   int best = k;
   for (int row = k + 1; row < front.pivots; ++row)
@@ -87,22 +91,23 @@ POLARGRAIN_INLINE bool choose_pivot(const FrontMatrix& front, int k) {
 }
 
 /// Eliminates the pivots of one panel from the columns of the panel, in all rows below.
-template <typename Registers>
-POLARGRAIN_INLINE bool eliminate_panel(const FrontMatrix& front, int first, int pivots) {
+template <typename Registers, typename Number>
+POLARGRAIN_INLINE bool eliminate_panel(const FrontMatrixOf<Number>& front, int first, int pivots) {
+  constexpr int kPanel = Registers::panel;
   constexpr int vectors = kPanel / Registers::width;
   using Vector = typename Registers::Vector;
   for (int k = 0; k < pivots; ++k) {
     if (!choose_pivot(front, first + k)) return false;
-    const double* pivot_row = front.values + (first + k) * front.stride + first;
-    const double inverse = 1.0 / pivot_row[k];
+    const Number* pivot_row = front.values + (first + k) * front.stride + first;
+    const Number inverse = Number(1) / pivot_row[k];
     // Whole vectors, with nothing to subtract in the columns done.
-    double upper_row[kPanel] = {};
+    Number upper_row[kPanel] = {};
     for (int column = k + 1; column < kPanel; ++column) upper_row[column] = pivot_row[column];
     Vector upper[vectors];
     for (int v = 0; v < vectors; ++v) load(upper[v], upper_row + v * Registers::width);
     for (int row = first + k + 1; row < front.rows; ++row) {
-      double* place = front.values + row * front.stride + first;
-      const double factor = place[k] * inverse;
+      Number* place = front.values + row * front.stride + first;
+      const Number factor = place[k] * inverse;
       for (int v = k / Registers::width; v < vectors; ++v) {
         Vector lower;
         load(lower, place + v * Registers::width);
@@ -115,14 +120,15 @@ POLARGRAIN_INLINE bool eliminate_panel(const FrontMatrix& front, int first, int 
   return true;
 }
 
-template <typename Registers>
-POLARGRAIN_INLINE bool eliminate_with(const FrontMatrix& front) {
+template <typename Registers, typename Number = typename Registers::Number>
+POLARGRAIN_INLINE bool eliminate_with(const FrontMatrixOf<Number>& front) {
+  constexpr int kPanel = Registers::panel;
   const int stride = front.stride;
   for (int first = 0; first < front.pivots; first += kPanel) {
     const int pivots = std::min(kPanel, front.pivots - first);
     if (!eliminate_panel<Registers>(front, first, pivots)) return false;
     // The columns to the right of the panel: first in its own rows, then in those below.
-    double* corner = front.values + first * stride + first;
+    Number* corner = front.values + first * stride + first;
     const int rest = front.columns - first - kPanel;
     for (int row = 1; row < pivots; ++row)
       subtract_product<Registers, 1>(corner + row * stride + kPanel, stride, corner + row * stride, stride,
@@ -133,61 +139,79 @@ POLARGRAIN_INLINE bool eliminate_with(const FrontMatrix& front) {
   return true;
 }
 
-template <typename Registers>
-POLARGRAIN_INLINE void substitute_with(const FrontMatrix& factors, const double* known, int known_stride) {
+template <typename Registers, typename Number = typename Registers::Number>
+POLARGRAIN_INLINE void substitute_with(const FrontMatrixOf<Number>& factors, const Number* known,
+                                       int known_stride) {
   const int stride = factors.stride;
   const int pivots = factors.pivots;
   const int sides = factors.columns - factors.rows;
-  double* right = factors.values + factors.rows;
+  Number* right = factors.values + factors.rows;
   subtract_product<Registers>(right, stride, factors.values + pivots, stride, known, known_stride, pivots,
                               sides, factors.rows - pivots);
   for (int k = pivots - 1; k >= 0; --k) {
-    double* solved = right + k * stride;
-    const double* upper = factors.values + k * stride + k;
+    Number* solved = right + k * stride;
+    const Number* upper = factors.values + k * stride + k;
     subtract_product<Registers, 1>(solved, stride, upper + 1, stride, solved + stride, stride, 1, sides,
                                    pivots - k - 1);
-    const double inverse = 1.0 / upper[0];
+    const Number inverse = Number(1) / upper[0];
     for (int side = 0; side < sides; ++side) solved[side] *= inverse;
   }
 }
 
-using Baseline = Registers<2, 4, 2>;  // 16 registers
-using Avx2 = Registers<4, 4, 2>;      // 16
-using Avx512 = Registers<8, 8, 1>;    // 32
+template <typename Number>
+using Baseline = Registers<Number, 16, 4, 2>;  // 16 registers
+template <typename Number>
+using Avx2 = Registers<Number, 32, 4, 2>;  // 16
+template <typename Number>
+using Avx512 = Registers<Number, 64, 8, 1>;  // 32
 
-bool eliminate_baseline(const FrontMatrix& front) {
-  return eliminate_with<Baseline>(front);
+template <typename Number>
+bool eliminate_baseline(const FrontMatrixOf<Number>& front) {
+  return eliminate_with<Baseline<Number>>(front);
 }
-[[gnu::target("avx2")]] bool eliminate_avx2(const FrontMatrix& front) {
-  return eliminate_with<Avx2>(front);
+template <typename Number>
+[[gnu::target("avx2")]] bool eliminate_avx2(const FrontMatrixOf<Number>& front) {
+  return eliminate_with<Avx2<Number>>(front);
 }
-[[gnu::target("avx512f")]] bool eliminate_avx512(const FrontMatrix& front) {
-  return eliminate_with<Avx512>(front);
+template <typename Number>
+[[gnu::target("avx512f")]] bool eliminate_avx512(const FrontMatrixOf<Number>& front) {
+  return eliminate_with<Avx512<Number>>(front);
 }
-void substitute_baseline(const FrontMatrix& factors, const double* known, int known_stride) {
-  substitute_with<Baseline>(factors, known, known_stride);
+template <typename Number>
+void substitute_baseline(const FrontMatrixOf<Number>& factors, const Number* known, int known_stride) {
+  substitute_with<Baseline<Number>>(factors, known, known_stride);
 }
-[[gnu::target("avx2")]] void substitute_avx2(const FrontMatrix& factors, const double* known,
+template <typename Number>
+[[gnu::target("avx2")]] void substitute_avx2(const FrontMatrixOf<Number>& factors, const Number* known,
                                              int known_stride) {
-  substitute_with<Avx2>(factors, known, known_stride);
+  substitute_with<Avx2<Number>>(factors, known, known_stride);
 }
-[[gnu::target("avx512f")]] void substitute_avx512(const FrontMatrix& factors, const double* known,
+template <typename Number>
+[[gnu::target("avx512f")]] void substitute_avx512(const FrontMatrixOf<Number>& factors, const Number* known,
                                                   int known_stride) {
-  substitute_with<Avx512>(factors, known, known_stride);
+  substitute_with<Avx512<Number>>(factors, known, known_stride);
 }
 
 }  // namespace
 
-bool eliminate(const FrontMatrix& front, InstructionSet set) {
+template <typename Number>
+bool eliminate(const FrontMatrixOf<Number>& front, InstructionSet set) {
   if (set == InstructionSet::avx512) return eliminate_avx512(front);
   if (set == InstructionSet::avx2) return eliminate_avx2(front);
   return eliminate_baseline(front);
 }
 
-void substitute_back(const FrontMatrix& factors, const double* known, int known_stride, InstructionSet set) {
+template <typename Number>
+void substitute_back(const FrontMatrixOf<Number>& factors, const Number* known, int known_stride,
+                     InstructionSet set) {
   if (set == InstructionSet::avx512) return substitute_avx512(factors, known, known_stride);
   if (set == InstructionSet::avx2) return substitute_avx2(factors, known, known_stride);
   return substitute_baseline(factors, known, known_stride);
 }
+
+template bool eliminate(const FrontMatrixOf<double>&, InstructionSet);
+template bool eliminate(const FrontMatrixOf<float>&, InstructionSet);
+template void substitute_back(const FrontMatrixOf<double>&, const double*, int, InstructionSet);
+template void substitute_back(const FrontMatrixOf<float>&, const float*, int, InstructionSet);
 
 }  // namespace polargrain::dem

@@ -51,9 +51,9 @@ class GrainEngine {
   bool shorten_time_step(std::span<const Contact> stiffened, const Inertia& inertia, double damping_rate) {
     return time_step_->shorten(lammps(), stiffened, inertia, damping_rate);
   }
-  /// The time step of a packing in the making (ScriptTimeStep::renew).
-  void renew_time_step(const StiffestContact& stiffest, double damping_rate) {
-    time_step_->renew(lammps(), contacts(), stiffest, damping_rate, script_file_);
+  /// The time step of a packing in the making (ScriptTimeStep::renew). @param now its contacts
+  void renew_time_step(std::span<const Contact> now, const StiffestContact& stiffest, double damping_rate) {
+    time_step_->renew(lammps(), now, stiffest, damping_rate, script_file_);
   }
   [[nodiscard]] bool script_sets_time_step() const { return time_step_->given(); }
 

@@ -41,8 +41,6 @@ class RelaxedNetwork {
   static constexpr int kStride = Solver::kStride;
   static constexpr int kAxes = Solver::kRotations;
   static constexpr int kFirstAxis = Solver::kFirstRotation;
-  /// The largest force that may stay unbalanced on a grain, over the largest affine force of a contact.
-  static constexpr double kLargestUnbalance = 1e-9;
 
   /// Rows of a grain in memory: displacements, and rotations as arc lengths.
   template <int Strains>
@@ -110,7 +108,7 @@ auto RelaxedNetwork<Law, Solver, Motions, Components>::stresses(const Network& n
     affine_forces.template bottomRows<kAxes>() /= arm;
     largest = largest.cwiseMax(affine_forces.cwiseAbs());
   }
-  const Eigen::RowVector<double, Strains> allowed = kLargestUnbalance * largest.colwise().maxCoeff();
+  const Eigen::RowVector<double, Strains> allowed = Solver::kLargestUnbalance * largest.colwise().maxCoeff();
   for (int grain = 0; grain < network.grains; ++grain) {
     GrainRows<Strains> left = unbalanced(grain) + spring * fluctuation<Strains>(grain);
     if (held) left.template bottomRows<kAxes>() += weights[static_cast<std::size_t>(grain)] * multipliers;

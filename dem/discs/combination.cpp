@@ -51,10 +51,12 @@ std::optional<RollingLaw> rolling_of(int number) {
   return std::nullopt;
 }
 
-/// The first fix of the scene that does more than the loops over grains do; empty without one.
+/// The first fix of the scene that does more than the loops over grains do; empty without one. What `pack/gravity` does,
+/// which no script can name, the making of packings does in the loops too.
 std::string foreign_fix(const LAMMPS& lammps) {
-  constexpr std::array<std::string_view, 6> kKnown{"property/global", "nve/sphere",  "enforce2d",
-                                                   "contacthistory",  "cell/strain", "cell/space_strain"};
+  constexpr std::array<std::string_view, 7> kKnown{"property/global", "nve/sphere",  "enforce2d",
+                                                   "contacthistory",  "cell/strain", "cell/space_strain",
+                                                   "pack/gravity"};
   int integrators = 0;
   for (int k = 0; k < lammps.modify->nfix; ++k) {
     const LAMMPS_NS::Fix& fix = *lammps.modify->fix[k];

@@ -94,6 +94,14 @@ Seam seam_at(const Packing& bed, std::span<const std::size_t> kept, std::size_t 
 
 }  // namespace
 
+void PressedBox::begin_fall(double acceleration, double floor_stiffness, double damping) {
+  gravity_->begin(acceleration, floor_stiffness, damping);
+}
+
+double PressedBox::unrest() const {
+  return gravity_->unrest();
+}
+
 Packing cut_from_bed(const Packing& bed, std::size_t first, std::size_t count) {
   const std::vector<std::size_t> order = upwards(bed);
   const std::span<const std::size_t> grains(order);
@@ -136,15 +144,15 @@ Packing deposit(const PackingSpecification& specification, const Packing& rain,
   const double weight = specification.pressure * specification.share_of_axis[1] * floor_area;
   const double diameter = 2.0 * box->mean_radius();
   const double on_the_floor = floor_area / (diameter * (rain.dimension == 3 ? diameter : rain.thickness));
-  box->gravity()->begin(weight / rain.grain_mass(),
-                        weight / on_the_floor / (kFloorOverlap * box->mean_radius()), kLocalDamping);
+  box->begin_fall(weight / rain.grain_mass(), weight / on_the_floor / (kFloorOverlap * box->mean_radius()),
+                  kLocalDamping);
   PackingReached reached;
-  for (std::int64_t chunk = 1; chunk == 1 || box->gravity()->unrest() > kRest; ++chunk) {
+  for (std::int64_t chunk = 1; chunk == 1 || box->unrest() > kRest; ++chunk) {
     if (reached.dem_steps > static_cast<double>(specification.most_steps))
       throw RunError(fmt::format(
           "the grains did not come to rest on the floor within {} DEM steps: their resultants add up to {:.2g} of "
           "their weight (at most {}); raise most_steps or the friction of the script",
-          specification.most_steps, box->gravity()->unrest(), kRest));
+          specification.most_steps, box->unrest(), kRest));
     box->move(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), kChunk, 0.0);
     box->renew_time_step(0.0);
     reached.dem_steps += kChunk;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dem/engine/extension.hpp"
+#include "dem/sphere_loop/sphere_pass.hpp"
 
 namespace polargrain::dem {
 
@@ -21,22 +22,47 @@ void FixGravity::begin(double acceleration, double floor_stiffness, double dampi
   damping_ = damping;
 }
 
-void FixGravity::post_force(int) {
+namespace {
+struct FallingGrain {
+  const double* place;
+  const double* velocity;
+  const double* spin;
+  double* force;
+  double* torque;
+};
+}  // namespace
+
+template <typename GrainOf>
+void FixGravity::act(GrainOf grain) {
   double unbalanced = 0.0;
   double weight = 0.0;
   for (int k = 0; k < atom->nlocal; ++k) {
-    Eigen::Map<Eigen::Vector3d> force(atom->f[k]);
+    const FallingGrain at = grain(k);
+    Eigen::Map<Eigen::Vector3d> force(at.force);
     force.y() +=
-        floor_stiffness_ * std::max(0.0, atom->radius[k] - atom->x[k][1]) - atom->rmass[k] * acceleration_;
+        floor_stiffness_ * std::max(0.0, atom->radius[k] - at.place[1]) - atom->rmass[k] * acceleration_;
     unbalanced += force.norm();
     weight += atom->rmass[k] * acceleration_;
     for (int axis = 0; axis < 3; ++axis) {
-      force(axis) -= damping_ * std::copysign(force(axis), atom->v[k][axis]);
-      double& torque = atom->torque[k][axis];
-      torque -= damping_ * std::copysign(torque, atom->omega[k][axis]);
+      force(axis) -= damping_ * std::copysign(force(axis), at.velocity[axis]);
+      at.torque[axis] -= damping_ * std::copysign(at.torque[axis], at.spin[axis]);
     }
   }
   unrest_ = weight > 0.0 ? unbalanced / weight : 1.0;
+}
+
+void FixGravity::post_force(int) {
+  act([this](int k) {
+    return FallingGrain{atom->x[k], atom->v[k], atom->omega[k], atom->f[k], atom->torque[k]};
+  });
+}
+
+void FixGravity::act_on_rows(const double* grains, double* forces) {
+  act([grains, forces](int k) {
+    const double* const row = grains + static_cast<long>(k) * kGrainStride;
+    double* const answer = forces + static_cast<long>(k) * kForceStride;
+    return FallingGrain{row, row + 4, row + 8, answer, answer + 4};
+  });
 }
 
 FixGravity& add_gravity(Engine& engine) {

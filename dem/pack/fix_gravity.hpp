@@ -18,6 +18,8 @@ class FixGravity : public LAMMPS_NS::Fix {
   int setmask() override;
   void setup(int vflag) override { post_force(vflag); }
   void post_force(int vflag) override;
+  /// As post_force, on spheres that the loop over spheres steps. @param grains, forces rows of SpherePass
+  void act_on_rows(const double* grains, double* forces);
 
   /// @param acceleration m/s^2 @param floor_stiffness normal force of the floor over its overlap, N/m
   /// @param damping the share, 0 to 1
@@ -27,6 +29,10 @@ class FixGravity : public LAMMPS_NS::Fix {
   [[nodiscard]] double unrest() const { return unrest_; }
 
  private:
+  /// @param grain grain(k) is the k-th one, with pointers to its vectors
+  template <typename GrainOf>
+  void act(GrainOf grain);
+
   double acceleration_ = 0.0;
   double floor_stiffness_ = 0.0;
   double damping_ = 0.0;

@@ -39,15 +39,60 @@ struct Room {
   bool floor = false;
 };
 
-bool is_free(const Grain& grain, const std::vector<Grain>& placed, const Eigen::Vector3d& sides) {
-  return std::none_of(placed.begin(), placed.end(), [&](const Grain& other) {
-    Eigen::Vector3d apart;
-    apart << grain.position - other.position, grain.height - other.height;
-    for (int axis = 0; axis < 3; ++axis) apart(axis) -= sides(axis) * std::round(apart(axis) / sides(axis));
-    const double reach = grain.radius + other.radius;
-    return apart.squaredNorm() < reach * reach;
-  });
+bool overlap(const Grain& grain, const Grain& other, const Eigen::Vector3d& sides) {
+  Eigen::Vector3d apart;
+  apart << grain.position - other.position, grain.height - other.height;
+  for (int axis = 0; axis < 3; ++axis) apart(axis) -= sides(axis) * std::round(apart(axis) / sides(axis));
+  const double reach = grain.radius + other.radius;
+  return apart.squaredNorm() < reach * reach;
 }
+
+/// The grains that have been placed, in bins no narrower than two grains that touch.
+class Placed {
+ public:
+  /// @param axes 2 or 3
+  Placed(const Eigen::Vector3d& sides, int axes, double largest_radius) : sides_(sides) {
+    for (int axis = 0; axis < axes; ++axis)
+      counts_[axis] = std::clamp(static_cast<int>(sides(axis) / (2.0 * largest_radius)), 1, kMostBins);
+    bins_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
+  }
+  void add(const Grain& grain) { bins_[number(bin_of(grain))].push_back(grain); }
+  [[nodiscard]] bool leaves_room_for(const Grain& grain) const {
+    const Eigen::Array3i home = bin_of(grain);
+    // With fewer than three bins along an axis the same ones would be seen twice.
+    Eigen::Array3i least, most;
+    for (int axis = 0; axis < 3; ++axis) {
+      least[axis] = counts_[axis] < 3 ? 0 : home[axis] - 1;
+      most[axis] = counts_[axis] < 3 ? counts_[axis] - 1 : home[axis] + 1;
+    }
+    for (int z = least[2]; z <= most[2]; ++z)
+      for (int y = least[1]; y <= most[1]; ++y)
+        for (int x = least[0]; x <= most[0]; ++x)
+          for (const Grain& other : bins_[number({x, y, z})])
+            if (overlap(grain, other, sides_)) return false;
+    return true;
+  }
+
+ private:
+  static constexpr int kMostBins = 200;
+  [[nodiscard]] Eigen::Array3i bin_of(const Grain& grain) const {
+    const Eigen::Array3d place(grain.position.x(), grain.position.y(), grain.height);
+    Eigen::Array3i bin;
+    for (int axis = 0; axis < 3; ++axis)
+      bin[axis] =
+          std::clamp(static_cast<int>(place[axis] / sides_[axis] * counts_[axis]), 0, counts_[axis] - 1);
+    return bin;
+  }
+  [[nodiscard]] std::size_t number(const Eigen::Array3i& bin) const {
+    const Eigen::Array3i folded((bin[0] + counts_[0]) % counts_[0], (bin[1] + counts_[1]) % counts_[1],
+                                (bin[2] + counts_[2]) % counts_[2]);
+    return (static_cast<std::size_t>(folded[2]) * counts_[1] + folded[1]) * counts_[0] + folded[0];
+  }
+
+  Eigen::Vector3d sides_;
+  Eigen::Array3i counts_ = Eigen::Array3i::Ones();
+  std::vector<std::vector<Grain>> bins_;
+};
 
 /// Area or volume of all.
 double filled_by(const std::vector<double>& radii, bool space) {
@@ -77,6 +122,7 @@ Packing placed(const PackingSpecification& specification, const std::vector<doub
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  Placed before(sides, specification.dimension, radii.empty() ? 1.0 : radii[order.front()]);
   for (const std::size_t k : order) {
     Grain grain;
     grain.id = static_cast<std::int64_t>(k);
@@ -97,7 +143,8 @@ Packing placed(const PackingSpecification& specification, const std::vector<doub
       else
         grain.position.y() *= sides.y();
       if (space) grain.height = sides.z() * random.uniform();
-    } while (!is_free(grain, packing.grains, sides));
+    } while (!before.leaves_room_for(grain));
+    before.add(grain);
     packing.grains.push_back(grain);
   }
   std::sort(packing.grains.begin(), packing.grains.end(),

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "common/stepping_note.hpp"
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/driver.hpp"
@@ -62,12 +63,10 @@ class PlaneBox final : public PressedBox {
     seen.coordination_number = equilibrium.coordination_number;
     seen.rattlers = equilibrium.rattlers;
     seen.void_ratio = equilibrium.void_ratio;
-    seen.overlaps = overlaps_of(contacts, radii_);
     seen.normal_stiffness = mean_normal_stiffness(contacts);
     const Eigen::Matrix2d stress = average_stress(contacts, volume);
     seen.stress << stress(0, 0), stress(1, 1), 0.0;
     seen.shear(0) = 0.5 * (stress(0, 1) + stress(1, 0));
-    seen.fabric.topLeftCorner<2, 2>() = fabric_tensor(contacts);
     for (const Contact& contact : contacts) {
       const double length = contact.branch.norm();
       const Eigen::Array2d part = (contact.branch / length).array().square();
@@ -77,6 +76,13 @@ class PlaneBox final : public PressedBox {
       seen.shear_stiffness(0) += kn * part(0) * part(1) + 0.5 * kt * part(1) * (part(1) - part(0));
     }
     return seen;
+  }
+
+  [[nodiscard]] Shape shape() const override {
+    Shape shape;
+    shape.overlaps = overlaps_of(driver_.contacts(), radii_);
+    shape.fabric.topLeftCorner<2, 2>() = fabric_tensor(driver_.contacts());
+    return shape;
   }
 
   Packing packing(bool keep_contacts) override {
@@ -99,8 +105,9 @@ class PlaneBox final : public PressedBox {
   [[nodiscard]] double time_step() const override { return driver_.strain().time_step(); }
   void renew_time_step(double damping_rate) override {
     stiffest_.see(driver_.contacts());
-    driver_.renew_time_step(stiffest_, damping_rate);
+    driver_.renew_time_step(driver_.contacts(), stiffest_, damping_rate);
   }
+  [[nodiscard]] const std::string& stepping() const override { return stepping_; }
 
  private:
   Packing packing_;
@@ -108,6 +115,7 @@ class PlaneBox final : public PressedBox {
   Driver driver_;
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
+  std::string stepping_{std::string(kSteppingNote) + "LIGGGHTS's own loop, as all packings of discs"};
 };
 
 }  // namespace

@@ -88,12 +88,14 @@ class Compression {
       aim_.stress = frame_.transpose() * aim.stress * frame_;
       come_to_rest(progress);
     }
-    if (too_large(now_.overlaps))
+    const PressedBox::Shape shape = box_->shape();
+    reached_.fabric = components(frame_ * shape.fabric * frame_.transpose());
+    if (too_large(shape.overlaps))
       throw RunError(
           fmt::format("at rest under {:.5g} kPa {}: the contacts are too soft for the pressure; take a "
                       "stiffer script, or a lower pressure, and look at the units of the sizes",
-                      1e-3 * reached_.pressure, description(now_.overlaps)));
-    PreparedPacking prepared{box_->packing(keep_contacts_), reached_, specification_.text};
+                      1e-3 * reached_.pressure, description(shape.overlaps)));
+    PreparedPacking prepared{box_->packing(keep_contacts_), reached_, specification_.text, box_->stepping()};
     prepared.packing.pressure = reached_.pressure;
     if (keep_contacts_)
       if (const std::string fault = twofold_contact(prepared.packing); !fault.empty()) throw RunError(fault);
@@ -162,7 +164,6 @@ class Compression {
       whole(i, j) = whole(j, i) = now_.shear(of);
     }
     reached_.stress = components(frame_ * whole * frame_.transpose());
-    reached_.fabric = components(frame_ * now_.fabric * frame_.transpose());
   }
 
   [[nodiscard]] bool done() const {

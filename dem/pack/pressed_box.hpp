@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "common/packing.hpp"
 #include "common/packing_specification.hpp"
@@ -42,6 +43,9 @@ class PressedBox {
     double coordination_number = 0.0;
     double rattlers = 0.0;
     double void_ratio = 0.0;
+  };
+  /// Of the contacts that Look tells of: not needed until the packing is made.
+  struct Shape {
     Overlaps overlaps;
     /// Mean of n_i n_j over the contacts.
     Eigen::Matrix3d fabric = Eigen::Matrix3d::Zero();
@@ -53,6 +57,7 @@ class PressedBox {
   virtual void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
                     double damping_rate) = 0;
   [[nodiscard]] virtual Look look() const = 0;
+  [[nodiscard]] virtual Shape shape() const = 0;
   /// Grains and box as they are, in the laboratory; with `keep_contacts` the state of the contacts as well.
   virtual Packing packing(bool keep_contacts) = 0;
 
@@ -62,11 +67,14 @@ class PressedBox {
   /// Where the script leaves the time step to this program: takes the one that suits the contacts as they are
   /// and those that may come (StiffestContact). Else checks the script's. @param damping_rate viscous, 1/s
   virtual void renew_time_step(double damping_rate) = 0;
-  /// The gravity of the grains; null unless the box was made with Fall::yes.
-  [[nodiscard]] FixGravity* gravity() { return gravity_; }
+  /// Which loop takes the steps, in words (stepping_note).
+  [[nodiscard]] virtual const std::string& stepping() const = 0;
+  /// Lets the grains of a box that was made with Fall::yes fall, as FixGravity::begin.
+  void begin_fall(double acceleration, double floor_stiffness, double damping);
+  [[nodiscard]] double unrest() const;  ///< FixGravity::unrest
 
  protected:
-  FixGravity* gravity_ = nullptr;
+  FixGravity* gravity_ = nullptr;  // none unless the box was made with Fall::yes
 };
 
 /// Whether the grains of a box fall under gravity.

@@ -1,97 +1,79 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <fmt/format.h>
-
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/error.hpp"
+#include "dem/cell/cell_answers.hpp"
 #include "dem/cell/cell_state.hpp"
-#include "dem/cell/packing_data.hpp"
-#include "dem/cell/script_time_step.hpp"
-#include "dem/cell/stock_laws.hpp"
-#include "dem/contact/contact_library.hpp"
-#include "dem/contact/contact_recorder.hpp"
-#include "dem/engine/engine.hpp"
+#include "dem/cell/instruction_set.hpp"
+#include "dem/engine/liggghts.hpp"
 #include "dem/pack/fix_gravity.hpp"
-#include "dem/pack/fix_space_box.hpp"
 #include "dem/pack/pressed_box.hpp"
+#include "dem/sphere_loop/choose_box.hpp"
+#include "dem/sphere_loop/sphere_box.hpp"
 #include "dem/spheres/space_contact.hpp"
-#include "grains_io/packing_data.hpp"
+#include "dem/spheres/sphere_engine.hpp"
 
 namespace polargrain::dem {
 
 namespace {
 
+/// Of a length of the box; the engine's search for images is made for half a length.
+constexpr double kMostTilt = 0.5;
+
 class PressedSpheres final : public PressedBox {
  public:
   PressedSpheres(const PackingSpecification& specification, const Packing& packing,
-                 const std::optional<MakingFriction>& friction, Fall fall, bool probe = false)
-      : packing_(packing),
-        frame_(frame_of_packing_data(packing)),
-        script_file_(specification.script_file),
-        recorder_(contact_recorder(engine_.lammps())) {
-    add_contact_library(specification.contact_library);
-    const auto count = static_cast<double>(packing.grains.size());
-    for (const Grain& grain : packing.grains) {
-      mean_mass_ += grain.mass / count;
-      mean_radius_ += grain.radius / count;
+                 const std::optional<MakingFriction>& friction, Fall fall)
+      : packing_(packing), engine_(engine_of(specification, packing, [this, friction, fall](Engine& engine) {
+          if (friction) set_friction(engine, *friction);
+          if (fall == Fall::yes) gravity_ = &add_gravity(engine);
+        })) {
+    for (const Grain& grain : packing.grains)
       solid_ += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
-    }
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-    const PackingDataFile data(packing);
-    data.define_variables(engine_);
-    engine_.script(specification.script, specification.script_file);
-    if (friction) set_friction(engine_, *friction);
-    script_time_step_.emplace(lammps);
-    engine_.command("fix polargrain_box all pack/space_box");
-    strain_ = dynamic_cast<FixSpaceBox*>(lammps.modify->fix[lammps.modify->find_fix("polargrain_box")]);
-    if (fall == Fall::yes) {
-      gravity_ = &add_gravity(engine_);
-    }
-    lammps.atom->sortfreq = 0;  // the order of the grains is part of the state
-    lammps.update->nsteps = 0;
-    lammps.update->firststep = lammps.update->laststep = lammps.update->ntimestep;
-    lammps.update->whichflag = 1;  // dynamics
-    lammps.init();
-    if (packing.state && state_fits(lammps, *packing.state)) restore_state(lammps, *packing.state);
-    set_up();
+    if (packing.state && state_fits(lammps, *packing.state)) engine_.restore(*packing.state);
+    engine_.set_up();
     radii_ = inertia_of(lammps).radii;
-    stiffest_.see(recorder_.contacts);
-    if (!recorder_.contacts.empty() || script_time_step_->given() || probe) return;
-    const PressedSpheres pressed(specification, pressed_together(packing), friction, Fall::no, true);
-    stiffest_ = pressed.stiffest_;
-    // Grains are folded back into the box once more: packings have the last bits that they always had.
-    set_up();
-  }
-
-  void renew_time_step(double damping_rate) override {
-    stiffest_.see(recorder_.contacts);
-    script_time_step_->renew(engine_.lammps(), recorder_.contacts, stiffest_, damping_rate, script_file_);
+    stiffest_.see(engine_.contacts());
+    if (engine_.contacts().empty() && !engine_.script_sets_time_step()) {
+      SphereEngine probe(engine_of(specification, pressed_together(packing), [&friction](Engine& engine) {
+        if (friction) set_friction(engine, *friction);
+      }));
+      probe.set_up();
+      stiffest_.see(probe.contacts());
+    }
+    grains_ = choose_box(engine_, specification.loop);
+    if (auto* const box = dynamic_cast<SphereBox*>(grains_.get()); box != nullptr && gravity_ != nullptr)
+      box->further_forces = [this](const double* spheres, double* forces) {
+        gravity_->act_on_rows(spheres, forces);
+      };
+    stepping_ = stepping_note(specification.loop, "the loop over spheres", sphere_combination(lammps),
+                              name_of(best_instruction_set()));
   }
 
   void move(const Eigen::Vector3d& strain, const Eigen::Vector3d& shear, int steps,
             double damping_rate) override {
-    LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
     Eigen::Matrix3d gradient = strain.asDiagonal();
     for (int plane = 0; plane < 3; ++plane) gradient(kPlanes[plane][0], kPlanes[plane][1]) = shear(plane);
-    strain_->begin(gradient, steps - 1, damping_rate);
-    lammps.update->laststep =
-        lammps.update->ntimestep + steps + 1;  // no step is the engine's last: it would print
-    lammps.output->next = lammps.update->laststep;
-    lammps.update->integrate->run(steps - 1);
-    record([&lammps] { lammps.update->integrate->run(1); });
-    check_grains();
+    // The last step stands still, so that the grains keep nothing of the affine velocity.
+    grains_->begin(SpacePath::straight(grains_->box(), gradient, steps - 1), damping_rate, std::nullopt,
+                   time_step());
+    grains_->run(steps);
+    const Eigen::Matrix3d& base = grains_->box().base;
+    if (std::abs(base(0, 1)) > kMostTilt * base(0, 0) || std::abs(base(0, 2)) > kMostTilt * base(0, 0) ||
+        std::abs(base(1, 2)) > kMostTilt * base(1, 1))
+      throw RunError(
+          "The box of the packing was sheared by more than half its length on the way to a stress without "
+          "shear: take another seed or a smaller inertial_number");
   }
 
   [[nodiscard]] Look look() const override {
-    const std::vector<Contact>& contacts = recorder_.contacts;
-    const double volume = strain_->base_vectors().determinant();
+    const std::span<const Contact> contacts = grains_->contacts();
+    const double volume = grains_->box().volume();
     const auto grains = static_cast<double>(packing_.grains.size());
     std::vector<bool> touched(packing_.grains.size(), false);
     Look seen;
@@ -119,78 +101,66 @@ class PressedSpheres final : public PressedBox {
     seen.rattlers = 1.0 - carrying / grains;
     seen.coordination_number = 2.0 * seen.contacts / grains;
     seen.void_ratio = volume / solid_ - 1.0;
-    seen.overlaps = overlaps_of(contacts, radii_);
-    seen.fabric = space_fabric(contacts);
     if (!(force > 0.0)) return seen;
-    seen.unbalanced_force_ratio = strain_->sum_of_unbalanced_force() / carrying / force;
-    seen.unbalanced_moment_ratio = strain_->sum_of_unbalanced_moment() / carrying / (force * mean_radius_);
+    const Imbalance& left = grains_->imbalance();
+    seen.unbalanced_force_ratio = left.force / carrying / force;
+    seen.unbalanced_moment_ratio = left.moment / carrying / (force * mean_radius());
     return seen;
   }
 
+  [[nodiscard]] Shape shape() const override {
+    return {overlaps_of(grains_->contacts(), radii_), space_fabric(grains_->contacts())};
+  }
+
   Packing packing(bool keep_contacts) override {
-    LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-    const Eigen::Matrix3d box = strain_->base_vectors();
+    const SpaceBox box = grains_->box().reduced();
+    const Eigen::Matrix2d turn = box.frame.topLeftCorner<2, 2>();
     Packing packing = packing_;
-    const Eigen::Matrix2d turn = frame_.topLeftCorner<2, 2>();
-    packing.box = turn * box.topLeftCorner<2, 2>();
-    packing.thickness = box(2, 2);
-    packing.lean = turn * box.topRightCorner<2, 1>();
-    for (int k = 0; k < lammps.atom->nlocal; ++k) {
-      Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(lammps.atom->x[k]);
-      // Along the third base vector first: the others have nothing of what it folds.
-      for (int axis = 2; axis >= 0; --axis) {
-        const Eigen::Vector3d inner = box.inverse() * position;
-        position -= std::floor(inner(axis)) * box.col(axis);
-      }
-      Grain& grain = packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)];
-      grain.position = turn * position.head<2>();
-      grain.height = position.z();
+    packing.box = turn * box.base.topLeftCorner<2, 2>();
+    packing.thickness = box.base(2, 2);
+    packing.lean = turn * box.base.topRightCorner<2, 1>();
+    const std::span<const double> places = grains_->places();
+    for (std::size_t k = 0; k < packing.grains.size(); ++k) {
+      const Eigen::Vector3d place = box.folded(Eigen::Map<const Eigen::Vector3d>(&places[3 * k]));
+      packing.grains[k].position = turn * place.head<2>();
+      packing.grains[k].height = place.z();
     }
-    packing.state = keep_contacts ? save_state(lammps, SpaceBox{box, frame_}) : nullptr;
+    packing.state = keep_contacts ? state() : nullptr;
     return packing;
   }
 
-  [[nodiscard]] double mean_mass() const override { return mean_mass_; }
-  [[nodiscard]] double mean_radius() const override { return mean_radius_; }
-  [[nodiscard]] double time_step() const override { return lammps_->update->dt; }
+  [[nodiscard]] double mean_mass() const override { return engine_.mean_mass(); }
+  [[nodiscard]] double mean_radius() const override { return engine_.mean_radius(); }
+  [[nodiscard]] double time_step() const override { return engine_.strain().time_step(); }
+  void renew_time_step(double damping_rate) override {
+    stiffest_.see(grains_->contacts());
+    engine_.renew_time_step(grains_->contacts(), stiffest_, damping_rate);
+  }
+  [[nodiscard]] const std::string& stepping() const override { return stepping_; }
 
  private:
-  void set_up() {
-    record([this] { engine_.lammps().update->integrate->setup_minimal(1); });
+  static SphereEngine engine_of(const PackingSpecification& specification, const Packing& packing,
+                                const std::function<void(Engine&)>& after_script) {
+    return {packing, specification.script, specification.script_file, specification.contact_library,
+            after_script};
   }
 
-  template <typename Steps>
-  void record(const Steps& steps) {
-    recorder_.contacts.clear();
-    recorder_.on = true;
-    steps();
-    recorder_.on = false;
-    StockLaws(engine_.lammps()).complete(recorder_.contacts);
-  }
-
-  void check_grains() {
-    const LAMMPS_NS::Atom& atom = *engine_.lammps().atom;
-    bool finite = true;
-    for (int k = 0; k < atom.nlocal; ++k)
-      finite = finite && std::isfinite(atom.x[k][0] + atom.x[k][1] + atom.x[k][2]);
-    if (!finite || atom.nlocal != static_cast<int>(packing_.grains.size()))
-      engine_.lammps().error->all(
-          FLERR, "Lost atoms: the time step of the script is too large for these grains and contacts");
+  /// As the engine keeps it, whichever loop has stepped the grains: without their rotations, which count from the packing
+  /// on.
+  StatePointer state() {
+    engine_.restore(*grains_->save());
+    engine_.set_up();
+    engine_.strain().fold();
+    return save_state(engine_.lammps(), engine_.strain().box());
   }
 
   Packing packing_;
-  Eigen::Matrix3d frame_;  // of the box, to the laboratory
-  std::string script_file_;
-  Engine engine_;
-  ContactRecorder& recorder_;
-  LAMMPS_NS::LAMMPS* lammps_ = &engine_.lammps();
-  std::optional<ScriptTimeStep> script_time_step_;
+  SphereEngine engine_;
+  std::unique_ptr<SpaceGrainBox> grains_;
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
-  FixSpaceBox* strain_ = nullptr;
-  double mean_mass_ = 0.0;
-  double mean_radius_ = 0.0;
   double solid_ = 0.0;  // volume of the grains, m^3
+  std::string stepping_;
 };
 
 }  // namespace

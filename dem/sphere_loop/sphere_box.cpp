@@ -156,6 +156,7 @@ void SphereBox::compute_forces(bool advance, bool record) {
       std::fill_n(&records_[static_cast<std::size_t>(block) * kBlock * kSphereRecords], kBlock, 0.0);
   }
   pass_(pass);
+  if (further_forces) further_forces(grains_.data(), forces_.data());
   if (record) read_records();
 }
 

@@ -24,6 +24,9 @@ class SphereBox final : public SpaceGrainBox {
  public:
   SphereBox(Spheres spheres, const SphereKernels& kernels);
 
+  /// Called in every step with the rows of grains and forces (SpherePass), to add to the forces; may be empty.
+  std::function<void(const double* grains, double* forces)> further_forces;
+
   void restore(const State& state) override;
   /// The same from a snapshot. @throws RunError when it is not one of these spheres and laws
   void restore(const SphereSnapshot& snapshot);

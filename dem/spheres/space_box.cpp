@@ -61,6 +61,15 @@ SpacePath::SpacePath(const SpaceBox& start, const Eigen::Matrix3d& displacement_
   stretch_of_base_ = start.frame.transpose() * stretch_ * start.frame * start.base;
 }
 
+SpacePath SpacePath::straight(const SpaceBox& start, const Eigen::Matrix3d& gradient, int steps) {
+  SpacePath path;
+  path.start_ = start;
+  path.stretch_of_base_ = gradient * start.base;
+  path.steps_ = steps;
+  path.straight_ = true;
+  return path;
+}
+
 double SpacePath::fraction(int step) const {
   if (step <= 0) return 0.0;
   if (step >= steps_) return 1.0;
@@ -84,6 +93,7 @@ Eigen::Matrix3d SpacePath::turned(int step) const {
 SpaceBox SpacePath::at(int step) const {
   if (step <= 0 || steps_ == 0) return start_;
   const double part = fraction(step);
+  if (straight_) return {start_.base + part * stretch_of_base_, start_.frame};
   const SpaceBox stretched = SpaceBox::from_base_vectors(start_.base + part * stretch_of_base_);
   return {stretched.base, rotation_by(part * rotation_) * start_.frame * stretched.frame};
 }

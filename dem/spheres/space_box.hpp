@@ -33,6 +33,9 @@ class SpacePath {
   /// @param steps number of DEM steps; 0 stands still. @throws RunError when the box would lose its volume.
   SpacePath(const SpaceBox& start, const Eigen::Matrix3d& displacement_gradient, int steps,
             Pace pace = Pace::smooth);
+  /// The smooth way straight on, (I + s gradient) base, in a frame that does not turn: lengths and tilts without strain keep
+  /// their bits. For free rotations. @param gradient in the frame of the box, upper triangular
+  static SpacePath straight(const SpaceBox& start, const Eigen::Matrix3d& gradient, int steps);
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] const Eigen::Vector3d& rotation() const { return rotation_; }  ///< w of the whole way, rad
@@ -55,6 +58,7 @@ class SpacePath {
   Eigen::Matrix3d stretch_of_base_ = Eigen::Matrix3d::Zero();  // frame^T (U - I) frame base
   int steps_ = 0;
   Pace pace_ = Pace::smooth;
+  bool straight_ = false;
 };
 
 /// The largest principal strain of a path, its magnitude.

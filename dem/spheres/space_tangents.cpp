@@ -159,10 +159,15 @@ template <int Strains>
 std::optional<Eigen::Matrix<double, 18, Strains>> CondensedSpaceTangent::stresses(
     const SpaceNetwork& network, std::span<const double> weights,
     const Eigen::Matrix<double, 18, Strains>& strains) {
-  return network_.stresses<Strains>(network, weights, strains, [&network](std::size_t c) {
+  const auto law_of = [&network](std::size_t c) {
     return LinearSpaceContact(network.contacts[c], network.frame,
                               network.slips.empty() ? SpaceSlip{} : network.slips[c]);
-  });
+  };
+  if (digits_ == EliminationDigits::single_where_balanced) {
+    if (auto found = quick_.stresses<Strains>(network, weights, strains, law_of)) return found;
+    ++repeated_;
+  }
+  return network_.stresses<Strains>(network, weights, strains, law_of);
 }
 
 std::optional<Matrix18> CondensedSpaceTangent::classical(const SpaceNetwork& network) {

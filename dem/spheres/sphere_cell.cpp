@@ -15,7 +15,7 @@
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/resident_boxes_of.hpp"
 #include "dem/engine/liggghts.hpp"
-#include "dem/sphere_loop/engine_sphere_box.hpp"
+#include "dem/sphere_loop/choose_box.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
 #include "dem/spheres/increment_slip.hpp"
 #include "dem/spheres/space_contact.hpp"
@@ -59,8 +59,6 @@ class SphereCell final : public CellOfGrains {
   /// Ends the process when the packing does not fit its script. @param pressure that it carries, Pa
   void check(const Packing& packing, double pressure, const std::string& script_file);
   [[nodiscard]] bool controlled() const { return protocol_.controlled(); }
-  /// The loop over spheres where it knows the scene, else the engine's own.
-  std::unique_ptr<SpaceGrainBox> choose_box();
   /// Neighbours and forces at the positions as they are; no step.
   void set_up();
   void run();
@@ -106,7 +104,7 @@ SphereCell::SphereCell(const CellDefinition& definition)
   const std::string remark = engine_.settle_time_step(control_.damping);
   inertia_ = inertia_of(engine_.lammps());
   time_step_ = engine_.strain().time_step();
-  grains_ = choose_box();
+  grains_ = choose_box(engine_, control_.loop);
   grains_->progress = [this] {
     if (progress) progress();
   };
@@ -121,19 +119,6 @@ SphereCell::SphereCell(const CellDefinition& definition)
   const double density = engine_.grains() * engine_.mean_mass() / grain_volume_;
   protocol_.take_scales({engine_.mean_mass(), engine_.mean_radius(), density}, grains_->contacts(), pressure);
   initial_.state = grains_->save();
-}
-
-std::unique_ptr<SpaceGrainBox> SphereCell::choose_box() {
-  LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
-  const DiscSelection selection = sphere_combination(lammps);
-  if (control_.loop == CellLoop::engine || !selection.combination)
-    return std::make_unique<EngineSphereBox>(engine_);
-  const SphereKernels& kernels = sphere_kernels(best_instruction_set(), control_.loop == CellLoop::plain);
-  auto box = std::make_unique<SphereBox>(spheres_of(lammps, *selection.combination), kernels);
-  const FixSpaceStrain& strain = engine_.strain();
-  box->restore(sphere_snapshot(lammps, *selection.combination, strain.box(), strain.rotations()));
-  box->set_up();
-  return box;
 }
 
 void SphereCell::check(const Packing& packing, double pressure, const std::string& script_file) {

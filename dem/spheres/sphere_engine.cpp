@@ -8,15 +8,21 @@
 
 namespace polargrain::dem {
 
-SphereEngine::SphereEngine(const CellDefinition& definition)
-    : GrainEngine(definition.packing, definition.script, definition.script_file, definition.contact_library,
-                  {}, "cell/space_strain"),
+SphereEngine::SphereEngine(const Packing& packing, const std::string& script, const std::string& script_file,
+                           const ContactLibraryFile& contact_library,
+                           const std::function<void(Engine&)>& after_script)
+    : GrainEngine(packing, script, script_file, contact_library, after_script, "cell/space_strain"),
       strain_(dynamic_cast<FixSpaceStrain*>(strain_fix())) {
   // The engine's own box, to the bit: who starts from its data file starts from the same.
   SpaceBox box = strain_->engine_box();
-  box.frame = frame_of_packing_data(definition.packing);
+  box.frame = frame_of_packing_data(packing);
   strain_->begin(SpacePath(box, Eigen::Matrix3d::Zero(), 0), 0.0);
   start();
+}
+
+SphereEngine::SphereEngine(const CellDefinition& definition)
+    : SphereEngine(definition.packing, definition.script, definition.script_file,
+                   definition.contact_library) {
   if (definition.packing.state) restore_packing([&] { restore(*definition.packing.state); });
 }
 

@@ -14,6 +14,10 @@ class SphereEngine : public GrainEngine {
  public:
   /// With the contacts of the packing, where it has any. @throws RunError when its state does not belong to it
   explicit SphereEngine(const CellDefinition& definition);
+  /// Without them. @param after_script see GrainEngine
+  SphereEngine(const Packing& packing, const std::string& script, const std::string& script_file,
+               const ContactLibraryFile& contact_library,
+               const std::function<void(Engine&)>& after_script = {});
   FixSpaceStrain& strain() { return *strain_; }
   [[nodiscard]] const FixSpaceStrain& strain() const { return *strain_; }
 

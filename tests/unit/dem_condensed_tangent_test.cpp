@@ -71,35 +71,41 @@ int expect_plain(const ContactNetwork& network, std::span<const double> weights,
 
 struct Front {
   int pivots, rows, sides;
-  [[nodiscard]] int stride() const { return rows + sides + kRowSlack + 3; }
+  [[nodiscard]] int stride() const { return rows + sides + kRowSlackOf<float> + 3; }
 };
 
-std::vector<double> random_front(const Front& front) {
+template <typename Number = double>
+std::vector<Number> random_front(const Front& front) {
   std::mt19937 random(1);
-  std::vector<double> values(static_cast<std::size_t>(front.rows) * front.stride(), 0.0);
+  std::vector<Number> values(static_cast<std::size_t>(front.rows) * front.stride(), Number(0));
   for (int row = 0; row < front.rows; ++row)
     for (int column = 0; column < front.rows + front.sides; ++column)
-      values[row * front.stride() + column] = static_cast<double>(random()) / 1e9 - 2.0;
+      values[row * front.stride() + column] = static_cast<Number>(static_cast<double>(random()) / 1e9 - 2.0);
   return values;
 }
 
 const std::vector<Front> kFronts{{1, 1, 1},   {3, 3, 3},   {3, 15, 7},  {7, 8, 7},   {8, 8, 3},    {9, 30, 3},
                                  {12, 20, 7}, {16, 17, 1}, {24, 24, 7}, {45, 93, 7}, {120, 120, 3}};
 
-TEST(DenseElimination, GivesTheSameBitsWithEveryInstructionSet) {
+template <typename Number>
+class DenseKernels : public testing::Test {};
+using Numbers = testing::Types<double, float>;
+TYPED_TEST_SUITE(DenseKernels, Numbers);
+
+TYPED_TEST(DenseKernels, GiveTheSameBitsWithEveryInstructionSet) {
   for (const Front& front : kFronts) {
-    std::vector<double> expected;
-    std::vector<double> known((front.rows - front.pivots + 1) * 8, 0.25);
+    std::vector<TypeParam> expected;
+    constexpr int kKnown = kRowSlackOf<TypeParam>;
+    std::vector<TypeParam> known((front.rows - front.pivots + 1) * kKnown, TypeParam(0.25));
     for (const InstructionSet set : instruction_sets()) {
-      std::vector<double> values = random_front(front);
-      const FrontMatrix matrix{values.data(), front.rows, front.rows + front.sides, front.stride(),
-                               front.pivots};
+      std::vector<TypeParam> values = random_front<TypeParam>(front);
+      const FrontMatrixOf<TypeParam> matrix{values.data(), front.rows, front.rows + front.sides,
+                                            front.stride(), front.pivots};
       ASSERT_TRUE(eliminate(matrix, set));
-      substitute_back(matrix, known.data(), 8, set);
+      substitute_back(matrix, static_cast<const TypeParam*>(known.data()), kKnown, set);
       // The slack of a row may be used, but nothing before the next row's begin is part of the matrix.
       for (int row = 0; row < front.rows; ++row)
-        for (int k = front.rows + front.sides; k < front.stride(); ++k)
-          values[row * front.stride() + k] = 0.0;
+        for (int k = front.rows + front.sides; k < front.stride(); ++k) values[row * front.stride() + k] = 0;
       if (expected.empty()) expected = values;
       EXPECT_EQ(values, expected) << front.pivots << " of " << front.rows;
     }
@@ -133,9 +139,9 @@ TEST(DenseElimination, SolvesTheEquations) {
 
 TEST(DenseElimination, RefusesSingularPivots) {
   std::vector<double> values(4 * 16, 0.0);
-  EXPECT_FALSE(eliminate({values.data(), 4, 5, 16, 4}, best_instruction_set()));
+  EXPECT_FALSE(eliminate(FrontMatrix{values.data(), 4, 5, 16, 4}, best_instruction_set()));
   values[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(eliminate({values.data(), 4, 5, 16, 4}, best_instruction_set()));
+  EXPECT_FALSE(eliminate(FrontMatrix{values.data(), 4, 5, 16, 4}, best_instruction_set()));
 }
 
 // The plan --------------------------------------------------------------------------------------------------

@@ -4,4 +4,6 @@ if(TARGET polargrain_dem)
                   LIBS polargrain_dem fmt::fmt)
   polargrain_test(pack_deposit_test verification verification/pack_deposit_test.cpp support/engine_main.cpp
                   LIBS polargrain_dem fmt::fmt)
+  polargrain_test(pack_loop_test verification verification/pack_loop_test.cpp support/engine_main.cpp
+                  LIBS polargrain_dem fmt::fmt)
 endif()
