@@ -47,7 +47,7 @@ struct LimitsReached {
 /// Where a stress is at its limit nothing is left of its stiffness but kHold of that of the packing. This stiffness
 /// is in the tangent alone and adds no stress: it keeps a micro-rotation solvable that nothing else resists.
 struct CosseratPart {
-  /// Share of Gc that the tangent keeps at the limit of the skew stress.
+  /// Share of Gc, and of the couple modulus, that the tangent keeps at the limits of skew and couple stress.
   static constexpr double kHold = 0.02;
 
   double skew_stress = 0.0;                                 ///< s21 - s12, Pa

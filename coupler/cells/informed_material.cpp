@@ -55,6 +55,18 @@ void add_hardening(const fem::ElastoplasticFrame& frame, const fem::FrozenCone& 
   }
 }
 
+/// A step may turn a point by so much, rad: a law far from its skew strain has other balances than the one meant.
+constexpr double kLargestTurn = 0.5;
+
+Response turned_too_far(double angle) {
+  Response response;
+  response.quality = Quality::failed;
+  response.step_factor = 0.5;
+  response.message = fmt::format("the step turns the point by {:.2g} rad at once; at most {} is taken",
+                                 std::abs(angle), kLargestTurn);
+  return response;
+}
+
 /// The answer of a law, and where the law is, turned to the axes of the end of a step.
 Response turned(const Response& response, fem::ElastoplasticState& end, double angle) {
   end.scaled_stress = fem::rotated(end.scaled_stress, angle);
@@ -248,6 +260,7 @@ Response InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame& fr
 
 Response InformedMaterial::integrate(std::size_t point, const Increment& increment) {
   const fem::StretchAndTurn step = fem::stretch_and_turn(increment);
+  if (std::abs(step.angle) > kLargestTurn) return turned_too_far(step.angle);
   fem::ElastoplasticState& end = trial_[point].law;
   const Response response = integrate_stretch(point, step.stretch, end);
   return increment.configuration == Configuration::fixed ? response : turned(response, end, step.angle);
