@@ -157,7 +157,8 @@ TEST_F(AdaptiveMaterialTest, CellsAreTurnedByAnyRotationInParts) {
   PlaneRequest near = far;
   near.increment.displacement_gradient = Eigen::Rotation2Dd(-0.3).toRotationMatrix() - one;
   const std::vector<std::size_t> points{4, 7};
-  const std::vector<PlaneReply> replies = evaluate_in_parts(calls, std::vector<PlaneRequest>{near, far}, points);
+  const std::vector<PlaneReply> replies =
+      evaluate_in_parts(calls, std::vector<PlaneRequest>{near, far}, points);
   EXPECT_EQ(cells_.runs, 4);
   EXPECT_EQ(cells_.last_point, 7u);
   EXPECT_EQ(replies[0].diagnostics.dem_steps, 10);
