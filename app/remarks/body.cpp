@@ -93,6 +93,20 @@ std::vector<std::array<bool, 2>> held_nodes(const fem::Problem<2>& problem) {
   return held;
 }
 
+std::vector<std::optional<double>> given_at(const fem::Problem<2>& problem, fem::Dof dof, double time) {
+  std::vector<std::optional<double>> given(problem.mesh.nodes.size());
+  for (const fem::PrescribedDof<2>* const item : fem::in_precedence(problem)) {
+    if (item->dof != dof || !problem.mesh.has_nodes_on(item->on)) continue;
+    for (const int node : problem.mesh.nodes_on(item->on)) {
+      std::optional<double>& value = given[static_cast<std::size_t>(node)];
+      if (value) continue;
+      const Eigen::Vector2d& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
+      value = item->value.at(time) * (item->profile ? item->profile(place) : 1.0);
+    }
+  }
+  return given;
+}
+
 Held held_along(const std::vector<OutlineEdge>& edges, const std::vector<std::array<bool, 2>>& held) {
   constexpr double kAlong = 1e-6;
   Held result;

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ std::vector<OutlineEdge> edges_of(const fem::Mesh<2>& mesh, const std::string& b
 
 /// By node: whether u1 and u2 are prescribed there, by a support or a movement.
 std::vector<std::array<bool, 2>> held_nodes(const fem::Problem<2>& problem);
+
+/// By node: the displacement that the case gives it at a time, m.
+std::vector<std::optional<double>> given_at(const fem::Problem<2>& problem, fem::Dof dof, double time);
 
 /// Which of the normal and the two displacements no edge leaves free: u1, u2 of every node of all edges, and the
 /// displacement along the normal of each edge.

@@ -37,6 +37,10 @@ void moduli(const Scene& scene, Remarks& remarks);
 void monitors(const Scene& scene, Remarks& remarks);
 void measures(const Scene& scene, Remarks& remarks);
 void formulas(const Scene& scene, Remarks& remarks);
+void places_of_monitors(const Scene& scene, Remarks& remarks);
+void carried_along(const Scene& scene, Remarks& remarks);
+void held_sides(const Scene& scene, Remarks& remarks);
+void shape_of_elements(const Scene& scene, Remarks& remarks);
 void output(const Scene& scene, Remarks& remarks);
 void cost(const Scene& scene, Remarks& remarks);
 /// Adds to the other kinds: only where they have no remark on time zero.

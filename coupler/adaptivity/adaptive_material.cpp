@@ -12,6 +12,7 @@
 #include "coupler/adaptivity/linearised.hpp"
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/successive.hpp"
+#include "coupler/cells/turned_in_parts.hpp"
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {
@@ -281,7 +282,7 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
 std::vector<PlaneReply> AdaptiveMaterial::run(std::span<const PlaneRequest> requests,
                                               std::span<const std::size_t> points, std::int64_t& steps) {
   const Clock::time_point start = Clock::now();
-  std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
+  std::vector<PlaneReply> replies = evaluate_in_parts(calls_, requests, points);
   seconds_of_cells_ += seconds_since(start);
   for (PlaneReply& reply : replies) {
     steps += static_cast<std::int64_t>(reply.diagnostics.dem_steps);

@@ -25,6 +25,11 @@ Matrix7 symmetric_tangent(const Matrix7& cell) {
   return tangent;
 }
 
+double share_held(double trial, double limit) {
+  constexpr double kFar = 3.0;
+  return trial > kFar * limit ? std::max(CosseratPart::kHold, limit / trial) : CosseratPart::kHold;
+}
+
 bool limit_skew(Response<2>& response, double skew_limit, double modulus) {
   const double pressure = pressure_in_plane(response.stress);
   const double limit = skew_limit * std::max(0.0, pressure);
@@ -37,7 +42,7 @@ bool limit_skew(Response<2>& response, double skew_limit, double modulus) {
   Vector7 slope = Vector7::Zero();  // of the skew stress
   if (pressure > 0.0)
     slope = -0.5 * sign * skew_limit * (response.tangent.row(k11) + response.tangent.row(k22)).transpose();
-  const double hold = 2.0 * CosseratPart::kHold * modulus;
+  const double hold = 2.0 * share_held(std::abs(trial), limit) * modulus;
   slope[k12] -= hold;
   slope[k21] += hold;
   const Vector7 mean = 0.5 * (response.tangent.row(k12) + response.tangent.row(k21)).transpose();
@@ -58,7 +63,8 @@ void limit_couple(Response<2>& response, double length, double modulus) {
   const Eigen::Vector2d direction = couple_stress / trial;
   response.stress.tail<2>() = limit * direction;
   response.tangent.bottomRightCorner<2, 2>() =
-      modulus * limit / trial * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+      modulus * (limit / trial * (Eigen::Matrix2d::Identity() - direction * direction.transpose()) +
+                 share_held(trial, limit) * direction * direction.transpose());
   if (pressure > 0.0) {  // the limit goes with it
     const Vector7 rise = -0.5 * (response.tangent.row(k11) + response.tangent.row(k22)).transpose();
     response.tangent.bottomLeftCorner<2, 5>() = length * direction * rise.head<5>().transpose();

@@ -47,7 +47,7 @@ struct LimitsReached {
 /// Where a stress is at its limit nothing is left of its stiffness but kHold of that of the packing. This stiffness
 /// is in the tangent alone and adds no stress: it keeps a micro-rotation solvable that nothing else resists.
 struct CosseratPart {
-  /// Share of Gc that the tangent keeps at the limit of the skew stress.
+  /// Share of Gc, and of the couple modulus, that the tangent keeps at the limits of skew and couple stress.
   static constexpr double kHold = 0.02;
 
   double skew_stress = 0.0;                                 ///< s21 - s12, Pa
@@ -84,6 +84,10 @@ void describe(Record& part, Visit&& visit) {
 inline double pressure_in_plane(const Vector7& stress) {
   return -0.5 * (stress[k11] + stress[k22]);
 }
+
+/// The share of a stiffness that the tangent keeps of a stress which returns from `trial` to its limit. From far beyond, an
+/// iteration gone astray, the secant leads back; the hold alone would throw it as far to the other side, again and again.
+double share_held(double trial, double limit);
 
 /// Returns the skew stress of an answer to its limit, if it is beyond, and gives the tangent the rows of that.
 /// @param skew_limit |s21 - s12| over the pressure @param modulus Gc of the packing, Pa, of which the tangent keeps kHold

@@ -56,6 +56,18 @@ void add_hardening(const fem::ElastoplasticFrame<2>& frame, const fem::FrozenCon
   }
 }
 
+/// A step may turn a point by so much, rad: a law far from its skew strain has other balances than the one meant.
+constexpr double kLargestTurn = 0.5;
+
+Response<2> turned_too_far(double angle) {
+  Response<2> response;
+  response.quality = Quality::failed;
+  response.step_factor = 0.5;
+  response.message = fmt::format("the step turns the point by {:.2g} rad at once; at most {} is taken",
+                                 std::abs(angle), kLargestTurn);
+  return response;
+}
+
 /// The answer of a law, and where the law is, turned to the axes of the end of a step.
 Response<2> turned(const Response<2>& response, fem::ElastoplasticState<2>& end, double angle) {
   end.scaled_stress = fem::rotated(end.scaled_stress, angle);
@@ -250,6 +262,7 @@ Response<2> InformedMaterial::integrate_unloading(const fem::ElastoplasticFrame<
 
 Response<2> InformedMaterial::integrate(std::size_t point, const Increment<2>& increment) {
   const fem::StretchAndTurn<2> step = fem::stretch_and_turn(increment);
+  if (std::abs(step.turn) > kLargestTurn) return turned_too_far(step.turn);
   fem::ElastoplasticState<2>& end = trial_[point].law;
   const Response<2> response = integrate_stretch(point, step.stretch, end);
   return increment.configuration == Configuration::fixed ? response : turned(response, end, step.turn);

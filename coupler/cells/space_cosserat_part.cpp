@@ -91,7 +91,8 @@ Response<3> SpaceCosseratPart::follow(const Increment<3>& increment, const Respo
       elastic.leftCols<9>() = skew_modulus * skew;
       Eigen::Matrix<double, 3, 18> change =
           rows_at_limit<3>(skew_stress, limit, elastic, slope_of(*cosserat.skew_limit));
-      change.leftCols<9>() += 2.0 * CosseratPart::kHold * cosserat.cosserat_shear_modulus * skew;
+      change.leftCols<9>() +=
+          2.0 * share_held(skew_stress.norm(), limit) * cosserat.cosserat_shear_modulus * skew;
       const Eigen::Matrix<double, 3, 18> before = skew * response.tangent.topRows<9>();
       response.tangent.topRows<9>() += 0.5 * skew.transpose() * (change - before);
       const Eigen::Vector3d less = limit / skew_stress.norm() * skew_stress - skew_stress;
@@ -105,7 +106,10 @@ Response<3> SpaceCosseratPart::follow(const Increment<3>& increment, const Respo
       elastic.rightCols<9>() = couple_modulus * Matrix9::Identity();
       response.tangent.bottomRows<9>() =
           rows_at_limit<9>(couple_stress, limit, elastic, slope_of(*cosserat.plastic_length));
-      response.stress.tail<9>() = limit / couple_stress.norm() * couple_stress;
+      const Eigen::Matrix<double, 9, 1> direction = couple_stress / couple_stress.norm();
+      response.tangent.bottomRightCorner<9, 9>() +=
+          share_held(couple_stress.norm(), limit) * couple_modulus * direction * direction.transpose();
+      response.stress.tail<9>() = limit * direction;
     }
   }
   keep_within(cosserat, now);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/elementary_functions.hpp"
 #include "common/error.hpp"
 #include "common/plane_in_space.hpp"
 #include "common/seconds.hpp"
@@ -27,6 +28,11 @@
 namespace polargrain::dem {
 
 namespace {
+
+/// Angle of the rotation of an increment, rad: of R in I + h = R U.
+double turn_of(const Eigen::Matrix2d& gradient) {
+  return arc_tangent(gradient(1, 0) - gradient(0, 1), 2.0 + gradient.trace());
+}
 
 class Cell final : public CellOfGrains {
  public:
@@ -52,7 +58,9 @@ class Cell final : public CellOfGrains {
   void run();
   /// Weights of the grains in the mean rotation, from the recorded contacts (mode 2).
   void renew_weights();
-  [[nodiscard]] double increment_size(const Increment<2>& increment) const;
+  /// Largest strain, turn of the grains against the continuum, and curvature times mean diameter of an increment. @param turn
+  /// of the continuum, rad, which is not among them
+  [[nodiscard]] double increment_size(const Increment<2>& increment, double turn) const;
   [[nodiscard]] double volume() const { return grains_->box().area() * thickness_; }
   [[nodiscard]] Equilibrium equilibrium(const GrainBox& grains) const;
   [[nodiscard]] CellDiagnostics measure(const GrainBox& grains) const;
@@ -149,7 +157,9 @@ CellReply Cell::evaluate(const CellRequest& request) {
 }
 
 CellReply Cell::follow(const StatePointer& start, const Increment<2>& increment) {
-  if (const std::optional<CellReply> astray = gone_astray(increment_size(increment))) return *astray;
+  const double turn = turn_of(increment.displacement_gradient);
+  if (const std::optional<CellReply> astray = gone_astray(increment_size(increment, turn), std::abs(turn)))
+    return *astray;
   grains_->restore(start ? *start : *initial_.state);
   grains_->begin(protocol_.begin(grains_->box(), increment, driver_.strain().time_step()),
                  protocol_.damping_rate(), protocol_.rotation_of(increment));
@@ -296,8 +306,14 @@ Equilibrium Cell::equilibrium(const GrainBox& grains) const {
                         grains.box().area(), driver_.grain_area());
 }
 
-double Cell::increment_size(const Increment<2>& increment) const {
-  return std::max({increment.displacement_gradient.cwiseAbs().maxCoeff(), std::abs(increment.micro_rotation),
+double Cell::increment_size(const Increment<2>& increment, double turn) const {
+  const auto [sine, cosine] = sine_and_cosine(turn);
+  Eigen::Matrix2d back;
+  back << cosine, sine, -sine, cosine;
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d stretch = back * (one + increment.displacement_gradient) - one;
+  return std::max({stretch.cwiseAbs().maxCoeff(),
+                   controlled() ? std::abs(increment.micro_rotation - turn) : 0.0,
                    increment.curvature.norm() * 2.0 * driver_.mean_radius()});
 }
 

@@ -38,15 +38,16 @@ void restore_packing(const std::function<void()>& restore) {
   }
 }
 
-std::optional<CellReply> gone_astray(double size) {
-  if (size <= kLargestIncrement) return std::nullopt;
+std::optional<CellReply> gone_astray(double size, double turn) {
+  if (size <= kLargestIncrement && turn <= kLargestTurn) return std::nullopt;
   // Running it would cost hours and answer nothing.
   CellReply reply;
   reply.response.quality = Quality::failed;
   reply.response.step_factor = 0.5;
-  reply.response.message =
-      fmt::format("the increment strains or turns the cell by {:.2g} at once; at most {} is taken", size,
-                  kLargestIncrement);
+  const bool strains = size > kLargestIncrement;
+  reply.response.message = fmt::format("the increment {} the cell by {:.2g} at once; at most {} is taken",
+                                       strains ? "strains" : "turns", strains ? size : turn,
+                                       strains ? kLargestIncrement : kLargestTurn);
   return reply;
 }
 

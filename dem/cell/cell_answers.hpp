@@ -19,9 +19,11 @@ namespace polargrain::dem {
 /// it changes no modulus by more than 1 %.
 inline constexpr double kHold = 1e-4;
 
-/// The largest strain, displacement gradient, rotation, or curvature times mean diameter that a cell takes in
-/// one increment.
+/// The largest strain, rotation against the continuum, or curvature times mean diameter that a cell takes in one
+/// increment.
 inline constexpr double kLargestIncrement = 0.25;
+/// The largest turn, rad, that a cell takes in one increment with all its grains: it changes no contact.
+inline constexpr double kLargestTurn = 0.5;
 
 /// Whether cells of this kind may be given a curvature. Those that are asked for their network (CellTangent::cosserat) are
 /// sheared and turned, to find the moduli and limits of a packing, and never bent.
@@ -36,8 +38,9 @@ void check_rolling_model(LAMMPS_NS::LAMMPS& lammps);
 /// @param restore does it @throws RunError of restore, with the remedy for the user
 void restore_packing(const std::function<void()>& restore);
 
-/// The answer to an increment beyond kLargestIncrement, an iteration gone astray; nothing where it is not.
-std::optional<CellReply> gone_astray(double size);
+/// The answer to an increment beyond kLargestIncrement or kLargestTurn, an iteration gone astray; nothing where it is not.
+/// @param turn of the cell with all its grains, rad
+std::optional<CellReply> gone_astray(double size, double turn);
 
 /// Marks an answer as not to be committed, with the reason, where its grains did not come to rest, or are beyond the range
 /// of the laws of their contacts or of the time step.

@@ -18,6 +18,7 @@
 #include "dem/sphere_loop/choose_box.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
 #include "dem/spheres/increment_slip.hpp"
+#include "dem/spheres/rotation.hpp"
 #include "dem/spheres/space_contact.hpp"
 #include "dem/spheres/space_tangents.hpp"
 #include "dem/spheres/sphere_engine.hpp"
@@ -147,10 +148,19 @@ CellReply SphereCell::evaluate(const CellRequest& request) {
 CellReply SphereCell::follow(const StatePointer& start, const CellIncrement& increment) {
   const Eigen::Matrix3d& gradient = increment.displacement_gradient;
   double size = gradient.cwiseAbs().maxCoeff();
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  if (size < kLargestIncrement + kLargestTurn) {  // beyond that there may be no turn
+    const Eigen::Matrix3d whole = Eigen::Matrix3d::Identity() + gradient;
+    if (whole.determinant() > 0.1) {
+      const Eigen::Matrix3d rotation = rotation_of(whole);
+      turn = rotation_vector(rotation);
+      size = (rotation.transpose() * whole - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    }
+  }
   if (controlled())
-    size = std::max({size, increment.rotation.cwiseAbs().maxCoeff(),
+    size = std::max({size, (increment.rotation - turn).cwiseAbs().maxCoeff(),
                      increment.curvature.norm() * 2.0 * engine_.mean_radius()});
-  if (const std::optional<CellReply> astray = gone_astray(size)) return *astray;
+  if (const std::optional<CellReply> astray = gone_astray(size, turn.norm())) return *astray;
   // Not the step of the increment before: an answer depends on what is asked alone.
   set_time_step(engine_.lammps(), time_step_);
   std::optional<CellReply> reply;

@@ -136,6 +136,10 @@ class Newton {
   /// The committed step before, as far as this goal, with the given entries of the goal; empty when there was no such step or it
   /// went another way.
   [[nodiscard]] Correction last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const;
+  /// Large turns: a predictor is linear, and micro-rotations that follow a turn linearly stay behind it. Lets them catch up.
+  void turn_predictor(const Iterate& iterate, Correction& change) const;
+  /// Whether the last evaluation strained a point by more than 1, skew strain included.
+  [[nodiscard]] bool has_gone_astray() const;
   void remember(const Iterate& iterate);
   [[nodiscard]] std::string residual_text(const Residual& residual) const;
   void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);

@@ -62,6 +62,8 @@ struct Careless {
   app::Rank rank = app::Rank::wrong;
   std::string script_good = {};  ///< a change to the script of the grains
   std::string script_bad = {};
+  std::string packing = {};     ///< content of grains.csv; nothing: grains.h5 is packing100.h5
+  double mean_overlap = 0.005;  ///< of the grains at rest, over their radius
 };
 
 inline void PrintTo(const Careless& scene, std::ostream* out) {
@@ -93,10 +95,14 @@ inline app::Remarks remarks_of(const Careless& scene) {
   write(at / "cell.in", replaced(content(source + "/liggghts_inputs/cells/hooke_radii.in"), scene.script_good,
                                  scene.script_bad));
   std::filesystem::copy_file(source + "/cases/footing_cells/packing100.h5", at / "grains.h5");
+  if (!scene.packing.empty()) write(at / "grains.csv", scene.packing);
   const coupler::Case the_case = coupler::read_case(at / "case.yaml");
   app::PackingsAtRest packings;
   for (const auto& [name, material] : the_case.materials)
-    if (material->needs_workers()) packings[name] = packing_at_rest_of_tests();
+    if (material->needs_workers()) {
+      packings[name] = packing_at_rest_of_tests();
+      packings[name].mean_overlap = scene.mean_overlap;
+    }
   return app::remarks_on(the_case, std::vector<std::string>{}, packings);
 }
 

@@ -33,6 +33,7 @@ struct Block {
   std::string element = "Q8R";
   int elements = 2;  ///< along each side
   double tolerance = 1e-10;
+  bool free_rotations = false;  ///< no rotation of the grains is given
 };
 
 /// @returns the stresses at the end; empty where the run does not get there
@@ -53,7 +54,7 @@ inline std::vector<Response<2>> turned_block(std::shared_ptr<fem::Material<2>> m
     const double time = static_cast<double>(step) / steps;
     rotation.push_back({time, time * (angle + path.relative_rotation)});
   }
-  problem.prescribed.push_back({"bottom", Dof::w, TimeTable(rotation), {}});
+  if (!block.free_rotations) problem.prescribed.push_back({"bottom", Dof::w, TimeTable(rotation), {}});
   for (const int node : around) {
     const std::string name = "node" + std::to_string(node);
     problem.mesh.node_sets[name] = {node};

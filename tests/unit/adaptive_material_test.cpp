@@ -11,6 +11,7 @@
 
 #include "common/memory_archive.hpp"
 #include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/turned_in_parts.hpp"
 #include "tests/unit/known_cells.hpp"
 
 namespace polargrain::coupler {
@@ -137,13 +138,33 @@ TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
 // An offset that a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
 TEST_F(AdaptiveMaterialTest, GrainsAreTurnedByAllOfALargeRotation) {
   AdaptiveMaterial sand = material(2, 0.0);
-  const double angle = 0.6;
+  const double angle = 0.35;
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
   step(sand, {Eigen::Matrix2d::Zero(), turn}, Configuration::start);
   const Eigen::Matrix2d& told = cells_.last_request.increment.displacement_gradient;
   EXPECT_LT((Eigen::Matrix2d::Identity() + told - Eigen::Rotation2Dd(angle).toRotationMatrix()).norm(),
             1e-15);
   EXPECT_EQ(cells_.last_point, 1u);
+}
+
+// Cells take half a radian at once.
+TEST_F(AdaptiveMaterialTest, CellsAreTurnedByAnyRotationInParts) {
+  const CellCalls calls = cells_.calls();
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  PlaneRequest far{calls.initial().state, {}};
+  far.increment.displacement_gradient = Eigen::Rotation2Dd(1.1).toRotationMatrix() - one;
+  far.increment.configuration = Configuration::start;
+  PlaneRequest near = far;
+  near.increment.displacement_gradient = Eigen::Rotation2Dd(-0.3).toRotationMatrix() - one;
+  const std::vector<std::size_t> points{4, 7};
+  const std::vector<PlaneReply> replies =
+      evaluate_in_parts(calls, std::vector<PlaneRequest>{near, far}, points);
+  EXPECT_EQ(cells_.runs, 4);
+  EXPECT_EQ(cells_.last_point, 7u);
+  EXPECT_EQ(replies[0].diagnostics.dem_steps, 10);
+  EXPECT_EQ(replies[1].diagnostics.dem_steps, 30);
+  const Eigen::Matrix2d& told = cells_.last_request.increment.displacement_gradient;
+  EXPECT_LT((one + told - Eigen::Rotation2Dd(1.1 / 3.0).toRotationMatrix()).norm(), 1e-14);
 }
 
 TEST_F(AdaptiveMaterialTest, NothingDriftsOverManySmallSteps) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes with one thing wrong each, all of which run and give a plausible figure: every one must be remarked on, and the
 // remark must name it.
+#include <sstream>
+
 #include "tests/support/careless_scenes.hpp"
 
 namespace polargrain::testing {
@@ -226,6 +228,108 @@ INSTANTIATE_TEST_SUITE_P(
                                "{stress: [-10 kPa, -10 kPa, 10 kPa, 0]}",
                                "ground carries hardly any tension"}),
     [](const auto& info) { return info.param.name; });
+
+// What is held the wrong way, read in the wrong place, or asked too coarsely.
+INSTANTIATE_TEST_SUITE_P(
+    InTheWrongPlace, CarelessTest,
+    ::testing::Values(
+        Careless{"RigidTranslation", kGrains, "{on: bottom, fix: [u1, u2]}",
+                 "{on: bottom, fix: [u1], move: {u2: -8 mm}}",
+                 "all that is given along 2 moves by -8 mm: the body is carried along"},
+        Careless{"SidesThatHoldTheGroundUp", kGround, "[left, right], fix: [u1]",
+                 "[left, right], fix: [u1, u2]", "u2 is fixed along 'left' and 'right'", Rank::doubtful},
+        Careless{"PoissonOfThreePerCent", kGround, "nu: 0.3,", "nu: 0.03,", "nu is 0.03", Rank::doubtful},
+        Careless{"ForceAlongTheOtherAxis", kGrains, "reaction: u2}", "reaction: u1}",
+                 "no monitor reads the force along it: this one is along u1", Rank::doubtful},
+        Careless{"StrainFromTheSide", kGrains, "{on: top, displacement: u2}", "{on: left, displacement: u2}",
+                 "goes about twice as far", Rank::doubtful},
+        Careless{
+            "OneSideOfTwo", kGrains, "  axial_strain:",
+            "  widening: {on: right, displacement: u1}\n  lateral_strain: widening / 0.2 m\n  axial_strain:",
+            "u1 of 'right' alone, and 'left' opposite is free too", Rank::doubtful},
+        Careless{"WeightSideways", kGround, "unit_weight: 18 kN/m3}\ninitial",
+                 "force: [-18 kN/m3, 0]}\ninitial", "2 points up: nothing pulls the body down"},
+        Careless{"WeightSidewaysWithoutStress",
+                 replaced(kGround, "initial_stress:\n  - " + kInItsStress + "\n", ""),
+                 "unit_weight: 18 kN/m3}", "force: [-18 kN/m3, 0], factor: [[0, 0], [1, 1]]}",
+                 "2 points up: nothing pulls the body down"},
+        Careless{"FlatElements", kGround, "elements: [20, 10]", "elements: [400, 2]",
+                 "up to 100 times as long as wide (at most 20)", Rank::doubtful},
+        Careless{"FrictionOfSixtyDegrees", kGround, "friction_angle: 30 deg", "friction_angle: 60 deg",
+                 "a friction angle of 60 deg", Rank::doubtful},
+        Careless{"ErrorOfAThird", kGrains, "model: cell,", "model: adaptive, tolerance: 0.3,",
+                 "tolerance: 0.3 of the pressure", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+// Written before the remarks on such places were, and run once they stood.
+INSTANTIATE_TEST_SUITE_P(
+    InTheWrongPlaceUnseen, CarelessTest,
+    ::testing::Values(
+        Careless{"PushedFromBothSidesTheSameWay",
+                 replaced(replaced(kGrains, "bottom, fix: [u1, u2]", "bottom, fix: [u2]"), kTop,
+                          "  - {on: top, pressure: 100 kPa}\n"),
+                 kSides, "  - {on: [left, right], move: {u1: -4 mm}}\n",
+                 "all that is given along 1 moves by -4 mm"},
+        Careless{"OneItemForAllSupports", kGround,
+                 "  - {on: bottom, fix: [u1, u2]}\n  - {on: [left, right], fix: [u1]}",
+                 "  - {on: [bottom, left, right], fix: [u1, u2]}", "hangs on its sides", Rank::doubtful},
+        Careless{"ForceOfTheWall",
+                 replaced(replaced(kGround, "{on: bottom, reaction: u2}", "{on: right, reaction: u2}"),
+                          "bottom, fix: [u1, u2]", "bottom, fix: [u2]"),
+                 "  - {on: [left, right], fix: [u1]}",
+                 "  - {on: left, fix: [u1]}\n  - {on: right, fix: [u2], move: {u1: [[0, 0], [1, 5 cm]]}}",
+                 "no monitor reads the force along it", Rank::doubtful},
+        Careless{"LeftAlone", kGrains,
+                 "  axial_strain:", "  narrowing: {on: left, displacement: u1}\n  axial_strain:",
+                 "u1 of 'left' alone, and 'right' opposite is free too", Rank::doubtful},
+        Careless{"ThinLayers", kGrains, "elements: [10, 20]", "elements: [2, 200]",
+                 "50 times as long as wide", Rank::doubtful},
+        Careless{"ThreeDecimals", kGround, "nu: 0.3,", "nu: 0.003,", "nu is 0.003", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+/// The first grains of packing400.csv. @param box its head, xx=... yy=...
+std::string few_grains(std::size_t grains, const std::string& box) {
+  std::istringstream lines(
+      content(std::string(POLARGRAIN_SOURCE_DIRECTORY) + "/cases/biaxial/packing400.csv"));
+  std::string line;
+  std::getline(lines, line);
+  std::string text = replaced(line, "xx=0.1980869253 xy=0 yx=0 yy=0.1966123044", box) + '\n';
+  for (std::size_t k = 0; k <= grains && std::getline(lines, line); ++k) text += line + '\n';
+  return text;
+}
+
+TEST(CarelessPacking, IsTold) {
+  const auto expect = [](const Careless& scene) {
+    const std::string text = app::text_of(remarks_of(scene), true);
+    EXPECT_NE(text.find(scene.message), std::string::npos) << scene.name << '\n' << text;
+  };
+  const std::string good = "packing: grains.h5";
+  const std::string bad = "packing: grains.csv";
+  expect({.name = "TwentyGrains",
+          .base = kGrains,
+          .good = good,
+          .bad = bad,
+          .message = "a box has 20 grains",
+          .packing = few_grains(20, "xx=0.06 xy=0 yx=0 yy=0.06")});
+  expect({.name = "NarrowBox",
+          .base = kGrains,
+          .good = good,
+          .bad = bad,
+          .message = "of its largest grains wide (at least 3)",
+          .packing = few_grains(60, "xx=0.3 xy=0 yx=0 yy=0.04")});
+  expect({.name = "SoftGrains",
+          .base = kGrains,
+          .good = "",
+          .bad = "",
+          .message = "grains at rest overlap by 5 % of their radius",
+          .mean_overlap = 0.05});
+  expect({.name = "HardGrains",
+          .base = kGrains,
+          .good = "",
+          .bad = "",
+          .message = "time steps shrink with the root of",
+          .mean_overlap = 1e-9});
+}
 
 }  // namespace
 }  // namespace polargrain::testing

@@ -186,6 +186,42 @@ TEST(rounding, does_not_hide_a_wrong_balance) {
   EXPECT_FALSE(compress({.tangent_factor = 3.0, .nonlinearity = 2000.0}, options).converged);
 }
 
+/// Its skew stress is a constant that nothing balances; small strains hardly resist it, and throw the rotations far away.
+struct UnbalancedLaw {
+  struct State {};
+  State initial_state() const { return {}; }
+  Response<2> integrate(const State&, const Increment<2>& increment, State&) const {
+    const Vector7 strain = increment.strain();
+    const double skew_strain = std::abs(strain(k21) - strain(k12));
+    ElasticParameters<2> resisting{40e6, 0.3, 10e6, 0.0, Vector7::Zero()};
+    if (skew_strain > 0.0 && skew_strain < 1.0) resisting.cosserat_shear_modulus *= 1e-15;
+    ElasticParameters<2> symmetric = resisting;
+    symmetric.cosserat_shear_modulus = 0.0;
+    Response<2> response;
+    response.stress = elastic_stiffness(symmetric) * strain;
+    if (skew_strain > 0.0) {
+      response.stress(k21) += 1e3;
+      response.stress(k12) -= 1e3;
+    }
+    response.tangent = elastic_stiffness(resisting);
+    return response;
+  }
+};
+
+TEST(rounding, does_not_excuse_rotations_that_have_gone_astray) {
+  Problem<2> problem = block({});
+  problem.materials["all"] = std::make_shared<LocalMaterial<UnbalancedLaw>>(UnbalancedLaw{});
+  SolverOptions options;
+  options.most_cuts = 0;
+  Solver<2> solver(std::move(problem), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  // At rotations of 1e17 rad rounding is as large as any stress.
+  EXPECT_FALSE(report.converged) << report.within_rounding;
+  EXPECT_EQ(report.within_rounding, 0);
+  EXPECT_NE(report.message.find("stagnates"), std::string::npos) << report.message;
+}
+
 struct Untrue {
   double factor;
   double noise;

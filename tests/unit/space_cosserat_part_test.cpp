@@ -83,16 +83,23 @@ TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
       }
     }
     Matrix18 found = here.tangent;
-    if (reached.skew || reached.parted) {  // the hold is in the tangent alone
-      Eigen::Matrix<double, 3, 9> skew = Eigen::Matrix<double, 3, 9>::Zero();
-      for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3;
-        const int j = (k + 2) % 3;
-        skew(k, 3 * j + i) = 1.0;
-        skew(k, 3 * i + j) = -1.0;
-      }
-      found.topLeftCorner<9, 9>() -= CosseratPart::kHold * 5e6 * skew.transpose() * skew;
+    // The holds are in the tangent alone.
+    Eigen::Matrix<double, 3, 9> skew = Eigen::Matrix<double, 3, 9>::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3;
+      const int j = (k + 2) % 3;
+      skew(k, 3 * j + i) = 1.0;
+      skew(k, 3 * i + j) = -1.0;
     }
+    const double pressure = std::max(0.0, mean_pressure(here.stress));
+    const Vector18 strain = increment.strain();
+    if (const double trial = (1e7 * skew * strain.head<9>()).norm(); trial > 0.8 * pressure)
+      found.topLeftCorner<9, 9>() -= share_held(trial, 0.8 * pressure) * 5e6 * skew.transpose() * skew;
+    const double modulus = kLimited.couple_modulus();
+    const Eigen::Matrix<double, 9, 1> couple = modulus * strain.tail<9>();
+    if (const double trial = couple.norm(); trial > 4e-3 * pressure)
+      found.bottomRightCorner<9, 9>() -=
+          share_held(trial, 4e-3 * pressure) * modulus / (trial * trial) * couple * couple.transpose();
     EXPECT_LT((found - expected).topRows<9>().norm(), 1e-6 * expected.topRows<9>().norm()) << state;
     EXPECT_LT((found - expected).bottomRows<9>().norm(), 1e-6 * expected.bottomRows<9>().norm() + 1e-9)
         << state;

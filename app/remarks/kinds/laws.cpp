@@ -13,6 +13,8 @@
 namespace polargrain::app {
 namespace {
 
+/// Of Poisson's ratio; zero itself is taken for meant.
+constexpr double kLeastPoisson = 0.08;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The largest value of a key: of a number, a list, or a table [[shear, value], ...].
@@ -93,6 +95,13 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
 void strength_of_laws(const Scene& scene, Remarks& remarks) {
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell != nullptr) continue;
+    if (const auto poisson = scene.quantity({"materials", region.material, "nu"}, coupler::Dimension::number);
+        poisson && *poisson > 0.0 && *poisson < kLeastPoisson)
+      remarks.push_back({Rank::doubtful, kLeastPoisson / *poisson,
+                         scene.place({"materials", region.material, "nu"})
+                             .fault(fmt::format("material '{}': nu is {:.3g} (ground: 0.15 to 0.45)",
+                                                region.material, *poisson)),
+                         "check the decimal point; nu decides the stress against walls"});
     const auto friction = largest_value(scene, region, "friction_angle", coupler::Dimension::angle);
     const coupler::Entry& place = scene.place({"materials", region.material, "friction_angle"});
     if (friction && *friction > 55.0 * kDegree)

@@ -32,21 +32,6 @@ bool speaks_of(std::string title, std::span<const std::string_view> words) {
 
 constexpr fem::Dof kDofs[] = {fem::Dof::u1, fem::Dof::u2};
 
-/// By node: the displacement that the case gives it, m.
-std::vector<std::optional<double>> given_at(const fem::Problem<2>& problem, fem::Dof dof, double time) {
-  std::vector<std::optional<double>> given(problem.mesh.nodes.size());
-  for (const fem::PrescribedDof<2>* const item : fem::in_precedence(problem)) {
-    if (item->dof != dof || !problem.mesh.has_nodes_on(item->on)) continue;
-    for (const int node : problem.mesh.nodes_on(item->on)) {
-      std::optional<double>& value = given[static_cast<std::size_t>(node)];
-      if (value) continue;
-      const Eigen::Vector2d& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
-      value = item->value.at(time) * (item->profile ? item->profile(place) : 1.0);
-    }
-  }
-  return given;
-}
-
 /// Mean over the nodes at that end of the body; nothing where one of them is free.
 std::optional<double> mean_at(const fem::Mesh<2>& mesh, int axis, double end, double slack,
                               const std::vector<std::optional<double>>& given) {
@@ -65,7 +50,7 @@ std::optional<double> mean_at(const fem::Mesh<2>& mesh, int axis, double end, do
 std::optional<double> strain_along(const Scene& scene, int axis, double time) {
   const Body& body = scene.body();
   const double slack = 1e-6 * body.size()(axis);
-  const auto given = given_at(scene.problem(), kDofs[axis], time);
+  const std::vector<std::optional<double>> given = given_at(scene.problem(), kDofs[axis], time);
   const auto low = mean_at(scene.mesh(), axis, body.least(axis), slack, given);
   const auto high = mean_at(scene.mesh(), axis, body.largest(axis), slack, given);
   if (!low || !high) return {};

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "coupler/cells/cell_calls.hpp"
+
+namespace polargrain::coupler {
+
+/// The largest turn, rad, that is asked of a cell at once; cells take 0.5.
+inline constexpr double kTurnAskedAtOnce = 0.4;
+
+/// Asks cells for increments that may hold any turn: a larger one goes in parts. An answer holds the steps of all parts; the part
+/// that fails is the answer.
+std::vector<PlaneReply> evaluate_in_parts(const CellCalls& calls, std::span<const PlaneRequest> requests,
+                                          std::span<const std::size_t> points);
+
+}  // namespace polargrain::coupler
