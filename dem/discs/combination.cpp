@@ -51,8 +51,8 @@ std::optional<RollingLaw> rolling_of(int number) {
   return std::nullopt;
 }
 
-/// The first fix of the scene that does more than the loops over grains do; empty without one. What `pack/gravity` does,
-/// which no script can name, the making of packings does in the loops too.
+/// The first fix of the scene that does more than the loops over grains do; empty without one. No script can name
+/// `pack/gravity`; the making of packings does its work in the loops too.
 std::string foreign_fix(const LAMMPS& lammps) {
   constexpr std::array<std::string_view, 7> kKnown{"property/global", "nve/sphere",  "enforce2d",
                                                    "contacthistory",  "cell/strain", "cell/space_strain",
