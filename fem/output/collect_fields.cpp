@@ -219,7 +219,7 @@ void add_space_measures(std::vector<Field>& fields, const Field& stress) {
   for (std::size_t k = 0; k < stress.values.size(); k += 9) {
     Vector18 of_entity = Vector18::Zero();
     std::copy_n(stress.values.begin() + static_cast<std::ptrdiff_t>(k), 9, of_entity.begin());
-    const SpaceStressMeasures found = measures_of(of_entity);
+    const SpaceStressMeasures found = measures_in_space(of_entity);
     p.values.push_back(found.pressure);
     q.values.push_back(found.deviatoric);
     ratio.values.push_back(found.ratio);

@@ -45,7 +45,7 @@ StressMeasures measures_of(const Vector7& stress) {
   return found;
 }
 
-SpaceStressMeasures measures_of(const Vector18& stress) {
+SpaceStressMeasures measures_in_space(const Vector18& stress) {
   SpaceStressMeasures found;
   Eigen::Matrix3d symmetric;
   for (int i = 0; i < 3; ++i)

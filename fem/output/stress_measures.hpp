@@ -41,6 +41,6 @@ struct SpaceStressMeasures {
 };
 
 /// Of a stress in the order of Cosserat<3>.
-SpaceStressMeasures measures_of(const Vector18& stress);
+SpaceStressMeasures measures_in_space(const Vector18& stress);
 
 }  // namespace polargrain::fem
