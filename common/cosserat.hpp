@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <type_traits>
 
 namespace polargrain {
@@ -32,8 +31,7 @@ struct Cosserat {
   /// Number of s_ij among the components; i, j from 0.
   [[nodiscard]] static constexpr int stress_place(int i, int j) {
     if constexpr (dim == 2) {
-      constexpr std::array<int, 4> places{0, 3, 4, 1};
-      return places[static_cast<std::size_t>(2 * i + j)];
+      return i == j ? i : 3 + i;
     } else {
       return 3 * i + j;
     }

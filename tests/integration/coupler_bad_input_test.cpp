@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"FileThatIsNoMesh", "  rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}",
                  "  file: grains.csv", "case.yaml:3: mesh: grains.csv: expected a mesh file, NAME.msh"},
         BadInput{"MeshTwice", "  element: Q8R", "  file: a.msh",
-                 "case.yaml:4: mesh: either a file or a rectangle; remove one of them"},
+                 "case.yaml:4: mesh: give one of a rectangle, a box and a file; remove the others"},
         BadInput{
             "InitialStressOfCells", "continuum: cosserat", "initial_stress: [{stress: [0, 0, 0, 0]}]",
             "case.yaml:5: initial_stress: region 'all' is made of cells, which bring the stress of their "
@@ -254,8 +254,9 @@ INSTANTIATE_TEST_SUITE_P(
             "PressureOnANode", "[left, right], pressure", "[left, top_left], pressure",
             "case.yaml:15: boundary item 4: on: a pressure needs a boundary, 'top_left' is a set of nodes; "
             "boundaries are bottom, left, right, top"},
-        BadInput{"UnknownDof", "fix: [u1]", "fix: [u3]",
-                 "case.yaml:13: boundary item 2: fix: expected u1, u2 or w, found 'u3'; did you mean 'u1'?"},
+        BadInput{
+            "UnknownDof", "fix: [u1]", "fix: [u3]",
+            "case.yaml:13: boundary item 2: fix: expected one of u1, u2, w, found 'u3'; did you mean 'u1'?"},
         BadInput{
             "BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
             "case.yaml:14: boundary item 3: has no support and no load; give fix, move, pressure, traction, "
