@@ -91,9 +91,9 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   }
 }
 
-/// The same of a box: a million elements H20R would never be solved on one machine.
+/// The same of a box. Memory measured with 1,728 elements H20R of an elastic material; more of them take more each.
 constexpr double kMostElementsInSpace = 1e5;
-constexpr double kBytesOfElementInSpace = 1e6;
+constexpr double kBytesOfElementInSpace = 1.5e6;
 
 void read_box(const Entry& entry, const std::string& element, CaseParts& parts) {
   const std::size_t faults_before = parts.faults.size();
