@@ -74,12 +74,28 @@ void limit_couple(Response<2>& response, double length, double modulus) {
 /// The share of its limit that rounding leaves of a stress at the limit.
 constexpr double kAtLimit = 1.0 - 1e-9;
 
+}  // namespace
+
 double share_of_limit(double stress, std::optional<double> limit, double pressure) {
   if (!limit || !(*limit * pressure > 0.0)) return 0.0;
   return std::min(1.0, stress / (*limit * pressure));
 }
 
-}  // namespace
+LimitsReached limits_reached_at(const CosseratParameters& cosserat, double skew, double couple,
+                                double contacts_kept, double pressure, double least) {
+  LimitsReached reached;
+  reached.parted = pressure <= least;
+  const auto is_at = [&](double mobilisation, std::optional<double> limit) {
+    return !reached.parted && limit && (*limit == 0.0 || mobilisation >= kAtLimit);
+  };
+  reached.skew = is_at(skew, cosserat.skew_limit);
+  reached.couple = is_at(couple, cosserat.plastic_length);
+  const bool no_skew = !(contacts_kept > 0.0) || (cosserat.skew_limit && (reached.parted || reached.skew));
+  const bool no_couple =
+      !(contacts_kept > 0.0) || (cosserat.plastic_length && (reached.parted || reached.couple));
+  reached.held = cosserat.has_rotations && no_skew && no_couple;
+  return reached;
+}
 
 Response<2> CosseratPart::follow(const Increment<2>& increment, const Response<2>& cell,
                                  const CosseratParameters& cosserat, double kept) {
@@ -138,18 +154,8 @@ double CosseratPart::couple_mobilisation(const CosseratParameters& cosserat) con
 }
 
 LimitsReached CosseratPart::reached(const CosseratParameters& cosserat, double least) const {
-  LimitsReached reached;
-  reached.parted = pressure <= least;
-  const auto is_at = [&](double mobilisation, std::optional<double> limit) {
-    return !reached.parted && limit && (*limit == 0.0 || mobilisation >= kAtLimit);
-  };
-  reached.skew = is_at(skew_mobilisation(cosserat), cosserat.skew_limit);
-  reached.couple = is_at(couple_mobilisation(cosserat), cosserat.plastic_length);
-  const bool no_skew = !(contacts_kept > 0.0) || (cosserat.skew_limit && (reached.parted || reached.skew));
-  const bool no_couple =
-      !(contacts_kept > 0.0) || (cosserat.plastic_length && (reached.parted || reached.couple));
-  reached.held = cosserat.has_rotations && no_skew && no_couple;
-  return reached;
+  return limits_reached_at(cosserat, skew_mobilisation(cosserat), couple_mobilisation(cosserat),
+                           contacts_kept, pressure, least);
 }
 
 }  // namespace polargrain::coupler

@@ -85,6 +85,15 @@ inline double pressure_in_plane(const Vector7& stress) {
   return -0.5 * (stress[k11] + stress[k22]);
 }
 
+/// A stress over `limit` times the pressure, 0 to 1; 0 where it has no limit or there is no pressure.
+double share_of_limit(double stress, std::optional<double> limit, double pressure);
+
+/// The limits that a part has reached, in the plane as in space.
+/// @param skew, couple the shares of their limits @param contacts_kept, pressure of the part @param least pressure below which
+/// grains count as parted, Pa
+LimitsReached limits_reached_at(const CosseratParameters& cosserat, double skew, double couple,
+                                double contacts_kept, double pressure, double least);
+
 /// The share of a stiffness that the tangent keeps of a stress which returns from `trial` to its limit. From far beyond, an
 /// iteration gone astray, the secant leads back; the hold alone would throw it as far to the other side, again and again.
 double share_held(double trial, double limit);

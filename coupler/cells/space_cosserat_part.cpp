@@ -52,14 +52,6 @@ Eigen::Matrix<double, rows, 18> rows_at_limit(const Eigen::Matrix<double, rows, 
   return limit / length * (elastic - direction * (direction.transpose() * elastic)) + direction * slope;
 }
 
-/// The share of its limit that rounding leaves of a stress at the limit.
-constexpr double kAtLimit = 1.0 - 1e-9;
-
-double share_of_limit(double stress, std::optional<double> limit, double pressure) {
-  if (!limit || !(*limit * pressure > 0.0)) return 0.0;
-  return std::min(1.0, stress / (*limit * pressure));
-}
-
 }  // namespace
 
 Response<3> SpaceCosseratPart::follow(const Increment<3>& increment, const Response<3>& cell,
@@ -151,18 +143,8 @@ double SpaceCosseratPart::couple_mobilisation(const CosseratParameters& cosserat
 }
 
 LimitsReached SpaceCosseratPart::reached(const CosseratParameters& cosserat, double least) const {
-  LimitsReached reached;
-  reached.parted = pressure <= least;
-  const auto is_at = [&](double mobilisation, std::optional<double> limit) {
-    return !reached.parted && limit && (*limit == 0.0 || mobilisation >= kAtLimit);
-  };
-  reached.skew = is_at(skew_mobilisation(cosserat), cosserat.skew_limit);
-  reached.couple = is_at(couple_mobilisation(cosserat), cosserat.plastic_length);
-  const bool no_skew = !(contacts_kept > 0.0) || (cosserat.skew_limit && (reached.parted || reached.skew));
-  const bool no_couple =
-      !(contacts_kept > 0.0) || (cosserat.plastic_length && (reached.parted || reached.couple));
-  reached.held = cosserat.has_rotations && no_skew && no_couple;
-  return reached;
+  return limits_reached_at(cosserat, skew_mobilisation(cosserat), couple_mobilisation(cosserat),
+                           contacts_kept, pressure, least);
 }
 
 }  // namespace polargrain::coupler

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "fem/material/polar_decomposition.hpp"
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::fem {
@@ -76,7 +77,7 @@ Increment<dim> increment_at(const PointGeometry<dim>& point, Continuum continuum
   } else if constexpr (dim == 2) {
     increment.micro_rotation = 0.5 * (h(1, 0) - h(0, 1));
   } else {
-    increment.rotation = 0.5 * Eigen::Vector3d(h(2, 1) - h(1, 2), h(0, 2) - h(2, 0), h(1, 0) - h(0, 1));
+    increment.rotation = axial(h);
   }
   return increment;
 }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "fem/material/polar_decomposition.hpp"
+
 namespace polargrain::fem {
 namespace {
 
@@ -27,7 +29,7 @@ std::string left_out_by_small_deformation(const Discretisation<dim>& discretisat
     if constexpr (dim == 2) {
       turn = 0.5 * std::abs(h(1, 0) - h(0, 1));
     } else {
-      turn = 0.5 * Eigen::Vector3d(h(2, 1) - h(1, 2), h(0, 2) - h(2, 0), h(1, 0) - h(0, 1)).norm();
+      turn = axial(h).norm();
     }
     const double stretch = (0.5 * (h + h.transpose())).norm();
     if (turn > rotation) rotation = turn, turned = point;
