@@ -12,6 +12,7 @@
 #   tests/style.sh paper              docs/paper: sections, words and references that JOSS asks for
 #   tests/style.sh made               docs: pages of figures are as their commands write them
 #   tests/style.sh keys               Markdown: keys, commands and options that the reference leaves out
+#   tests/style.sh figures            README, settings, recipes: numbers that no command, code or test gives
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -49,8 +50,12 @@ case "${1:-}" in
     need python3
     python3 -B tests/pages.py "$@"
     ;;
+  figures)
+    need python3
+    python3 -B tests/figures.py
+    ;;
   *)
-    sed -n '3,15s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,16s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
