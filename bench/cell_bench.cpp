@@ -185,7 +185,7 @@ struct Shape {
   }
 };
 
-/// Where contacts slide all the time two runs part whatever their settings: what counts is the mean over packings,
+/// Where contacts slide all the time two runs part whatever their settings. The mean over packings counts,
 /// against the slowest runs.
 std::string softening(const std::vector<CellDefinition>& definitions) {
   std::vector<Shape> references;

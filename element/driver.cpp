@@ -262,7 +262,7 @@ Trial Follower::step(double t, bool is_last) {
     Vector change = -j.fullPivLu().solve(r);
     const double longest = kLongestCorrection * accuracy_.largest_increment;
     if (iteration == 0 && !(change.cwiseAbs().maxCoeff() <= longest)) {
-      // Close to a peak the tangent of loading is far too soft for a way back: that of rest is stiff enough.
+      // Close to a peak the tangent of loading is far too soft for a way back. The tangent at rest is stiff enough.
       const Matrix stiff = jacobian(at_rest_, strain_);
       const Vector shorter = -stiff.fullPivLu().solve(r);
       if (shorter.allFinite() && !(shorter.norm() >= change.norm())) {

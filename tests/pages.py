@@ -30,7 +30,9 @@ HEADLESS = re.compile(r"\b(is|are) none\b|\bwhat is not\b|, what is \w+ed\b|\bas
 # In comments and messages; "there is none" and "none of them" are English.
 HEADLESS_IN_CODE = re.compile(
     r"(?<!there )\b(is|are|was|were) none\b(?! of (these|them)\b)|, what is \w+ed\b|\bwhat (of it|is not)\b|\bas is (none|what)\b"
-    r"|(^|[.;:] )(What|None|That of|Those of)\b(?![^.]*\?)")
+    r"|(^|[.;:] )(What|None|That of|Those of)\b(?![^.]*\?)"
+    r"|(^|[,;:] |\band )what (?:[\w'-]+ ){1,9}(is|are|was|were|has|have|says?|belongs?|loads?) (no|not|an?|the|that|cut|gone|exact|void|one|nothing|there|left|only|said)\b"
+    r"|(^|[;:] )(those|that) of (?:[\w'-]+ ){1,6}(is|are|was|were|has|have|says?|belongs?) ")
 
 
 def without_code(text):

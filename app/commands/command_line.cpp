@@ -50,7 +50,7 @@ Exit status: 0 done, 1 the run failed, 2 the input is wrong (nothing was run or 
 All keys of a case: docs/user_guide.md. Recipes: docs/howto.
 )";
 
-/// The list of commands has one line for each: what is more stands in the help of the command.
+/// The list of commands has one line for each; the help of the command has the rest.
 class OneLineEach : public CLI::Formatter {
  public:
   std::string make_subcommand(const CLI::App* command) const override {

@@ -23,7 +23,7 @@ GrainView GrainReplay::view(const ContentName& state) {
   const bool is_packing = state == packing_ || state == ContentName{};
   if (is_packing && shown_ != packing_) start_from_packing();
   if (!is_packing && shown_ != state) {
-    // Back to what is there, then forth. The last piece is always gone: what is shown is what it ends with.
+    // Back to what is there, then forth. The last piece is always repeated: the grains shown are those at its end.
     std::vector<ContentName> way{state};
     do {
       const auto origin = ways_.origins.find(way.back());

@@ -68,7 +68,7 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
   int turned_count = 0;
   double first = 0.0;
   double one = 0.0;
-  // One at least: what has its peak at its end is not complete, and no reason to end all others' figures.
+  // One at least: a layer whose peak is at its end is not complete, and no reason to end all others' figures.
   for (double middle = std::min(halfway, end); middle <= end + 0.01 * diameter; middle += 0.5 * diameter) {
     const Shearing::Frame& from = shearing.frames[nearest(shearing, middle - 0.5 * diameter)];
     const Shearing::Frame& to = shearing.frames[nearest(shearing, middle + 0.5 * diameter)];

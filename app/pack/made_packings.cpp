@@ -155,7 +155,7 @@ class Compaction {
     return file;
   }
 
-  /// The packing of a step; that of step 0 is the loosest.
+  /// The packing of a step. Step 0 has the loosest.
   std::filesystem::path rung(int step) {
     const std::filesystem::path file = named(fmt::format("step{}", step));
     if (std::filesystem::exists(file)) return file;

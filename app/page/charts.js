@@ -207,7 +207,7 @@ for (const figure of document.querySelectorAll("figure.chart")) {
       maintainAspectRatio: false,
       scales,
       plugins: {
-        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true, pointStyleWidth: sampleWidth, generateLabels: withDashes } },
+        legend: { display: content.legend, position: "bottom", labels: { color: colourOf("--text"), usePointStyle: true, pointStyleWidth: sampleWidth, boxHeight: 7, generateLabels: withDashes } },
         tooltip: {
           callbacks: {
             label: (item) =>

@@ -74,7 +74,8 @@ std::string table(const std::vector<std::string>& titles, const std::vector<Tabl
     double value = 0.0;
     const char* const end = cell.data() + cell.size();
     const auto read = std::from_chars(cell.data(), end, value);
-    return read.ec == std::errc() && (read.ptr == end || std::string_view(read.ptr, end) == " %");
+    const std::string_view rest(read.ptr, end);
+    return read.ec == std::errc() && (rest.empty() || rest == " %" || rest.starts_with(" at "));
   };
   std::string text = "<div class='table'>";
   text += of == TableOf::text ? "<table class='text'>\n" : "<table>\n";

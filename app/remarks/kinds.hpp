@@ -20,6 +20,7 @@ void movement(const Scene& scene, Remarks& remarks);
 void pulled_apart(const Scene& scene, Remarks& remarks);
 void times_of_loads(const Scene& scene, Remarks& remarks);
 void idle_steps(const Scene& scene, Remarks& remarks);
+void missed_turns(const Scene& scene, Remarks& remarks);
 void steps_of_strain(const Scene& scene, Remarks& remarks);
 void internal_length(const Scene& scene, Remarks& remarks);
 void plastic_length(const Scene& scene, Remarks& remarks);
@@ -41,6 +42,7 @@ void places_of_monitors(const Scene& scene, Remarks& remarks);
 void carried_along(const Scene& scene, Remarks& remarks);
 void held_sides(const Scene& scene, Remarks& remarks);
 void shape_of_elements(const Scene& scene, Remarks& remarks);
+void open_seams(const Scene& scene, Remarks& remarks);
 void output(const Scene& scene, Remarks& remarks);
 void cost(const Scene& scene, Remarks& remarks);
 /// Adds to the other kinds: only where they have no remark on time zero.

@@ -17,13 +17,36 @@ constexpr RemarkKind kAtTimeZero[] = {loads_at_start, weight_in_boxes, load_on_h
                                       plain_loads,    tension,         ground_stress,
                                       weight,         free_sides,      stiffness_of_laws};
 
-constexpr RemarkKind kOthers[] = {
-    movement,        times_of_loads,    idle_steps,        steps_of_strain,  internal_length,
-    plastic_length,  few_grains,        softness,          size_of_grains,   unread_properties,
-    contact_numbers, neighbours,        tolerances,        softening_cauchy, strength_of_laws,
-    monitors,        measures,          formulas,          output,           cost,
-    moduli,          node_forces,       weight_at_once,    pulled_apart,     carried_along,
-    held_sides,      shape_of_elements, places_of_monitors};
+constexpr RemarkKind kOthers[] = {movement,
+                                  times_of_loads,
+                                  idle_steps,
+                                  missed_turns,
+                                  open_seams,
+                                  steps_of_strain,
+                                  internal_length,
+                                  plastic_length,
+                                  few_grains,
+                                  softness,
+                                  size_of_grains,
+                                  unread_properties,
+                                  contact_numbers,
+                                  neighbours,
+                                  tolerances,
+                                  softening_cauchy,
+                                  strength_of_laws,
+                                  monitors,
+                                  measures,
+                                  formulas,
+                                  output,
+                                  cost,
+                                  moduli,
+                                  node_forces,
+                                  weight_at_once,
+                                  pulled_apart,
+                                  carried_along,
+                                  held_sides,
+                                  shape_of_elements,
+                                  places_of_monitors};
 
 std::string with_number(std::size_t count) {
   return fmt::format("{} remark{}", count, count == 1 ? "" : "s");

@@ -94,17 +94,29 @@ std::optional<double> Scene::end_time() const {
   return end;
 }
 
-double Scene::largest_movement() const {
-  double largest = 0.0;
-  for (const fem::PrescribedDof<2>& item : problem().prescribed) {
-    if (item.dof == fem::Dof::w) continue;
-    const auto end = end_time();
-    largest = std::max(largest, end ? std::abs(item.value.at(*end)) : item.value.largest_magnitude());
-  }
+double Scene::growth_of_measures() const {
   double grown = 0.0;
   for (const coupler::StepTarget& target : case_.plan)
     if (target.control == coupler::StepTarget::Control::measure) grown += std::abs(target.amount);
-  return std::max(largest, grown);
+  return grown;
+}
+
+double Scene::reached(const fem::TimeTable& movement) const {
+  if (end_time()) {
+    double largest = 0.0;
+    for (const coupler::StepTarget& target : case_.plan)
+      largest = std::max(largest, std::abs(movement.at(target.amount)));
+    return largest;
+  }
+  const double grown = growth_of_measures();
+  return grown > 0.0 ? std::min(grown, movement.largest_magnitude()) : movement.largest_magnitude();
+}
+
+double Scene::largest_movement() const {
+  double largest = growth_of_measures();
+  for (const fem::PrescribedDof<2>& item : problem().prescribed)
+    if (item.dof != fem::Dof::w) largest = std::max(largest, reached(item.value));
+  return largest;
 }
 
 double Scene::strain_between(double before, double after) const {
@@ -114,7 +126,7 @@ double Scene::strain_between(double before, double after) const {
     // A movement along 1 shears the height or shortens the width.
     const double side = item.dof == fem::Dof::u2 ? body_.size().y() : body_.smaller_side();
     const double movement =
-        end_time() ? std::abs(item.value.at(after) - item.value.at(before)) : item.value.largest_magnitude();
+        end_time() ? std::abs(item.value.at(after) - item.value.at(before)) : reached(item.value);
     largest = std::max(largest, movement / side);
   }
   return largest;

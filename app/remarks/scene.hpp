@@ -57,6 +57,11 @@ class Scene {
                                                       const Eigen::Vector2d& position) const;
   /// Time at which the last step ends; nothing where that is not known before.
   [[nodiscard]] std::optional<double> end_time() const;
+  /// Growth of all measures that control steps, m; 0: loading times alone control them.
+  [[nodiscard]] double growth_of_measures() const;
+  /// Largest magnitude that a movement has at the end of a step, m. Under a measure or an arc length the time is found, and a
+  /// table may well go on beyond it: then the largest of the table, or the growth of the measures where that is less.
+  [[nodiscard]] double reached(const fem::TimeTable& movement) const;
   /// Largest prescribed displacement of a run, m: its movements up to the end, and measures that are to grow.
   [[nodiscard]] double largest_movement() const;
   /// Largest strain of a step: change of a movement over the side of the body along it. Steps whose times are not known before

@@ -107,7 +107,7 @@ std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
     start.out_of_balance = out_of_balance;
     return start;
   } catch (const RunError&) {
-    return {};  // what is wrong with the problem is said elsewhere
+    return {};  // the check of the problem says why
   } catch (const InputError&) {
     return {};
   }

@@ -63,7 +63,7 @@ std::string grain_figure(const GrainView& view, const std::string& name, const s
   const auto drawn = [&](const Eigen::Vector2d& place) {  // down is positive there
     return Eigen::Vector2d(scale * (place.x() - least.x()), scale * (most.y() - place.y()));
   };
-  // Images that reach into the rectangle around the box; what is outside of the box is cut off.
+  // Images that reach into the rectangle around the box; the drawing is cut at its sides.
   std::vector<Eigen::Vector2d> copies;
   for (int p = -1; p <= 1; ++p)
     for (int q = -1; q <= 1; ++q) copies.emplace_back(p * first + q * second);

@@ -37,7 +37,7 @@ void make_levels(const Entry& entry, CaseParts& parts) {
       levels.fault(member.key, fmt::format("{}: a part of every rectangle has that name", member.key));
       continue;
     }
-    // Rows are whole parts of the height: what is farther off than rounding is no row.
+    // Rows are whole parts of the height; no row is farther off than rounding.
     std::vector<int> nodes;
     for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node)
       if (std::abs(mesh.nodes[node].y() - height) < 1e-9 * mesh.nodes.back().y()) nodes.push_back(node);

@@ -42,7 +42,7 @@ std::string kind_in_words(const Entry& entry) {
     case Entry::Kind::scalar:
       break;
   }
-  constexpr std::size_t kMost = 60;  // characters: what is no case at all need not be repeated
+  constexpr std::size_t kMost = 60;  // characters: a file that is no case need not be repeated
   return "'" + (entry.text.size() > kMost ? entry.text.substr(0, kMost) + "..." : entry.text) + "'";
 }
 
@@ -402,9 +402,9 @@ void Section::fault(const std::string& key, const std::string& message) {
 
 void Section::require_below(const std::string& key, double bound, const std::string& why) {
   const Entry* const entry = entry_.find(key);
-  if (entry == nullptr) return;  // what another key gives is that key's fault
+  if (entry == nullptr) return;  // another key gives it, and has the fault
   const std::optional<double> value = parse_quantity(entry->text, Dimension::number);
-  if (!value || *value < bound) return;  // what is no number is a fault already
+  if (!value || *value < bound) return;  // a text that is no number is a fault already
   fault(key, fmt::format("{}: must be below {:g}, found '{}': {}", key, bound, entry->text, why));
 }
 

@@ -60,7 +60,7 @@ void GatheredMaterial::revert() {
 void GatheredMaterial::settle() {
   if (gathered_ == 0) return;
   std::vector<Response<2>> answers(way_.size());
-  if (was_dropped_) material_->evaluate(way_, answers);  // what it evaluated last is not the way that counts
+  if (was_dropped_) material_->evaluate(way_, answers);  // it evaluated another way last
   was_dropped_ = false;
   // Better answers to the same way are felt from the next step on.
   for (int again = 0; again < kMostAgain && !material_->confirm(); ++again)

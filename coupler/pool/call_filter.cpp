@@ -80,7 +80,7 @@ bool install_call_filter(bool may_use_network) {
   if (!may_use_network) allow_only(program, SYS_socket, AF_UNIX);
   program.push_back(end_with(SECCOMP_RET_ALLOW));
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-  // All threads: those of the message library are there already.
+  // All threads, since the message library has started its own.
   return syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &filter) == 0;
 }
 

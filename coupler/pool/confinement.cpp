@@ -81,7 +81,7 @@ Confinement::Confinement(const std::string& url) : may_use_network_(!url.starts_
 
 void Confinement::close() {
   if (POLARGRAIN_SANITIZED != 0) return;
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // what follows is only allowed then
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // the system asks for it first
   keep_to_folder();
   if (!install_call_filter(may_use_network_))
     missing_.push_back(fmt::format("a filter of system calls (seccomp: {})", std::strerror(errno)));

@@ -50,7 +50,7 @@ void FixCellStrain::begin(const BoxPath& path, double damping_rate, std::optiona
   motion_ = BoxMotion(path, rotation, update->dt);
   multiplier_ = 0.0;
   held_.clear();
-  weights_.clear();  // those of another path say nothing of this one
+  weights_.clear();  // they belong to another path
   thickness_ = domain->boxhi[2] - domain->boxlo[2];
   damping_rate_ = damping_rate;
   loading_ = {};
@@ -147,7 +147,7 @@ void FixCellStrain::set_rotation_weights(std::span<const double> weights) {
 
 void FixCellStrain::control_mean_rotation() {
   // The spins of the next half step must average to the prescribed one, sum W (spin + dt (T + lambda W) / I)
-  // = V rate with W = V weight (C.6); what the rate changes until then all grains get alike.
+  // = V rate with W = V weight (C.6). All grains get the change of the rate until then alike.
   const double volume = box().area() * thickness_;
   double mean_spin = 0.0;
   double compliance = 0.0;

@@ -9,7 +9,7 @@
 namespace polargrain::dem {
 
 // Tangents d stress / d strain of a cell from its contacts (docs/theory/grains.md, C.7). Rows and columns
-// follow Component; those of s33 are zero. `frame` turns vectors of the contacts into the frame of the
+// follow Component; s33 has zeros. `frame` turns vectors of the contacts into the frame of the
 // tangent. The classical tangents are those of mode 1: symmetrised in shear, as the stress of free rotations
 // is, a shear strain acting through its symmetric part, without couple stresses. The Cosserat ones are those
 // of mode 2.

@@ -156,7 +156,7 @@ StatePointer DiscBox::save() {
            {old.p - old.q * fold + away.p - copies[i].p, old.q + away.q - copies[i].q}});
       snapshot.values.insert(snapshot.values.end(), values, values + list_.springs);
     }
-  check(snapshot);  // what nobody could go on from is no answer
+  check(snapshot);  // an answer must be a state to go on from
   return encode(snapshot);
 }
 
@@ -200,7 +200,7 @@ void DiscBox::begin(const BoxPath& path, double damping_rate, std::optional<Rota
   motion_ = BoxMotion(path, rotation, definition_.time_step);
   damping_rate_ = damping_rate;
   multiplier_ = 0.0;
-  weights_.clear();  // those of another path say nothing of this one
+  weights_.clear();  // they belong to another path
 }
 
 void DiscBox::go_on(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
@@ -241,7 +241,7 @@ void DiscBox::hold_rotation() {
 
 void DiscBox::control_rotation(bool damped) {
   // The spins of the next half step must average to the prescribed one, sum W (spin + dt (T + lambda W) / I)
-  // = V rate with W = V weight (C.6); what the rate changes until then all grains get alike.
+  // = V rate with W = V weight (C.6). All grains get the change of the rate until then alike.
   const double step = definition_.time_step;
   const double rate = damped ? damping_rate_ : 0.0;
   const double volume = motion_.box().area() * definition_.thickness;

@@ -207,7 +207,7 @@ class Compression {
   const PackingSpecification& specification_;
   int axes_;
   int planes_;             // that can be sheared
-  bool keep_contacts_;     // with friction, what lies ready in tangential springs belongs to the packing
+  bool keep_contacts_;     // with friction the tangential springs belong to the packing
   Eigen::Matrix3d frame_;  // of the box, to the laboratory
   Aim aim_;                // in the frame of the box
   std::int64_t chunk_ = 0;

@@ -118,7 +118,7 @@ void SphereBox::begin(const SpacePath& path, double damping_rate,
   motion_ = SpaceMotion(path, rotation, time_step);
   damping_rate_ = damping_rate;
   multiplier_.setZero();
-  weights_.clear();  // those of another path say nothing of this one
+  weights_.clear();  // they belong to another path
 }
 
 void SphereBox::go_on(const SpacePath& path, double damping_rate,

@@ -58,7 +58,7 @@ void FixSpaceStrain::begin(const SpacePath& path, double damping_rate,
   motion_ = SpaceMotion(path, rotation, update->dt);
   damping_rate_ = damping_rate;
   multiplier_.setZero();
-  weights_.clear();  // those of another path say nothing of this one
+  weights_.clear();  // they belong to another path
   loading_ = {};
   std::fill_n(domain->h_rate, 6, 0.0);
   std::fill_n(domain->h_ratelo, 3, 0.0);

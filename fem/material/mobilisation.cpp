@@ -10,7 +10,7 @@
 namespace polargrain::fem {
 namespace {
 
-/// Share of the law's pressure below which grains have come out of contact: what they still show is no strength under it.
+/// Share of the law's pressure below which grains have come out of contact: their stresses are then no strength.
 constexpr double kLostContact = 0.05;
 
 double mean_stress(const ScaledVector<double>& stress) {

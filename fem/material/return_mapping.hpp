@@ -235,7 +235,7 @@ void return_to_side(const Split<Scalar, dim>& trial, const YieldEquation<Scalar,
 
 }  // namespace detail
 
-/// Backward-Euler return of a trial stress to a cone (docs/theory/plasticity.md, B.4, B.5, B.8).
+/// Backward-Euler return of a trial stress to a cone (docs/theory/plasticity.md, B.4, B.5).
 ///
 /// @param trial   scaled trial stress, Pa
 /// @param gamma_p accumulated plastic shear at the start of the step

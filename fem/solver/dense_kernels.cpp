@@ -58,7 +58,7 @@ void subtract_corner(const double (*sums)[kTileRows], int rows, int columns, dou
 }
 
 /// C -= A B^T for packed blocks; each product of a row and a column is summed up from its first term to its
-/// last, and what hangs over the edge of C is left out.
+/// last, without the part beyond the edge of C.
 POLARGRAIN_ANY_REGISTERS
 void subtract_packed(int rows, int columns, int depth, const double* a, const double* b, double* c,
                      int ld_c) {

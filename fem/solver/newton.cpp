@@ -90,7 +90,7 @@ Attempt Newton<dim>::evaluate_initial_state(StepReport& report) {
       return {false, std::move(message)};
     }
   }
-  // The increments were zero: what is committed is the initial state itself.
+  // The increments were zero, so the initial state itself is committed.
   materials.commit();
   state.responses = trial_;
   return {true, ""};
@@ -390,7 +390,7 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
         return {false, "a material's answer is unreliable: " + worst.message, worst.step_factor};
       }
       if (!materials.confirm()) {
-        // Other answers from here on: what was learned of the former ones is void.
+        // Other answers from here on: the history of the former ones is void.
         evaluate(iterate, report);
         if (const Response<dim>& again = worst_response(); again.quality == Quality::failed)
           return {false, "a material failed: " + again.message, again.step_factor};

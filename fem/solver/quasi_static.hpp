@@ -26,13 +26,13 @@ struct QuasiStatic {
   [[nodiscard]] double error() const;
 };
 
-/// Gathers the forces of the steps of a row: what the supports supply at its end, and by how much they leave the mesh
+/// Gathers the forces of the steps of a row: those that the supports supply at its end, and by how much they leave the mesh
 /// unbalanced.
 ///
 /// The reactions of an instant swing with the waves in the mesh, and their mean over a row lags behind by half of it. So
 /// two means are taken, each over the time that a wave needs there and back, and the straight line through them is
-/// followed to the end of the row: what swings in that time is gone, what grows evenly is exact. Rows shorter than two
-/// such times keep the reactions of the instant.
+/// followed to the end of the row. Swings of that time vanish, and an even growth is exact. Rows shorter than two such
+/// times keep the reactions of the instant.
 template <int dim>
 class RowOfForces {
  public:

@@ -247,12 +247,15 @@ def step_together(cells, gradients, rotations=None, curvatures=None):
         raise ValueError("cells that step together must share their engines: Cell(..., engines=engines)")
     if len({id(cell) for cell in cells}) < len(cells):
         raise ValueError("one cell cannot take two steps at once; make two of it")
-    rotations, curvatures = (nothing if given is None else given for given in (rotations, curvatures))
+    gradients, rotations, curvatures = (nothing if given is None else list(given) for given in (gradients, rotations, curvatures))
+    for name, given in (("gradients", gradients), ("rotations", rotations), ("curvatures", curvatures)):
+        if len(given) != len(cells):
+            raise ValueError(f"{name}: one for each of the {len(cells)} cells is expected, found {len(given)}")
     with contextlib.ExitStack() as locks:
         for cell in sorted(cells, key=id):  # in one order, or two threads would wait for each other
             locks.enter_context(cell._lock)
         questions = [cell._question(F, w, k, None) for cell, F, w, k in
-                     zip(cells, gradients, rotations, curvatures, strict=True)]
+                     zip(cells, gradients, rotations, curvatures)]
         if not questions:
             return []
         replies = cells[0]._engines._cells.evaluate(questions)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Files that are there, and files that are written whole."""
+import errno
 import os
 import stat
 
@@ -46,6 +47,8 @@ def write_whole(file, content):
             os.set_blocking(stream.fileno(), True)
             stream.write(content)
         return
+    if not os.path.isdir(os.path.dirname(place)):
+        raise FileNotFoundError(errno.ENOENT, "there is no such folder", os.path.dirname(place))
     part = place + ".part"
     with open(part, "wb") as stream:
         stream.write(content)

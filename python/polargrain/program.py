@@ -16,8 +16,8 @@ from .errors import InputError, RunError
 from .files import no_input
 
 _PACKAGE = pathlib.Path(__file__).resolve().parent
-_PLACES = (_PACKAGE.parents[3] / "bin" / "polargrain",  # installed: PREFIX/lib/python3*/*-packages/polargrain
-           _PACKAGE.parents[1] / "app" / "polargrain")  # in the folder of the build
+_PLACES = (_PACKAGE.joinpath("../../../../bin/polargrain").resolve(),  # installed: PREFIX/lib/python3*/*-packages/polargrain
+           _PACKAGE.joinpath("../../app/polargrain").resolve())  # in the folder of the build
 
 
 def program():

@@ -152,6 +152,8 @@ TEST_F(Verify, SaysWhatIsUnderNoProof) {
 TEST_F(Verify, SaysWhatAnOlderVersionDidNotRecord) {
   ASSERT_EQ(polargrain("run case.yaml -o out -w 1 --quiet").status, 0);
   Json summary = Json::parse(result("out/summary.json"));
+  const Json this_version = summary["program"];
+  summary["program"] = "polargrain 0.2.0";
   summary["proof"].erase("summary");
   for (const char* const file : {"costs.csv", "run.log", "checkpoint.h5", "cell_paths"})
     summary["proof"]["results"].erase(file);
@@ -159,6 +161,12 @@ TEST_F(Verify, SaysWhatAnOlderVersionDidNotRecord) {
   const Outcome outcome = polargrain("verify out -w 1");
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.errors;
   EXPECT_NE(outcome.out.find("summary.json is of an older version"), std::string::npos) << outcome.out;
+  // Of this version the hash cannot be absent.
+  summary["program"] = this_version;
+  write(scratch_.path() / "out/summary.json", summary.dump());
+  const Outcome gone = polargrain("verify out -w 1");
+  EXPECT_EQ(gone.status, 1) << gone.out << gone.errors;
+  EXPECT_NE(gone.out.find("its own hash is gone"), std::string::npos) << gone.out;
 }
 
 TEST_F(Verify, AgreesAfterAStopAndGoingOn) {

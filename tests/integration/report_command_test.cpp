@@ -256,7 +256,10 @@ TEST_F(ReportTest, FollowsARunAtWork) {
   std::filesystem::remove(directory() / "out/report.html");
   Beside live("env -C '" + directory().string() + "' " FAKE_POLARGRAIN " report out --live >/dev/null");
   // It would go on as long as the run does.
-  const auto page_is_whole = [this] { return page().find("</html>") != std::string::npos; };
+  // The page may not be there yet, so its form is not looked at before.
+  const auto page_is_whole = [this] {
+    return content(directory() / "out/report.html").find("</html>") != std::string::npos;
+  };
   EXPECT_TRUE(await(live, page_is_whole));
   kill(live.id(), SIGINT);
   EXPECT_NE(live.wait(), 0);

@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"Overconsolidated", kGround, "K0: 0.5", "K0: 1.5"},
         Careless{"LargeDeformation", kGrains, "continuum: cosserat", "deformation: large"},
         Careless{
-            "WholeCycles", kGrains, "{u2: -8 mm}",
+            "WholeCycles", replaced(kGrains, "count: 20", "count: 32"), "{u2: -8 mm}",
             "{u2: [[0, 0], [0.0625, -1 mm], [0.1875, 1 mm], [0.3125, -1 mm], [0.4375, 1 mm], [0.5625, -1 mm], "
             "[0.6875, 1 mm], [0.8125, -1 mm], [0.9375, 1 mm], [1, 0]]}"},
         Careless{"MeshBelowTheSurface",
@@ -92,6 +92,17 @@ INSTANTIATE_TEST_SUITE_P(
                  "body:\n  - {unit_weight: 18 kN/m3}\n", ""},
         Careless{"ExplicitAsItIs", kGrains, "{count: 20, tolerance: 1e-2}", "{count: 20, method: explicit}"},
         Careless{"StrongGrains", kGrains, "", "", "", app::Rank::wrong, "0.5463024898437905", "1.2"},
+        Careless{"PauseUnderLoad", replaced(kGrains, "count: 20", "stages: [{until: 3, count: 30}]"),
+                 "{u2: -8 mm}", "{u2: [[0, 0], [1, -4 mm], [2, -4 mm], [3, -8 mm]]}"},
+        Careless{"TableBeyondTheMeasure", replaced(kGrains, "{u2: -8 mm}", "{u2: [[0, 0], [10, -80 mm]]}"),
+                 "count: 20,",
+                 "stages: [{measure: {on: top, from: bottom, displacement: u2}, grow: -8 mm, count: 20}],"},
+        Careless{
+            "ToleranceOfTheDeepest",
+            replaced(kGrains, "model: cell", "model: adaptive, tolerance: 1 %, reference_pressure: 300 kPa"),
+            "-8 mm", "-4 mm"},
+        Careless{"AnchorThatIsPulled", kGround, "{on: top, pressure: [[0, 10 kPa], [1, 60 kPa]]}",
+                 "{on: top, pressure: 10 kPa}\n  - {on: top_right, node_force: {u2: [[0, 0], [1, 5 kN/m]]}}"},
         Careless{
             "RollingWithItsModel", kGrains, "", "", "", app::Rank::wrong,
             "pair_style      gran model hooke/radii tangential history",

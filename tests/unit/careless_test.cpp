@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "no load and no movement changes"},
         Careless{"StepsBehindTheMovement", kGrains, "{count: 20, tolerance: 1e-2}",
                  "{tolerance: 1e-2, stages: [{until: 2, count: 40}]}",
-                 "in 20 of 40 steps no load and no movement changes", Rank::doubtful}),
+                 "in the last 20 of 40 steps no load and no movement changes", Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
 const std::string kInItsStress = "{surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}";

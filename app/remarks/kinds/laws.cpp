@@ -9,6 +9,7 @@
 
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
+#include "app/remarks/stress_scale.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -30,25 +31,6 @@ std::optional<double> largest_value(const Scene& scene, const SceneRegion& regio
       largest = std::max(largest.value_or(*number), *number);
   }
   return largest;
-}
-
-/// The stresses that loads, weight and stress at time zero bring, Pa.
-double stress_scale(const Scene& scene) {
-  double scale = 0.0;
-  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
-    for (const fem::TimeTable* const table : {&load.pressure, &load.traction[0], &load.traction[1]})
-      scale = std::max(scale, table->largest_magnitude());
-  for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
-    scale = std::max(scale, load.density(scene.body().least).norm() * load.factor.largest_magnitude() *
-                                scene.body().size().y());
-  for (const SceneRegion& region : scene.regions())
-    if (region.cell == nullptr && !region.elements.empty()) {
-      const int node = scene.mesh().elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
-      if (const auto stress =
-              scene.initial_stress(region, scene.mesh().nodes[static_cast<std::size_t>(node)]))
-        scale = std::max(scale, stress->head<3>().cwiseAbs().maxCoeff());
-    }
-  return scale;
 }
 
 }  // namespace
@@ -166,7 +148,7 @@ void look_at_plain(const std::string& what, const coupler::Entry* entry, double 
 }  // namespace
 
 void plain_loads(const Scene& scene, Remarks& remarks) {
-  constexpr double kOfModulus = 1e-3;  // what strains ground by less than 2e-5 loads nothing
+  constexpr double kOfModulus = 1e-3;  // below it ground strains by less than 2e-5
   constexpr double kMost = 50e3;       // Pa: a kilopascal and more may be meant, however stiff the body
   double scale = stress_scale(scene);
   for (const SceneRegion& region : scene.regions()) {

@@ -14,21 +14,12 @@ constexpr double kLarge = 0.5;       // of the body
 constexpr double kLargeSmall = 0.1;  // in small deformation
 constexpr double kNothing = 1e-7;
 
-/// The largest that a step reaches, m: cycles end where they began.
-double largest_of_steps(const Scene& scene, const fem::TimeTable& table) {
-  if (!scene.end_time()) return table.largest_magnitude();
-  double largest = 0.0;
-  for (const coupler::StepTarget& target : scene.the_case().plan)
-    largest = std::max(largest, std::abs(table.at(target.amount)));
-  return largest;
-}
-
 }  // namespace
 
 void movement(const Scene& scene, Remarks& remarks) {
   for (const fem::PrescribedDof<2>& item : scene.problem().prescribed) {
     if (item.dof == fem::Dof::w) continue;
-    const double movement = largest_of_steps(scene, item.value);
+    const double movement = scene.reached(item.value);
     if (movement == 0.0) continue;
     const double side = item.dof == fem::Dof::u2 ? scene.body().size().y() : scene.body().smaller_side();
     const double share = movement / side;

@@ -49,7 +49,46 @@ void last_point(const coupler::Entry& entry, double& last, const coupler::Entry*
   for (const coupler::Entry::Member& member : entry.members) last_point(member.value, last, at);
 }
 
+/// Ways of a load there and back, in its unit: as it is given, and as the ends of steps see it.
+struct Ways {
+  double given = 0.0;
+  double seen = 0.0;
+};
+
+Ways ways_of(const fem::TimeTable& table, const std::vector<coupler::StepTarget>& plan) {
+  const auto parts = static_cast<int>(std::clamp<std::size_t>(20000 / plan.size(), 2, 64));
+  Ways ways;
+  double from = 0.0;
+  for (const coupler::StepTarget& target : plan) {
+    ways.seen += std::abs(table.at(target.amount) - table.at(from));
+    for (int k = 0; k < parts; ++k)
+      ways.given += std::abs(table.at(from + (target.amount - from) * (k + 1) / parts) -
+                             table.at(from + (target.amount - from) * k / parts));
+    from = target.amount;
+  }
+  return ways;
+}
+
 }  // namespace
+
+void missed_turns(const Scene& scene, Remarks& remarks) {
+  constexpr double kLost = 0.02;  // of the way
+  constexpr double kLostLargely = 0.25;
+  const std::vector<coupler::StepTarget>& plan = scene.the_case().plan;
+  if (!scene.end_time() || plan.empty()) return;
+  double lost = 0.0;
+  for (const fem::TimeTable* const table : tables_of(scene.problem())) {
+    const Ways ways = ways_of(*table, plan);
+    if (ways.given > 0.0) lost = std::max(lost, 1.0 - ways.seen / ways.given);
+  }
+  if (lost <= kLost) return;
+  remarks.push_back(
+      {lost > kLostLargely ? Rank::wrong : Rank::doubtful, lost / kLost,
+       scene.place({"steps"}).fault(fmt::format(
+           "steps: a load turns between the ends of {} steps, which see {:.2g} % of its way there and back",
+           plan.size(), 100.0 * (1.0 - lost))),
+       "let steps end where loads turn: stages: [{until: TIME OF THE TURN, count: ...}, ...], or more steps"});
+}
 
 void times_of_loads(const Scene& scene, Remarks& remarks) {
   const auto end = scene.end_time();
@@ -71,11 +110,11 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
 void idle_steps(const Scene& scene, Remarks& remarks) {
   const auto end = scene.end_time();
   if (!end) return;
-  // Step by step: whole cycles of a load end where they began.
+  // Step by step: whole cycles of a load end where they began. A pause before a further change is meant.
   double from = 0.0;
-  int idle = 0;
+  int idle = 0;  // since the last change
   for (const coupler::StepTarget& target : scene.the_case().plan) {
-    if (!changes(scene, from, target.amount)) ++idle;
+    idle = changes(scene, from, target.amount) ? 0 : idle + 1;
     from = target.amount;
   }
   if (idle == scene.the_case().steps()) {
@@ -90,7 +129,7 @@ void idle_steps(const Scene& scene, Remarks& remarks) {
     remarks.push_back(
         {Rank::doubtful, 1.0 + static_cast<double>(idle) / scene.the_case().steps(),
          scene.place({"steps"}).fault(fmt::format(
-             "steps: in {} of {} steps no load and no movement changes (a single value of 'move' is "
+             "steps: in the last {} of {} steps no load and no movement changes (a single value of 'move' is "
              "reached at time 1)",
              idle, scene.the_case().steps())),
          "let the steps end where the loads do, or give the loads times up to the end: [[0, 0], [END, VALUE]]"});

@@ -2,7 +2,9 @@
 // Keys of accuracy that no longer ask for an answer that can be used.
 #include <fmt/format.h>
 
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/stress_scale.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -49,6 +51,28 @@ void look_at(const Scene& scene, const Scene::Path& section, const Bound& bound,
        bound.remedy});
 }
 
+/// A reference pressure states what the tolerance of `adaptive` is a share of: it must be one of this scene.
+void look_at_reference(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
+  constexpr double kMost = 10.0;    // times the largest stress of the scene
+  constexpr double kLeast = 0.001;  // of it
+  const Scene::Path path = {"materials", region.material, "reference_pressure"};
+  const auto reference = scene.quantity(path, coupler::Dimension::pressure);
+  const double stress = std::max(stress_scale(scene), Scene::pressure_of(region));
+  if (!reference || stress <= 0.0) return;
+  const std::string seen =
+      fmt::format("material '{}': reference_pressure is {}, the largest stress of the case {}",
+                  region.material, pascals(*reference), pascals(stress));
+  const std::string remedy = "give a pressure that the grains have in this case; check its unit";
+  if (*reference > kMost * stress)
+    remarks.push_back({Rank::wrong, *reference / (kMost * stress),
+                       scene.place(path).fault(seen + ": a tolerance that is a share of it allows any error"),
+                       remedy});
+  else if (*reference < kLeast * stress)
+    remarks.push_back({Rank::costly, kLeast * stress / *reference,
+                       scene.place(path).fault(seen + ": a tolerance that is a share of it saves nothing"),
+                       remedy});
+}
+
 }  // namespace
 
 void tolerances(const Scene& scene, Remarks& remarks) {
@@ -57,6 +81,8 @@ void tolerances(const Scene& scene, Remarks& remarks) {
   for (const auto& [name, material] : scene.the_case().materials)
     if (material->needs_workers())
       for (const Bound& bound : kOfMaterials) look_at(scene, {"materials", name}, bound, remarks);
+  for (const SceneRegion& region : scene.regions())
+    if (region.cell != nullptr) look_at_reference(scene, region, remarks);
 }
 
 }  // namespace polargrain::app

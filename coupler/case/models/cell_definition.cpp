@@ -66,7 +66,7 @@ CellControl read_control(Section& section) {
 /// Sizes of grains may differ by so much, relative, from those a length was measured with.
 constexpr double kSameGrains = 0.05;
 
-/// `lc: measured`: what polargrain layer has left beside the packing.
+/// `lc: measured`: the lengths that polargrain layer has written beside the packing.
 void take_measured_length(Section& section, const CellDefinition& definition, const CaseFiles& files,
                           CosseratChoice& choice) {
   choice.internal_length = 1.0;  // fit for reading on

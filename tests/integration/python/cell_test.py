@@ -102,6 +102,8 @@ class Answers(InFolder):
             cells = [controlled(engines=engines) for _ in range(3)]
             gradients = [shear(amount) for amount in (1e-4, 5e-4, 1e-3)]
             together = polargrain.step_together(cells, gradients)
+            with self.assertRaisesRegex(ValueError, "gradients: one for each of the 3 cells is expected, found 2"):
+                polargrain.step_together(cells, gradients[:2])
         for gradient, answer in zip(gradients, together):
             np.testing.assert_array_equal(answer.vector, controlled().step(gradient).vector)
 
@@ -138,6 +140,8 @@ class States(InFolder):
             self.state.save(link)
             self.assertTrue(link.is_symlink())
             self.assertEqual(polargrain.State.load(self.folder / "far" / "state"), self.state)
+        with self.assertRaisesRegex(FileNotFoundError, "there is no such folder: .*nowhere'"):
+            self.state.save(self.folder / "nowhere" / "state")
         # By links: should this fail, no device of the machine is lost.
         (self.folder / "null").symlink_to("/dev/null")
         self.state.save(self.folder / "null")
