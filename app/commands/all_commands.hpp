@@ -12,6 +12,7 @@ Command add_check(CLI::App& program, const Grains& grains);
 Command add_new(CLI::App& program, const Grains& grains);
 Command add_examples(CLI::App& program, const Grains& grains);
 Command add_point(CLI::App& program, const Grains& grains);
+Command add_safety(CLI::App& program, const Grains& grains);
 Command add_element(CLI::App& program, const Grains& grains);
 Command add_calibrate(CLI::App& program, const Grains& grains);
 Command add_pack(CLI::App& program, const Grains& grains);
@@ -25,8 +26,9 @@ Command add_report(CLI::App& program, const Grains& grains);
 Command add_grains(CLI::App& program, const Grains& grains);
 
 /// In the order of --help.
-inline constexpr AddCommand kCommands[] = {
-    add_run,   add_check, add_new,    add_examples, add_point, add_element, add_calibrate, add_pack,
-    add_layer, add_band,  add_report, add_grains,   add_bench, add_worker,  add_keys,      add_verify};
+inline constexpr AddCommand kCommands[] = {add_run,   add_check,   add_safety,    add_new,   add_examples,
+                                           add_point, add_element, add_calibrate, add_pack,  add_layer,
+                                           add_band,  add_report,  add_grains,    add_bench, add_worker,
+                                           add_keys,  add_verify};
 
 }  // namespace polargrain::app

@@ -3,15 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace polargrain::app {
 
 Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings)
     : case_(the_case), document_(document), body_(body_of(the_case.problem.mesh)) {
-  region_of_element_.resize(mesh().elements.size(), 0);
+  if (case_.problem.stages.size() > 1) {
+    at_start_ = case_.problem;
+    const auto comes_later = [](const auto& item) { return item.life.begin > 0; };
+    std::erase_if(at_start_->prescribed, comes_later);
+    std::erase_if(at_start_->boundary_loads, comes_later);
+    std::erase_if(at_start_->node_loads, comes_later);
+    std::erase_if(at_start_->body_loads, comes_later);
+  }
+  region_of_element_.resize(mesh().elements.size(), SIZE_MAX);
   for (const auto& [name, material] : case_.regions) {
     SceneRegion region{name, material};
     region.cell = case_.materials.at(material)->grains();
+    const auto life = case_.problem.lifetimes.find(name);
+    const bool comes_later = life != case_.problem.lifetimes.end() && life->second.begin > 0;
+    if (comes_later && region.cell == nullptr) continue;  // nothing at time zero is said of it
     if (const auto found = packings.find(material); found != packings.end()) region.packing = &found->second;
     region.elements = mesh().regions.at(name);
     for (const int element : region.elements)
@@ -69,6 +81,7 @@ double Scene::pressure_of(const SceneRegion& region) {
 
 std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
                                              const Eigen::Vector2d& position) const {
+  if (&region == &not_there_) return {};
   if (region.packing != nullptr) return region.packing->stress;
   Vector7 stress = Vector7::Zero();
   if (region.cell != nullptr) {

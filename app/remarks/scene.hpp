@@ -31,13 +31,15 @@ class Scene {
   Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings);
 
   [[nodiscard]] const coupler::Case& the_case() const { return case_; }
-  [[nodiscard]] const fem::Problem<2>& problem() const { return case_.problem; }
+  /// Where parts come and go: without the supports and loads that begin in a later stage.
+  [[nodiscard]] const fem::Problem<2>& problem() const { return at_start_ ? *at_start_ : case_.problem; }
   [[nodiscard]] const fem::Mesh<2>& mesh() const { return case_.problem.mesh; }
   [[nodiscard]] const coupler::Entry& document() const { return document_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const std::vector<SceneRegion>& regions() const { return regions_; }
   [[nodiscard]] const SceneRegion& region_of(int element) const {
-    return regions_[region_of_element_[static_cast<std::size_t>(element)]];
+    const std::size_t number = region_of_element_[static_cast<std::size_t>(element)];
+    return number < regions_.size() ? regions_[number] : not_there_;
   }
 
   /// The entry of keys, from the top; null when it is not there.
@@ -74,9 +76,11 @@ class Scene {
   [[nodiscard]] double strain_between(double before, double after) const;
 
   const coupler::Case& case_;
+  std::optional<fem::Problem<2>> at_start_;
   const coupler::Entry& document_;
   Body body_;
   std::vector<SceneRegion> regions_;
+  SceneRegion not_there_{};  ///< of elements that only a later stage has
   std::vector<std::size_t> region_of_element_;
 };
 

@@ -395,6 +395,23 @@ std::string status(const RunResult& result) {
                      message.empty() ? "" : "; " + message);
 }
 
+/// The stages of construction of a run; empty where it has none.
+std::string stages(const RunResult& result) {
+  if (!result.summary.is_object() || !result.summary.contains("stages")) return "";
+  std::vector<TableRow> rows;
+  for (const Json& stage : result.summary["stages"]) {
+    const int last = stage.value("last_step", 0);
+    std::string time;
+    if (result.history)
+      for (std::size_t row = 0; row < result.history->rows(); ++row)
+        if (result.history->figure(row, result.history->column("step")) == last)
+          time = fmt::format("{:.6g}", result.history->numbers("time")[row]);
+    rows.push_back({{stage.value("name", ""), fmt::format("{} to {}", stage.value("first_step", 0), last),
+                     time.empty() ? "not reached" : time}});
+  }
+  return table({"stage", "steps", "time at its end"}, rows);
+}
+
 std::string notes(const std::vector<RunResult>& results) {
   struct Weighed {
     NoteWeight weight;
@@ -434,6 +451,10 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
   for (const RunResult& result : results) {
     const std::string name = results.size() > 1 ? result.name + ": " : "";
     body += "<p>" + escaped(name + status(result)) + "</p>\n";
+  }
+  for (const RunResult& result : results) {
+    const std::string of_run = stages(result);
+    if (!of_run.empty()) body += (results.size() > 1 ? "<p>" + escaped(result.name) + "</p>\n" : "") + of_run;
   }
   body += remarks_section(results);
   body +=

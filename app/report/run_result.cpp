@@ -17,6 +17,7 @@
 #include "common/error.hpp"
 #include "common/regular_file.hpp"
 #include "common/words.hpp"
+#include "coupler/case/columns_of_steps.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -91,6 +92,7 @@ std::vector<std::string> RunResult::value_names() const {
   const std::vector<std::string>& all = history->names();
   auto last = std::ranges::find(all, "error_estimate");  // of explicit steps only
   if (last == all.end()) last = std::ranges::find(all, "jump_residual");
+  if (last != all.end() && last + 1 != all.end() && *(last + 1) == coupler::kStageColumn) ++last;
   return last == all.end() ? all : std::vector<std::string>(last + 1, all.end());
 }
 

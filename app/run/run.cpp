@@ -21,6 +21,7 @@
 #include "app/run/run_remarks.hpp"
 #include "app/run/sample.hpp"
 #include "app/run/soft_contacts.hpp"
+#include "app/run/take_step.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
 #include "common/seconds.hpp"
@@ -204,20 +205,13 @@ class Run {
   fem::StepReport begin() { return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate(); }
 
   fem::StepReport take(const coupler::StepTarget& target) {
-    if (target.explicit_steps > 0) {
-      fem::ExplicitOptions options = case_.explicit_options;
-      if (!files_.has_fields(step_)) options.rest = 0.0;
-      return solver_->advance_explicit(target.amount, target.explicit_steps, options);
-    }
-    switch (target.control) {
-      case coupler::StepTarget::Control::measure:
-        return solver_->advance_measure(target.measure, target.amount);
-      case coupler::StepTarget::Control::arc_length:
-        return solver_->advance_arc_length(target.amount);
-      case coupler::StepTarget::Control::time:
-        break;
-    }
-    return solver_->advance(target.amount);
+    if (const coupler::CaseStage* const stage = case_.stage_of(step_); stage && stage->first_step == step_)
+      log_.info("stage '{}'", stage->name);
+    begin_stage_of(case_, step_, *solver_);
+    if (target.explicit_steps == 0) return take_balanced_step(target, *solver_);
+    fem::ExplicitOptions options = case_.explicit_options;
+    if (!files_.has_fields(step_)) options.rest = 0.0;
+    return solver_->advance_explicit(target.amount, target.explicit_steps, options);
   }
 
   /// The costs of the cells since the start of the run, before the checkpoint included.

@@ -21,6 +21,7 @@ std::vector<std::string> columns_of_steps(const coupler::Case& the_case) {
   if (the_case.is_explicit())
     columns.insert(columns.end(), coupler::columns_of_explicit_steps().begin(),
                    coupler::columns_of_explicit_steps().end());
+  if (!the_case.stages.empty()) columns.emplace_back(coupler::kStageColumn);
   return columns;
 }
 
@@ -121,6 +122,10 @@ void RunFiles::add(const CommittedStep& step) {
     for (const double share : {row_of.reaction_difference, row_of.nodes_unbalanced, row_of.grains_unbalanced,
                                row_of.kinetic_share, row_of.hot_points, row_of.error()})
       row.push_back(exact(share));
+  }
+  if (!case_.stages.empty()) {
+    const coupler::CaseStage* const stage = case_.stage_of(step.step);
+    row.push_back(std::to_string(stage == nullptr ? 0 : stage - case_.stages.data() + 1));
   }
   for (const auto& [name, value] : step.values) {
     if (name != "time") row.push_back(exact(value));

@@ -84,6 +84,15 @@ Json last_values(const RunRecord& record) {
   return values;
 }
 
+/// Names and steps of the stages of construction.
+Json stage_figures(const coupler::Case& the_case) {
+  Json stages = Json::array();
+  for (const coupler::CaseStage& stage : the_case.stages)
+    stages.push_back(
+        {{"name", stage.name}, {"first_step", stage.first_step}, {"last_step", stage.last_step}});
+  return stages;
+}
+
 }  // namespace
 
 void RunRecord::add(CommittedStep step) {
@@ -127,19 +136,30 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"materials", material_figures(record)},
                {"proof", proof_figures(the_case, record)}};
   if (the_case.dimension() == 3) summary["dimension"] = 3;
+  if (!the_case.stages.empty()) summary["stages"] = stage_figures(the_case);
   if (the_case.is_explicit()) summary["quasi_static"] = quasi_static_figures(the_case, record);
   // Of all that stands above, whatever it is: a key that is added is under the proof.
   summary["proof"]["summary"] = name_of_summary(summary);
   fem::write_file(file, json_text(summary));
 }
 
+namespace {
+
+std::string stage_text(const coupler::Case& the_case, int step) {
+  const coupler::CaseStage* const stage = the_case.stage_of(step);
+  return stage == nullptr ? "" : "  " + stage->name;
+}
+
+}  // namespace
+
 std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
   constexpr std::size_t kMostRows = 20;
   std::string text = fmt::format("{:>6}", "step");
   for (const std::string& name : the_case.table) text += fmt::format("  {:>15}", name);
   const bool is_explicit = the_case.is_explicit();
-  text += is_explicit ? fmt::format("  {:>15}  {:>15}\n", "explicit steps", "error estimate")
-                      : fmt::format("  {:>17}\n", "Newton iterations");
+  text += is_explicit
+              ? fmt::format("  {:>15}  {:>15}\n", "explicit steps", "error estimate")
+              : fmt::format("  {:>17}{}\n", "Newton iterations", the_case.stages.empty() ? "" : "  stage");
   const std::size_t count = record.steps.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kMostRows - 1) / kMostRows);
   for (std::size_t s = 0; s < count; ++s) {
@@ -148,9 +168,10 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
     text += fmt::format("{:>6}", step.step);
     for (const std::string& name : the_case.table)
       text += fmt::format("  {:>15.6g}", value_of(step.values, name));
-    text += is_explicit ? fmt::format("  {:>15}  {:>13.2g} %\n", step.report.explicit_steps,
-                                      100.0 * step.report.quasi_static.error())
-                        : fmt::format("  {:>17}\n", step.report.iterations);
+    text += is_explicit
+                ? fmt::format("  {:>15}  {:>13.2g} %\n", step.report.explicit_steps,
+                              100.0 * step.report.quasi_static.error())
+                : fmt::format("  {:>17}{}\n", step.report.iterations, stage_text(the_case, step.step));
   }
   if (record.within_noise > 0) {
     text += fmt::format("{} substeps were accepted above the tolerance, within the noise of the stresses\n",

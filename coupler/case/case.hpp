@@ -41,6 +41,18 @@ struct StepTarget {
   double amount = 0.0;  ///< the time itself; the growth; the length (m)
   fem::DisplacementMeasure measure;
   int explicit_steps = 0;  ///< in so many explicit steps; 0: by Newton's method
+  double released =
+      1.0;  ///< share of the forces held back at the beginning of its stage that is let go at its end
+};
+
+/// A stage of construction: steps with a name, before which parts may come and go.
+struct CaseStage {
+  std::string name;
+  int first_step = 0;  ///< of the plan, the first one is 1
+  int last_step = 0;
+  /// Of the problem (fem::Solver::begin_stage). The same as of the stage before: nothing comes, goes, begins or ends.
+  int number = 0;
+  bool resets_displacements = false;
 };
 
 /// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.
@@ -56,6 +68,7 @@ struct Case {
   std::map<std::string, std::shared_ptr<const MaterialRecipe>> materials;  ///< by name
   std::map<std::string, std::string> regions;                              ///< region: name of its material
   std::vector<StepTarget> plan;                                            ///< the steps, in their order
+  std::vector<CaseStage> stages;  ///< all of the plan, in its order; empty: no stage of it has a name
   fem::SolverOptions solver;
   fem::ExplicitOptions explicit_options;  ///< of rows whose fields are written; others do not come to rest
   double explicit_error = 0.02;           ///< error of the reactions that is allowed in explicit steps
@@ -92,6 +105,8 @@ struct Case {
     return space ? visit(*space) : visit(problem);
   }
 
+  /// The stage of a step of the plan; null where stages have no names, and of step 0.
+  [[nodiscard]] const CaseStage* stage_of(int step) const;
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }
   [[nodiscard]] bool needs_workers() const;

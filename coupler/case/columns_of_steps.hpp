@@ -9,5 +9,7 @@ namespace polargrain::coupler {
 const std::vector<std::string>& columns_of_steps();
 /// Those behind them that a run with explicit steps has besides.
 const std::vector<std::string>& columns_of_explicit_steps();
+/// The column behind these, where stages have names: the number of the stage, 1 for the first; 0 in step 0.
+inline constexpr const char* kStageColumn = "stage";
 
 }  // namespace polargrain::coupler

@@ -12,6 +12,14 @@
 
 namespace polargrain::coupler {
 
+class MaterialRecipe;
+
+/// A material with its strength divided by a factor.
+struct Weakened {
+  std::shared_ptr<const MaterialRecipe> recipe = nullptr;  ///< null: the material has no strength, and stays
+  std::string why_not = {};                                ///< where it has one that cannot be divided
+};
+
 /// A material of a case, read and checked: makes the fem::Material when a run begins.
 class MaterialRecipe {
  public:
@@ -28,6 +36,8 @@ class MaterialRecipe {
       return make_in_space(pool);
     }
   }
+  /// tan(friction angle) and cohesion divided by `factor`; the dilatancy is at most the friction. @param factor at least 1
+  [[nodiscard]] virtual Weakened weakened(double factor) const;
   /// A sentence on the material that a user should read before a run; empty: there is none.
   [[nodiscard]] virtual std::string note() const { return {}; }
   /// The cells that the material asks; null when it has no cells.

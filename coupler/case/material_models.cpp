@@ -14,6 +14,14 @@ std::shared_ptr<fem::Material<3>> MaterialRecipe::make_in_space(Pool*) const {
   throw RunError("this model has no material for elements in space");
 }
 
+Weakened MaterialRecipe::weakened(double) const {
+  if (!needs_workers()) return {};
+  return {
+      nullptr,
+      "the friction of grains cannot be divided by a factor; let a load grow over the time, or the weight by its "
+      "'factor', until no balance is found"};
+}
+
 const std::vector<MaterialModel>& material_models() {
   static const std::vector<MaterialModel> models{elastic_model(), elastoplastic_model(), cell_model(),
                                                  informed_model(), adaptive_model()};

@@ -67,6 +67,13 @@ void CaseParts::check_places(Section& section, const std::string& key, const std
   });
 }
 
+std::array<std::size_t, 4> CaseParts::counts() const {
+  return result.with_problem([](const auto& problem) {
+    return std::array{problem.prescribed.size(), problem.boundary_loads.size(), problem.node_loads.size(),
+                      problem.body_loads.size()};
+  });
+}
+
 std::string CaseParts::region(Section& section, const std::string& key) {
   if (section.find(key) == nullptr) return {};
   std::string name = section.text(key, "the name of a region");

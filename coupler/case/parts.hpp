@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <array>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,36 @@ struct CaseParts {
   Case result;
   bool has_mesh = false;  ///< while it is false, names of boundaries and regions cannot be checked
   Faults& faults;
+  bool builds = false;  ///< parts come or go in some stage
+
+  /// The stage of construction whose items are read; by default the case itself.
+  struct Now {
+    int number = 0;  ///< of the problem
+    double start = 0.0;
+    std::optional<double> end = {};  ///< nothing: not known before the run
+  };
+  Now now = {};
+
+  /// The items of the problem that an item of `boundary` or `body` has made: from, and up to, so many of prescribed,
+  /// boundary_loads, node_loads and body_loads.
+  struct Made {
+    std::array<std::size_t, 4> from, to;
+  };
+  std::map<std::string, Made> named = {};  ///< by the `name` of the item
+  [[nodiscard]] std::array<std::size_t, 4> counts() const;
+  /// Calls visit(item) for all of them.
+  template <class Visit>
+  void for_each(const Made& made, Visit visit) {
+    result.with_problem([&](auto& problem) {
+      const auto in = [&](auto& items, std::size_t kind) {
+        for (std::size_t k = made.from[kind]; k < made.to[kind]; ++k) visit(items[k]);
+      };
+      in(problem.prescribed, 0);
+      in(problem.boundary_loads, 1);
+      in(problem.node_loads, 2);
+      in(problem.body_loads, 3);
+    });
+  }
 
   /// "a, b, c" of the keys of a map, for messages.
   template <class Map>
@@ -43,8 +76,19 @@ struct CaseParts {
 void read_mesh(const Entry& entry, CaseParts& parts);
 void read_boundary(const Entry& entry, CaseParts& parts);
 void read_body_loads(const Entry& entry, CaseParts& parts);
+/// The same lists of a stage. @param name of the stage, for messages
+void read_boundary_of_stage(const Entry& entry, const std::string& name, CaseParts& parts);
+void read_body_of_stage(const Entry& entry, const std::string& name, CaseParts& parts);
 void read_initial_stress(const Entry& entry, CaseParts& parts);
 void read_steps(const Entry& entry, CaseParts& parts);
+/// The list below steps.stages: adds to the plan, and to the problem what begins in its stages.
+void read_stages(const Entry& entry, CaseParts& parts);
+/// The count of a section, at most as many as a case may have in all. @param before steps of the plan so far
+int step_count(Section& section, std::size_t before);
+/// Whether parts come or go in some stage; known before the steps are read.
+bool builds_in_stages(const Entry& document);
+/// The entry of the stage that a message of fem::faults begins with; null where it begins with none.
+const Entry* stage_in(const Entry& document, const std::string& message);
 
 /// DEM steps that an explicit step of the nodes has, unless the case says otherwise.
 inline constexpr int kDemSteps = 5;

@@ -36,6 +36,7 @@ class CaseReader {
     const bool cauchy = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy";
     const bool large = top.choice_or("deformation", {"small", "large"}, "small") == "large";
     if (const Entry* entry = top.require("mesh", "a map with the mesh")) read_mesh(*entry, parts_);
+    parts_.builds = builds_in_stages(document_);
     case_.with_problem([&](auto& problem) {
       problem.continuum = cauchy ? fem::Continuum::cauchy : fem::Continuum::cosserat;
       problem.deformation = large ? fem::Deformation::large : fem::Deformation::small;
@@ -165,7 +166,8 @@ class CaseReader {
         return std::find(names.begin(), names.end(), member.key) != names.end();
       };
       if (is_among(built_in_values()) || is_among(columns_of_steps()) ||
-          (case_.is_explicit() && is_among(columns_of_explicit_steps())))
+          (case_.is_explicit() && is_among(columns_of_explicit_steps())) ||
+          (!case_.stages.empty() && member.key == kStageColumn))
         monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
       // A spreadsheet computes what begins like a formula.
       const bool is_formula = member.key.find_first_of("=+-@") == 0;
@@ -332,7 +334,11 @@ class CaseReader {
   void check_whole() {
     for (const std::string& message :
          case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
-      faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));
+      if (const Entry* const stage = stage_in(document_, message); stage != nullptr) {
+        faults_.push_back(stage->fault(message));
+      } else {
+        faults_.push_back((boundary_ != nullptr ? *boundary_ : document_).fault("boundary: " + message));
+      }
     }
   }
 
@@ -384,6 +390,12 @@ bool Case::needs_workers() const {
   return std::any_of(materials.begin(), materials.end(), [](const auto& material) {
     return material.second && material.second->needs_workers();
   });
+}
+
+const CaseStage* Case::stage_of(int step) const {
+  for (const CaseStage& stage : stages)
+    if (stage.first_step <= step && step <= stage.last_step) return &stage;
+  return nullptr;
 }
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "coupler/case/parts.hpp"
@@ -14,15 +15,23 @@ namespace {
 /// The meaning of a single value in place of a table.
 enum class Single {
   constant,  ///< at all times
-  ramp       ///< reached in a straight line from 0 at time 0 to time 1
+  ramp       ///< reached in a straight line from 0 at time 0 to time 1; of a stage: from its start to its end
 };
 
 /// A value, or a list of [time, value]: straight between them, constant outside.
-fem::TimeTable time_table(Section& section, const std::string& key, Dimension dimension, Single single) {
+fem::TimeTable time_table(Section& section, const std::string& key, Dimension dimension, Single single,
+                          const CaseParts::Now& now = {}) {
   const Entry* entry = section.find(key);
   if (entry == nullptr || entry->kind != Entry::Kind::sequence) {
     const double value = section.quantity(key, dimension, Limit::any);
-    return single == Single::ramp ? fem::TimeTable::ramp(value) : fem::TimeTable::constant(value);
+    if (single == Single::constant || value == 0.0) return fem::TimeTable::constant(value);
+    if (now.number == 0) return fem::TimeTable::ramp(value);
+    if (now.end) return fem::TimeTable({{now.start, 0.0}, {*now.end, value}});
+    section.fault(
+        key,
+        fmt::format("{}: the time at which this stage ends is not known before; give a table over the time",
+                    key));
+    return fem::TimeTable::constant(0.0);
   }
   std::vector<fem::TimeTable::Point> points;
   for (const auto& [time, value] : section.pairs(key, Dimension::number, dimension, Limit::any)) {
@@ -41,7 +50,7 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
   for (const std::string& name : dof_names(parts.result.dimension())) {
     if (values.find(name) == nullptr) continue;
     const fem::Dof dof = dof_of(name);
-    take(dof, time_table(values, name, dimension(dof), single));
+    take(dof, time_table(values, name, dimension(dof), single, parts.now));
   }
   values.finish();
   return true;
@@ -111,6 +120,9 @@ bool read_node_forces(Section& item, const std::vector<std::string>& places, Cas
 /// `{on: left, tie: right}`
 bool read_tie(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
   if (item.find("tie") == nullptr) return false;
+  if (parts.now.number > 0)
+    item.fault("tie",
+               "tie: sides are tied from the start to the end; put it into the list 'boundary' of the case");
   const std::string to = item.text("tie", "the name of the opposite boundary");
   if (places.size() > 1) item.fault("on", "on: a tie joins one boundary to one other; give one name");
   if (places.size() != 1 || to.empty() || !parts.has_mesh) return true;
@@ -125,8 +137,23 @@ bool read_tie(Section& item, const std::vector<std::string>& places, CaseParts& 
   return true;
 }
 
+/// Gives what an item has made its name and the stage that it begins with. An item of the same name ends.
+/// @param before counts of the problem before the item was read
+void give_name(Section& item, const std::array<std::size_t, 4>& before, CaseParts& parts) {
+  const CaseParts::Made made{before, parts.counts()};
+  parts.for_each(made, [&](auto& one) { one.life.begin = parts.now.number; });
+  if (item.find("name") == nullptr) return;
+  const std::string name = item.text("name", "a name, which stages may end it by");
+  if (const auto other = parts.named.find(name); other != parts.named.end()) {
+    if (parts.now.number == 0) item.fault("name", fmt::format("name: another item is called '{}' too", name));
+    parts.for_each(other->second, [&](auto& one) { one.life.end = parts.now.number; });
+  }
+  parts.named[name] = made;
+}
+
 void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
+  const std::array<std::size_t, 4> before = parts.counts();
   const std::vector<std::string> places =
       item.words("on", "the name of a boundary or node set, or a list of them");
   const bool supports = read_supports(item, places, parts);
@@ -134,6 +161,13 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
       parts.result.space ? read_tractions<3>(item, places, parts) : read_tractions<2>(item, places, parts);
   const bool forces = read_node_forces(item, places, parts);
   const bool tie = read_tie(item, places, parts);
+  give_name(item, before, parts);
+  if (parts.now.number > 0 && item.choice_or("from", {"here", "start"}, "here") == "start") {
+    parts.result.with_problem([&](auto& problem) {
+      for (std::size_t k = before[0]; k < problem.prescribed.size(); ++k)
+        problem.prescribed[k].from_here = false;
+    });
+  }
   item.finish();
   if (!tractions) parts.check_places(item, "on", places);
   if (!supports && !tractions && !forces && !tie && entry.kind == Entry::Kind::map) {
@@ -152,6 +186,7 @@ bool is_list(const Entry& entry, const std::string& key, const std::string& exam
 template <int dim>
 void read_body_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
+  const std::array<std::size_t, 4> before = parts.counts();
   const std::string region = parts.region(item, "region");
   const fem::TimeTable factor = item.find("factor") == nullptr
                                     ? fem::TimeTable::constant(1.0)
@@ -172,6 +207,7 @@ void read_body_item(const Entry& entry, const std::string& name, CaseParts& part
     parts.result.problem_of<dim>().body_loads.push_back(
         {[density](const typename Cosserat<dim>::Place&) { return density; }, factor, region});
   }
+  give_name(item, before, parts);
   item.finish();
 }
 
@@ -220,13 +256,30 @@ void read_initial_stress_item(const Entry& entry, const std::string& name, CaseP
 
 }  // namespace
 
+void read_boundary_of_stage(const Entry& entry, const std::string& name, CaseParts& parts) {
+  if (!is_list(entry, name + ": boundary", "{on: bottom, fix: [u2]}", parts.faults)) return;
+  for (std::size_t i = 0; i < entry.items.size(); ++i)
+    read_boundary_item(entry.items[i], fmt::format("{}: boundary item {}", name, i + 1), parts);
+}
+
+void read_body_of_stage(const Entry& entry, const std::string& name, CaseParts& parts) {
+  const std::string prefix = name.empty() ? name : name + ": ";
+  if (!is_list(entry, prefix + "body", "{unit_weight: 18 kN/m3}", parts.faults)) return;
+  for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    const std::string item = fmt::format("{}body item {}", prefix, i + 1);
+    parts.result.space ? read_body_item<3>(entry.items[i], item, parts)
+                       : read_body_item<2>(entry.items[i], item, parts);
+  }
+}
+
 void read_boundary(const Entry& entry, CaseParts& parts) {
   const std::size_t faults_before = parts.faults.size();
   if (!is_list(entry, "boundary", "{on: bottom, fix: [u2]}", parts.faults)) return;
   for (std::size_t i = 0; i < entry.items.size(); ++i) {
     read_boundary_item(entry.items[i], fmt::format("boundary item {}", i + 1), parts);
   }
-  if (!parts.has_mesh || parts.faults.size() != faults_before) return;
+  // Where parts come or go, each stage is looked at when all of them are known.
+  if (!parts.has_mesh || parts.faults.size() != faults_before || parts.builds) return;
   const std::vector<std::string> motions = parts.result.with_problem([](const auto& problem) {
     return fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties);
   });
@@ -239,12 +292,7 @@ void read_boundary(const Entry& entry, CaseParts& parts) {
 }
 
 void read_body_loads(const Entry& entry, CaseParts& parts) {
-  if (!is_list(entry, "body", "{unit_weight: 18 kN/m3}", parts.faults)) return;
-  for (std::size_t i = 0; i < entry.items.size(); ++i) {
-    const std::string name = fmt::format("body item {}", i + 1);
-    parts.result.space ? read_body_item<3>(entry.items[i], name, parts)
-                       : read_body_item<2>(entry.items[i], name, parts);
-  }
+  read_body_of_stage(entry, "", parts);
 }
 
 void read_initial_stress(const Entry& entry, CaseParts& parts) {

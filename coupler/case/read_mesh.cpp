@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/mesh/box.hpp"
+#include "fem/mesh/cut.hpp"
 #include "fem/mesh/gmsh.hpp"
 #include "fem/mesh/rectangle.hpp"
 
@@ -52,6 +55,99 @@ void make_levels(const Entry& entry, CaseParts& parts) {
   levels.finish();
 }
 
+/// Two corners of a part of the rectangle, the lower left one first: [x1, x2, x1, x2].
+struct Corners {
+  Eigen::Vector2d low, high;
+};
+
+Corners read_corners(Section& section, const std::string& key) {
+  const std::vector<double> x = section.quantities(key, 4, Dimension::length, Limit::any);
+  const Corners corners{{x[0], x[1]}, {x[2], x[3]}};
+  if ((corners.low.array() > corners.high.array()).any())
+    section.fault(key, fmt::format("{}: give the lower left corner first: [LEFT, BOTTOM, RIGHT, TOP]", key));
+  return corners;
+}
+
+/// Name of a region that is no part of the body.
+constexpr const char* kVoid = "void";
+
+/// Makes regions of the elements whose centres lie in rectangles; the others become the region `rest`. Elements of `void` go.
+void make_regions(const Entry& entry, CaseParts& parts) {
+  fem::Mesh<2>& mesh = parts.result.problem.mesh;
+  Section regions(entry, "mesh.rectangle.regions", parts.faults);
+  std::vector<std::string> region_of(mesh.elements.size(), "rest");
+  for (const Entry::Member& member : entry.members) {
+    if (mesh.regions.contains(member.key) || member.key == "rest") {
+      regions.fault(member.key, fmt::format("{}: a region of every rectangle has that name", member.key));
+      regions.find(member.key);
+      continue;
+    }
+    const Corners corners = read_corners(regions, member.key);
+    bool found = false;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const Eigen::Vector2d centre = mesh.element_positions(static_cast<int>(e)).colwise().mean();
+      if ((centre.array() < corners.low.array()).any() || (centre.array() > corners.high.array()).any())
+        continue;
+      found = true;
+      if (region_of[e] != "rest") {
+        regions.fault(member.key,
+                      fmt::format("{}: lies over '{}'; an element has one region", member.key, region_of[e]));
+        break;
+      }
+      region_of[e] = member.key;
+    }
+    if (!found) regions.fault(member.key, fmt::format("{}: the centre of no element lies in it", member.key));
+  }
+  regions.finish();
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    mesh.regions[region_of[e]].push_back(static_cast<int>(e));
+  if (const auto gone = mesh.regions.find(kVoid); gone != mesh.regions.end()) {
+    std::vector<char> removed(mesh.elements.size(), 0);
+    for (const int e : gone->second) removed[static_cast<std::size_t>(e)] = 1;
+    if (gone->second.size() == mesh.elements.size()) {
+      regions.fault(kVoid, "void: it holds all elements");
+      return;
+    }
+    mesh = fem::cut(mesh, removed);
+  }
+}
+
+/// Makes boundaries of the sides of elements along lines; those inside of the body may become boundaries when one of their
+/// sides is removed.
+void make_lines(const Entry& entry, CaseParts& parts) {
+  fem::Mesh<2>& mesh = parts.result.problem.mesh;
+  Section lines(entry, "mesh.rectangle.lines", parts.faults);
+  const double near = 1e-9 * mesh.nodes.back().norm();
+  for (const Entry::Member& member : entry.members) {
+    if (mesh.node_sets.contains(member.key) || mesh.boundaries.contains(member.key)) {
+      lines.fault(member.key, fmt::format("{}: a part of every rectangle has that name", member.key));
+      lines.find(member.key);
+      continue;
+    }
+    const Corners corners = read_corners(lines, member.key);
+    if ((corners.high - corners.low).minCoeff() > near)
+      lines.fault(member.key, fmt::format("{}: lines of a rectangle are level or upright", member.key));
+    std::vector<fem::BoundarySide> sides;
+    std::set<std::vector<int>> seen;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      for (std::size_t k = 0; k < mesh.elements[e].type->sides.size(); ++k) {
+        const fem::BoundarySide side{static_cast<int>(e), static_cast<int>(k)};
+        std::vector<int> nodes = mesh.side_nodes(side);
+        const bool on_line = std::ranges::all_of(nodes, [&](int node) {
+          const Eigen::Vector2d& x = mesh.nodes[static_cast<std::size_t>(node)];
+          return ((x - corners.low).array() > -near).all() && ((corners.high - x).array() > -near).all();
+        });
+        std::ranges::sort(nodes);
+        if (on_line && seen.insert(nodes).second) sides.push_back(side);
+      }
+    }
+    if (sides.empty())
+      lines.fault(member.key, fmt::format("{}: no side of an element lies on it", member.key));
+    mesh.boundaries[member.key] = std::move(sides);
+  }
+  lines.finish();
+}
+
 /// Most elements of a case: beyond, the numbers of the entries of the equations outgrow 32 bits.
 constexpr double kMostElements = 1e6;
 
@@ -82,12 +178,18 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
     patch << corner[0], corner[1];
   }
   const Entry* levels = section.find("levels");
+  const Entry* regions = section.find("regions");
+  const Entry* lines = section.find("lines");
+  if (has_patch && regions != nullptr)
+    section.fault("patch", "patch: 'regions' divide the elements already; keep one of them");
   section.finish();
   check_number(section, specification);
   if (parts.faults.size() == faults_before && !element.empty()) {
     parts.result.problem.mesh = fem::rectangle(specification, element);
     if (has_patch) make_patch<2>(patch, section, parts.result.problem.mesh);
     if (levels != nullptr) make_levels(*levels, parts);
+    if (regions != nullptr) make_regions(*regions, parts);
+    if (lines != nullptr) make_lines(*lines, parts);
   }
 }
 

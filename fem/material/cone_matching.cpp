@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -117,6 +118,28 @@ std::optional<double> angle_in_extension(const FrozenCone& cone) {
   const double sin_phi = 3.0 * cone.friction / (6.0 - cone.friction);
   if (!(cone.friction < 1.5)) return std::nullopt;
   return arc_sine(sin_phi) / kDegree;
+}
+
+MohrCoulomb divided(const MohrCoulomb& strength, double factor) {
+  const double phi = strength.friction_angle * kDegree;
+  const double reduced = arc_sine(sine(phi) / std::hypot(sine(phi), factor * cosine(phi))) / kDegree;
+  return {reduced, std::min(strength.dilatancy_angle, reduced), strength.cohesion / factor};
+}
+
+MohrCoulombHardening divided(const MohrCoulombHardening& strength, double factor) {
+  std::vector<PiecewiseLinear::Knot> friction;
+  std::vector<PiecewiseLinear::Knot> dilatancy;
+  std::vector<PiecewiseLinear::Knot> cohesion;
+  for (const double gamma_p :
+       merged_knots({&strength.friction_angle, &strength.dilatancy_angle, &strength.cohesion})) {
+    const MohrCoulomb whole{strength.friction_angle.at(gamma_p).value,
+                            strength.dilatancy_angle.at(gamma_p).value, strength.cohesion.at(gamma_p).value};
+    const MohrCoulomb here = divided(whole, factor);
+    friction.push_back({gamma_p, here.friction_angle});
+    dilatancy.push_back({gamma_p, here.dilatancy_angle});
+    cohesion.push_back({gamma_p, here.cohesion});
+  }
+  return {PiecewiseLinear(friction), PiecewiseLinear(dilatancy), PiecewiseLinear(cohesion)};
 }
 
 HardeningCone hardening_cone_from_plane_strain(const MohrCoulombHardening& strength) {

@@ -50,6 +50,11 @@ struct MohrCoulombHardening {
   PiecewiseLinear cohesion;         ///< Pa
 };
 
+/// tan(friction angle) and cohesion divided by a factor. The dilatancy stays, or is the new friction angle where that is smaller.
+MohrCoulomb divided(const MohrCoulomb& strength, double factor);
+/// The same at every knot of the three functions.
+MohrCoulombHardening divided(const MohrCoulombHardening& strength, double factor);
+
 /// Matches the cone at every knot of the three functions; between knots the cone's own parameters (M_phi,
 /// M_psi, k) are straight, not the angles. Knots of one function become knots of all, because M_phi depends
 /// on the dilatancy as well.

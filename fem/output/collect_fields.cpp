@@ -60,11 +60,12 @@ struct PointField {
   std::vector<bool> known;  ///< by point; empty: at all of them
 };
 
-/// A field of the values of `quantity` at each point, component by component.
+/// A field of the values of `quantity` at each point, component by component; 0 where the element is not there.
 template <int dim, class Quantity>
 Field point_field(const Solver<dim>& solver, Field field, Quantity quantity) {
   for (std::size_t point = 0; point < solver.points(); ++point)
-    for (int i = 0; i < field.components; ++i) field.values.push_back(quantity(point, i));
+    for (int i = 0; i < field.components; ++i)
+      field.values.push_back(solver.is_there(point) ? quantity(point, i) : 0.0);
   return field;
 }
 
@@ -92,7 +93,7 @@ std::vector<Field> nodal_fields(const Solver<dim>& solver) {
   Field displacement{"displacement", 3, {}, "m", kVector};
   Field rotation{"micro_rotation", 1, {}, "rad"};
   Field axis{"micro_rotation_vector", 3, {}, "rad", kVector};
-  const Eigen::VectorXd& values = solver.state().displacement;
+  const Eigen::VectorXd values = solver.shown_displacement();
   for (Eigen::Index i = 0; i < values.size(); i += Cosserat<dim>::dofs) {
     if constexpr (dim == 2) {
       displacement.values.insert(displacement.values.end(), {values(i), values(i + 1), 0.0});
@@ -284,6 +285,9 @@ Fields collect_fields(const Solver<dim>& solver) {
   };
   add_stress_measures<dim>(fields.points, stress(fields.points));
   add_stress_measures<dim>(fields.cells, stress(fields.cells));
+  if (solver.problem().stages.size() > 1)
+    fields.cells.push_back(element_averages(
+        solver, point_field(solver, {"is_there", 1, {}, "1"}, [](std::size_t, int) { return 1.0; })));
   return fields;
 }
 

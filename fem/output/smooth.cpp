@@ -5,11 +5,9 @@
 #include <map>
 
 namespace polargrain::fem {
-namespace {
-
-/// Values at the nodes of an element from those at its integration points.
 template <int dim>
-Eigen::MatrixXd extrapolation(const ElementType<dim>& type) {
+Eigen::MatrixXd extrapolation_to(const ElementType<dim>& type,
+                                 const std::vector<typename Cosserat<dim>::Place>& places) {
   const auto points = static_cast<Eigen::Index>(type.quadrature.size());
   const Eigen::Index terms = points < dim + 1 ? 1 : dim + 1;
   const auto rows_of = [terms](Eigen::MatrixXd& rows, Eigen::Index row,
@@ -20,13 +18,11 @@ Eigen::MatrixXd extrapolation(const ElementType<dim>& type) {
   Eigen::MatrixXd at_points(points, terms);
   for (Eigen::Index p = 0; p < points; ++p)
     rows_of(at_points, p, type.quadrature[static_cast<std::size_t>(p)].position);
-  Eigen::MatrixXd at_nodes(type.nodes, terms);
-  for (Eigen::Index a = 0; a < type.nodes; ++a)
-    rows_of(at_nodes, a, type.node_positions[static_cast<std::size_t>(a)]);
-  return at_nodes * at_points.completeOrthogonalDecomposition().pseudoInverse();
+  Eigen::MatrixXd at_places(static_cast<Eigen::Index>(places.size()), terms);
+  for (Eigen::Index a = 0; a < at_places.rows(); ++a)
+    rows_of(at_places, a, places[static_cast<std::size_t>(a)]);
+  return at_places * at_points.completeOrthogonalDecomposition().pseudoInverse();
 }
-
-}  // namespace
 
 template <int dim>
 Field smoothed(const Solver<dim>& solver, const Field& at_points, const std::vector<bool>& known) {
@@ -42,10 +38,13 @@ Field smoothed(const Solver<dim>& solver, const Field& at_points, const std::vec
     const auto count = static_cast<Eigen::Index>(element.type->quadrature.size());
     const std::size_t first = begin;
     begin += static_cast<std::size_t>(count);
+    if (!solver.is_there(first)) continue;
     if (!known.empty() && !known[first]) continue;  // an element is of one material
     auto matrix = extrapolations.find(element.type);
     if (matrix == extrapolations.end())
-      matrix = extrapolations.emplace(element.type, extrapolation<dim>(*element.type)).first;
+      matrix = extrapolations
+                   .emplace(element.type, extrapolation_to<dim>(*element.type, element.type->node_positions))
+                   .first;
     double volume = 0.0;
     for (std::size_t p = first; p < begin; ++p) volume += solver.volume_of_point(p);
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> values(
@@ -66,6 +65,8 @@ Field smoothed(const Solver<dim>& solver, const Field& at_points, const std::vec
   return field;
 }
 
+template Eigen::MatrixXd extrapolation_to<2>(const ElementType<2>&, const std::vector<Eigen::Vector2d>&);
+template Eigen::MatrixXd extrapolation_to<3>(const ElementType<3>&, const std::vector<Eigen::Vector3d>&);
 template Field smoothed<2>(const Solver<2>& solver, const Field& at_points, const std::vector<bool>& known);
 template Field smoothed<3>(const Solver<3>& solver, const Field& at_points, const std::vector<bool>& known);
 

@@ -6,6 +6,12 @@
 
 namespace polargrain::fem {
 
+/// Weights of the values at the integration points of an element that give the linear field nearest to them (the mean, where
+/// it has too few) at places of the reference element: a row a place.
+template <int dim>
+Eigen::MatrixXd extrapolation_to(const ElementType<dim>& type,
+                                 const std::vector<typename Cosserat<dim>::Place>& places);
+
 /// Values at the integration points brought to the nodes: in each element the linear field that is nearest to its points
 /// (the mean, where it has too few), drawn on to its nodes; there the mean of the elements around, by their
 /// volumes. A field that is linear in space comes out as it is where elements have straight sides (parallelograms, for

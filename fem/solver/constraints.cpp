@@ -5,14 +5,15 @@
 #include <numeric>
 
 #include "fem/element/dofs.hpp"
+#include "fem/solver/solver.hpp"
 
 namespace polargrain::fem {
 
 template <int dim>
-Constraints<dim>::Constraints(const Problem<dim>& problem)
+Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eigen::VectorXd& offsets)
     : equation_(entry_of<dim>(problem.mesh.nodes.size()), 0), has_ties_(!problem.ties.empty()) {
   const Mesh<dim>& mesh = problem.mesh;
-  for (const PrescribedDof<dim>* const given : in_precedence(problem)) {
+  for (const PrescribedDof<dim>* const given : in_precedence(problem, stage)) {
     const PrescribedDof<dim>& item = *given;
     for (const int node : mesh.nodes_on(item.on)) {
       const auto number = static_cast<std::size_t>(node);
@@ -20,7 +21,11 @@ Constraints<dim>::Constraints(const Problem<dim>& problem)
       // Two items of equal rank give one entry the same value (checked by faults); the first one stands.
       if (equation_[entry] < 0) continue;
       equation_[entry] = -1;
-      given_.push_back({entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});
+      Given& value = given_.emplace_back(
+          Given{entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});
+      if (offsets.size() == 0) continue;
+      value.offset = offsets(static_cast<Eigen::Index>(entry));
+      value.fades = !item.from_here;
     }
   }
   if (problem.continuum == Continuum::cauchy) {
@@ -43,6 +48,15 @@ Constraints<dim>::Constraints(const Problem<dim>& problem)
       }
     }
   }
+  if (const std::vector<char> there = elements_in_stage(problem, stage); !there.empty()) {
+    // An unknown that no element knows: neither at its own node nor at those tied to it.
+    const std::vector<char> nodes = nodes_of_elements(mesh, there);
+    std::vector<char> known(equation_.size(), 0);
+    for (std::size_t entry = 0; entry < equation_.size(); ++entry)
+      if (nodes[entry / Cosserat<dim>::dofs] != 0) known[find(entry)] = 1;
+    for (std::size_t entry = 0; entry < equation_.size(); ++entry)
+      if (known[find(entry)] == 0) equation_[entry] = -1;
+  }
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
     if (equation_[entry] < 0) continue;
     const std::size_t first = find(entry);
@@ -56,9 +70,45 @@ Constraints<dim>::Constraints(const Problem<dim>& problem)
 }
 
 template <int dim>
-void Constraints<dim>::apply(double time, Eigen::VectorXd& nodal) const {
+Eigen::VectorXd Constraints<dim>::new_offsets(const Problem<dim>& problem, const SolverState<dim>& state,
+                                              int stage) {
+  struct Giver {
+    const PrescribedDof<dim>* item = nullptr;
+    double factor = 1.0;
+  };
+  const auto givers_in = [&](int of) {
+    std::vector<Giver> givers(static_cast<std::size_t>(state.displacement.size()));
+    for (const PrescribedDof<dim>* const item : in_precedence(problem, of)) {
+      for (const int node : problem.mesh.nodes_on(item->on)) {
+        const auto number = static_cast<std::size_t>(node);
+        Giver& giver = givers[entry_of<dim>(number, item->dof)];
+        if (giver.item != nullptr) continue;
+        giver = {item, item->profile ? item->profile(problem.mesh.nodes[number]) : 1.0};
+      }
+    }
+    return givers;
+  };
+  const std::vector<Giver> before = givers_in(state.stage);
+  const std::vector<Giver> now = givers_in(stage);
+  Eigen::VectorXd offsets = Eigen::VectorXd::Zero(state.displacement.size());
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (now[k].item == nullptr) continue;
+    const auto entry = static_cast<Eigen::Index>(k);
+    if (now[k].item != before[k].item) {
+      offsets(entry) = state.displacement(entry) - now[k].factor * now[k].item->value.at(state.time);
+    } else if (state.offsets.size() > 0 && now[k].item->from_here) {
+      offsets(entry) = state.offsets(entry);
+    }
+  }
+  return offsets;
+}
+
+template <int dim>
+void Constraints<dim>::apply(double time, Eigen::VectorXd& nodal, double released) const {
   for (const Given& item : given_) {
-    nodal(static_cast<Eigen::Index>(item.entry)) = item.factor * item.value->at(time);
+    double& value = nodal(static_cast<Eigen::Index>(item.entry));
+    value = item.factor * item.value->at(time);
+    if (item.offset != 0.0) value += item.fades ? (1.0 - released) * item.offset : item.offset;
   }
 }
 

@@ -7,12 +7,23 @@
 
 namespace polargrain::fem {
 
+template <int dim>
+struct SolverState;
+
 /// Which entries of a nodal vector (3 a node) are given, which are unknown, and which share an unknown.
 template <int dim>
 class Constraints {
  public:
   /// @param problem without faults; must outlive this object.
-  explicit Constraints(const Problem<dim>& problem);
+  explicit Constraints(const Problem<dim>& problem) : Constraints(problem, 0, {}) {}
+  /// The constraints of a stage of construction. Nodes without an element have no unknowns and keep their values.
+  /// @param offsets of given values, by entry of a nodal vector (new_offsets); may be empty in stage 0
+  Constraints(const Problem<dim>& problem, int stage, const Eigen::VectorXd& offsets);
+
+  /// The offsets when a stage begins: an entry that another item gives from now on is where it is, less the value of that
+  /// item.
+  /// @param state of the stage before @param stage that begins
+  static Eigen::VectorXd new_offsets(const Problem<dim>& problem, const SolverState<dim>& state, int stage);
 
   /// Number of unknowns.
   [[nodiscard]] int unknowns() const { return unknowns_; }
@@ -21,7 +32,8 @@ class Constraints {
   [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
 
   /// Overwrites the given entries of a nodal vector by their values at `time`.
-  void apply(double time, Eigen::VectorXd& nodal) const;
+  /// @param released share of the way from where they were to values that do not count from there
+  void apply(double time, Eigen::VectorXd& nodal, double released = 1.0) const;
 
   /// Nodal vector: change per time of the given entries just after `time`, zero at the free ones.
   [[nodiscard]] Eigen::VectorXd slope(double time) const;
@@ -40,6 +52,8 @@ class Constraints {
     std::size_t entry;
     double factor;
     const TimeTable* value;
+    double offset = 0.0;
+    bool fades = false;  ///< the offset, as `released` grows
   };
   std::vector<Given> given_;
   std::vector<int> equation_;

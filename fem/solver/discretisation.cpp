@@ -45,6 +45,7 @@ Discretisation<dim>::Discretisation(const Mesh<dim>& mesh, Continuum continuum)
 template <int dim>
 std::string Discretisation<dim>::move_to(const Eigen::VectorXd& nodal) {
   for (std::size_t e = 0; e < elements(); ++e) {
+    if (!is_there(e)) continue;
     const int number = static_cast<int>(e);
     VectorRows<dim> positions = mesh_.element_positions(number);
     for (std::size_t a = 0; a < mesh_.elements[e].nodes.size(); ++a) {
@@ -72,6 +73,10 @@ std::vector<Increment<dim>> Discretisation<dim>::increments(const Eigen::VectorX
   std::vector<Increment<dim>> all;
   all.reserve(points_.size());
   for (std::size_t e = 0; e < elements(); ++e) {
+    if (!is_there(e)) {
+      all.resize(first_point_[e + 1]);
+      continue;
+    }
     const Eigen::VectorXd local = gather(e, nodal);
     for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
       all.push_back(increment_at<dim>(points_[i], continuum_, local));
@@ -93,6 +98,10 @@ std::vector<Increment<dim>> Discretisation<dim>::increments_to(const Discretisat
   std::vector<Increment<dim>> all;
   all.reserve(points_.size());
   for (std::size_t e = 0; e < elements(); ++e) {
+    if (!is_there(e)) {
+      all.resize(first_point_[e + 1]);
+      continue;
+    }
     const Eigen::VectorXd local = gather(e, nodal);
     const bool mean = mesh_.elements[e].type->mean_dilatation;
     const double of_element = mean ? end.volume_of(e) / volume_of(e) : 1.0;
@@ -109,6 +118,7 @@ template <int dim>
 Eigen::VectorXd Discretisation<dim>::internal_forces(std::span<const Response<dim>> responses) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (std::size_t e = 0; e < elements(); ++e) {
+    if (!is_there(e)) continue;
     Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs_[e].size()));
     for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
       local.noalias() +=
@@ -124,6 +134,7 @@ Eigen::VectorXd Discretisation<dim>::linearised_forces(const Linearisation<dim>&
                                                        const Eigen::VectorXd& nodal) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (std::size_t e = 0; e < elements(); ++e) {
+    if (!is_there(e)) continue;
     const Eigen::VectorXd u = gather(e, nodal);
     if (u.isZero(0.0)) continue;
     forces(dofs_[e]) += element_tangent(e, of) * u;

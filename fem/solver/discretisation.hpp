@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/increment.hpp"
@@ -35,6 +36,10 @@ class Discretisation {
  public:
   /// @param mesh must outlive this object.
   Discretisation(const Mesh<dim>& mesh, Continuum continuum);
+
+  /// From now on elements that are not there have increments of zero and no forces. @param there as elements_in_stage has it
+  void set_there(std::vector<char> there) { there_ = std::move(there); }
+  [[nodiscard]] bool is_there(std::size_t e) const { return there_.empty() || there_[e] != 0; }
 
   /// Moves the nodes to where `nodal` displaces them from the mesh as it was made.
   /// @return a message naming an element that this turns inside out; empty when all is well.
@@ -77,6 +82,7 @@ class Discretisation {
   std::vector<int> element_of_point_;
   std::vector<std::size_t> first_point_;
   std::vector<std::vector<int>> dofs_;
+  std::vector<char> there_;  ///< by element; empty: all of them
 };
 
 }  // namespace polargrain::fem

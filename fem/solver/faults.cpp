@@ -47,6 +47,11 @@ void check_names(const Problem<dim>& problem, Messages& messages) {
     messages.push_back(fmt::format("the mesh has no region '{}' for an initial stress; it has {}",
                                    item.region, names_of(mesh.regions)));
   }
+  for (const auto& [region, life] : problem.lifetimes) {
+    if (mesh.regions.contains(region)) continue;
+    messages.push_back(fmt::format("the mesh has no region '{}' to place or remove; it has {}", region,
+                                   names_of(mesh.regions)));
+  }
 }
 
 template <int dim>
@@ -85,7 +90,10 @@ bool gives_alike(const Problem<dim>& problem, const PrescribedDof<dim>& a, int n
   const auto factor = [&](const PrescribedDof<dim>& item, int node) {
     return item.profile ? item.profile(problem.mesh.nodes[static_cast<std::size_t>(node)]) : 1.0;
   };
-  return a.value == b.value && factor(a, node_a) == factor(b, node_b);
+  // Values that count from the beginning of another stage are other values; where both are zero, both hold the node.
+  const bool alike = (a.life.begin == b.life.begin && a.from_here == b.from_here) ||
+                     (a.value.largest_magnitude() == 0.0 && b.value.largest_magnitude() == 0.0);
+  return alike && a.value == b.value && factor(a, node_a) == factor(b, node_b);
 }
 
 /// Sets of single nodes are made to say something of those nodes; `all` says what holds where nothing else does.
@@ -107,9 +115,9 @@ std::string set_of(const Mesh<dim>& mesh, int node) {
 }
 
 template <int dim>
-GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, Messages& messages) {
+GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, int stage, Messages& messages) {
   GivenValues<dim> first;
-  for (const PrescribedDof<dim>* const given : in_precedence(problem)) {
+  for (const PrescribedDof<dim>* const given : in_precedence(problem, stage)) {
     const PrescribedDof<dim>& item = *given;
     if (!problem.mesh.has_nodes_on(item.on)) continue;
     bool told = false;
@@ -160,12 +168,36 @@ void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, Mess
   }
 }
 
+/// The faults that a later stage of construction has of its own.
+template <int dim>
+void check_stage(const Problem<dim>& problem, int stage, Messages& messages) {
+  const std::vector<char> there = elements_in_stage(problem, stage);
+  if (!there.empty() && std::ranges::find(there, 1) == there.end()) {
+    messages.emplace_back("no element is left");
+    return;
+  }
+  check_ties(problem, check_prescribed_once(problem, stage, messages), messages);
+  for (const BoundaryLoad<dim>& load : problem.boundary_loads) {
+    if (load.life.begin != stage || !sides_in_stage(problem.mesh, load.on, there).empty()) continue;
+    messages.push_back(fmt::format(
+        "the load on '{0}' begins here, where '{0}' is no boundary of what is there: the elements on both of its sides are "
+        "there, or neither; let it begin with the stage that removes or places one side",
+        load.on));
+  }
+  for (const std::string& motion : free_rigid_motions(problem, stage)) {
+    messages.push_back(fmt::format(
+        "the supports of this stage leave a rigid motion of what is there free: {}; give a support that holds it",
+        motion));
+  }
+}
+
 }  // namespace
 
 template <int dim>
-std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem) {
+std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem, int stage) {
   std::vector<const PrescribedDof<dim>*> items;
-  for (const PrescribedDof<dim>& item : problem.prescribed) items.push_back(&item);
+  for (const PrescribedDof<dim>& item : problem.prescribed)
+    if (item.life.holds(stage)) items.push_back(&item);
   std::ranges::stable_sort(items, {},
                            [&](const PrescribedDof<dim>* item) { return precedence(problem.mesh, *item); });
   return items;
@@ -177,18 +209,26 @@ Messages faults(const Problem<dim>& problem) {
   if (problem.mesh.elements.empty()) return {"the mesh has no elements"};
   check_names(problem, messages);
   check_materials(problem, messages);
-  check_ties(problem, check_prescribed_once(problem, messages), messages);
+  const bool has_stages = problem.stages.size() > 1;
+  if (!messages.empty() && has_stages) return messages;  // names that a stage needs are missing
+  check_ties(problem, check_prescribed_once(problem, 0, messages), messages);
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
-  for (const std::string& motion :
-       free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {
+  for (const std::string& motion : free_rigid_motions(problem, 0)) {
     messages.push_back(
         fmt::format("the supports leave a rigid motion free: {}; give a support that holds it", motion));
+  }
+  for (std::size_t stage = 1; stage < problem.stages.size(); ++stage) {
+    Messages own;
+    check_stage(problem, static_cast<int>(stage), own);
+    for (const std::string& message : own)
+      if (std::ranges::find(messages, message) == messages.end())
+        messages.push_back(fmt::format("stage '{}': {}", problem.stages[stage], message));
   }
   return messages;
 }
 
-template std::vector<const PrescribedDof<2>*> in_precedence<2>(const Problem<2>& problem);
-template std::vector<const PrescribedDof<3>*> in_precedence<3>(const Problem<3>& problem);
+template std::vector<const PrescribedDof<2>*> in_precedence<2>(const Problem<2>& problem, int stage);
+template std::vector<const PrescribedDof<3>*> in_precedence<3>(const Problem<3>& problem, int stage);
 template Messages faults<2>(const Problem<2>& problem);
 template Messages faults<3>(const Problem<3>& problem);
 

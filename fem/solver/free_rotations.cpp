@@ -67,6 +67,7 @@ std::string unresisted_rotation(const Mesh<dim>& mesh, const Discretisation<dim>
   std::vector<char> stiff(count, 0);
   std::vector<char> used(count, 0);
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    if (!discretisation.is_there(e)) continue;
     std::array<bool, rotations> skew{};
     bool couple = false;
     for (std::size_t i = discretisation.first_point(e); i < discretisation.first_point(e + 1); ++i) {

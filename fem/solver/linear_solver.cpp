@@ -58,6 +58,10 @@ LinearSolver::LinearSolver() : implementation_(std::make_unique<Implementation>(
 }
 LinearSolver::~LinearSolver() = default;
 
+void LinearSolver::forget_pattern() {
+  implementation_->analysed = false;
+}
+
 bool LinearSolver::factorise(const Eigen::SparseMatrix<double>& matrix) {
   if (matrix.rows() == 0) return true;
   const Eigen::Map<const Eigen::VectorXd> values(matrix.valuePtr(), matrix.nonZeros());

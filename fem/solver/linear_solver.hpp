@@ -6,7 +6,7 @@
 namespace polargrain::fem {
 
 /// Direct solution of sparse systems without symmetry (UMFPACK). The symbolic analysis is made at the first
-/// factorisation and used for all later ones, so every matrix must have the same pattern.
+/// factorisation and used for all later ones, so every matrix must have the same pattern, or forget_pattern must be called.
 class LinearSolver {
  public:
   LinearSolver();
@@ -14,6 +14,7 @@ class LinearSolver {
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
+  void forget_pattern();
   /// @return false when the matrix is singular or has entries that are not finite.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix);
   /// Solution with the matrix factorised last, which must still be alive and unchanged.

@@ -112,18 +112,23 @@ LoadStiffness unit_pressure_stiffness(const Mesh<dim>& mesh, const BoundarySide&
 }  // namespace
 
 template <int dim>
-Loads<dim>::Loads(const Problem<dim>& problem)
-    : problem_(problem), size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
-  for (const BoundaryLoad<dim>& load : problem.boundary_loads) add_boundary_load(problem, load);
-  for (const NodeLoad& load : problem.node_loads) add_node_load(problem, load);
-  for (const BodyLoad<dim>& load : problem.body_loads) add_body_load(problem, load);
+Loads<dim>::Loads(const Problem<dim>& problem, int stage)
+    : problem_(&problem),
+      there_(elements_in_stage(problem, stage)),
+      size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
+  for (const BoundaryLoad<dim>& load : problem.boundary_loads)
+    if (load.life.holds(stage)) add_boundary_load(problem, load);
+  for (const NodeLoad& load : problem.node_loads)
+    if (load.life.holds(stage)) add_node_load(problem, load);
+  for (const BodyLoad<dim>& load : problem.body_loads)
+    if (load.life.holds(stage)) add_body_load(problem, load);
 }
 
 template <int dim>
 void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load) {
-  const std::vector<BoundarySide>& sides = problem.mesh.boundaries.at(load.on);
+  const std::vector<BoundarySide> sides = sides_in_stage(problem.mesh, load.on, there_);
   if (load.pressure.largest_magnitude() > 0.0) {
-    Pressure& pressure = pressures_.emplace_back(Pressure{parts_.size(), &load, {}});
+    Pressure& pressure = pressures_.emplace_back(Pressure{parts_.size(), &load, sides, {}});
     if (problem.deformation == Deformation::large) {
       for (const BoundarySide& side : sides)
         pressure.stiffness.push_back(unit_pressure_stiffness<dim>(problem.mesh, side));
@@ -145,7 +150,11 @@ void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLo
 template <int dim>
 void Loads<dim>::add_node_load(const Problem<dim>& problem, const NodeLoad& load) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const int node : problem.mesh.nodes_on(load.on)) forces(entry_of<dim>(node, load.dof)) += 1.0;
+  std::vector<char> there;
+  if (!there_.empty()) there = nodes_of_elements(problem.mesh, there_);
+  for (const int node : problem.mesh.nodes_on(load.on))
+    if (there.empty() || there[static_cast<std::size_t>(node)] != 0)
+      forces(entry_of<dim>(node, load.dof)) += 1.0;
   parts_.push_back({std::move(forces), &load.value});
 }
 
@@ -157,6 +166,7 @@ void Loads<dim>::add_body_load(const Problem<dim>& problem, const BodyLoad<dim>&
   if (!load.region.empty()) elements = mesh.regions.at(load.region);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
   for (const int e : elements) {
+    if (!there_.empty() && there_[static_cast<std::size_t>(e)] == 0) continue;
     const Element<dim>& element = mesh.elements[static_cast<std::size_t>(e)];
     for (const PointGeometry<dim>& point : point_geometries<dim>(*element.type, mesh.element_positions(e))) {
       const NodeValues<dim> force = point.volume * load.density(point.position);
@@ -172,12 +182,12 @@ void Loads<dim>::add_body_load(const Problem<dim>& problem, const BodyLoad<dim>&
 template <int dim>
 void Loads<dim>::move_to(const Eigen::VectorXd& nodal) {
   if (pressures_.empty()) return;
-  Mesh<dim> moved = problem_.mesh;
+  Mesh<dim> moved = problem_->mesh;
   for (std::size_t node = 0; node < moved.nodes.size(); ++node) {
     moved.nodes[node] += nodal.segment<dim>(entry_of<dim>(static_cast<Eigen::Index>(node)));
   }
   for (Pressure& pressure : pressures_) {
-    const std::vector<BoundarySide>& sides = moved.boundaries.at(pressure.load->on);
+    const std::vector<BoundarySide>& sides = pressure.sides;
     parts_[pressure.part].forces = side_forces<dim>(moved, sides, unit_pressure<dim>);
     if (dim == 2) continue;  // there the forces are linear in the places of the nodes
     for (std::size_t k = 0; k < pressure.stiffness.size(); ++k)

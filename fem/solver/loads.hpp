@@ -20,8 +20,8 @@ struct LoadStiffness {
 template <int dim>
 class Loads {
  public:
-  /// @param problem must outlive this object.
-  explicit Loads(const Problem<dim>& problem);
+  /// The loads of a stage of construction, on what is there. @param problem must outlive this object.
+  explicit Loads(const Problem<dim>& problem, int stage = 0);
 
   /// Lets the pressures act on the boundary where `nodal` displaces it; all else acts as on the mesh as it
   /// was made.
@@ -48,12 +48,14 @@ class Loads {
   void add_node_load(const Problem<dim>& problem, const NodeLoad& load);
   void add_body_load(const Problem<dim>& problem, const BodyLoad<dim>& load);
 
-  const Problem<dim>& problem_;
+  const Problem<dim>* problem_;
+  std::vector<char> there_;  ///< by element; empty: all of them
   Eigen::Index size_;
   std::vector<Part> parts_;
   struct Pressure {
     std::size_t part;
     const BoundaryLoad<dim>* load;
+    std::vector<BoundarySide> sides;
     std::vector<LoadStiffness> stiffness;  ///< of a unit pressure; empty in small deformation
   };
   std::vector<Pressure> pressures_;

@@ -65,6 +65,7 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
       start_(problem.mesh, problem.continuum),
       trial_(discretisation.points()) {
   state.displacement = Eigen::VectorXd::Zero(discretisation.nodal_size());
+  if (!problem.lifetimes.empty()) enter_stage();
   state.strain.assign(discretisation.points(), Cosserat<dim>::Vector::Zero());
   state.responses.resize(discretisation.points());
   if (problem.deformation == Deformation::large && !materials.can_turn())
@@ -269,7 +270,7 @@ Newton<dim>::Iterate Newton<dim>::start_of(const StepGoal& goal) const {
                   state.displacement,
                   {},
                   {}};
-  constraints.apply(iterate.time, iterate.displacement);
+  constraints.apply(iterate.time, iterate.displacement, iterate.released);
   iterate.displacement -= state.displacement;
   if (goal.releases_displacements && released_ < 1.0)
     iterate.displacement *= (goal.released - released_) / (1.0 - released_);

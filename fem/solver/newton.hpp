@@ -57,6 +57,13 @@ class Newton {
   void withhold_imbalance();
   /// Whether that has been done.
   [[nodiscard]] bool withholds() const { return withheld_.size() > 0; }
+  /// Goes over to a stage of construction: elements, supports and loads of it, and the imbalance of all that changes held
+  /// back. @throws RunError where the nodes have moved so that an element that comes is inside out, or nothing resists a
+  /// micro-rotation of what is there
+  void begin_stage(int stage);
+  /// The stage and the forces held back in it, for checkpoints.
+  void save_stage(ArchiveWriter& archive) const;
+  void restore_stage(ArchiveReader& archive);
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
   /// Largest force residual that the best iterate of the last attempt has; infinite without an iterate to commit.
@@ -124,6 +131,8 @@ class Newton {
   };
   [[nodiscard]] Predictor predict(const StepGoal& goal);
   void evaluate(Iterate& iterate, StepReport& report);
+  /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
+  void enter_stage();
   void find_increments(const Eigen::VectorXd& displacement_increment);
   [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,

@@ -13,6 +13,7 @@
 #include "fem/element/kinematics.hpp"
 #include "fem/material/material.hpp"
 #include "fem/mesh/mesh.hpp"
+#include "fem/solver/stages.hpp"
 #include "fem/solver/ties.hpp"
 #include "fem/solver/time_table.hpp"
 
@@ -25,7 +26,11 @@ struct PrescribedDof {
   Dof dof;
   TimeTable value;
   /// Factor by position; 1 everywhere when empty.
-  std::function<double(const typename Cosserat<dim>::Place&)> profile;
+  std::function<double(const typename Cosserat<dim>::Place&)> profile = {};
+  Lifetime life = {};
+  /// Of a support that begins in a later stage: the value counts from where the node is then. Else the node moves to the
+  /// value as the forces held back in that stage are let go.
+  bool from_here = true;
 };
 
 /// So many tables that are zero.
@@ -45,6 +50,7 @@ struct BoundaryLoad {
   std::array<TimeTable, dim> traction = zero_tables<dim>();  ///< Pa, along each axis
   /// N/m, about e_3; in space about each axis.
   std::array<TimeTable, Cosserat<dim>::rotations> couple_traction = zero_tables<Cosserat<dim>::rotations>();
+  Lifetime life = {};
 };
 
 /// Force (N; in the plane N/m of thickness) or moment (N m; N) on each node of a boundary or node set.
@@ -52,6 +58,7 @@ struct NodeLoad {
   std::string on;
   Dof dof;
   TimeTable value;
+  Lifetime life = {};
 };
 
 /// Force per volume (N/m^3) along each axis and couple per volume (N/m^2) about each axis of rotation, by position.
@@ -60,6 +67,7 @@ struct BodyLoad {
   std::function<typename Cosserat<dim>::NodeValues(const typename Cosserat<dim>::Place&)> density;
   TimeTable factor = TimeTable::constant(1.0);
   std::string region = "";  ///< every element when empty
+  Lifetime life = {};
 };
 
 /// Stress at time 0 by position, in place of the materials' own.
@@ -90,24 +98,34 @@ struct Problem {
   std::vector<NodeLoad> node_loads;
   std::vector<BodyLoad<dim>> body_loads;
   std::vector<InitialStress<dim>> initial_stresses;
+  /// Names of the stages of construction, for messages; empty: there is one. Solver::begin_stage goes on to the next.
+  std::vector<std::string> stages = {};
+  /// Of the regions that come or go; all others are there in every stage.
+  std::map<std::string, Lifetime> lifetimes = {};
 };
 
-/// The prescribed dofs in the order in which they hold: those on a set of nodes go before those on a boundary, which go
+/// The prescribed dofs of a stage in the order in which they hold: those on a set of nodes go before those on a boundary, which go
 /// before those on the set `all`; the first that names a node gives its value there.
 template <int dim>
-std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem);
+std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem, int stage = 0);
 
 /// All faults of a problem, one message each: unknown names, elements with no or two materials, a dof
-/// prescribed twice with different values by items of one precedence, ties whose sides do not match, distorted elements, rigid motions that no support holds. Runs no
-/// material, so that a case can be checked before anything starts. Materials may still be null.
+/// prescribed twice with different values by items of one precedence, ties whose sides do not match, distorted elements, rigid
+/// motions that no support holds, in any stage. Runs no material, so that a case can be checked before anything starts.
+/// Materials may still be null.
 template <int dim>
 std::vector<std::string> faults(const Problem<dim>& problem);
 
 /// Rigid motions of the body that prescribed dofs and ties leave free: "translation along 1", "rotation", or "rotation about
 /// (x, y)" when only a rotation about that point is free. In space also "screw motion along ..."
+/// @param there elements of a stage (elements_in_stage)
 template <int dim>
 std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum continuum,
                                             const std::vector<PrescribedDof<dim>>& prescribed,
-                                            const std::vector<Tie>& ties = {});
+                                            const std::vector<Tie>& ties = {},
+                                            const std::vector<char>& there = {});
+/// The same of a stage.
+template <int dim>
+std::vector<std::string> free_rigid_motions(const Problem<dim>& problem, int stage);
 
 }  // namespace polargrain::fem

@@ -26,6 +26,7 @@ Eigen::VectorXd forces_of_noise(const Discretisation<dim>& discretisation, Conti
   }
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(discretisation.nodal_size());
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    if (!discretisation.is_there(e)) continue;
     const std::vector<int>& dofs = discretisation.element_dofs(e);
     for (std::size_t i = discretisation.first_point(e); i < discretisation.first_point(e + 1); ++i) {
       const PointGeometry<dim>& point = discretisation.point(i);
@@ -63,6 +64,7 @@ Eigen::VectorXd forces_of_rounding(const Discretisation<dim>& discretisation, Co
                                    const Eigen::VectorXd& increment) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(discretisation.nodal_size());
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    if (!discretisation.is_there(e)) continue;
     const std::vector<int>& dofs = discretisation.element_dofs(e);
     const Eigen::VectorXd moved = increment(dofs).cwiseAbs();
     for (std::size_t i = discretisation.first_point(e); i < discretisation.first_point(e + 1); ++i) {

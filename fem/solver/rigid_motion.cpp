@@ -15,7 +15,8 @@ using Pairs = std::vector<std::pair<int, int>>;
 /// Number of the part of the body that each node belongs to; parts share no node and no tie. Nodes of no element are
 /// -1.
 template <int dim>
-std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, int& parts) {
+std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, const std::vector<char>& there,
+                                int& parts) {
   std::vector<int> root(mesh.nodes.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int node) {
@@ -25,12 +26,11 @@ std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, int& p
     }
     return node;
   };
-  std::vector<char> used(mesh.nodes.size(), 0);
-  for (const Element<dim>& element : mesh.elements) {
-    for (const int node : element.nodes) {
-      root[static_cast<std::size_t>(find(node))] = find(element.nodes.front());
-      used[static_cast<std::size_t>(node)] = 1;
-    }
+  const std::vector<char> used = nodes_of_elements(mesh, there);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (!there.empty() && there[e] == 0) continue;
+    const std::vector<int>& nodes = mesh.elements[e].nodes;
+    for (const int node : nodes) root[static_cast<std::size_t>(find(node))] = find(nodes.front());
   }
   for (const auto& [follower, leader] : tied) root[static_cast<std::size_t>(find(follower))] = find(leader);
   std::vector<int> part(mesh.nodes.size(), -1);
@@ -150,14 +150,14 @@ typename Cosserat<dim>::NodeValues row_of(Dof dof, const typename Cosserat<dim>:
 template <int dim>
 std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum continuum,
                                             const std::vector<PrescribedDof<dim>>& prescribed,
-                                            const std::vector<Tie>& ties) {
+                                            const std::vector<Tie>& ties, const std::vector<char>& there) {
   Pairs tied;
   for (const Tie& tie : ties) {
     const Pairs pairs = tied_nodes<dim>(mesh, tie).pairs;
     tied.insert(tied.end(), pairs.begin(), pairs.end());
   }
   int parts = 0;
-  const std::vector<int> part_of = parts_of_nodes<dim>(mesh, tied, parts);
+  const std::vector<int> part_of = parts_of_nodes<dim>(mesh, tied, there, parts);
   std::vector<std::string> messages;
   for (int part = 0; part < parts; ++part) {
     using Place = typename Cosserat<dim>::Place;
@@ -203,11 +203,24 @@ std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum con
   return messages;
 }
 
+template <int dim>
+std::vector<std::string> free_rigid_motions(const Problem<dim>& problem, int stage) {
+  std::vector<PrescribedDof<dim>> prescribed;
+  for (const PrescribedDof<dim>& item : problem.prescribed)
+    if (item.life.holds(stage)) prescribed.push_back(item);
+  return free_rigid_motions(problem.mesh, problem.continuum, prescribed, problem.ties,
+                            elements_in_stage(problem, stage));
+}
+
 template std::vector<std::string> free_rigid_motions<2>(const Mesh<2>& mesh, Continuum continuum,
                                                         const std::vector<PrescribedDof<2>>& prescribed,
-                                                        const std::vector<Tie>& ties);
+                                                        const std::vector<Tie>& ties,
+                                                        const std::vector<char>& there);
 template std::vector<std::string> free_rigid_motions<3>(const Mesh<3>& mesh, Continuum continuum,
                                                         const std::vector<PrescribedDof<3>>& prescribed,
-                                                        const std::vector<Tie>& ties);
+                                                        const std::vector<Tie>& ties,
+                                                        const std::vector<char>& there);
+template std::vector<std::string> free_rigid_motions<2>(const Problem<2>& problem, int stage);
+template std::vector<std::string> free_rigid_motions<3>(const Problem<3>& problem, int stage);
 
 }  // namespace polargrain::fem

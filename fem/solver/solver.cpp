@@ -65,6 +65,16 @@ struct Solver<dim>::Implementation : Newton<dim> {
   template <class GoalAt>
   StepReport march(StepReport report, GoalAt goal_at, int most_iterations = 0);
 
+  /// Share of the forces held back that is let go at a share of the way from here to where `goal` of them are.
+  [[nodiscard]] auto releasing(double goal) const {
+    return [from = this->released(), goal](double end) {
+      return end == 1.0 ? goal : from + end * (goal - from);
+    };
+  }
+
+  /// Holds back the imbalance of the committed state, and the displacements given then, and lets them go in shares.
+  StepReport let_go(StepReport report);
+
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
   void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
 
@@ -212,6 +222,33 @@ void Solver<dim>::set_observer(Observer* observer) {
 }
 
 template <int dim>
+StepReport Solver<dim>::Implementation::let_go(StepReport report) {
+  this->withhold_imbalance();
+  // The imbalance of the stress at time zero and the loads is no step of the user's: no shorter one helps.
+  constexpr int kMostTries = 10;
+  state.next_step = 0.0;
+  report = march(
+      std::move(report),
+      [&](double end, double) {
+        return StepGoal{.time = state.time, .measure = {}, .released = end, .releases_displacements = true};
+      },
+      kMostTries * options.most_iterations);
+  state.next_step = 0.0;
+  return report;
+}
+
+template <int dim>
+StepReport Solver<dim>::redistribute() {
+  StepReport report;
+  report.time = state().time;
+  if (const Attempt begun = implementation_->evaluate_initial_state(report); !begun.converged) {
+    report.message = begun.reason;
+    return report;
+  }
+  return implementation_->let_go(std::move(report));
+}
+
+template <int dim>
 StepReport Solver<dim>::equilibrate() {
   Implementation& self = *implementation_;
   StepReport report;
@@ -221,53 +258,58 @@ StepReport Solver<dim>::equilibrate() {
   self.constraints.apply(self.state.time, given);
   report.converged = given == self.state.displacement && self.excess(*residual) <= 1.0;
   if (report.converged) return report;
-  self.withhold_imbalance();
-  // The imbalance of the stress at time zero and the loads is no step of the user's: no shorter one helps.
-  constexpr int kMostTries = 10;
-  report = self.march(
-      std::move(report),
-      [&](double end, double) {
-        return StepGoal{
-            .time = self.state.time, .measure = {}, .released = end, .releases_displacements = true};
-      },
-      kMostTries * self.options.most_iterations);
-  self.state.next_step = 0.0;
-  return report;
+  return self.let_go(std::move(report));
 }
 
 template <int dim>
-StepReport Solver<dim>::advance(double time) {
+void Solver<dim>::begin_stage(int stage) {
+  implementation_->begin_stage(stage);
+}
+
+template <int dim>
+void Solver<dim>::reset_displacements() {
+  implementation_->state.shown_from = state().displacement;
+}
+
+template <int dim>
+StepReport Solver<dim>::advance(double time, double released) {
   const double start = state().time;
+  const auto released_at = implementation_->releasing(released);
   return implementation_->march({}, [&](double end, double) {
-    return StepGoal{.time = end == 1.0 ? time : start + end * (time - start), .measure = {}};
+    return StepGoal{.time = end == 1.0 ? time : start + end * (time - start),
+                    .measure = {},
+                    .released = released_at(end)};
   });
 }
 
 template <int dim>
-StepReport Solver<dim>::advance_measure(const DisplacementMeasure& measure, double amount) {
+StepReport Solver<dim>::advance_measure(const DisplacementMeasure& measure, double amount, double released) {
   Eigen::VectorXd vector = Eigen::VectorXd::Zero(state().displacement.size());
   const double sign = amount < 0.0 ? -1.0 : 1.0;
   for (const DisplacementMeasure::Term& term : measure.terms) {
     vector(entry_of<dim>(term.node, term.dof)) += sign * term.weight;
   }
-  return implementation_->march({}, [&](double, double share) {
-    return StepGoal{.measure = vector, .amount = share * std::abs(amount)};
+  const auto released_at = implementation_->releasing(released);
+  return implementation_->march({}, [&](double end, double share) {
+    return StepGoal{.measure = vector, .amount = share * std::abs(amount), .released = released_at(end)};
   });
 }
 
 template <int dim>
-StepReport Solver<dim>::advance_arc_length(double length) {
+StepReport Solver<dim>::advance_arc_length(double length, double released) {
   if (state().last_increment.size() == 0) {
     throw RunError("arc-length control needs a first step under another control, to know its direction");
   }
-  return implementation_->march({}, [&](double, double share) {
+  const auto released_at = implementation_->releasing(released);
+  return implementation_->march({}, [&](double end, double share) {
     Eigen::VectorXd weighted = state().last_increment;
     for (Eigen::Index entry = 0; entry < weighted.size(); ++entry) {
       if (is_rotation(dof_at<dim>(entry)))
         weighted(entry) *= implementation_->reference_length * implementation_->reference_length;
     }
     return StepGoal{.measure = weighted / std::sqrt(weighted.dot(state().last_increment)),
-                    .amount = share * length};
+                    .amount = share * length,
+                    .released = released_at(end)};
   });
 }
 
@@ -393,6 +435,7 @@ void Solver<dim>::save(ArchiveWriter& archive) const {
   write_state(archive, state());
   const std::array<double, 1> since_rest{static_cast<double>(implementation_->steps_since_rest)};
   archive.write("explicit_steps_since_rest", std::span<const double>(since_rest));
+  if (!problem().stages.empty()) implementation_->save_stage(archive);
   PrefixedWriter materials(archive, "materials/");
   implementation_->materials.save(materials);
 }
@@ -401,6 +444,7 @@ void Solver<dim>::restore(ArchiveReader& archive) {
   Implementation& self = *implementation_;
   self.state = read_state<dim>(archive, problem().mesh.nodes.size(), points());
   self.steps_since_rest = static_cast<int>(read_lists(archive, "explicit_steps_since_rest", 1, 1)[0]);
+  if (!problem().stages.empty()) self.restore_stage(archive);
   PrefixedReader materials(archive, "materials/");
   self.materials.restore(materials);
   self.move_to_committed();
@@ -417,6 +461,15 @@ int Solver<dim>::element_of_point(std::size_t point) const {
 template <int dim>
 typename Cosserat<dim>::Place Solver<dim>::position_of_point(std::size_t point) const {
   return implementation_->discretisation.point(point).position;
+}
+template <int dim>
+bool Solver<dim>::is_there(std::size_t point) const {
+  return implementation_->discretisation.is_there(static_cast<std::size_t>(element_of_point(point)));
+}
+template <int dim>
+Eigen::VectorXd Solver<dim>::shown_displacement() const {
+  if (state().shown_from.size() == 0) return state().displacement;
+  return state().displacement - state().shown_from;
 }
 template <int dim>
 double Solver<dim>::volume_of_point(std::size_t point) const {
@@ -453,10 +506,15 @@ typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::
 
 template <int dim>
 typename Cosserat<dim>::NodeValues Solver<dim>::mean_displacement(const std::vector<std::string>& on) const {
-  const std::vector<int> nodes = problem().mesh.nodes_on(on);
+  std::vector<int> nodes = problem().mesh.nodes_on(on);
+  if (const std::vector<char> there = elements_in_stage(problem(), state().stage); !there.empty()) {
+    const std::vector<char> has_element = nodes_of_elements(problem().mesh, there);
+    const auto is_left = [&](int node) { return has_element[static_cast<std::size_t>(node)] != 0; };
+    if (std::ranges::any_of(nodes, is_left)) std::erase_if(nodes, [&](int node) { return !is_left(node); });
+  }
+  const Eigen::VectorXd shown = shown_displacement();
   typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
-  for (const int node : nodes)
-    sum += state().displacement.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
+  for (const int node : nodes) sum += shown.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
   return sum / static_cast<double>(nodes.size());
 }
 
@@ -465,6 +523,7 @@ double Solver<dim>::volume_strain() const {
   double volume = 0.0;
   double change = 0.0;
   for (std::size_t i = 0; i < points(); ++i) {
+    if (!is_there(i)) continue;
     volume += volume_of_point(i);
     change += volume_of_point(i) * volumetric<dim>(state().strain[i]);
   }

@@ -149,6 +149,10 @@ struct SolverState {
   Eigen::VectorXd velocity;  ///< nodal values a step
   /// Nodal forces of the supports at the end of the last row of them (RowOfForces); empty where that row was no explicit one.
   Eigen::VectorXd reactions;
+  // Of stages of construction.
+  int stage = 0;
+  Eigen::VectorXd offsets;  ///< by entry: where supports that began in a later stage count from; empty before
+  Eigen::VectorXd shown_from;  ///< results show displacements less these; empty: from zero
 };
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
@@ -174,17 +178,28 @@ class Solver {
   /// given at time 0 are let go in shares, cut like any step, in ten times SolverOptions::most_iterations at most. Not
   /// converged too when nothing resists a micro-rotation.
   StepReport equilibrate();
+  /// Goes over to a stage of construction: regions come and go, supports and loads begin and end (Lifetime). Nothing moves;
+  /// the forces of all that changes are held back, and steps let them go.
+  /// @throws RunError when what is there then cannot be computed
+  void begin_stage(int stage);
+  /// After restore, where materials answer otherwise than those that were saved: evaluates them where they are, and lets go
+  /// the imbalance in shares as equilibrate does. Not converged where no balance is found.
+  StepReport redistribute();
+  /// From now on results show displacements and micro-rotations less those of this moment. Nothing else changes.
+  void reset_displacements();
+
   /// Goes on to `time`, in smaller steps where needed. When it fails, the last committed substep stands.
-  StepReport advance(double time);
+  /// @param released share of the forces held back since the stage began that are let go at the end, here and below
+  StepReport advance(double time, double released = 1.0);
 
   /// Goes on until `measure` has grown by `amount` (not zero), at whatever loading time balances it. Time
   /// tables must be straight over the times passed through.
-  StepReport advance_measure(const DisplacementMeasure& measure, double amount);
+  StepReport advance_measure(const DisplacementMeasure& measure, double amount, double released = 1.0);
   /// Goes on by `length` (m, positive) along the direction of the last committed substep: sqrt of the sum
   /// over the nodes of u1^2 + u2^2 + (reference length w)^2, projected on that direction (arc-length
   /// control).
   /// @throws RunError before the first substep has been committed.
-  StepReport advance_arc_length(double length);
+  StepReport advance_arc_length(double length, double released = 1.0);
 
   /// In place of equilibrate, before explicit steps: evaluates the initial state. Forces out of balance then, and the
   /// displacements given at time 0, come in smoothly over the first advance_explicit.
@@ -211,6 +226,10 @@ class Solver {
   [[nodiscard]] std::size_t points() const;
   [[nodiscard]] int element_of_point(std::size_t point) const;
   [[nodiscard]] typename Cosserat<dim>::Place position_of_point(std::size_t point) const;
+  /// Whether the element of a point is there in the stage.
+  [[nodiscard]] bool is_there(std::size_t point) const;
+  /// Displacements and micro-rotations as results show them (reset_displacements).
+  [[nodiscard]] Eigen::VectorXd shown_displacement() const;
   /// Volume that belongs to the point, m^3; in the plane per unit thickness, m^2.
   [[nodiscard]] double volume_of_point(std::size_t point) const;
   /// The material of a point and the number of the point within that material.
@@ -226,7 +245,8 @@ class Solver {
   [[nodiscard]] typename Cosserat<dim>::NodeValues reaction(const std::string& on) const {
     return reaction(std::vector{on});
   }
-  /// Mean displacement over the nodes of boundaries and node sets, each node once, in the order of node_dofs: m, rad.
+  /// Mean displacement, as results show it, over the nodes of boundaries and node sets, each node once, in the order of
+  /// node_dofs: m, rad. Nodes that no element has in the stage do not count while others do.
   [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(
       const std::vector<std::string>& on) const;
   [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::string& on) const {

@@ -8,13 +8,20 @@ namespace polargrain::fem {
 template <int dim>
 TangentMatrix<dim>::TangentMatrix(const Discretisation<dim>& discretisation,
                                   const Constraints<dim>& constraints)
-    : discretisation_(discretisation),
-      constraints_(constraints),
-      matrix_(constraints.unknowns(), constraints.unknowns()) {
-  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    : discretisation_(discretisation), constraints_(constraints) {
+  renew();
+}
+
+template <int dim>
+void TangentMatrix<dim>::renew() {
+  matrix_ = Eigen::SparseMatrix<double>(constraints_.unknowns(), constraints_.unknowns());
+  equations_.clear();
+  places_.clear();
+  for (std::size_t e = 0; e < discretisation_.elements(); ++e) {
     std::vector<int>& equations = equations_.emplace_back();
-    for (const int entry : discretisation.element_dofs(e)) {
-      equations.push_back(constraints.equation(static_cast<std::size_t>(entry)));
+    if (!discretisation_.is_there(e)) continue;
+    for (const int entry : discretisation_.element_dofs(e)) {
+      equations.push_back(constraints_.equation(static_cast<std::size_t>(entry)));
     }
   }
   find_pattern();
@@ -73,8 +80,9 @@ const Eigen::SparseMatrix<double>& TangentMatrix<dim>::assemble(const Linearisat
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   auto place = places_.begin();
   for (std::size_t e = 0; e < equations_.size(); ++e) {
-    const Eigen::MatrixXd local = discretisation_.element_tangent(e, of);
     const std::vector<int>& equations = equations_[e];
+    if (equations.empty()) continue;
+    const Eigen::MatrixXd local = discretisation_.element_tangent(e, of);
     for (std::size_t j = 0; j < equations.size(); ++j) {
       if (equations[j] < 0) continue;
       for (std::size_t i = 0; i < equations.size(); ++i) {

@@ -17,6 +17,9 @@ class TangentMatrix {
   /// Both must outlive this object.
   TangentMatrix(const Discretisation<dim>& discretisation, const Constraints<dim>& constraints);
 
+  /// To be called when other elements are there or other entries are given: finds the pattern anew.
+  void renew();
+
   /// Overwrites the values by those of the tangents of the points, less those of the loads.
   const Eigen::SparseMatrix<double>& assemble(const Linearisation<dim>& of,
                                               const std::vector<LoadStiffness>& loads);

@@ -2,6 +2,7 @@
 polargrain_test(record_test unit unit/record_test.cpp LIBS polargrain_pool)
 target_compile_definitions(record_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 polargrain_test(coupler_messages_test unit unit/coupler_messages_test.cpp LIBS polargrain_pool)
+polargrain_test(stages_case_test unit unit/stages_case_test.cpp LIBS polargrain_coupler)
 polargrain_test(coupler_case_test unit unit/coupler_case_test.cpp LIBS polargrain_coupler)
 polargrain_test(document_kind_test unit unit/document_kind_test.cpp LIBS polargrain_coupler)
 polargrain_test(cell_increment_test unit unit/cell_increment_test.cpp LIBS polargrain_coupler)

@@ -33,7 +33,7 @@ Given given(const fem::Problem<2>& problem, fem::Dof dof) {
 }
 
 void look_at_reaction(const Scene& scene, const coupler::Monitor& monitor, Remarks& remarks) {
-  const Given nodes = given(scene.problem(), monitor.dof);
+  const Given nodes = given(scene.the_case().problem, monitor.dof);
   const std::vector<int> on = scene.mesh().nodes_on(monitor.on);
   const auto held = std::ranges::count_if(on, [&](int node) { return nodes.held.contains(node); });
   // Ends of a boundary are held by its neighbours.
@@ -53,7 +53,7 @@ void look_at_reaction(const Scene& scene, const coupler::Monitor& monitor, Remar
 }
 
 void look_at_displacement(const Scene& scene, const coupler::Monitor& monitor, Remarks& remarks) {
-  const Given nodes = given(scene.problem(), monitor.dof);
+  const Given nodes = given(scene.the_case().problem, monitor.dof);
   const std::vector<int> on = scene.mesh().nodes_on(monitor.on);
   const bool stays = std::ranges::all_of(
       on, [&](int node) { return nodes.held.contains(node) && !nodes.moved.contains(node); });

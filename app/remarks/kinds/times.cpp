@@ -109,7 +109,7 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
 
 void idle_steps(const Scene& scene, Remarks& remarks) {
   const auto end = scene.end_time();
-  if (!end) return;
+  if (!end || scene.problem().stages.size() > 1) return;  // where parts come or go, that is what changes
   // Step by step: whole cycles of a load end where they began. A pause before a further change is meant.
   double from = 0.0;
   int idle = 0;  // since the last change

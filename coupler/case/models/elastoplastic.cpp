@@ -18,8 +18,12 @@ namespace {
 template <int dim>
 class ElastoplasticRecipe : public MaterialRecipe {
  public:
-  ElastoplasticRecipe(fem::ElastoplasticParameters<dim> parameters, std::string note)
-      : parameters_(std::move(parameters)), note_(std::move(note)) {}
+  ElastoplasticRecipe(fem::ElastoplasticParameters<dim> parameters, fem::MohrCoulombHardening strength,
+                      fem::ConeMatch match, std::string note)
+      : parameters_(std::move(parameters)),
+        strength_(std::move(strength)),
+        match_(match),
+        note_(std::move(note)) {}
   [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
     return make_local<2>(pool);
   }
@@ -30,6 +34,12 @@ class ElastoplasticRecipe : public MaterialRecipe {
     return parameters_.elastic.cosserat_shear_modulus > 0.0;
   }
   [[nodiscard]] std::string note() const override { return note_; }
+  [[nodiscard]] Weakened weakened(double factor) const override {
+    fem::ElastoplasticParameters<dim> parameters = parameters_;
+    const fem::MohrCoulombHardening strength = fem::divided(strength_, factor);
+    parameters.cone = fem::hardening_cone(strength, match_);
+    return {std::make_shared<ElastoplasticRecipe<dim>>(std::move(parameters), strength, match_, note_)};
+  }
 
  private:
   template <int wanted>
@@ -41,6 +51,8 @@ class ElastoplasticRecipe : public MaterialRecipe {
   }
 
   fem::ElastoplasticParameters<dim> parameters_;
+  fem::MohrCoulombHardening strength_;
+  fem::ConeMatch match_;
   std::string note_;
 };
 
@@ -113,7 +125,8 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
   }
   if (!messages.empty()) return nullptr;
   std::string note = note_on(section.name(), parameters.cone, match);
-  return std::make_unique<ElastoplasticRecipe<dim>>(std::move(parameters), std::move(note));
+  return std::make_unique<ElastoplasticRecipe<dim>>(std::move(parameters), mohr_coulomb, match,
+                                                    std::move(note));
 }
 
 std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,

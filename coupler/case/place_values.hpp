@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+namespace polargrain::coupler {
+
+/// A value that is read at a place inside of the body: a displacement, a micro-rotation or a component of the stress.
+struct PlaceValue {
+  std::string name;  ///< "u2", "s22", "m1"
+  bool is_stress = false;
+  int component = 0;  ///< in the order of node_dofs, or of Cosserat<dim>
+  std::string unit;
+};
+
+/// All that can be read: the unknowns of a node, then stresses and couple stresses.
+const std::vector<PlaceValue>& place_values(int dimension);
+/// @returns null where there is none of that name
+const PlaceValue* place_value(const std::string& name, int dimension);
+/// Their names, for messages.
+std::vector<std::string> names_of_place_values(int dimension);
+
+/// Values along a straight line, written beside the fields.
+struct Profile {
+  std::string name;
+  std::vector<double> from, to;  ///< m, on the mesh as it was made
+  int points = 0;                ///< both ends included
+  std::vector<PlaceValue> values;
+
+  /// Place of a point of the line, the first is 0.
+  [[nodiscard]] std::vector<double> place(int point) const {
+    std::vector<double> x = from;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += (to[i] - from[i]) * point / (points - 1);
+    return x;
+  }
+};
+
+}  // namespace polargrain::coupler

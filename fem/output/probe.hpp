@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <vector>
+
+#include "fem/solver/solver.hpp"
+
+namespace polargrain::fem {
+
+/// A place inside of the body: the elements that have it, several on a side, and where it is in them.
+template <int dim>
+struct Probe {
+  struct Inside {
+    int element;
+    typename Cosserat<dim>::Place reference;  ///< coordinates of the reference element
+  };
+  std::vector<Inside> elements;  ///< empty: outside of the body
+};
+
+/// @param place on the mesh as it was made, m
+template <int dim>
+Probe<dim> find_place(const Mesh<dim>& mesh, const typename Cosserat<dim>::Place& place);
+
+/// Displacement and micro-rotation there as results show them, in the order of node_dofs: m, rad. NaN outside of what is there.
+template <int dim>
+typename Cosserat<dim>::NodeValues displacement_at(const Solver<dim>& solver, const Probe<dim>& probe);
+
+/// Stress (Pa) and couple stress (N/m) there: the straight function of the place that is nearest to the stresses of the
+/// integration points of the element, or the mean where several elements have the place. NaN outside of what is there.
+template <int dim>
+typename Cosserat<dim>::Vector stress_at(const Solver<dim>& solver, const Probe<dim>& probe);
+
+}  // namespace polargrain::fem

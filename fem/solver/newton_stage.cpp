@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Stages of construction (docs/theory/solver.md, stages): parts that come and go between two steps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/error.hpp"
+#include "common/packed_values.hpp"
+#include "fem/solver/free_rotations.hpp"
+#include "fem/solver/newton.hpp"
+
+namespace polargrain::fem {
+
+template <int dim>
+void Newton<dim>::enter_stage() {
+  const std::vector<char> there = elements_in_stage(problem, state.stage);
+  discretisation.set_there(there);
+  start_.set_there(there);
+  constraints = Constraints<dim>(problem, state.stage, state.offsets);
+  loads = Loads<dim>(problem, state.stage);
+  tangent_.renew();
+  linear_solver_.forget_pattern();
+}
+
+template <int dim>
+void Newton<dim>::begin_stage(int stage) {
+  state.offsets = Constraints<dim>::new_offsets(problem, state, stage);
+  state.stage = stage;
+  enter_stage();
+  if (problem.deformation == Deformation::large) {
+    if (const std::string inverted = discretisation.move_to(state.displacement); !inverted.empty())
+      throw RunError(fmt::format("stage '{}': {} by what has moved before it came",
+                                 problem.stages.at(static_cast<std::size_t>(stage)), inverted));
+    move_to_committed();
+  }
+  if (problem.continuum == Continuum::cosserat) {
+    if (const std::string message =
+            unresisted_rotation<dim>(problem.mesh, discretisation, constraints, state.responses);
+        !message.empty())
+      throw RunError(message);
+  }
+  // A reference that only knows the stages before may be far too small for what comes now.
+  if (options.reference_force == 0.0)
+    state.reference_force = std::max(state.reference_force, loads.largest_force());
+  state.next_step = 0.0;
+  withhold_imbalance();
+}
+
+template <int dim>
+void Newton<dim>::save_stage(ArchiveWriter& archive) const {
+  const std::array<double, 2> scalars{static_cast<double>(state.stage), released_};
+  archive.write("stage_released", std::span<const double>(scalars));
+  const auto write = [&](const char* name, const Eigen::VectorXd& values) {
+    archive.write(name, std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+  };
+  write("stage_offsets", state.offsets);
+  write("stage_shown_from", state.shown_from);
+  write("stage_withheld", withheld_);
+}
+
+template <int dim>
+void Newton<dim>::restore_stage(ArchiveReader& archive) {
+  const std::vector<double> scalars = read_lists(archive, "stage_released", 1, 2);
+  const auto read = [&](const char* name) {
+    const std::vector<double> values = archive.doubles(name);
+    if (!values.empty() && static_cast<Eigen::Index>(values.size()) != discretisation.nodal_size())
+      throw RunError("the checkpoint holds a stage of another mesh");
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  };
+  state.stage = static_cast<int>(scalars[0]);
+  released_ = scalars[1];
+  state.offsets = read("stage_offsets");
+  state.shown_from = read("stage_shown_from");
+  withheld_ = read("stage_withheld");
+  enter_stage();
+}
+
+template void Newton<2>::enter_stage();
+template void Newton<2>::begin_stage(int);
+template void Newton<2>::save_stage(ArchiveWriter&) const;
+template void Newton<2>::restore_stage(ArchiveReader&);
+template void Newton<3>::enter_stage();
+template void Newton<3>::begin_stage(int);
+template void Newton<3>::save_stage(ArchiveWriter&) const;
+template void Newton<3>::restore_stage(ArchiveReader&);
+
+}  // namespace polargrain::fem

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/solver/stages.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+template <int dim>
+std::vector<char> elements_in_stage(const Problem<dim>& problem, int stage) {
+  std::vector<char> there;
+  for (const auto& [region, life] : problem.lifetimes) {
+    if (life.holds(stage)) continue;
+    there.resize(problem.mesh.elements.size(), 1);
+    for (const int e : problem.mesh.regions.at(region)) there[static_cast<std::size_t>(e)] = 0;
+  }
+  return there;
+}
+
+template <int dim>
+std::vector<char> nodes_of_elements(const Mesh<dim>& mesh, const std::vector<char>& there) {
+  std::vector<char> nodes(mesh.nodes.size(), 0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (!there.empty() && there[e] == 0) continue;
+    for (const int node : mesh.elements[e].nodes) nodes[static_cast<std::size_t>(node)] = 1;
+  }
+  return nodes;
+}
+
+template <int dim>
+std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::string& boundary,
+                                         const std::vector<char>& there) {
+  const std::vector<BoundarySide>& sides = mesh.boundaries.at(boundary);
+  if (there.empty()) return sides;
+  // The sides that are there, by their nodes: one, or two where they meet inside of the body.
+  std::map<std::vector<int>, std::vector<BoundarySide>> by_nodes;
+  const auto nodes_of = [&](const BoundarySide& side) {
+    std::vector<int> nodes = mesh.side_nodes(side);
+    std::ranges::sort(nodes);
+    return nodes;
+  };
+  for (const BoundarySide& side : sides) by_nodes.try_emplace(nodes_of(side));
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (there[e] == 0) continue;
+    for (std::size_t k = 0; k < mesh.elements[e].type->sides.size(); ++k) {
+      const BoundarySide side{static_cast<int>(e), static_cast<int>(k)};
+      if (const auto place = by_nodes.find(nodes_of(side)); place != by_nodes.end())
+        place->second.push_back(side);
+    }
+  }
+  std::vector<BoundarySide> found;
+  for (const BoundarySide& side : sides) {
+    const std::vector<BoundarySide>& here = by_nodes.at(nodes_of(side));
+    if (here.size() == 1) found.push_back(here.front());
+  }
+  return found;
+}
+
+template std::vector<char> elements_in_stage<2>(const Problem<2>&, int);
+template std::vector<char> elements_in_stage<3>(const Problem<3>&, int);
+template std::vector<char> nodes_of_elements<2>(const Mesh<2>&, const std::vector<char>&);
+template std::vector<char> nodes_of_elements<3>(const Mesh<3>&, const std::vector<char>&);
+template std::vector<BoundarySide> sides_in_stage<2>(const Mesh<2>&, const std::string&,
+                                                     const std::vector<char>&);
+template std::vector<BoundarySide> sides_in_stage<3>(const Mesh<3>&, const std::string&,
+                                                     const std::vector<char>&);
+
+}  // namespace polargrain::fem

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <climits>
+#include <string>
+#include <vector>
+
+#include "fem/mesh/mesh.hpp"
+
+namespace polargrain::fem {
+
+template <int dim>
+struct Problem;
+
+/// The stages of construction that have a part of a problem: those from `begin` up to, not including, `end`.
+struct Lifetime {
+  int begin = 0;
+  int end = INT_MAX;
+  [[nodiscard]] bool holds(int stage) const { return begin <= stage && stage < end; }
+  [[nodiscard]] bool is_whole() const { return begin == 0 && end == INT_MAX; }
+  [[nodiscard]] bool overlaps(const Lifetime& other) const { return begin < other.end && other.begin < end; }
+};
+
+/// Whether each element is there in a stage: all of the regions it belongs to are. Empty where every element is.
+template <int dim>
+std::vector<char> elements_in_stage(const Problem<dim>& problem, int stage);
+
+/// Nodes of the elements that are there. @param there as elements_in_stage has it
+template <int dim>
+std::vector<char> nodes_of_elements(const Mesh<dim>& mesh, const std::vector<char>& there);
+
+/// The sides of a boundary that a load acts on: sides of elements that are there. Where a curve lies between two regions, the
+/// side is that of the element left when the other one has gone; while both are there, the curve is inside of the body and
+/// has no such side.
+template <int dim>
+std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::string& boundary,
+                                         const std::vector<char>& there);
+
+}  // namespace polargrain::fem
