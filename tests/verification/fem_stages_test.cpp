@@ -211,6 +211,33 @@ TEST(fill, that_comes_in_layers_settles_as_the_column_of_them_does) {
   }
 }
 
+/// Closed form: fill that comes with the stress of its weight is in balance with it, and only the ground below gives way.
+TEST(fill, that_comes_with_the_stress_of_its_weight_moves_with_the_ground_as_a_block) {
+  for (const double height : {0.5, 1.5}) {
+    Problem<2> problem;
+    problem.continuum = Continuum::cauchy;
+    problem.mesh = grid({0, 1, 3}, {0, 1, 2, 2 + 0.5 * height, 2 + height});
+    cut_out(problem.mesh, "fill", {0, 2}, {3, 2 + height});
+    problem.stages = {"ground", "fill"};
+    problem.lifetimes["fill"] = {1, INT_MAX};
+    problem.materials["fill"] = elastic();
+    problem.materials["rest"] = elastic();
+    problem.prescribed = {{"left", Dof::u1, kZero}, {"right", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}};
+    problem.body_loads = {gravity(kWeight)};
+    problem.initial_stresses = {geostatic_stress({2.0 + height, kWeight, 0.4, 0.0}, "fill"),
+                                geostatic_stress({2.0, kWeight, 0.4, 0.0}, "rest")};
+    Solver<2> solver(std::move(problem), tight());
+    go_through(solver, 2);
+    const double settled = -kWeight * height * 2.0 / kOedometric;
+    EXPECT_NEAR(displacement_at(solver, {0, 2}, Dof::u2) / settled, 1.0, 1e-11);
+    EXPECT_NEAR(displacement_at(solver, {3, 2 + height}, Dof::u2) / settled, 1.0, 1e-11);
+    for (std::size_t i = 0; i < solver.points(); ++i) {
+      const double vertical = -kWeight * (2.0 + height - solver.position_of_point(i).y());
+      EXPECT_NEAR(solver.state().responses[i].stress(k22) / vertical, 1.0, 1e-9);
+    }
+  }
+}
+
 /// A block that is pressed from above between two walls.
 Problem<2> pressed_block(bool has_right_wall) {
   Problem<2> problem;
