@@ -21,7 +21,7 @@ struct InterfaceParameters {
 template <int dim>
 using FaceVector = Eigen::Matrix<double, dim, 1>;
 
-/// What a point of an interface remembers.
+/// The memory of a point of an interface.
 template <int dim>
 struct InterfaceState {
   FaceVector<dim> initial_traction = FaceVector<dim>::Zero();  ///< Pa, at a jump of zero
