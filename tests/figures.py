@@ -79,6 +79,7 @@ FIGURES = [
     ("docs/howto/stiffness-and-steps.md", "warns above 5 %", code("common/overlap_limit.hpp", r"kMostMeanOverlap = ([\d.]+)"), 0.05, 0.05),
     ("docs/howto/stiffness-and-steps.md", "Keep `inertial_number: 6e-4`", code(CELL, r"inertial_number = (\S+);"), 6e-4, 6e-4),
     ("docs/howto/sweep.md", "Beyond 1 % of it", code("dem/cell/packing_check.hpp", r"kPressureTolerance = ([\d.]+)"), 0.01, 0.01),
+    ("docs/howto/safety.md", "halves the interval to 0.01", code("app/safety/safety.hpp", r"resolution = ([\d.]+)"), 0.01, 0.01),
     ("docs/howto/verify.md", "It evaluates sixteen boxes again", code("app/run/sample.cpp", r"kMost = (\d+)"), 16, 16),
     ("docs/howto/wall.md", "32 kN/m for 2 m2 of 16 kN/m3, and the surcharge of 0.2 kPa", code("docs/howto/wall.md", r"base_force \$\)\" (\d+)"), 32400, 32400),
     ("docs/howto/wall.md", "by default it is the 1 kPa of the packing", code("docs/howto/wall.md", r"\npressure: (\d+) kPa"), 1, 1),

@@ -56,7 +56,8 @@ int report(ReportOptions options) {
         {"", 0, "report: which result? Name the directory that `polargrain run` has written: report DIR"});
   const std::filesystem::path file =
       options.output.empty() ? options.directories.front() / "report.html" : options.output;
-  if (options.live) note_interrupts();  // before the page is there, which tells others that this command is at work
+  if (options.live)
+    note_interrupts();  // before the page is there, which tells others that this command is at work
   bool at_work = write_report(options, file);
   tell(stdout, "{}\n", file.string());
   if (!options.live) return 0;
