@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/mesh/box.hpp"
 #include "fem/mesh/cut.hpp"
+#include "fem/mesh/cylinder.hpp"
 #include "fem/mesh/gmsh.hpp"
+#include "fem/mesh/gmsh_content.hpp"
 #include "fem/mesh/rectangle.hpp"
 
 namespace polargrain::coupler {
@@ -193,9 +196,17 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   }
 }
 
-/// The same of a box. Memory measured with 1,728 elements H20R of an elastic material; more of them take more each.
+/// The same in space. Memory measured with 1,728 elements H20R of an elastic material; more of them take more each.
 constexpr double kMostElementsInSpace = 1e5;
 constexpr double kBytesOfElementInSpace = 1.5e6;
+
+void check_number_in_space(Section& section, double count) {
+  if (count <= kMostElementsInSpace) return;
+  section.fault(
+      "elements",
+      fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken", count,
+                  1e-9 * kBytesOfElementInSpace * count, kMostElementsInSpace));
+}
 
 void read_box(const Entry& entry, const std::string& element, CaseParts& parts) {
   const std::size_t faults_before = parts.faults.size();
@@ -216,40 +227,89 @@ void read_box(const Entry& entry, const std::string& element, CaseParts& parts) 
     patch << corner[0], corner[1], corner[2];
   }
   section.finish();
-  if (count > kMostElementsInSpace)
-    section.fault(
-        "elements",
-        fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken",
-                    count, 1e-9 * kBytesOfElementInSpace * count, kMostElementsInSpace));
+  check_number_in_space(section, count);
   if (parts.faults.size() != faults_before || element.empty()) return;
   parts.result.space->mesh = fem::box(specification, element);
   if (has_patch) make_patch<3>(patch, section, parts.result.space->mesh);
 }
 
-void read_file(Section& mesh, const std::string& element, CaseParts& parts) {
-  const std::string name = mesh.text("file", "the path of a mesh that Gmsh has written (.msh)");
-  if (element != "Q8R" && element != "Q8") {
-    if (!element.empty()) {
-      mesh.fault("element",
-                 fmt::format("element: the mesh file holds the kinds of its elements; for its quadrilaterals "
-                             "of 8 nodes choose Q8R or Q8, found '{}'",
-                             element));
-    }
-    return;
-  }
-  if (name.empty()) return;
-  const auto file = find_data_file(name, parts.directory);
-  if (!file) {
-    mesh.fault("file",
-               fmt::format("file: there is no mesh '{}' beside the case; correct the path or make the "
-                           "mesh (gmsh -2 SHAPE.geo)",
-                           name));
-    return;
-  }
+void read_cylinder(const Entry& entry, const std::string& element, CaseParts& parts) {
+  const std::size_t faults_before = parts.faults.size();
+  Section section(entry, "mesh.cylinder", parts.faults);
+  fem::CylinderSpecification specification{};
+  specification.radius = section.quantity("radius", Dimension::length, Limit::positive);
+  specification.height = section.quantity("height", Dimension::length, Limit::positive);
+  const std::vector<int> elements = section.wholes("elements", 3, 1);
+  specification.quarter = elements[0];
+  specification.rings = elements[1];
+  specification.layers = elements[2];
+  const std::string sector = section.choice_or("sector", {"whole", "half", "quarter"}, "whole");
+  using Sector = fem::CylinderSpecification::Sector;
+  specification.sector = sector == "half"      ? Sector::half
+                         : sector == "quarter" ? Sector::quarter
+                                               : Sector::whole;
+  section.finish();
+  if (parts.faults.size() == faults_before && specification.quarter % 2 != 0)
+    section.fault("elements", fmt::format("elements: the first number, of elements along a quarter of the "
+                                          "circumference, must be even, found {}",
+                                          specification.quarter));
+  check_number_in_space(section, fem::number_of_elements(specification));
+  if (parts.faults.size() != faults_before || element.empty()) return;
   try {
-    parts.result.problem.mesh = fem::read_gmsh(file->lexically_normal(), element);
+    parts.result.space->mesh = fem::cylinder(specification, element);
+  } catch (const RunError& error) {
+    parts.faults.push_back(entry.fault(fmt::format("mesh.cylinder: {}", error.what())));
+  }
+}
+
+/// The mesh of what a file holds, and the choice of its element. @param content nothing: the file could not be read
+template <int dim>
+void make_from_file(Section& mesh, const std::string& name, std::optional<fem::GmshContent> content,
+                    CaseParts& parts) {
+  constexpr std::string_view kReduced = fem::kSerendipity<dim>;
+  constexpr std::string_view kFull = kReduced.substr(0, kReduced.size() - 1);
+  const std::string element =
+      mesh.choice_or("element", fem::element_names<dim>(), fem::element_names<dim>().front());
+  if (element != kReduced && element != kFull) {
+    if (!element.empty())
+      mesh.fault(
+          "element",
+          fmt::format("element: the mesh file holds the kinds of its elements; for its {} choose {} or "
+                      "{}, found '{}'",
+                      dim == 2 ? "quadrilaterals of 8 nodes" : "hexahedra of 20 nodes", kReduced, kFull,
+                      element));
+    return;
+  }
+  if (!content) return;
+  try {
+    parts.result.problem_of<dim>().mesh = fem::mesh_of<dim>(name, *std::move(content), element);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) mesh.fault("file", fmt::format("{}: {}", name, fault.message));
+  }
+}
+
+void read_file(Section& mesh, CaseParts& parts) {
+  const std::string name = mesh.text("file", "the path of a mesh that Gmsh has written (.msh)");
+  std::optional<fem::GmshContent> content;
+  if (const auto file = find_data_file(name, parts.directory); name.empty()) {
+  } else if (!file) {
+    mesh.fault("file",
+               fmt::format("file: there is no mesh '{}' beside the case; correct the path or make the "
+                           "mesh (gmsh -2 SHAPE.geo, in space gmsh -3)",
+                           name));
+  } else {
+    try {
+      content = fem::read_gmsh_content(file->lexically_normal());
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults())
+        mesh.fault("file", fmt::format("{}: {}", name, fault.message));
+    }
+  }
+  if (content && fem::dimension_of(*content) == 3) {
+    parts.result.space.emplace();
+    make_from_file<3>(mesh, name, std::move(content), parts);
+  } else {
+    make_from_file<2>(mesh, name, std::move(content), parts);
   }
 }
 
@@ -260,22 +320,32 @@ void read_mesh(const Entry& entry, CaseParts& parts) {
   Section mesh(entry, "mesh", parts.faults);
   const Entry* rectangle = mesh.find("rectangle");
   const Entry* box = mesh.find("box");
-  if (box != nullptr) parts.result.space.emplace();
-  const std::string element =
-      box != nullptr ? mesh.choice_or("element", fem::element_names<3>(), fem::element_names<3>().front())
-                     : mesh.choice_or("element", fem::element_names<2>(), fem::element_names<2>().front());
-  const bool file = mesh.find("file") != nullptr;
-  if ((rectangle != nullptr) + (box != nullptr) + file > 1) {
-    mesh.fault(file ? "file" : "box", "give one of a rectangle, a box and a file; remove the others");
+  const Entry* cylinder = mesh.find("cylinder");
+  const Entry* file = mesh.find("file");
+  if (box != nullptr || cylinder != nullptr) parts.result.space.emplace();
+  const auto element = [&]<int dim>() {
+    return mesh.choice_or("element", fem::element_names<dim>(), fem::element_names<dim>().front());
+  };
+  if ((rectangle != nullptr) + (box != nullptr) + (cylinder != nullptr) + (file != nullptr) > 1) {
+    mesh.find("element");
+    mesh.fault(file != nullptr       ? "file"
+               : cylinder != nullptr ? "cylinder"
+                                     : "box",
+               "give one of a rectangle, a box, a cylinder and a file; remove the others");
   } else if (box != nullptr) {
-    read_box(*box, element, parts);
+    read_box(*box, element.operator()<3>(), parts);
+  } else if (cylinder != nullptr) {
+    read_cylinder(*cylinder, element.operator()<3>(), parts);
   } else if (rectangle != nullptr) {
-    read_rectangle(*rectangle, element, parts);
-  } else if (file) {
-    read_file(mesh, element, parts);
-  } else if (entry.kind == Entry::Kind::map) {
-    parts.faults.push_back(entry.fault(
-        "mesh: the key 'rectangle' is missing; give a map with size and elements, a 'box' in space, or a 'file'"));
+    read_rectangle(*rectangle, element.operator()<2>(), parts);
+  } else if (file != nullptr) {
+    read_file(mesh, parts);
+  } else {
+    element.operator()<2>();
+    if (entry.kind == Entry::Kind::map)
+      parts.faults.push_back(
+          entry.fault("mesh: the key 'rectangle' is missing; give a map with size and elements, a 'box' or a "
+                      "'cylinder' in space, or a 'file'"));
   }
   mesh.finish();
   parts.has_mesh = parts.faults.size() == faults_before;

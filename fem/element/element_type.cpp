@@ -9,6 +9,7 @@
 #include "fem/element/quadrilateral.hpp"
 #include "fem/element/tetrahedron.hpp"
 #include "fem/element/triangle.hpp"
+#include "fem/element/wedge.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -22,7 +23,7 @@ const std::vector<ElementType<dim>>& element_types() {
     return types;
   } else {
     static const std::vector<ElementType<3>> types{hexahedron20_reduced(), hexahedron20(), hexahedron8(),
-                                                   tetrahedron10()};
+                                                   tetrahedron10(), wedge15()};
     return types;
   }
 }

@@ -51,4 +51,13 @@ std::vector<QuadraturePoint<3>> tetrahedron_four_points() {
           {{far, far, near}, weight}};
 }
 
+std::vector<QuadraturePoint<3>> wedge_points(int n) {
+  std::vector<QuadraturePoint<3>> points;
+  for (const LinePoint& height : gauss_line(n))
+    for (const QuadraturePoint<2>& plane : triangle_three_points())
+      points.push_back(
+          {{plane.position(0), plane.position(1), height.position}, plane.weight * height.weight});
+  return points;
+}
+
 }  // namespace polargrain::fem

@@ -22,5 +22,7 @@ std::vector<QuadraturePoint<3>> gauss_cube(int n);
 std::vector<QuadraturePoint<2>> triangle_three_points();
 /// Four inner points of the tetrahedron with corners at the origin and at 1 on each axis, exact for quadratic polynomials.
 std::vector<QuadraturePoint<3>> tetrahedron_four_points();
+/// The three points of the triangle times n Gauss points along the third coordinate, from -1 to 1.
+std::vector<QuadraturePoint<3>> wedge_points(int n);
 
 }  // namespace polargrain::fem

@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include "common/error.hpp"
+#include "fem/mesh/block.hpp"
 
 namespace polargrain::fem {
 namespace {
-
-using GridPlace = std::array<int, 3>;
 
 /// Numbers nodes on a grid of half-element spacing, only where some element has a node.
 class HalfGrid {
@@ -74,29 +73,6 @@ void check(const BoxSpecification& specification) {
   }
 }
 
-/// The elements of one block of the box by the numbers of their corners in a hexahedron: one hexahedron, or six tetrahedra
-/// around the diagonal from corner 0 to corner 6, which fit those of the next block.
-std::vector<std::vector<int>> corners_in_block(const ElementType<3>& type) {
-  if (type.corners == 8) return {{0, 1, 2, 3, 4, 5, 6, 7}};
-  return {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-}
-
-/// Places of the nodes of an element in half steps, from those of its corners: the reference element mapped by them.
-std::vector<GridPlace> places_of(const ElementType<3>& type, const std::vector<GridPlace>& corners) {
-  std::vector<GridPlace> places = corners;
-  for (std::size_t a = corners.size(); a < type.node_positions.size(); ++a) {
-    // A middle node lies half way between the two corners whose reference positions it halves.
-    for (std::size_t b = 0; b < corners.size(); ++b)
-      for (std::size_t c = b + 1; c < corners.size(); ++c) {
-        if (2.0 * type.node_positions[a] != type.node_positions[b] + type.node_positions[c]) continue;
-        if (type.corners == 8 && (type.node_positions[b] - type.node_positions[c]).norm() > 2.0) continue;
-        places.push_back({(corners[b][0] + corners[c][0]) / 2, (corners[b][1] + corners[c][1]) / 2,
-                          (corners[b][2] + corners[c][2]) / 2});
-      }
-  }
-  return places;
-}
-
 struct Face {
   const char* name;
   std::size_t axis;
@@ -129,23 +105,16 @@ void name_edges_and_corners(const HalfGrid& grid, Mesh<3>& mesh) {
 Mesh<3> box(const BoxSpecification& specification, std::string_view element) {
   check(specification);
   const ElementType<3>& type = element_type<3>(element);
-  const std::vector<std::vector<int>> parts = corners_in_block(type);
-  constexpr std::array<GridPlace, 8> corners{
-      {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}}};
+  const std::vector<std::vector<GridPlace>> parts = elements_of_block(type);
   Mesh<3> mesh;
   HalfGrid grid(specification, mesh);
   GridPlace block{};
   for (block[2] = 0; block[2] < specification.elements[2]; ++block[2]) {
     for (block[1] = 0; block[1] < specification.elements[1]; ++block[1]) {
       for (block[0] = 0; block[0] < specification.elements[0]; ++block[0]) {
-        for (const std::vector<int>& part : parts) {
-          std::vector<GridPlace> places;
-          for (const int corner : part) {
-            GridPlace at = corners[static_cast<std::size_t>(corner)];
+        for (std::vector<GridPlace> places : parts) {
+          for (GridPlace& at : places)
             for (std::size_t i = 0; i < 3; ++i) at[i] += 2 * block[i];
-            places.push_back(at);
-          }
-          places = places_of(type, places);
           const int number = static_cast<int>(mesh.elements.size());
           Element<3>& added = mesh.elements.emplace_back(Element<3>{&type, {}});
           for (const GridPlace& at : places) added.nodes.push_back(grid.node(at));

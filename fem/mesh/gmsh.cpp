@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "common/error.hpp"
@@ -21,17 +22,45 @@
 namespace polargrain::fem {
 namespace {
 
-// Numbers of element kinds in Gmsh's manual, "MSH file format".
-enum GmshKind : int {
-  kLine2 = 1,
-  kTriangle3 = 2,
-  kQuadrilateral4 = 3,
-  kLine3 = 8,
-  kTriangle6 = 9,
-  kQuadrilateral9 = 10,
-  kPoint = 15,
-  kQuadrilateral8 = 16
+/// An element of Gmsh's that is read: its number in Gmsh's manual, "MSH file format", ours, and the place of each of our nodes
+/// among Gmsh's (empty: the same order).
+struct Offered {
+  int kind;
+  std::string_view element;
+  std::vector<std::size_t> order = {};
 };
+
+/// @param serendipity the quadrilateral of 8 nodes, the hexahedron of 20 nodes
+template <int dim>
+std::vector<Offered> offered(std::string_view serendipity) {
+  if constexpr (dim == 2) {
+    return {{16, serendipity}, {3, "Q4"}, {9, "T6"}};
+  } else {
+    return {{17, serendipity, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}},
+            {5, "H8"},
+            {11, "T10", {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+            {18, "W15", {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}}};
+  }
+}
+
+/// The remedy for elements that are not read, by their numbers.
+const std::map<int, const char*> kRefused{
+    {2, "triangles of 3 nodes, too stiff to be offered: set Mesh.ElementOrder = 2"},
+    {10, "quadrilaterals of 9 nodes: set Mesh.SecondOrderIncomplete = 1 to get 8"},
+    {4, "tetrahedra of 4 nodes, too stiff to be offered: set Mesh.ElementOrder = 2"},
+    {6,
+     "wedges of 6 nodes, too stiff to be offered: set Mesh.ElementOrder = 2 and Mesh.SecondOrderIncomplete = 1"},
+    {12, "hexahedra of 27 nodes: set Mesh.SecondOrderIncomplete = 1 to get 20"},
+    {13, "wedges of 18 nodes: set Mesh.SecondOrderIncomplete = 1 to get 15"},
+    {7, "pyramids, which are not offered: mesh with hexahedra and wedges, or with tetrahedra alone"},
+    {14, "pyramids, which are not offered: mesh with hexahedra and wedges, or with tetrahedra alone"},
+    {19, "pyramids, which are not offered: mesh with hexahedra and wedges, or with tetrahedra alone"}};
+
+/// How the entities of Gmsh that carry the elements and their sides are called.
+template <int dim>
+constexpr const char* kBody = dim == 2 ? "surface" : "volume";
+template <int dim>
+constexpr const char* kOutline = dim == 2 ? "curve" : "surface";
 
 constexpr const char* kModule = "polargrain_gmsh.so";
 
@@ -59,20 +88,22 @@ GmshReaderFunction reader_function(const std::filesystem::path& mesh_file,
                                      kModule, fmt::join(failures, "; "))});
 }
 
+/// Makes the mesh of what the library has read: elements of the dimension of the problem, boundaries of their sides, sets of
+/// nodes of everything below.
+template <int dim>
 class Reader {
  public:
-  Reader(std::filesystem::path file, std::string_view quadrilateral8, GmshContent content)
-      : file_(std::move(file)),
-        quadrilateral8_(element_type<2>(quadrilateral8)),
-        content_(std::move(content)) {}
+  Reader(std::filesystem::path file, std::string_view serendipity, GmshContent content)
+      : file_(std::move(file)), offered_(offered<dim>(serendipity)), content_(std::move(content)) {}
 
-  Mesh<2> read() {
+  Mesh<dim> read() {
     if (!content_.error.empty()) fail(fmt::format("Gmsh cannot read it: {}", content_.error));
+    if (dim == 2 && dimension_of(content_) == 3) fail("it has volume elements; a plane mesh is needed here");
     read_nodes();
-    read_surfaces();
+    read_elements();
     find_sides();
-    read_curves();
-    read_points();
+    read_boundaries();
+    read_node_sets();
     drop_unused_nodes();
     return std::move(mesh_);
   }
@@ -84,29 +115,31 @@ class Reader {
 
   void read_nodes() {
     for (const auto& [tag, position] : content_.nodes) {
-      if (!std::isfinite(position[0]) || !std::isfinite(position[1]))
-        fail(fmt::format("node {} has a coordinate that is not finite", tag));
-      if (position[2] != 0.0) fail("a node leaves the plane z = 0; plane meshes are needed");
+      for (std::size_t i = 0; i < dim; ++i)
+        if (!std::isfinite(position[i]))
+          fail(fmt::format("node {} has a coordinate that is not finite", tag));
+      if (dim == 2 && position[2] != 0.0)
+        fail(
+            "a node leaves the plane z = 0: plane meshes are needed; for a body in space name its volumes, "
+            "Physical Volume(\"ground\") = {1};, and make the mesh with gmsh -3");
       node_of_tag_[tag] = static_cast<int>(mesh_.nodes.size());
-      mesh_.nodes.emplace_back(position[0], position[1]);
+      mesh_.nodes.push_back(Eigen::Map<const typename Cosserat<dim>::Place>(position.data()));
     }
   }
 
-  const ElementType<2>& type_of(int kind) const {
-    switch (kind) {
-      case kQuadrilateral8:
-        return quadrilateral8_;
-      case kQuadrilateral4:
-        return element_type<2>("Q4");
-      case kTriangle6:
-        return element_type<2>("T6");
-      case kTriangle3:
-        fail("it has triangles of 3 nodes, too stiff to be offered: set Mesh.ElementOrder = 2");
-      case kQuadrilateral9:
-        fail("it has quadrilaterals of 9 nodes: set Mesh.SecondOrderIncomplete = 1 to get 8");
-      default:
-        fail(fmt::format("it has surface elements of Gmsh's kind {}, which is not offered", kind));
+  /// The element of a kind, with its nodes in our order.
+  Element<dim> element_of(int kind, const std::vector<int>& nodes) const {
+    const auto found = std::ranges::find(offered_, kind, &Offered::kind);
+    if (found == offered_.end()) {
+      const auto refused = kRefused.find(kind);
+      fail(refused != kRefused.end()
+               ? fmt::format("it has {}", refused->second)
+               : fmt::format("it has {} elements of Gmsh's kind {}, which is not offered", kBody<dim>, kind));
     }
+    Element<dim> element{&element_type<dim>(found->element), nodes};
+    if (nodes.size() != element.type->node_positions.size()) fail("it has elements with nodes missing");
+    for (std::size_t a = 0; a < found->order.size(); ++a) element.nodes[a] = nodes[found->order[a]];
+    return element;
   }
 
   /// Calls visit(kind, nodes of one element) for all elements of an entity.
@@ -114,7 +147,7 @@ class Reader {
   void for_each_element(int dimension, int entity, Visit visit) const {
     for (const GmshContent::Block& block : content_.blocks) {
       if (block.dimension != dimension || block.entity != entity) continue;
-      const std::size_t least = dimension == 1 ? 2 : 1;  // ends of a curve's piece
+      const auto least = static_cast<std::size_t>(dimension + 1);  // corners of the simplest one
       if (block.nodes_per_element < least || block.nodes.size() % block.nodes_per_element != 0)
         fail("it has elements with nodes missing");
       for (std::size_t first = 0; first < block.nodes.size(); first += block.nodes_per_element) {
@@ -139,98 +172,115 @@ class Reader {
     }
   }
 
-  void read_surfaces() {
+  void read_elements() {
     std::map<int, std::vector<int>> elements_of_entity;
     const auto add_entity = [&](int entity) {
       if (elements_of_entity.contains(entity)) return;
       std::vector<int>& numbers = elements_of_entity[entity];
-      for_each_element(2, entity, [&](int kind, std::vector<int> nodes) {
+      for_each_element(dim, entity, [&](int kind, const std::vector<int>& nodes) {
         numbers.push_back(static_cast<int>(mesh_.elements.size()));
-        const ElementType<2>& type = type_of(kind);
-        if (nodes.size() != type.node_positions.size()) fail("it has elements with nodes missing");
-        mesh_.elements.push_back({&type, std::move(nodes)});
-        turn_counter_clockwise(numbers.back());
+        mesh_.elements.push_back(element_of(kind, nodes));
+        turn_round_if_mirrored(numbers.back());
       });
     };
-    for_each_group(2, [&](const std::string& name, int entity) {
+    for_each_group(dim, [&](const std::string& name, int entity) {
       add_entity(entity);
       std::vector<int>& region = mesh_.regions[name];
       region.insert(region.end(), elements_of_entity[entity].begin(), elements_of_entity[entity].end());
     });
     if (mesh_.regions.empty()) {
       for (const GmshContent::Block& block : content_.blocks) {
-        if (block.dimension == 2) add_entity(block.entity);
+        if (block.dimension == dim) add_entity(block.entity);
       }
     }
     if (mesh_.elements.empty())
-      fail(
-          "it has no surface elements: once the script for Gmsh gives a physical name, Gmsh writes named parts only; "
-          "add Physical Surface(\"ground\") = {1}; with the number of the surface, and make the mesh again");
+      fail(fmt::format(
+          "it has no {0} elements: once the script for Gmsh gives a physical name, Gmsh writes named parts only; "
+          "add Physical {1}(\"ground\") = {{1}}; with the number of the {0}, and make the mesh again",
+          kBody<dim>, dim == 2 ? "Surface" : "Volume"));
     std::vector<int>& all = mesh_.regions["all"];
     all.resize(mesh_.elements.size());
     std::iota(all.begin(), all.end(), 0);
   }
 
-  void turn_counter_clockwise(int number) {
-    Element<2>& element = mesh_.elements[static_cast<std::size_t>(number)];
-    const Eigen::MatrixX2d x = mesh_.element_positions(number).topRows(element.type->corners);
-    double twice_area = 0.0;
-    for (Eigen::Index a = 0; a < x.rows(); ++a) {
-      const Eigen::Index next = (a + 1) % x.rows();
-      twice_area += x(a, 0) * x(next, 1) - x(next, 0) * x(a, 1);
+  /// Clockwise elements, and hexahedra drawn the other way: swaps the first two coordinates of the reference element.
+  void turn_round_if_mirrored(int number) {
+    Element<dim>& element = mesh_.elements[static_cast<std::size_t>(number)];
+    double volume = 0.0;
+    for (const PointGeometry<dim>& point :
+         point_geometries<dim>(*element.type, mesh_.element_positions(number)))
+      volume += point.volume;
+    if (volume >= 0.0) return;
+    const auto& positions = element.type->node_positions;
+    const std::vector<int> nodes = element.nodes;
+    for (std::size_t a = 0; a < positions.size(); ++a) {
+      typename Cosserat<dim>::Place mirrored = positions[a];
+      std::swap(mirrored(0), mirrored(1));
+      const auto other = std::ranges::find(positions, mirrored);
+      element.nodes[a] = nodes[static_cast<std::size_t>(other - positions.begin())];
     }
-    if (twice_area >= 0.0) return;
-    // Corners 0 1 2 3 become 0 3 2 1, so the sides 01 12 23 30 come in the order 30 23 12 01.
-    const auto corners_end = element.nodes.begin() + element.type->corners;
-    std::reverse(element.nodes.begin() + 1, corners_end);
-    std::reverse(corners_end, element.nodes.end());
+  }
+
+  /// Of the nodes of a side: the corners, in rising order.
+  static std::vector<int> corners_of(std::vector<int> nodes, int corners) {
+    nodes.resize(static_cast<std::size_t>(corners));
+    std::ranges::sort(nodes);
+    return nodes;
   }
 
   void find_sides() {
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-      for (int side = 0; side < mesh_.elements[e].type->corners; ++side) {
-        const BoundarySide edge{static_cast<int>(e), side};
-        const std::vector<int> nodes = mesh_.side_nodes(edge);
-        side_of_corners_.try_emplace(std::minmax(nodes[0], nodes[1]), edge);
+      for (std::size_t side = 0; side < mesh_.elements[e].type->sides.size(); ++side) {
+        const BoundarySide found{static_cast<int>(e), static_cast<int>(side)};
+        side_of_corners_.try_emplace(corners_of(mesh_.side_nodes(found), mesh_.side_of(found).type->corners),
+                                     found);
       }
     }
   }
 
-  void read_curves() {
-    for_each_group(1, [&](const std::string& name, int entity) {
+  void read_boundaries() {
+    for_each_group(dim - 1, [&](const std::string& name, int entity) {
       std::vector<BoundarySide>& boundary = mesh_.boundaries[name];
-      for_each_element(1, entity, [&](int, const std::vector<int>& nodes) {
-        const auto side = side_of_corners_.find(std::minmax(nodes[0], nodes[1]));
+      for_each_element(dim - 1, entity, [&](int kind, const std::vector<int>& nodes) {
+        const bool is_triangle = kind == 2 || kind == 9;
+        const int corners = dim == 2 ? 2 : is_triangle ? 3 : 4;
+        if (nodes.size() < static_cast<std::size_t>(corners)) fail("it has elements with nodes missing");
+        const auto side = side_of_corners_.find(corners_of(nodes, corners));
         if (side == side_of_corners_.end()) {
-          fail(fmt::format("the curve '{}' has a piece that is no side of any element", name));
+          fail(fmt::format("the {} '{}' has a piece that is no side of any element", kOutline<dim>, name));
         }
         boundary.push_back(side->second);
       });
     });
   }
 
-  void read_points() {
-    for_each_group(0, [&](const std::string& name, int entity) {
-      for_each_element(0, entity, [&](int, const std::vector<int>& nodes) {
-        mesh_.node_sets[name].push_back(nodes.front());
+  /// Points, and in space curves.
+  void read_node_sets() {
+    for (int dimension = 0; dimension < dim - 1; ++dimension)
+      for_each_group(dimension, [&](const std::string& name, int entity) {
+        if (dim == 3 && mesh_.boundaries.contains(name))
+          fail(fmt::format("a surface and a curve or point have the name '{}': give each its own", name));
+        for_each_element(dimension, entity, [&](int, const std::vector<int>& nodes) {
+          std::vector<int>& set = mesh_.node_sets[name];
+          set.insert(set.end(), nodes.begin(), nodes.end());
+        });
       });
-    });
   }
 
   /// Gmsh keeps nodes of construction points; an unknown without an element would make the tangent singular.
   void drop_unused_nodes() {
     std::vector<int> number(mesh_.nodes.size(), -1);
-    for (const Element<2>& element : mesh_.elements) {
+    for (const Element<dim>& element : mesh_.elements) {
       for (const int node : element.nodes) number[static_cast<std::size_t>(node)] = 0;
     }
-    std::vector<Eigen::Vector2d> kept;
+    std::vector<typename Cosserat<dim>::Place> kept;
     for (std::size_t node = 0; node < number.size(); ++node) {
       if (number[node] < 0) continue;
       number[node] = static_cast<int>(kept.size());
       kept.push_back(mesh_.nodes[node]);
     }
     mesh_.nodes = std::move(kept);
-    for (Element<2>& element : mesh_.elements) {
+    for (Element<dim>& element : mesh_.elements) {
       for (int& node : element.nodes) node = number[static_cast<std::size_t>(node)];
     }
     for (auto& [name, nodes] : mesh_.node_sets) {
@@ -245,11 +295,11 @@ class Reader {
   }
 
   std::filesystem::path file_;
-  const ElementType<2>& quadrilateral8_;
+  std::vector<Offered> offered_;
   GmshContent content_;
-  Mesh<2> mesh_;
+  Mesh<dim> mesh_;
   std::map<std::size_t, int> node_of_tag_;
-  std::map<std::pair<int, int>, BoundarySide> side_of_corners_;
+  std::map<std::vector<int>, BoundarySide> side_of_corners_;
 };
 
 /// Whether Gmsh takes the file for a mesh by its content too: what begins in another way it runs as a script, whatever
@@ -275,8 +325,8 @@ std::vector<std::filesystem::path> gmsh_module_places() {
   return places;
 }
 
-Mesh<2> read_gmsh(const std::filesystem::path& file, std::string_view quadrilateral8,
-                  const std::vector<std::filesystem::path>& module_places) {
+GmshContent read_gmsh_content(const std::filesystem::path& file,
+                              const std::vector<std::filesystem::path>& module_places) {
   if (const std::string reason = why_no_input(file); !reason.empty())
     throw InputError(Fault{file.string(), 0, reason});
   // Gmsh takes a text of any other name for one of its scripts, and would run it.
@@ -292,11 +342,31 @@ Mesh<2> read_gmsh(const std::filesystem::path& file, std::string_view quadrilate
     throw InputError(Fault{file.string(), 0, fmt::format("the mesh is damaged: {}", error.what())});
   }
   read(file.c_str(), &content);
-  return mesh_of(file, std::move(content), quadrilateral8);
+  return content;
 }
 
-Mesh<2> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view quadrilateral8) {
-  return Reader(file, quadrilateral8, std::move(content)).read();
+int dimension_of(const GmshContent& content) {
+  return std::ranges::any_of(content.blocks, [](const auto& block) { return block.dimension == 3; }) ? 3 : 2;
 }
+
+template <int dim>
+Mesh<dim> read_gmsh(const std::filesystem::path& file, std::string_view serendipity,
+                    const std::vector<std::filesystem::path>& module_places) {
+  return mesh_of<dim>(file, read_gmsh_content(file, module_places), serendipity);
+}
+
+template <int dim>
+Mesh<dim> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view serendipity) {
+  return Reader<dim>(file, serendipity, std::move(content)).read();
+}
+
+template Mesh<2> read_gmsh<2>(const std::filesystem::path& file, std::string_view serendipity,
+                              const std::vector<std::filesystem::path>& module_places);
+template Mesh<3> read_gmsh<3>(const std::filesystem::path& file, std::string_view serendipity,
+                              const std::vector<std::filesystem::path>& module_places);
+template Mesh<2> mesh_of<2>(const std::filesystem::path& file, GmshContent content,
+                            std::string_view serendipity);
+template Mesh<3> mesh_of<3>(const std::filesystem::path& file, GmshContent content,
+                            std::string_view serendipity);
 
 }  // namespace polargrain::fem

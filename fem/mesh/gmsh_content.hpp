@@ -16,7 +16,7 @@ struct GmshContent {
   };
   /// Elements of one kind that make up one entity.
   struct Block {
-    int dimension;  ///< 0 points, 1 curves, 2 surfaces
+    int dimension;  ///< 0 points, 1 curves, 2 surfaces, 3 volumes
     int entity;
     int kind;                        ///< number of the element kind in Gmsh's manual, "MSH file format"
     std::size_t nodes_per_element;   ///< in Gmsh's order

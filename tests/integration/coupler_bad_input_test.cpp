@@ -184,11 +184,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:5: case: deformation: expected one of small, large, found 'finite'"},
         BadInput{"MissingMeshFile", "  rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}", "  file: no.msh",
                  "case.yaml:3: mesh: file: there is no mesh 'no.msh' beside the case; correct the path or "
-                 "make the mesh (gmsh -2 SHAPE.geo)"},
+                 "make the mesh (gmsh -2 SHAPE.geo, in space gmsh -3)"},
         BadInput{"FileThatIsNoMesh", "  rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}",
                  "  file: grains.csv", "case.yaml:3: mesh: grains.csv: expected a mesh file, NAME.msh"},
-        BadInput{"MeshTwice", "  element: Q8R", "  file: a.msh",
-                 "case.yaml:4: mesh: give one of a rectangle, a box and a file; remove the others"},
+        BadInput{
+            "MeshTwice", "  element: Q8R", "  file: a.msh",
+            "case.yaml:4: mesh: give one of a rectangle, a box, a cylinder and a file; remove the others"},
         BadInput{
             "InitialStressOfCells", "continuum: cosserat", "initial_stress: [{stress: [0, 0, 0, 0]}]",
             "case.yaml:5: initial_stress: region 'all' is made of cells, which bring the stress of their "
