@@ -91,7 +91,7 @@ CHOSEN = {
     "docs/settings.md": ["100 grains", "400 grains", "Beyond 1e-2", "Take 5e-3 with", "1e-3 with `cell`, 1e-8 without", "about 1e-3 per step",
                          "0.6 to 0.9 `lc`"],  # sqrt(2/3) M of packings with M of 0.75 to 1.1 (docs/theory/grains.md, C.6)
     "docs/howto/calibrate.md": ["95 % intervals"],
-    "docs/howto/gmsh.md": ["4 and 8 nodes, triangles with 6"],
+    "docs/howto/gmsh.md": ["4 and 8 nodes, triangles with 6", "8 and 20 nodes", "tetrahedra with 10", "wedges with 15"],
     "docs/howto/internal-length.md": ["95 % intervals"],
     "docs/howto/own-sand.md": ["at least 100 discs, and 400"],
     "docs/howto/packing.md": ["0 gives the densest state"],
