@@ -47,7 +47,7 @@ void add_triangle(const Nodes& nodes, Frame& frame) {
 }  // namespace
 
 Frame read_element_fields(const std::filesystem::path& path) {
-  const fem::FieldFile file = fem::read_vtu(path);
+  const fem::FieldFile<2> file = fem::read_vtu(path);
   const fem::Field* const displacement = fem::find_field(file.fields.points, "displacement");
   const fem::Field* const rotation = fem::find_field(file.fields.points, "micro_rotation");
   if (displacement == nullptr || displacement->components != 3)

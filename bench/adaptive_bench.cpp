@@ -31,7 +31,7 @@ PlaneReply answer(const Eigen::Matrix2d& strain) {
   return reply;
 }
 
-CellCalls calls() {
+CellCalls<2> calls() {
   return {[] { return answer(Eigen::Matrix2d::Zero()); },
           [](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
             std::vector<PlaneReply> replies;
@@ -47,7 +47,7 @@ CellCalls calls() {
 /// Strains of a field that varies over the points by `spread` around a mean step of 3e-4.
 void measure(const char* what, std::size_t points, double spread) {
   constexpr int kSteps = 10;
-  AdaptiveMaterial sand(calls(), CosseratParameters{16e6, 14e6, 0.02}, {0.02, 0.0, 1});
+  AdaptiveMaterial<2> sand(calls(), CosseratParameters{16e6, 14e6, 0.02}, {0.02, 0.0, 1});
   sand.allocate(points);
   std::vector<Increment<2>> increments(points);
   std::vector<Response<2>> responses(points);
@@ -59,7 +59,7 @@ void measure(const char* what, std::size_t points, double spread) {
       Eigen::Matrix2d h;
       h << 1e-4 * (1.0 + spread * std::sin(9.0 * place)), spread * 1e-4 * std::cos(17.0 * place), 0.0,
           -3e-4 * (1.0 + spread * std::cos(5.0 * place));
-      increments[p] = increment_of(h);
+      increments[p] = increment_of<2>(h);
     }
     for (double* seconds : {&first, &later}) {
       const auto start = std::chrono::steady_clock::now();

@@ -34,8 +34,8 @@ constexpr double kIncrement = 1e-3;
 /// @returns the error of the carried answer, a share of the pressure
 double missed(DrivenCell& cell, const DrivenCell::Vector& offset) {
   const Vector7 carried =
-      coupler::linearised_stress(cell.at().response, coupler::increment_of(DrivenCell::gradient(offset)));
-  return coupler::GrainMeasure().stress(cell.answer(offset).response.stress - carried) / kPressure;
+      coupler::linearised_stress(cell.at().response, coupler::increment_of<2>(DrivenCell::gradient(offset)));
+  return coupler::GrainMeasure<2>().stress(cell.answer(offset).response.stress - carried) / kPressure;
 }
 
 const DrivenCell::Vector kShear(0.0, 0.0, 1.0 / std::sqrt(2.0));  // of norm 1, as those that follow
@@ -81,7 +81,7 @@ std::string volume() {
 
 /// The same of packings given, at rest and behind increments of axial strain, offsets of the size of an increment: what is
 /// missed, what the estimate's second term says of it, and the weight of a volume change that follows where errors grow with the square of an offset
-/// (GrainMeasure::size). An increment is the shear strain whose elastic stress is a fifth of the pressure.
+/// (GrainMeasure<2>::size). An increment is the shear strain whose elastic stress is a fifth of the pressure.
 std::string volume_of(const std::string& script, const std::vector<std::string>& packings) {
   constexpr double kElasticStress = 0.2;
   std::string text = fmt::format("{:>20} {:>9} {:>10} {:>15} {:>15} {:>15} {:>7}\n", "packing", "increment",
@@ -96,11 +96,11 @@ std::string volume_of(const std::string& script, const std::vector<std::string>&
     const Matrix7 elastic = cell.at().response.tangent;
     const double size =
         kElasticStress * kPressure / (DrivenCell::tangent(cell.at().response) * kShear).norm();
-    const coupler::ErrorEstimate estimate(coupler::GrainMeasure(), elastic, 0.0);
-    coupler::Departure turned;
+    const coupler::ErrorEstimate<2> estimate(coupler::GrainMeasure<2>(), elastic, 0.0);
+    coupler::Departure<2> turned;
     turned.length = 1.0;
     const auto both = [&](const DrivenCell::Vector& direction) {
-      const Increment<2> offset = coupler::increment_of(DrivenCell::gradient(size * direction));
+      const Increment<2> offset = coupler::increment_of<2>(DrivenCell::gradient(size * direction));
       return fmt::format("{:.4f} ({:.4f})", missed(cell, size * direction),
                          estimate.of(cell.at().response, turned, offset) / kPressure);
     };
@@ -116,7 +116,8 @@ std::string volume_of(const std::string& script, const std::vector<std::string>&
         text += fmt::format("{:>20} no balance behind increment {}\n", file, done);
         break;
       }
-      turned.direction = coupler::GrainMeasure().strain(coupler::increment_of(DrivenCell::gradient(on)));
+      turned.direction =
+          coupler::GrainMeasure<2>().strain(coupler::increment_of<2>(DrivenCell::gradient(on)));
     }
   }
   return text;

@@ -31,30 +31,25 @@ void tell_cells(const coupler::Case& the_case, const PackingsAtRest& packings) {
     tell(stdout, "material '{}': moduli of the packing at rest: {}\n", name, packing.moduli.text());
 }
 
-/// Checks a body in space: its faults, and the size of the run. Remarks and pictures are of the plane.
-int check_in_space(const CheckOptions& options, const coupler::Case& the_case) {
-  if (!options.picture.empty())
-    throw InputError(
-        {"", 0,
-         "--picture: bodies in space have no picture yet; run one step and open fields.pvd in ParaView"});
-  const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
-  const fem::Mesh<3>& mesh = the_case.space->mesh;
-  std::size_t points = 0;
-  for (const fem::Element<3>& element : mesh.elements) points += element.type->quadrature.size();
-  tell(stdout, "{}: no faults; {} elements in space, {} nodes, {} unknowns, {} points, {} steps, {}\n",
-       options.case_file.string(), mesh.elements.size(), mesh.nodes.size(),
-       fem::entry_of<3>(mesh.nodes.size()), points, the_case.steps(),
-       the_case.needs_workers() ? "needs workers" : "needs no workers");
-  tell_cells(the_case, packings);
-  tell(stdout, "Remarks are made on cases of the plane alone.\n");
-  return 0;
+/// The size of the mesh in words.
+template <int dim>
+std::string size_of(const fem::Mesh<dim>& mesh) {
+  if constexpr (dim == 2) {
+    return fmt::format("{} elements, {} nodes", mesh.elements.size(), mesh.nodes.size());
+  } else {
+    return fmt::format("{} elements in space, {} nodes, {} unknowns", mesh.elements.size(), mesh.nodes.size(),
+                       fem::entry_of<3>(mesh.nodes.size()));
+  }
 }
 
 int check(const CheckOptions& options) {
   const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   const coupler::Entry document =
       coupler::load_document_of(coupler::DocumentKind::problem, options.case_file, options.settings);
-  if (the_case.dimension() == 3) return check_in_space(options, the_case);
+  if (the_case.dimension() == 3 && !options.picture.empty())
+    throw InputError(
+        {"", 0,
+         "--picture: bodies in space have no picture yet; run one step and open fields.pvd in ParaView"});
   // Each script and packing in an engine, before anything is said to be well.
   const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
   const Scene scene(the_case, document, packings);
@@ -62,8 +57,8 @@ int check(const CheckOptions& options) {
   // Also where remarks refuse the case: it is then that somebody looks.
   if (!options.picture.empty()) write_file(options.picture, case_picture(scene, remarks));
   if (options.strict) refuse(remarks);
-  tell(stdout, "{}: no faults; {} elements, {} nodes, {} steps, {}\n", options.case_file.string(),
-       the_case.problem.mesh.elements.size(), the_case.problem.mesh.nodes.size(), the_case.steps(),
+  tell(stdout, "{}: no faults; {}, {} steps, {}\n", options.case_file.string(),
+       the_case.with_problem([](const auto& problem) { return size_of(problem.mesh); }), the_case.steps(),
        the_case.needs_workers() ? "needs workers" : "needs no workers");
   tell_cells(the_case, packings);
   tell(stdout, "{}{}", sizes_text(scene), text_of(remarks, options.all));

@@ -51,6 +51,15 @@ const std::vector<NewKind>& new_kinds() {
     NewCase in_space;
     in_space.spheres = true;
     in_space.grains = 300;
+    NewCase column = in_space;
+    column.scheme = "adaptive";
+    column.width = 0.1;
+    column.height = 0.2;
+    column.columns = 2;
+    column.rows = 4;
+    NewCase square_footing = column;
+    square_footing.columns = 4;
+    square_footing.rows = 3;
     const std::vector<std::string> of_packing{"--grains", "--pressure", "--rolling", "--no-pack"};
     const auto with = [&](std::vector<std::string> more) {
       more.insert(more.end(), of_packing.begin(), of_packing.end());
@@ -62,6 +71,10 @@ const std::vector<NewKind>& new_kinds() {
         {"slope", "a slope of an elastoplastic law, no grains: its weight, then a load on its crest", {}},
         {"element", "a laboratory test of one box of grains, for polargrain element", with({})},
         {"triaxial", "a triaxial test of one box of spheres, for polargrain element", with({}), in_space},
+        {"triaxial3d", "compression of a square column of spheres between rough plates, in space",
+         with({"--size", "--elements", "--scheme"}), column},
+        {"footing3d", "a quarter of a square footing on ground of spheres, in space", with({"--scheme"}),
+         square_footing},
         {"mesh", "a start on your own mesh (--mesh), its physical groups named in comments",
          with({"--mesh", "--scheme"}), sparing},
     };
@@ -165,6 +178,8 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
   std::vector<NewFile> files;
   if (kind.name == "biaxial") files.push_back({"case.yaml", biaxial_text(what)});
   if (is_test(kind)) files.push_back({"test.yaml", element_text(what)});
+  if (kind.name == "triaxial3d") files.push_back({"case.yaml", triaxial_in_space_text(what)});
+  if (kind.name == "footing3d") files.push_back({"case.yaml", footing_in_space_text(what)});
   if (kind.name == "footing") {
     files.push_back({"case.yaml", footing_text(what)});
     for (const std::string name : {"footing.msh", "footing.geo"})
@@ -232,10 +247,10 @@ std::string new_description() {
       "  polargrain new mesh --mesh dam.msh -o mine --pressure '200 kPa'\n\n"
       "Kinds:\n";
   for (const NewKind& kind : new_kinds())
-    text += fmt::format("  {:<10}{}{}{}\n", kind.name, kind.summary,
-                        kind.options.empty() ? "" : "\n            ", fmt::join(kind.options, " "));
+    text += fmt::format("  {:<11}{}{}{}\n", kind.name, kind.summary,
+                        kind.options.empty() ? "" : "\n             ", fmt::join(kind.options, " "));
   return text +
-         "\nThe grains are discs (triaxial: spheres) after packing.yaml: change it and make them again with polargrain pack. A folder with files in "
+         "\nThe grains are discs (triaxial and in space: spheres) after packing.yaml: change it and make them again with polargrain pack. A folder with files in "
          "it is refused.";
 }
 
@@ -251,23 +266,26 @@ Command add_new(CLI::App& program, const Grains& grains) {
       ->type_name("DIR");
   command
       .add_option("--grains", options->grains,
-                  "Grains of the packing [400; footing and mesh 100, triaxial 300]")
+                  "Grains of the packing [400; footing and mesh 100, triaxial and in space 300]")
       ->type_name("N")
       ->check(CLI::Range(4, 20000));
   command
       .add_option("--pressure", options->pressure,
                   "Of the packing and around the body, with its unit [100kPa]")
       ->type_name("P");
-  command.add_option("--size", options->size, "Width and height of the specimen [0.4m 0.8m]")
+  command
+      .add_option("--size", options->size,
+                  "Width and height of the specimen [0.4m 0.8m; triaxial3d 0.1m 0.2m]")
       ->type_name("W H")
       ->expected(2);
-  command.add_option("--elements", options->elements, "Elements along both [5 10]")
+  command.add_option("--elements", options->elements, "Elements along both [5 10; triaxial3d 2 4]")
       ->type_name("NX NY")
       ->expected(2)
       ->check(CLI::Range(1, 10000));
   command.add_flag("--rolling", options->rolling, "Contacts resist rolling");
   command
-      .add_option("--scheme", options->scheme, "cell, adaptive or informed [cell; footing and mesh adaptive]")
+      .add_option("--scheme", options->scheme,
+                  "cell, adaptive or informed [cell; footing, mesh and in space adaptive]")
       ->type_name("NAME")
       ->check(CLI::IsMember({"cell", "adaptive", "informed"}));
   command.add_option("--mesh", options->mesh, "Mesh written by Gmsh")->type_name("FILE.msh");

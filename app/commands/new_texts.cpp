@@ -91,6 +91,64 @@ monitors:                           # columns of history.csv
 output: {every: 4, table: [settlement, pressure]}
 )";
 
+constexpr const char* kTriaxialInSpaceText =
+    R"(# Triaxial compression of a square column between rough plates: @POINTS@ points, at each a periodic box of @GRAINS@ spheres.
+# SI units unless a unit is written; x3 points up. All keys: docs/user_guide.md
+title: Triaxial compression of @POINTS@ boxes of @GRAINS@ spheres between rough plates
+
+mesh:
+  box: {size: [@WIDTH@ m, @WIDTH@ m, @HEIGHT@ m], elements: [@COLUMNS@, @COLUMNS@, @ROWS@]}
+  element: H20R                     # 20 nodes, 2x2x2 points
+continuum: cosserat
+
+@MATERIALS@regions: {all: sand}
+
+boundary:                           # left and right, front and back, bottom and top are the sides of a box
+  - {on: bottom, fix: [u1, u2, u3]}                 # rough plates: no sliding along them
+  - {on: top, fix: [u1, u2], move: {u3: -@SHORTENING@ m}}    # 2 % of the height
+  - {on: [left, right, front, back], pressure: @PRESSURE@}   # that of the packing
+
+@STEPS@
+
+monitors:                           # columns of history.csv
+  top_force: {on: top, reaction: u3}
+  shortening: {on: top, displacement: u3}
+  axial_strain: -shortening / @HEIGHT@ m
+  stress_ratio: -top_force / (@WIDTH@ m * @WIDTH@ m * @PRESSURE@)
+
+output: {every: 2, table: [axial_strain, stress_ratio, volume_strain]}
+)";
+
+constexpr const char* kFootingInSpaceText =
+    R"(# A quarter of a rough square footing of 1 m, pushed into weightless ground of spheres under @PRESSURE@: @POINTS@ points.
+# SI units unless a unit is written; x3 points up. All keys: docs/user_guide.md
+title: Square footing on ground of spheres
+
+mesh:
+  box: {size: [2 m, 2 m, 1.5 m], elements: [@COLUMNS@, @COLUMNS@, @ROWS@], patch: [0.5 m, 0.5 m, 1.5 m]}
+  element: H20R                     # 20 nodes, 2x2x2 points
+
+@MATERIALS@regions: {patch: sand, rest: sand}   # under the footing, and beside it
+
+boundary:                           # top_patch and top_rest: the faces of the top that belong to the patch and to the rest
+  - {on: bottom, fix: [u1, u2, u3]}
+  - {on: left, fix: [u1, w2, w3]}                   # planes of symmetry
+  - {on: front, fix: [u2, w1, w3]}
+  - {on: right, fix: [u1]}
+  - {on: back, fix: [u2]}
+  - {on: top_patch, fix: [u1, u2], move: {u3: -@SETTLEMENT@ m}}   # rough
+  - {on: top_rest, pressure: @PRESSURE@}               # that of the packing
+
+@STEPS@
+
+monitors:                           # columns of history.csv
+  footing_force: {on: top_patch, reaction: u3}
+  settlement: {on: top_patch, displacement: u3}
+  pressure: -footing_force / (0.5 m * 0.5 m)
+
+output: {every: 2, table: [settlement, pressure]}
+)";
+
 constexpr const char* kElementText =
     R"(# A laboratory test of one box of grains: polargrain element test.yaml -o @TEST@
 # All keys, and tests in stages: docs/element_tests.md
@@ -253,6 +311,34 @@ std::string footing_text(const NewCase& what) {
                                {"STEPS", steps_text(what, 8, "1e-3")},
                                {"SETTLEMENT", fmt::format("{:g}", 0.02 * what.pressure / 100e3)},
                                {"PRESSURE", pascals(what.pressure)}});
+}
+
+std::string triaxial_in_space_text(const NewCase& what) {
+  const double across = what.width / what.columns;
+  return filled(
+      kTriaxialInSpaceText,
+      {{"MATERIALS",
+        materials_text(what, resolved_length(std::cbrt(across * across * what.height / what.rows)))},
+       {"STEPS", steps_text(what, 20, "1e-2")},
+       {"POINTS", std::to_string(8 * what.columns * what.columns * what.rows)},
+       {"GRAINS", std::to_string(what.grains)},
+       {"WIDTH", fmt::format("{:g}", what.width)},
+       {"HEIGHT", fmt::format("{:g}", what.height)},
+       {"SHORTENING", fmt::format("{:g}", 0.02 * what.height)},
+       {"COLUMNS", std::to_string(what.columns)},
+       {"ROWS", std::to_string(what.rows)},
+       {"PRESSURE", pascals(what.pressure)}});
+}
+
+std::string footing_in_space_text(const NewCase& what) {
+  return filled(kFootingInSpaceText,
+                {{"MATERIALS", materials_text(what, resolved_length(2.0 / what.columns))},
+                 {"STEPS", steps_text(what, 8, "1e-2")},
+                 {"POINTS", std::to_string(8 * what.columns * what.columns * what.rows)},
+                 {"COLUMNS", std::to_string(what.columns)},
+                 {"ROWS", std::to_string(what.rows)},
+                 {"SETTLEMENT", fmt::format("{:g}", 0.01 * what.pressure / 100e3)},
+                 {"PRESSURE", pascals(what.pressure)}});
 }
 
 std::string element_text(const NewCase& what) {

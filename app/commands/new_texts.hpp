@@ -16,7 +16,7 @@ struct NewCase {
   double width = 0.4;       ///< of the specimen, m
   double height = 0.8;      ///< of the specimen, m
   int columns = 5;          ///< elements along the width
-  int rows = 10;            ///< elements along the height
+  int rows = 10;            ///< elements along the height, in space 8 points each
   bool rolling = false;     ///< whether contacts resist rolling
   bool spheres = false;     ///< in space, in the place of discs
 };
@@ -27,6 +27,10 @@ std::string packing_text(const NewCase& what);
 std::string biaxial_text(const NewCase& what);
 /// Text of a case of a footing on grains; its mesh is footing.msh beside it.
 std::string footing_text(const NewCase& what);
+/// Text of a case of triaxial compression of a square column in space, between rough plates.
+std::string triaxial_in_space_text(const NewCase& what);
+/// Text of a case of a square footing on grains in space, of which a quarter is computed.
+std::string footing_in_space_text(const NewCase& what);
 /// Text of a specification of an element test of the packing.
 std::string element_text(const NewCase& what);
 /// Text of a case on a mesh of the user's own: the lowest boundary is held, all others carry the pressure of the

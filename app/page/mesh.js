@@ -74,16 +74,29 @@ function showMesh(figure, content) {
   labelled("displacement times", factor, controls);
   const caption = element("figcaption", {}, figure);
 
+  const dim = content.dimension;
+  const space = dim === 3;
+  let turn = -0.6; // of a body in space about x3, and its tilt towards the eye, rad
+  let tilt = 0.35;
   let scale = scaleOf(content.fields[0].name);
-  let shown = []; // paths of the elements as drawn last
+  let shown = []; // numbers and paths of the outlines in the order drawn last
 
-  // The room of the body in the plane over all frames, so that it does not jump from one to the next.
+  // Where a node is on the plane of the picture, and how far from the eye.
+  function seen(node, moved, times) {
+    const [x, y, z] = [0, 1, 2].map((i) =>
+      i < dim ? content.nodes[dim * node + i] + times * moved[dim * node + i] : 0);
+    if (!space) return [x, y, 0];
+    const across = Math.cos(turn) * x + Math.sin(turn) * y;
+    const away = Math.cos(turn) * y - Math.sin(turn) * x;
+    return [across, Math.cos(tilt) * z + Math.sin(tilt) * away, Math.cos(tilt) * away - Math.sin(tilt) * z];
+  }
+
+  // The room of the body in the picture over all frames, so that it does not jump from one to the next.
   function bounds(times) {
     const found = [Infinity, -Infinity, Infinity, -Infinity];
     for (const of of content.frames) {
-      for (let k = 0; k < content.nodes.length; k += 2) {
-        const x = content.nodes[k] + times * of.moved[k];
-        const y = content.nodes[k + 1] + times * of.moved[k + 1];
+      for (let node = 0; node < content.nodes.length / dim; ++node) {
+        const [x, y] = seen(node, of.moved, times);
         found[0] = Math.min(found[0], x);
         found[1] = Math.max(found[1], x);
         found[2] = Math.min(found[2], y);
@@ -108,15 +121,22 @@ function showMesh(figure, content) {
     const bar = 90;
     const size = Math.min((width - bar - 20) / (right - left || 1), (height - 20) / (high - low || 1));
     const offset = (width - bar - size * (right - left)) / 2;
-    const place = (node) => [
-      offset + size * (content.nodes[2 * node] + times * now.moved[2 * node] - left),
-      10 + size * (high - content.nodes[2 * node + 1] - times * now.moved[2 * node + 1]),
-    ];
+    const place = (node) => {
+      const [x, y] = seen(node, now.moved, times);
+      return [offset + size * (x - left), 10 + size * (high - y)];
+    };
+    // Far faces first, so that near ones hide them.
+    const order = content.outlines.map((nodes, e) => e);
+    if (space) {
+      const far = content.outlines.map((nodes) =>
+        nodes.reduce((sum, node) => sum + seen(node, now.moved, times)[2], 0) / nodes.length);
+      order.sort((a, b) => far[b] - far[a]);
+    }
     const values = now.values[field.value];
     const lines = content.outlines.length < 5000;
-    shown = content.outlines.map((nodes, e) => {
+    shown = order.map((e) => {
       const path = new Path2D();
-      nodes.forEach((node, k) => (k === 0 ? path.moveTo(...place(node)) : path.lineTo(...place(node))));
+      content.outlines[e].forEach((node, k) => (k === 0 ? path.moveTo(...place(node)) : path.lineTo(...place(node))));
       path.closePath();
       const value = values[e];
       context.fillStyle =
@@ -125,7 +145,7 @@ function showMesh(figure, content) {
       context.strokeStyle = lines ? "rgba(0,0,0,.35)" : context.fillStyle;
       context.lineWidth = 0.5;
       context.stroke(path);
-      return path;
+      return [e, path];
     });
     // As high as the picture, unless that leaves no room for its numbers.
     const tall = Math.max(size * (high - low), 60);
@@ -147,16 +167,21 @@ function showMesh(figure, content) {
     const now = content.frames[frame.value];
     caption.textContent =
       `${content.title}: ${of.name}${unit}, ${now.name}` +
-      (number === undefined ? "" : `; element ${number}: ${now.values[field.value][number]}`);
+      (number === undefined ? "" : `; element ${content.elements[number]}: ${now.values[field.value][number]}`);
   }
 
   canvas.addEventListener("pointermove", (event) => {
     const box = canvas.getBoundingClientRect();
     const ratio = window.devicePixelRatio || 1;
     const context = canvas.getContext("2d");
-    const found = shown.findIndex((path) =>
+    const found = shown.findLast(([, path]) =>
       context.isPointInPath(path, (event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio));
-    say(found < 0 ? undefined : found);
+    say(found === undefined ? undefined : found[0]);
+    if (space && event.buttons === 1) {
+      turn += 0.01 * event.movementX;
+      tilt = Math.min(Math.max(tilt + 0.01 * event.movementY, -1.5), 1.5);
+      draw();
+    }
   });
   field.addEventListener("change", () => {
     scale = scaleOf(content.fields[field.value].name);

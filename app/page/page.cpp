@@ -110,11 +110,7 @@ std::string mesh_picture(const MeshPicture& picture) {
     }
     return text + "]";
   };
-  const auto places = [&](const std::vector<std::pair<double, double>>& pairs) {
-    std::vector<double> flat;
-    for (const auto& [x, y] : pairs) flat.insert(flat.end(), {x, y});
-    return numbers(flat, "{:.6g}");
-  };
+  const auto places = [&](const std::vector<double>& flat) { return numbers(flat, "{:.6g}"); };
   Json fields = Json::array();
   for (const MeshPicture::PictureField& field : picture.fields)
     fields.push_back({{"name", field.name}, {"unit", field.unit}});
@@ -128,10 +124,10 @@ std::string mesh_picture(const MeshPicture& picture) {
   }
   return fmt::format(
       "<figure class='mesh'><canvas role='img' aria-label='{}'></canvas>\n"
-      "<script type='application/json'>{{\"title\":{},\"nodes\":{},\n\"outlines\":{},\n\"fields\":{},\n\"frames\":[{}]}}"
+      "<script type='application/json'>{{\"title\":{},\"dimension\":{},\"nodes\":{},\n\"outlines\":{},\n\"elements\":{},\n\"fields\":{},\n\"frames\":[{}]}}"
       "</script></figure>\n",
-      escaped(picture.title), in_script(picture.title), places(picture.nodes), Json(picture.outlines).dump(),
-      in_script(fields), frames);
+      escaped(picture.title), in_script(picture.title), picture.dimension, places(picture.nodes),
+      Json(picture.outlines).dump(), Json(picture.elements).dump(), in_script(fields), frames);
 }
 
 std::string page(const std::string& title, const std::string& body, int refresh_seconds) {

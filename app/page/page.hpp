@@ -59,13 +59,17 @@ struct MeshPicture {
     std::string unit;
   };
   struct Frame {
-    std::string name;                              ///< "step 5, time 0.1"
-    std::vector<std::pair<double, double>> moved;  ///< displacement by node, m
-    std::vector<std::vector<double>> values;       ///< by field, by element
+    std::string name;                         ///< "step 5, time 0.1"
+    std::vector<double> moved;                ///< displacement by node, its components one after the other, m
+    std::vector<std::vector<double>> values;  ///< by field, by outline
   };
   std::string title;
-  std::vector<std::pair<double, double>> nodes;  ///< places, m
-  std::vector<std::vector<int>> outlines;        ///< of each element: its nodes around it
+  int dimension = 2;          ///< components of a place; in space the picture can be turned
+  std::vector<double> nodes;  ///< places by node, components one after the other, m
+  std::vector<std::vector<int>>
+      outlines;                  ///< of each element, in space of each outer face: its nodes around it
+  std::vector<int> elements;     ///< of each outline
+  std::size_t all_elements = 0;  ///< of the mesh
   std::vector<PictureField> fields;
   std::vector<Frame> frames;
 };

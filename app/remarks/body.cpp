@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "fem/element/kinematics.hpp"
+
 namespace polargrain::app {
 namespace {
 
@@ -38,7 +40,8 @@ std::vector<fem::BoundarySide> outline(const fem::Mesh<2>& mesh) {
   return alone;
 }
 
-double area_of(const fem::Mesh<2>& mesh, int element) {
+/// Area, or volume, of an element.
+double size_of(const fem::Mesh<2>& mesh, int element) {
   const fem::Element<2>& e = mesh.elements[static_cast<std::size_t>(element)];
   double twice = 0.0;
   for (int k = 0; k < e.type->corners; ++k) {
@@ -49,24 +52,40 @@ double area_of(const fem::Mesh<2>& mesh, int element) {
   }
   return 0.5 * std::abs(twice);
 }
+double size_of(const fem::Mesh<3>& mesh, int element) {
+  double volume = 0.0;
+  for (const fem::PointGeometry<3>& point : fem::point_geometries<3>(
+           *mesh.elements[static_cast<std::size_t>(element)].type, mesh.element_positions(element)))
+    volume += point.volume;
+  return volume;
+}
 
 }  // namespace
 
-Body body_of(const fem::Mesh<2>& mesh) {
-  Body body{mesh.nodes.front(), mesh.nodes.front(), {}};
-  for (const Eigen::Vector2d& node : mesh.nodes) {
-    body.least = body.least.cwiseMin(node);
-    body.largest = body.largest.cwiseMax(node);
+template <int dim>
+Body body_of(const fem::Mesh<dim>& mesh) {
+  using Place = typename Cosserat<dim>::Place;
+  Place least = mesh.nodes.front();
+  Place largest = least;
+  for (const Place& node : mesh.nodes) {
+    least = least.cwiseMin(node);
+    largest = largest.cwiseMax(node);
   }
-  double area = 0.0;
+  Body body{least.template head<2>(), largest.template head<2>(), {}, 0.0, {}};
+  for (int i = 0; i < dim; ++i) body.sides.push_back(largest(i) - least(i));
+  const auto side_of = [](double size) { return dim == 2 ? std::sqrt(size) : std::cbrt(size); };
+  double sum = 0.0;
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
-    const double of = area_of(mesh, e);
-    area += of;
-    body.elements.push_back(std::sqrt(of));
+    const double of = size_of(mesh, e);
+    sum += of;
+    body.elements.push_back(side_of(of));
   }
-  body.mean_element = std::sqrt(area / static_cast<double>(body.elements.size()));
+  body.mean_element = side_of(sum / static_cast<double>(body.elements.size()));
   return body;
 }
+
+template Body body_of(const fem::Mesh<2>&);
+template Body body_of(const fem::Mesh<3>&);
 
 std::vector<OutlineEdge> edges_of(const fem::Mesh<2>& mesh, const std::string& boundary) {
   std::vector<OutlineEdge> edges;

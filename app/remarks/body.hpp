@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -12,15 +13,17 @@ namespace polargrain::app {
 
 /// Sizes of a mesh, m.
 struct Body {
-  Eigen::Vector2d least, largest;  ///< corners of the box around it
-  std::vector<double> elements;    ///< square root of the area of each
-  double mean_element = 0.0;       ///< square root of the mean area
+  Eigen::Vector2d least, largest;  ///< corners of the box around it; in space along x1 and x2
+  std::vector<double> elements;    ///< square root of the area of each, cube root of the volume in space
+  double mean_element = 0.0;       ///< that of the mean area or volume
+  std::vector<double> sides;       ///< of the box around it, along each axis
 
   [[nodiscard]] Eigen::Vector2d size() const { return largest - least; }
-  [[nodiscard]] double smaller_side() const { return size().minCoeff(); }
+  [[nodiscard]] double smaller_side() const { return *std::ranges::min_element(sides); }
 };
 
-Body body_of(const fem::Mesh<2>& mesh);
+template <int dim>
+Body body_of(const fem::Mesh<dim>& mesh);
 
 /// An edge of the outline.
 struct OutlineEdge {

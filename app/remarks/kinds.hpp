@@ -7,6 +7,8 @@
 namespace polargrain::app {
 
 void loads_at_start(const Scene& scene, Remarks& remarks);
+/// The same of bodies in space, whose outline consists of faces.
+void loads_at_start_in_space(const Scene& scene, Remarks& remarks);
 void weight_in_boxes(const Scene& scene, Remarks& remarks);
 void weight_at_once(const Scene& scene, Remarks& remarks);
 void load_on_held(const Scene& scene, Remarks& remarks);

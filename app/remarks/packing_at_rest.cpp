@@ -14,7 +14,7 @@ PackingAtRest ask(coupler::Pool& pool, CellDefinition definition) {
   definition.control.tangent = CellTangent::cosserat;
   std::vector<std::string> notes;  // a run's own cells make them too
   const coupler::PlaneReply reply =
-      coupler::packing_at_rest(coupler::calls_of(pool, pool.define(std::move(definition))), notes);
+      coupler::packing_at_rest(coupler::calls_of<2>(pool, pool.define(std::move(definition))), notes);
   return {reply.response.stress, coupler::network_moduli(reply.response.tangent),
           reply.diagnostics.mean_overlap};
 }

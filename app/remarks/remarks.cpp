@@ -48,6 +48,26 @@ constexpr RemarkKind kOthers[] = {movement,
                                   shape_of_elements,
                                   places_of_monitors};
 
+/// The kinds that know bodies in space.
+constexpr RemarkKind kInSpace[] = {loads_at_start_in_space,
+                                   movement,
+                                   times_of_loads,
+                                   missed_turns,
+                                   idle_steps,
+                                   steps_of_strain,
+                                   internal_length,
+                                   plastic_length,
+                                   few_grains,
+                                   softness,
+                                   size_of_grains,
+                                   unread_properties,
+                                   contact_numbers,
+                                   neighbours,
+                                   softening_cauchy,
+                                   output,
+                                   cost,
+                                   moduli};
+
 std::string with_number(std::size_t count) {
   return fmt::format("{} remark{}", count, count == 1 ? "" : "s");
 }
@@ -56,9 +76,13 @@ std::string with_number(std::size_t count) {
 
 Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
-  for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
-  if (remarks.empty()) balance_at_start(scene, remarks);
-  for (const RemarkKind look : kOthers) look(scene, remarks);
+  if (scene.dimension() == 3) {
+    for (const RemarkKind look : kInSpace) look(scene, remarks);
+  } else {
+    for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
+    if (remarks.empty()) balance_at_start(scene, remarks);
+    for (const RemarkKind look : kOthers) look(scene, remarks);
+  }
   std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.weight > b.weight;
   });

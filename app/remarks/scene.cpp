@@ -8,7 +8,9 @@
 namespace polargrain::app {
 
 Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings)
-    : case_(the_case), document_(document), body_(body_of(the_case.problem.mesh)) {
+    : case_(the_case),
+      document_(document),
+      body_(the_case.with_problem([](const auto& problem) { return body_of(problem.mesh); })) {
   if (case_.problem.stages.size() > 1) {
     at_start_ = case_.problem;
     const auto comes_later = [](const auto& item) { return item.life.begin > 0; };
@@ -17,7 +19,7 @@ Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, cons
     std::erase_if(at_start_->node_loads, comes_later);
     std::erase_if(at_start_->body_loads, comes_later);
   }
-  region_of_element_.resize(mesh().elements.size(), SIZE_MAX);
+  region_of_element_.resize(body_.elements.size(), SIZE_MAX);
   for (const auto& [name, material] : case_.regions) {
     SceneRegion region{name, material};
     region.cell = case_.materials.at(material)->grains();
@@ -25,7 +27,7 @@ Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, cons
     const bool comes_later = life != case_.problem.lifetimes.end() && life->second.begin > 0;
     if (comes_later && region.cell == nullptr) continue;  // nothing at time zero is said of it
     if (const auto found = packings.find(material); found != packings.end()) region.packing = &found->second;
-    region.elements = mesh().regions.at(name);
+    region.elements = with_problem([&](const auto& problem) { return problem.mesh.regions.at(name); });
     for (const int element : region.elements)
       region_of_element_[static_cast<std::size_t>(element)] = regions_.size();
     regions_.push_back(std::move(region));
@@ -107,6 +109,23 @@ std::optional<double> Scene::end_time() const {
   return end;
 }
 
+bool Scene::is_classical() const {
+  return with_problem([](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
+}
+
+double Scene::strained_side(fem::Dof movement) const {
+  return fem::axis_of(movement) + 1 == dimension() ? body_.sides.back() : body_.smaller_side();
+}
+
+std::size_t Scene::points_of(const SceneRegion& region) const {
+  return with_problem([&](const auto& problem) {
+    std::size_t points = 0;
+    for (const int element : region.elements)
+      points += problem.mesh.elements[static_cast<std::size_t>(element)].type->quadrature.size();
+    return points;
+  });
+}
+
 double Scene::growth_of_measures() const {
   double grown = 0.0;
   for (const coupler::StepTarget& target : case_.plan)
@@ -127,21 +146,23 @@ double Scene::reached(const fem::TimeTable& movement) const {
 
 double Scene::largest_movement() const {
   double largest = growth_of_measures();
-  for (const fem::PrescribedDof<2>& item : problem().prescribed)
-    if (item.dof != fem::Dof::w) largest = std::max(largest, reached(item.value));
+  with_problem([&](const auto& problem) {
+    for (const auto& item : problem.prescribed)
+      if (!fem::is_rotation(item.dof)) largest = std::max(largest, reached(item.value));
+  });
   return largest;
 }
 
 double Scene::strain_between(double before, double after) const {
   double largest = 0.0;
-  for (const fem::PrescribedDof<2>& item : problem().prescribed) {
-    if (item.dof == fem::Dof::w) continue;
-    // A movement along 1 shears the height or shortens the width.
-    const double side = item.dof == fem::Dof::u2 ? body_.size().y() : body_.smaller_side();
-    const double movement =
-        end_time() ? std::abs(item.value.at(after) - item.value.at(before)) : reached(item.value);
-    largest = std::max(largest, movement / side);
-  }
+  with_problem([&](const auto& problem) {
+    for (const auto& item : problem.prescribed) {
+      if (fem::is_rotation(item.dof)) continue;
+      const double movement =
+          end_time() ? std::abs(item.value.at(after) - item.value.at(before)) : reached(item.value);
+      largest = std::max(largest, movement / strained_side(item.dof));
+    }
+  });
   return largest;
 }
 

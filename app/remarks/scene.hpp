@@ -31,9 +31,19 @@ class Scene {
   Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings);
 
   [[nodiscard]] const coupler::Case& the_case() const { return case_; }
-  /// Where parts come and go: without the supports and loads that begin in a later stage.
+  [[nodiscard]] int dimension() const { return case_.dimension(); }
+  /// Of a case of the plane. Where parts come and go: without the supports and loads that begin in a later stage.
   [[nodiscard]] const fem::Problem<2>& problem() const { return at_start_ ? *at_start_ : case_.problem; }
   [[nodiscard]] const fem::Mesh<2>& mesh() const { return case_.problem.mesh; }
+  /// Calls visit(problem) with the problem of the plane or of space.
+  template <class Visit>
+  decltype(auto) with_problem(Visit visit) const {
+    return case_.space ? visit(*case_.space) : visit(problem());
+  }
+  [[nodiscard]] bool is_classical() const;
+  /// The side of the body that a movement strains: of one along the last axis that along it; of another, which may shear the height
+  /// or shorten the width, the smaller side, m.
+  [[nodiscard]] double strained_side(fem::Dof movement) const;
   [[nodiscard]] const coupler::Entry& document() const { return document_; }
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] const std::vector<SceneRegion>& regions() const { return regions_; }
@@ -64,6 +74,8 @@ class Scene {
   /// Largest magnitude that a movement has at the end of a step, m. Under a measure or an arc length the time is found, and a
   /// table may well go on beyond it: then the largest of the table, or the growth of the measures where that is less.
   [[nodiscard]] double reached(const fem::TimeTable& movement) const;
+  /// Integration points of a region.
+  [[nodiscard]] std::size_t points_of(const SceneRegion& region) const;
   /// Largest prescribed displacement of a run, m: its movements up to the end, and measures that are to grow.
   [[nodiscard]] double largest_movement() const;
   /// Largest strain of a step: change of a movement over the side of the body along it. Steps whose times are not known before

@@ -18,6 +18,8 @@ constexpr double kStepsOfStrain = 120.0 / 1e-3;
 constexpr double kDefaultRate = 6e-4;
 constexpr double kSecondsOfDisc = 45e-9;
 constexpr double kSecondsOfSphere = 200e-9;
+/// Measured with 1,728 elements H20R of an elastic material, factors of the equations included.
+constexpr double kBytesOfElementInSpace = 1.5e6;
 
 std::string seconds(double s) {
   if (s < 120.0) return fmt::format("{:.0f} s", std::max(1.0, s));
@@ -46,10 +48,7 @@ Expectation expectation_of(const Scene& scene) {
   Expectation sum;
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell == nullptr) continue;
-    double points = 0.0;
-    for (const int element : region.elements)
-      points += static_cast<double>(
-          scene.mesh().elements[static_cast<std::size_t>(element)].type->quadrature.size());
+    const auto points = static_cast<double>(scene.points_of(region));
     const coupler::Entry* const model = scene.find({"materials", region.material, "model"});
     const bool informed = model != nullptr && model->text == "informed";
     const double evaluations = points * scene.the_case().steps() * (informed ? 1.0 : kIterations);
@@ -66,16 +65,28 @@ Expectation expectation_of(const Scene& scene) {
 }
 
 std::string sizes_text(const Scene& scene) {
-  const Eigen::Vector2d size = scene.body().size();
-  std::string text = fmt::format(
-      "body {} by {}, elements {} on average; largest movement {}, {:.3g} % of the smaller side\n",
-      metres(size.x()), metres(size.y()), metres(scene.body().mean_element), metres(scene.largest_movement()),
-      100.0 * scene.largest_movement() / scene.body().smaller_side());
+  std::string sides;
+  for (const double side : scene.body().sides) sides += (sides.empty() ? "" : " by ") + metres(side);
+  std::string text =
+      fmt::format("body {}, elements {} on average; largest movement {}, {:.3g} % of the smaller side\n",
+                  sides, metres(scene.body().mean_element), metres(scene.largest_movement()),
+                  100.0 * scene.largest_movement() / scene.body().smaller_side());
   for (const SceneRegion& region : scene.regions()) text += of_region(scene, region);
   const Expectation expected = expectation_of(scene);
   if (expected.evaluations > 0.0)
     text += fmt::format("to be expected: some {:.2g} evaluations of cells at most, {} of one core\n",
                         expected.evaluations, seconds(expected.core_seconds));
+  if (scene.dimension() == 3) {
+    std::size_t points = 0;
+    std::size_t cells = 0;
+    for (const SceneRegion& region : scene.regions()) {
+      points += scene.points_of(region);
+      if (region.cell != nullptr) cells += scene.points_of(region);
+    }
+    text +=
+        fmt::format("{} points, of which {} have boxes of grains; some {:.2g} GB for the elements\n", points,
+                    cells, 1e-9 * kBytesOfElementInSpace * static_cast<double>(scene.body().elements.size()));
+  }
   return text;
 }
 

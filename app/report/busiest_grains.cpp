@@ -32,7 +32,7 @@ struct Busiest {
 
 /// Of the elements with cells.
 std::optional<Busiest> busiest_of(const RunResult& result, const CellPaths& paths) {
-  const fem::FieldFile last = fem::read_vtu(result.fields.back().second);
+  const fem::FieldFile<2> last = fem::read_vtu(result.fields.back().second);
   const fem::Field* const field = fem::find_field(last.fields.cells, kMeasure);
   if (field == nullptr) return std::nullopt;
   std::optional<Busiest> busiest;

@@ -34,16 +34,52 @@ const std::vector<std::string> kUsualFields{"deviatoric_strain",
                                             "source",
                                             "error_estimate"};
 
-/// Corners and middle nodes of an element, around it.
-std::vector<int> outline_of(const fem::Element<2>& element) {
-  std::vector<int> around;
-  const int corners = element.type->corners;
-  for (int side = 0; side < corners; ++side) {
-    around.push_back(element.nodes[static_cast<std::size_t>(side)]);
-    if (element.type->nodes > corners)
-      around.push_back(element.nodes[static_cast<std::size_t>(corners + side)]);
+/// Corners and middle nodes around an outline. @param nodes its corners, then its middle nodes if it has some
+std::vector<int> around(const std::vector<int>& nodes, int corners) {
+  std::vector<int> made;
+  for (int corner = 0; corner < corners; ++corner) {
+    made.push_back(nodes[static_cast<std::size_t>(corner)]);
+    if (static_cast<int>(nodes.size()) > corners)
+      made.push_back(nodes[static_cast<std::size_t>(corners + corner)]);
   }
-  return around;
+  return made;
+}
+
+/// A thing that is drawn of a mesh: an element, in space a face that belongs to one element alone.
+struct Outline {
+  int element;
+  std::vector<int> corners;
+  std::vector<int> nodes;  ///< around it
+};
+
+std::vector<Outline> outlines_of(const fem::Mesh<2>& mesh) {
+  std::vector<Outline> outlines;
+  for (const fem::Element<2>& element : mesh.elements) {
+    const std::vector<int> corners(element.nodes.begin(), element.nodes.begin() + element.type->corners);
+    outlines.push_back(
+        {static_cast<int>(outlines.size()), corners, around(element.nodes, element.type->corners)});
+  }
+  return outlines;
+}
+
+std::vector<Outline> outlines_of(const fem::Mesh<3>& mesh) {
+  std::map<std::vector<int>, std::vector<Outline>> faces;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    const auto& sides = mesh.elements[static_cast<std::size_t>(e)].type->sides;
+    for (int side = 0; side < static_cast<int>(sides.size()); ++side) {
+      const std::vector<int> nodes = mesh.side_nodes({e, side});
+      const int count = static_cast<int>(nodes.size()) > 4 ? static_cast<int>(nodes.size()) / 2
+                                                           : static_cast<int>(nodes.size());
+      const std::vector<int> corners(nodes.begin(), nodes.begin() + count);
+      std::vector<int> key = corners;
+      std::ranges::sort(key);
+      faces[key].push_back({e, corners, around(nodes, count)});
+    }
+  }
+  std::vector<Outline> outer;
+  for (auto& [key, of] : faces)
+    if (of.size() == 1) outer.push_back(std::move(of.front()));
+  return outer;
 }
 
 /// Norm of the components of an entity; of a single one the value with its sign.
@@ -56,24 +92,25 @@ double value_at(const fem::Field& field, std::size_t entity) {
   return std::sqrt(square);
 }
 
-/// By element; nothing where the file has no such field.
-std::vector<double> element_values(const fem::FieldFile& file, const std::string& name) {
+/// By outline; nothing where the file has no such field.
+std::vector<double> values_of(const fem::Fields& fields, const std::vector<Outline>& outlines,
+                              const std::string& name) {
   std::vector<double> values;
-  if (const fem::Field* const of_elements = fem::find_field(file.fields.cells, name)) {
-    for (std::size_t e = 0; e < file.mesh.elements.size(); ++e) values.push_back(value_at(*of_elements, e));
-  } else if (const fem::Field* const of_nodes = fem::find_field(file.fields.points, name)) {
-    for (const fem::Element<2>& element : file.mesh.elements) {
+  if (const fem::Field* const of_elements = fem::find_field(fields.cells, name)) {
+    for (const Outline& outline : outlines)
+      values.push_back(value_at(*of_elements, static_cast<std::size_t>(outline.element)));
+  } else if (const fem::Field* const of_nodes = fem::find_field(fields.points, name)) {
+    for (const Outline& outline : outlines) {
       double sum = 0.0;
-      for (int k = 0; k < element.type->corners; ++k)
-        sum += value_at(*of_nodes, static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(k)]));
-      values.push_back(sum / element.type->corners);
+      for (const int node : outline.corners) sum += value_at(*of_nodes, static_cast<std::size_t>(node));
+      values.push_back(sum / static_cast<double>(outline.corners.size()));
     }
   }
   return values;
 }
 
-std::string unit_of(const fem::FieldFile& file, const std::string& name) {
-  for (const std::vector<fem::Field>* const fields : {&file.fields.cells, &file.fields.points})
+std::string unit_of(const fem::Fields& all, const std::string& name) {
+  for (const std::vector<fem::Field>* const fields : {&all.cells, &all.points})
     if (const fem::Field* const field = fem::find_field(*fields, name)) return field->unit;
   return "";
 }
@@ -96,18 +133,31 @@ std::map<int, double> times_of(const RunResult& result) {
   return times;
 }
 
-}  // namespace
+/// The first @p dim components of the displacements; zero where the file has none.
+template <int dim>
+std::vector<double> movements_of(const fem::Fields& fields, std::size_t nodes) {
+  std::vector<double> moved(dim * nodes, 0.0);
+  const fem::Field* const displacement = fem::find_field(fields.points, "displacement");
+  if (displacement == nullptr || displacement->components != 3) return moved;
+  for (std::size_t node = 0; node < nodes; ++node)
+    std::copy_n(displacement->values.begin() + static_cast<std::ptrdiff_t>(3 * node), dim,
+                moved.begin() + static_cast<std::ptrdiff_t>(dim * node));
+  return moved;
+}
 
-MeshPicture picture_of(const RunResult& result, const std::vector<std::string>& fields) {
+template <int dim>
+MeshPicture picture_for(const RunResult& result, const std::vector<std::string>& fields) {
   MeshPicture picture;
   picture.title = result.name;
-  if (result.fields.empty() || result.is_in_space()) return picture;
-  const fem::FieldFile last = fem::read_vtu(result.fields.back().second);
+  picture.dimension = dim;
+  const fem::FieldFile<dim> last = fem::read_vtu<dim>(result.fields.back().second);
+  const std::vector<Outline> outlines = outlines_of(last.mesh);
+  picture.all_elements = last.mesh.elements.size();
   std::vector<std::string> names;
   for (const std::string& name : fields.empty() ? kUsualFields : fields) {
-    if (!element_values(last, name).empty()) {
+    if (!values_of(last.fields, outlines, name).empty()) {
       names.push_back(name);
-      picture.fields.push_back({name, unit_of(last, name)});
+      picture.fields.push_back({name, unit_of(last.fields, name)});
     } else if (!fields.empty()) {
       std::vector<std::string> known;
       for (const std::vector<fem::Field>* const of : {&last.fields.cells, &last.fields.points})
@@ -117,34 +167,45 @@ MeshPicture picture_of(const RunResult& result, const std::vector<std::string>& 
                         fmt::format("has no field '{}'; it has {}", name, fmt::join(known, ", "))});
     }
   }
-  for (const Eigen::Vector2d& node : last.mesh.nodes) picture.nodes.emplace_back(node(0), node(1));
-  for (const fem::Element<2>& element : last.mesh.elements) picture.outlines.push_back(outline_of(element));
+  for (const auto& node : last.mesh.nodes)
+    picture.nodes.insert(picture.nodes.end(), node.begin(), node.end());
+  for (const Outline& outline : outlines) {
+    picture.outlines.push_back(outline.nodes);
+    picture.elements.push_back(outline.element);
+  }
   const std::map<int, double> times = times_of(result);
-  const std::size_t of_frame = 2 * picture.nodes.size() + names.size() * picture.outlines.size();
+  const std::size_t of_frame = picture.nodes.size() + names.size() * picture.outlines.size();
   const std::size_t most = std::min(kMostFrames, std::max<std::size_t>(1, kMostNumbers / of_frame));
   for (const std::size_t k : chosen(result.fields.size(), most)) {
     const auto& [step, path] = result.fields[k];
-    const fem::FieldFile file = fem::read_vtu(path);
-    if (file.mesh.elements.size() != picture.outlines.size() ||
-        file.mesh.nodes.size() != picture.nodes.size())
+    const fem::FieldFile<dim> file = fem::read_vtu<dim>(path);
+    if (file.mesh.elements.size() != last.mesh.elements.size() ||
+        file.mesh.nodes.size() != last.mesh.nodes.size())
       throw InputError({path.string(), 0, "has another mesh than the last field file"});
     MeshPicture::Frame frame;
     const auto time = times.find(step);
     frame.name = time == times.end() ? fmt::format("step {}", step)
                                      : fmt::format("step {}, time {:.4g}", step, time->second);
-    const fem::Field* const displacement = fem::find_field(file.fields.points, "displacement");
-    for (std::size_t node = 0; node < picture.nodes.size(); ++node)
-      displacement != nullptr && displacement->components == 3
-          ? frame.moved.emplace_back(displacement->values[3 * node], displacement->values[3 * node + 1])
-          : frame.moved.emplace_back(0.0, 0.0);
+    frame.moved = movements_of<dim>(file.fields, file.mesh.nodes.size());
     for (const std::string& name : names) {
-      frame.values.push_back(element_values(file, name));
+      frame.values.push_back(values_of(file.fields, outlines, name));
       frame.values.back().resize(picture.outlines.size(),
                                  std::nan(""));  // a field that this file does not have
     }
     picture.frames.push_back(std::move(frame));
   }
   return picture;
+}
+
+}  // namespace
+
+MeshPicture picture_of(const RunResult& result, const std::vector<std::string>& fields) {
+  if (result.fields.empty()) {
+    MeshPicture none;
+    none.title = result.name;
+    return none;
+  }
+  return result.is_in_space() ? picture_for<3>(result, fields) : picture_for<2>(result, fields);
 }
 
 }  // namespace polargrain::app

@@ -224,7 +224,7 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
   };
   begin_group("Mesh and steps");
   add("elements", [&](std::size_t k) {
-    return pictures[k].outlines.empty() ? "" : std::to_string(pictures[k].outlines.size());
+    return pictures[k].outlines.empty() ? "" : std::to_string(pictures[k].all_elements);
   });
   add("nodes", [&](std::size_t k) {
     return pictures[k].nodes.empty() ? "" : std::to_string(pictures[k].nodes.size());
@@ -466,8 +466,10 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
   if (!meshes.empty()) body += "<h2>Fields</h2>\n<div class='grid'>\n" + meshes + "</div>\n";
   for (const RunResult& result : results)
     if (result.is_in_space())
-      body += fmt::format("<p>{} is a body in space: open <code>fields.pvd</code> in ParaView.</p>\n",
-                          escaped(result.name));
+      body += fmt::format(
+          "<p>{} is a body in space: drag its picture with the mouse to turn it. For cuts open <code>fields.pvd</code> "
+          "in ParaView.</p>\n",
+          escaped(result.name));
   std::string grains;
   for (const RunResult& result : results)
     if (content.grains) grains += content.grains(result);

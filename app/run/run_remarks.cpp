@@ -8,7 +8,6 @@
 namespace polargrain::app {
 
 Remarks remarks_before(const RunOptions& options, const coupler::Case& the_case) {
-  if (the_case.dimension() == 3) return {};  // remarks know the plane
   PackingsAtRest packings;
   try {
     // Without workers of its own a run may be on a machine that is to run no engine.

@@ -16,7 +16,8 @@ namespace {
 
 }  // namespace
 
-void AdaptiveMaterial::save(ArchiveWriter& archive) const {
+template <int dim>
+void AdaptiveMaterial<dim>::save(ArchiveWriter& archive) const {
   std::vector<std::int64_t> followed;
   std::vector<StatePointer> states;
   for (const Followed& item : followed_) {
@@ -48,7 +49,8 @@ void AdaptiveMaterial::save(ArchiveWriter& archive) const {
   at_limits_.save(archive);
 }
 
-void AdaptiveMaterial::restore(ArchiveReader& archive) {
+template <int dim>
+void AdaptiveMaterial<dim>::restore(ArchiveReader& archive) {
   const std::vector<std::int64_t> counts = archive.integers("counts");
   const std::vector<double> bounds = archive.doubles("bounds");
   if (counts.size() != 13 || counts[0] < 1 || bounds.size() != 5) report_mismatch();
@@ -76,5 +78,8 @@ void AdaptiveMaterial::restore(ArchiveReader& archive) {
   costs_ = {counts[6], counts[7], counts[8], counts[9], counts[10], counts[11], counts[12]};
   forget_step();
 }
+
+template class AdaptiveMaterial<2>;
+template class AdaptiveMaterial<3>;
 
 }  // namespace polargrain::coupler

@@ -21,19 +21,22 @@ constexpr std::size_t kFollowedLeast = 6;
 constexpr double kMuchRoom = 0.5;
 constexpr double kShare = 0.95;
 
-bool are_equal(const Increment<2>& a, const Increment<2>& b) {
-  return a.displacement_gradient == b.displacement_gradient && a.micro_rotation == b.micro_rotation &&
+template <int dim>
+bool are_equal(const Increment<dim>& a, const Increment<dim>& b) {
+  return a.displacement_gradient == b.displacement_gradient && micro_rotation(a) == micro_rotation(b) &&
          a.curvature == b.curvature;
 }
 
 }  // namespace
 
-std::size_t AdaptiveMaterial::fewest_followed() const {
+template <int dim>
+std::size_t AdaptiveMaterial<dim>::fewest_followed() const {
   const double share = std::ceil(options_.audit * static_cast<double>(points_.size()));
   return std::min(points_.size(), std::max(kFollowedLeast, static_cast<std::size_t>(share)));
 }
 
-void AdaptiveMaterial::choose_followed() {
+template <int dim>
+void AdaptiveMaterial<dim>::choose_followed() {
   followed_.clear();
   if (!audits()) return;
   constexpr std::uint64_t kEveryStep = ~std::uint64_t{0};
@@ -47,12 +50,13 @@ void AdaptiveMaterial::choose_followed() {
   for (const std::size_t point : drawn) followed_.push_back({point, cells_.front().answer.state});
 }
 
-void AdaptiveMaterial::run_followed() {
-  std::vector<PlaneRequest> requests;
+template <int dim>
+void AdaptiveMaterial<dim>::run_followed() {
+  std::vector<PointRequest<dim>> requests;
   std::vector<std::size_t> points;
   std::vector<Followed*> running;
   for (Followed& followed : followed_) {
-    const Increment<2> increment = increment_of_step(followed.point);
+    const Increment<dim> increment = increment_of_step(followed.point);
     if (followed.reply.state && are_equal(increment, followed.increment)) continue;
     followed.increment = increment;
     requests.push_back({followed.state, increment});
@@ -60,12 +64,13 @@ void AdaptiveMaterial::run_followed() {
     running.push_back(&followed);
   }
   if (requests.empty()) return;
-  std::vector<PlaneReply> replies = run(requests, points, costs_.audit_steps);
+  std::vector<PointReply<dim>> replies = run(requests, points, costs_.audit_steps);
   costs_.audits += static_cast<std::int64_t>(requests.size());
   for (std::size_t k = 0; k < replies.size(); ++k) running[k]->reply = std::move(replies[k]);
 }
 
-std::vector<double> AdaptiveMaterial::measured_errors() const {
+template <int dim>
+std::vector<double> AdaptiveMaterial<dim>::measured_errors() const {
   std::vector<double> errors;
   for (const Followed& followed : followed_) {
     if (followed.reply.response.quality != Quality::good || !followed.reply.state) continue;
@@ -74,11 +79,13 @@ std::vector<double> AdaptiveMaterial::measured_errors() const {
   return errors;
 }
 
-double AdaptiveMaterial::bound_of(std::span<const double> errors) const {
+template <int dim>
+double AdaptiveMaterial<dim>::bound_of(std::span<const double> errors) const {
   return mean_at_most(errors, points_.size()) * neglected(errors);
 }
 
-double AdaptiveMaterial::neglected(std::span<const double> errors) const {
+template <int dim>
+double AdaptiveMaterial<dim>::neglected(std::span<const double> errors) const {
   if (errors.empty()) return 1.0;
   const auto estimate_now = [&](std::size_t point) {
     return estimate(point, branches_[branch_of_point_[point]]) / reference_;
@@ -93,11 +100,13 @@ double AdaptiveMaterial::neglected(std::span<const double> errors) const {
   return mean > 0.0 ? std::max(1.0, (all + mean) / (followed + mean)) : 1.0;
 }
 
-std::string AdaptiveMaterial::reference_name() const {
+template <int dim>
+std::string AdaptiveMaterial<dim>::reference_name() const {
   return options_.reference_pressure ? fmt::format("{:g} kPa", reference_ / 1e3) : "the confining pressure";
 }
 
-void AdaptiveMaterial::note_tightening(double bound_before, double bound) {
+template <int dim>
+void AdaptiveMaterial<dim>::note_tightening(double bound_before, double bound) {
   notes_.push_back(
       fmt::format("the mean error is at most {:.3g} of {} (95 % confidence, {} points followed), more "
                   "than the tolerance of {:.3g}; with estimates below {:.3g} it is {:.3g}",
@@ -105,7 +114,8 @@ void AdaptiveMaterial::note_tightening(double bound_before, double bound) {
                   options_.tolerance / tightening_, bound));
 }
 
-void AdaptiveMaterial::keep_audit() {
+template <int dim>
+void AdaptiveMaterial<dim>::keep_audit() {
   run_followed();
   const std::vector<double> errors = measured_errors();
   for (const double error : errors) errors_.add(error);
@@ -125,7 +135,8 @@ void AdaptiveMaterial::keep_audit() {
     followed_.pop_back();
 }
 
-std::string AdaptiveMaterial::doubt() const {
+template <int dim>
+std::string AdaptiveMaterial<dim>::doubt() const {
   if (options_.tolerance == 0.0 || step_ == 0) return {};
   if (!audits()) return "without audits (audit: 0) the error of its stresses is unknown";
   if (bounds_.steps_beyond == 0.0) return {};
@@ -136,7 +147,8 @@ std::string AdaptiveMaterial::doubt() const {
       bounds_.steps_beyond, step_, options_.tolerance, reference_name(), bounds_.largest, bounds_.last);
 }
 
-std::vector<fem::Figure> AdaptiveMaterial::figures() const {
+template <int dim>
+std::vector<fem::Figure> AdaptiveMaterial<dim>::figures() const {
   const auto count = [](auto whole) { return static_cast<double>(whole); };
   std::vector<fem::Figure> figures{
       {"points", count(points_.size())},
@@ -171,16 +183,19 @@ std::vector<fem::Figure> AdaptiveMaterial::figures() const {
   return figures;
 }
 
-std::vector<std::string> AdaptiveMaterial::take_notes() {
+template <int dim>
+std::vector<std::string> AdaptiveMaterial<dim>::take_notes() {
   return std::exchange(notes_, {});
 }
 
-std::vector<std::string> AdaptiveMaterial::field_names() const {
+template <int dim>
+std::vector<std::string> AdaptiveMaterial<dim>::field_names() const {
   return joined_names(joined_names({"source", "cell", "error_estimate"}, names_of_columns<CellDiagnostics>()),
                       names_of_limit_fields(cosserat_.has_value()));
 }
 
-void AdaptiveMaterial::fields(std::size_t point, std::span<double> values) const {
+template <int dim>
+void AdaptiveMaterial<dim>::fields(std::size_t point, std::span<double> values) const {
   values[0] = static_cast<double>(points_[point].source);
   values[1] = static_cast<double>(points_[point].cell);
   values[2] = points_[point].estimate / reference_;
@@ -188,5 +203,8 @@ void AdaptiveMaterial::fields(std::size_t point, std::span<double> values) const
       std::ranges::copy(values_of(cells_[points_[point].cell].answer.diagnostics), values.begin() + 3).out;
   write_limit_fields(reached(points_[point]), cosserat_, points_[point].cosserat, rest);
 }
+
+template class AdaptiveMaterial<2>;
+template class AdaptiveMaterial<3>;
 
 }  // namespace polargrain::coupler

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/error.hpp"
@@ -19,9 +20,19 @@ namespace polargrain::coupler {
 namespace {
 
 /// Of a cell with free rotations only the symmetric part of stress and tangent is meant.
-void keep_symmetric(Response<2>& response) {
+template <int dim>
+void keep_symmetric(Response<dim>& response) {
   response.stress = symmetric_part(response.stress);
   response.tangent = symmetric_tangent(response.tangent);
+}
+
+/// Norm of the stiffness of normal strains, Pa.
+double normal_stiffness(const Matrix7& tangent) {
+  return tangent.topLeftCorner<2, 2>().norm();
+}
+double normal_stiffness(const Matrix18& tangent) {
+  constexpr std::array<int, 3> kNormal{0, 4, 8};
+  return tangent(kNormal, kNormal).norm();
 }
 
 /// At the start the estimate of a point may exceed the tolerance by this: points are estimated by what is the worst of them,
@@ -43,8 +54,10 @@ constexpr double kGrows = 1.1;
 
 }  // namespace
 
-AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const std::optional<CosseratParameters>& cosserat,
-                                   const AdaptivityOptions& options, const std::string& note)
+template <int dim>
+AdaptiveMaterial<dim>::AdaptiveMaterial(CellCalls<dim> calls,
+                                        const std::optional<CosseratParameters>& cosserat,
+                                        const AdaptivityOptions& options, const std::string& note)
     : calls_(std::move(calls)),
       cosserat_(cosserat),
       at_limits_(cosserat.has_value()),
@@ -55,20 +68,21 @@ AdaptiveMaterial::AdaptiveMaterial(CellCalls calls, const std::optional<Cosserat
   if (!note.empty()) notes_.push_back(note);
 }
 
-void AdaptiveMaterial::allocate(std::size_t points) {
+template <int dim>
+void AdaptiveMaterial<dim>::allocate(std::size_t points) {
   Cell packing{packing_at_rest(calls_, notes_), {}};
   if (!measure_.controlled()) keep_symmetric(packing.answer.response);
-  packing_ = PackingAtStart(packing.answer);
-  reference_ = options_.reference_pressure.value_or(packing_.pressure);
+  packing_ = PackingAtStart<dim>(packing.answer);
+  reference_ = options_.reference_pressure.value_or(packing_.pressure());
   if (!(reference_ > 0.0)) {
     throw RunError(
         "an adaptive material needs a packing under pressure, which its tolerance is a share of, or another "
         "pressure to measure by (reference_pressure)");
   }
-  const Matrix7& elastic = packing.answer.response.tangent;
+  const typename Cosserat<dim>::Matrix& elastic = packing.answer.response.tangent;
   // Strain whose elastic stress is the tolerance.
-  noise_strain_ = options_.tolerance * reference_ / elastic.topLeftCorner<2, 2>().norm();
-  estimate_ = ErrorEstimate(measure_, elastic, noise_strain_);
+  noise_strain_ = options_.tolerance * reference_ / normal_stiffness(elastic);
+  estimate_ = ErrorEstimate<dim>(measure_, elastic, noise_strain_);
   cells_.assign(1, packing);
   points_.assign(points, Point{});
   for (Point& point : points_) point.cosserat = packing_.part();
@@ -77,7 +91,8 @@ void AdaptiveMaterial::allocate(std::size_t points) {
   choose_followed();
 }
 
-void AdaptiveMaterial::begin_step() {
+template <int dim>
+void AdaptiveMaterial<dim>::begin_step() {
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
     Branch unmoved{cell};
     unmoved.answer = cells_[cell].answer;
@@ -90,42 +105,47 @@ void AdaptiveMaterial::begin_step() {
   excursions_.resize(points_.size());
 }
 
-void AdaptiveMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
+template <int dim>
+void AdaptiveMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
+                                     std::span<Response<dim>> responses) {
   const Clock::time_point start = Clock::now();
   const double cells_before = seconds_of_cells_;
   if (branches_.empty()) begin_step();
   increments_.assign(increments.begin(), increments.end());
   for (std::size_t point = 0; point < points_.size(); ++point) {
     target_[point] = followed_by(points_[point].offset, increment_of_step(point));
-    const Departure& departure = branches_[points_[point].cell].departure;
+    const Departure<dim>& departure = branches_[points_[point].cell].departure;
     const double depth = estimate_.onward(departure, farthest(point));
     const double now = estimate_.onward(departure, target_[point]);
     excursions_[point] = {std::max(depth, now), std::max(depth - now, 0.0)};
   }
   settle(tolerance());
   for (std::size_t point = 0; point < points_.size(); ++point) {
-    CosseratPart part = points_[point].cosserat;
+    CosseratPart<dim> part = points_[point].cosserat;
     responses[point] = answer_to(point, part);
   }
   seconds_ += seconds_since(start) - (seconds_of_cells_ - cells_before);
 }
 
-Increment<2> AdaptiveMaterial::increment_of_step(std::size_t point) const {
-  const Increment<2> whole = increment_for_cell(increments_[point]);
+template <int dim>
+Increment<dim> AdaptiveMaterial<dim>::increment_of_step(std::size_t point) const {
+  const Increment<dim> whole = increment_for_cell(increments_[point]);
   // Grains whose rotations are free feel no micro-rotation and no curvature.
   if (measure_.controlled()) return whole;
-  Increment<2> of_box = increment_of(whole.displacement_gradient);
+  Increment<dim> of_box = increment_of<dim>(whole.displacement_gradient);
   of_box.configuration = whole.configuration;
   return of_box;
 }
 
-Increment<2> AdaptiveMaterial::farthest(std::size_t point) const {
-  Increment<2> place = points_[point].farthest;
+template <int dim>
+Increment<dim> AdaptiveMaterial<dim>::farthest(std::size_t point) const {
+  Increment<dim> place = points_[point].farthest;
   place.configuration = target_[point].configuration;  // no checkpoint keeps it
   return place;
 }
 
-double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const {
+template <int dim>
+double AdaptiveMaterial<dim>::estimate(std::size_t point, const Branch& branch) const {
   const double of_offset =
       estimate_.of(branch.answer.response, branch.departure, offset_between(branch.place, target_[point]));
   const Branch& cell = branches_[branch.cell];
@@ -134,7 +154,8 @@ double AdaptiveMaterial::estimate(std::size_t point, const Branch& branch) const
   return of_offset + (branch.was_run ? kStays : 1.0) * of_history;
 }
 
-Excursion AdaptiveMaterial::excursion_of_run(std::size_t leader) const {
+template <int dim>
+Excursion AdaptiveMaterial<dim>::excursion_of_run(std::size_t leader) const {
   const Branch& cell = branches_[points_[leader].cell];
   const Excursion& own = excursions_[leader];
   const Excursion straight{own.depth - own.back, 0.0};
@@ -142,7 +163,8 @@ Excursion AdaptiveMaterial::excursion_of_run(std::size_t leader) const {
   return kStays * left_out > tolerance() ? own : straight;
 }
 
-std::size_t AdaptiveMaterial::best_branch(std::size_t point) const {
+template <int dim>
+std::size_t AdaptiveMaterial<dim>::best_branch(std::size_t point) const {
   std::size_t best = branch_of_point_[point];
   double least = estimate(point, branches_[best]);
   for (const std::size_t branch : branches_of_cell_[points_[point].cell]) {
@@ -155,7 +177,8 @@ std::size_t AdaptiveMaterial::best_branch(std::size_t point) const {
   return best;
 }
 
-bool AdaptiveMaterial::settle(double allowed) {
+template <int dim>
+bool AdaptiveMaterial<dim>::settle(double allowed) {
   for (;;) {
     std::vector<std::vector<std::size_t>> unserved(cells_.size());
     bool served = true;
@@ -178,23 +201,24 @@ bool AdaptiveMaterial::settle(double allowed) {
   }
 }
 
-std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
-                                                       const std::vector<std::size_t>& points) const {
+template <int dim>
+std::vector<std::size_t> AdaptiveMaterial<dim>::leaders_for(std::size_t cell,
+                                                            const std::vector<std::size_t>& points) const {
   const Branch& unmoved = branches_[cell];
   if (!shares_) return points;
   if (!unmoved.departure.known()) {
     // Nothing can be said before runs have shown how the response departs from its tangent, in the directions that
     // occur.
-    return span_directions(
+    return span_directions<dim>(
         points, [&](std::size_t point) { return measure_.strain(target_[point]); }, noise_strain_);
   }
   return choose_leaders(points, [&](std::size_t leader, std::size_t other) {
-    Departure expected = unmoved.departure;
+    Departure<dim> expected = unmoved.departure;
     const bool turns = target_[leader].configuration != Configuration::fixed;
     const Excursion excursion = excursion_of_run(leader);
-    Vector7 own = measure_.strain(target_[leader]);
+    Vector own = measure_.strain(target_[leader]);
     if (excursion.back > 0.0) own -= measure_.strain(farthest(leader));
-    const Vector7 strain = turns ? fem::rotated(own, fem::rotation_angle(target_[leader])) : own;
+    const Vector strain = turns ? fem::rotated(own, rotation_of(target_[leader])) : own;
     if (strain.norm() > 0.0) expected.direction = strain / strain.norm();
     const double of_offset = estimate_.of(with_tangent_turned(unmoved.answer.response, target_[leader]),
                                           expected, offset_between(target_[leader], target_[other]));
@@ -204,7 +228,8 @@ std::vector<std::size_t> AdaptiveMaterial::leaders_for(std::size_t cell,
   });
 }
 
-std::size_t AdaptiveMaterial::enter(Branch moved, std::size_t start, const Increment<2>& increment) {
+template <int dim>
+std::size_t AdaptiveMaterial<dim>::enter(Branch moved, std::size_t start, const Increment<dim>& increment) {
   const std::size_t number = branches_.size();
   if (moved.answer.response.quality != Quality::failed) {
     Branch& from = branches_[start];
@@ -217,8 +242,9 @@ std::size_t AdaptiveMaterial::enter(Branch moved, std::size_t start, const Incre
   return number;
 }
 
-std::vector<std::size_t> AdaptiveMaterial::run_turns(const std::vector<std::size_t>& leaders) {
-  std::vector<PlaneRequest> requests;
+template <int dim>
+std::vector<std::size_t> AdaptiveMaterial<dim>::run_turns(const std::vector<std::size_t>& leaders) {
+  std::vector<PointRequest<dim>> requests;
   std::vector<std::size_t> turning;
   for (const std::size_t leader : leaders) {
     if (excursion_of_run(leader).back == 0.0 || turns_.contains(leader)) continue;
@@ -226,7 +252,7 @@ std::vector<std::size_t> AdaptiveMaterial::run_turns(const std::vector<std::size
     turning.push_back(leader);
   }
   if (!turning.empty()) {
-    std::vector<PlaneReply> replies = run(requests, turning, costs_.steps);
+    std::vector<PointReply<dim>> replies = run(requests, turning, costs_.steps);
     costs_.runs += static_cast<std::int64_t>(requests.size());
     for (std::size_t k = 0; k < turning.size(); ++k) {
       const std::size_t cell = points_[turning[k]].cell;
@@ -249,15 +275,16 @@ std::vector<std::size_t> AdaptiveMaterial::run_turns(const std::vector<std::size
   return starts;
 }
 
-bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
+template <int dim>
+bool AdaptiveMaterial<dim>::run_branches(const std::vector<std::size_t>& leaders) {
   const std::vector<std::size_t> starts = run_turns(leaders);
-  std::vector<PlaneRequest> requests;
+  std::vector<PointRequest<dim>> requests;
   for (std::size_t k = 0; k < leaders.size(); ++k) {
     const Branch& start = branches_[starts[k]];
-    const Increment<2>& target = target_[leaders[k]];
+    const Increment<dim>& target = target_[leaders[k]];
     requests.push_back({start.answer.state, start.was_run ? offset_between(start.place, target) : target});
   }
-  std::vector<PlaneReply> replies = run(requests, leaders, costs_.steps);
+  std::vector<PointReply<dim>> replies = run(requests, leaders, costs_.steps);
   costs_.runs += static_cast<std::int64_t>(requests.size());
   bool all_good = true;
   for (std::size_t k = 0; k < leaders.size(); ++k) {
@@ -279,36 +306,41 @@ bool AdaptiveMaterial::run_branches(const std::vector<std::size_t>& leaders) {
   return all_good;
 }
 
-std::vector<PlaneReply> AdaptiveMaterial::run(std::span<const PlaneRequest> requests,
-                                              std::span<const std::size_t> points, std::int64_t& steps) {
+template <int dim>
+std::vector<PointReply<dim>> AdaptiveMaterial<dim>::run(std::span<const PointRequest<dim>> requests,
+                                                        std::span<const std::size_t> points,
+                                                        std::int64_t& steps) {
   const Clock::time_point start = Clock::now();
-  std::vector<PlaneReply> replies = evaluate_in_parts(calls_, requests, points);
+  std::vector<PointReply<dim>> replies = evaluate_in_parts<dim>(calls_, requests, points);
   seconds_of_cells_ += seconds_since(start);
-  for (PlaneReply& reply : replies) {
+  for (PointReply<dim>& reply : replies) {
     steps += static_cast<std::int64_t>(reply.diagnostics.dem_steps);
     if (!measure_.controlled()) keep_symmetric(reply.response);
   }
   return replies;
 }
 
-Vector7 AdaptiveMaterial::stress_of_cells(std::size_t point) const {
+template <int dim>
+typename Cosserat<dim>::Vector AdaptiveMaterial<dim>::stress_of_cells(std::size_t point) const {
   const Branch& branch = branches_[branch_of_point_[point]];
   return linearised_stress(branch.answer.response, offset_between(branch.place, target_[point]));
 }
 
-Response<2> AdaptiveMaterial::answer_to(std::size_t point, CosseratPart& part) const {
+template <int dim>
+Response<dim> AdaptiveMaterial<dim>::answer_to(std::size_t point, CosseratPart<dim>& part) const {
   const Branch& branch = branches_[branch_of_point_[point]];
-  const PlaneReply& answer = branch.answer;
+  const PointReply<dim>& answer = branch.answer;
   if (answer.response.quality == Quality::failed) return answer.response;
-  Response<2> response = with_tangent_turned(answer.response, offset_between(branch.place, target_[point]));
+  Response<dim> response = with_tangent_turned(answer.response, offset_between(branch.place, target_[point]));
   response.stress = stress_of_cells(point);
   if (cosserat_)
     return part.follow(increments_[point], response, *cosserat_, packing_.kept(answer.diagnostics));
-  part.pressure = pressure_in_plane(response.stress);
+  part.pressures = pressures_of(response.stress);
   return response;
 }
 
-bool AdaptiveMaterial::confirm() {
+template <int dim>
+bool AdaptiveMaterial<dim>::confirm() {
   if (branches_.empty()) return true;
   const std::vector<std::size_t> before = branch_of_point_;
   if (!settle(tolerance())) return false;
@@ -332,7 +364,8 @@ bool AdaptiveMaterial::confirm() {
   return stands;
 }
 
-double AdaptiveMaterial::tightening_to_next_run() const {
+template <int dim>
+double AdaptiveMaterial<dim>::tightening_to_next_run() const {
   double largest = 0.0;
   for (std::size_t point = 0; point < points_.size(); ++point)
     largest = std::max(largest, estimate(point, branches_[branch_of_point_[point]]));
@@ -344,7 +377,8 @@ double AdaptiveMaterial::tightening_to_next_run() const {
   return tightening;
 }
 
-void AdaptiveMaterial::commit() {
+template <int dim>
+void AdaptiveMaterial<dim>::commit() {
   if (branches_.empty()) return;
   ++step_;
   if (audits()) keep_audit();
@@ -383,13 +417,15 @@ void AdaptiveMaterial::commit() {
   forget_step();
 }
 
-LimitsReached AdaptiveMaterial::reached(const Point& point) const {
+template <int dim>
+LimitsReached AdaptiveMaterial<dim>::reached(const Point& point) const {
   const double least = packing_.least_pressure();
   if (cosserat_) return point.cosserat.reached(*cosserat_, least);
-  return {.parted = point.cosserat.pressure <= least};
+  return {.parted = point.cosserat.pressure() <= least};
 }
 
-void AdaptiveMaterial::count_unused(std::vector<char> in_use) {
+template <int dim>
+void AdaptiveMaterial<dim>::count_unused(std::vector<char> in_use) {
   for (std::size_t b = branches_.size(); b-- > cells_.size();) {
     if (in_use[b] != 0) {
       in_use[branches_[b].start] = 1;
@@ -400,7 +436,8 @@ void AdaptiveMaterial::count_unused(std::vector<char> in_use) {
   }
 }
 
-void AdaptiveMaterial::notice_sharing(std::size_t cells) {
+template <int dim>
+void AdaptiveMaterial<dim>::notice_sharing(std::size_t cells) {
   const auto count = static_cast<double>(points_.size());
   if (!shares_ || points_.size() < 2 || static_cast<double>(cells) < kNothingToShare * count) return;
   shares_ = false;
@@ -411,12 +448,14 @@ void AdaptiveMaterial::notice_sharing(std::size_t cells) {
       cells, points_.size()));
 }
 
-void AdaptiveMaterial::revert() {
+template <int dim>
+void AdaptiveMaterial<dim>::revert() {
   if (!branches_.empty()) count_unused(std::vector<char>(branches_.size(), 0));
   forget_step();
 }
 
-void AdaptiveMaterial::forget_step() {
+template <int dim>
+void AdaptiveMaterial<dim>::forget_step() {
   tightening_helps_ = true;
   for (Followed& followed : followed_) followed.reply = {};
   branches_.clear();
@@ -425,5 +464,8 @@ void AdaptiveMaterial::forget_step() {
   turns_.clear();
   increments_.clear();
 }
+
+template class AdaptiveMaterial<2>;
+template class AdaptiveMaterial<3>;
 
 }  // namespace polargrain::coupler

@@ -9,6 +9,7 @@
 #include "coupler/adaptivity/audits.hpp"
 #include "coupler/adaptivity/error_estimate.hpp"
 #include "coupler/cells/cell_calls.hpp"
+#include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
 #include "coupler/cells/packing_at_start.hpp"
@@ -60,17 +61,18 @@ constexpr Choices choices_of(Source) {
 /// Some points, drawn by chance, are followed by cells of their own from the first step on. Their errors bound the mean
 /// error of all points (error_bound.hpp), and a step whose bound exceeds the tolerance is answered anew, with a
 /// smaller tolerance for estimates, before it is committed.
-class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
+template <int dim>
+class AdaptiveMaterial : public fem::Material<dim>, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param cosserat of cells with free rotations; nothing: they are controlled, and options.mean_diameter is that of
   /// the grains
   /// @param note remarks to the user on the parameters; may be empty
-  AdaptiveMaterial(CellCalls calls, const std::optional<CosseratParameters>& cosserat,
+  AdaptiveMaterial(CellCalls<dim> calls, const std::optional<CosseratParameters>& cosserat,
                    const AdaptivityOptions& options, const std::string& note = {});
 
   void allocate(std::size_t points) override;
-  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   /// Brings all estimates within the tolerance and measures the error of the step; where its bound exceeds the tolerance,
   /// tightens the one that estimates are held to, as long as that helps.
   [[nodiscard]] bool confirm() override;
@@ -93,10 +95,12 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   [[nodiscard]] std::vector<std::string> take_notes() override;
 
  private:
+  using Vector = typename Cosserat<dim>::Vector;
+
   /// A cell at the start of the step.
   struct Cell {
-    PlaneReply answer;  ///< stress and tangent symmetric where rotations are free
-    Departure departure;
+    PointReply<dim> answer;  ///< stress and tangent symmetric where rotations are free
+    Departure<dim> departure;
 
     template <RecordOf<Cell> Record, class Visit>
     friend void describe(Record& cell, Visit&& visit) {
@@ -106,17 +110,17 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   };
   struct Point {
     std::uint32_t cell = 0;
-    Increment<2> offset;    ///< from the cell to the point
-    Increment<2> farthest;  ///< place along the cell's last loading since its last run, from the cell
-    CosseratPart cosserat;
+    Increment<dim> offset;    ///< from the cell to the point
+    Increment<dim> farthest;  ///< place along the cell's last loading since its last run, from the cell
+    CosseratPart<dim> cosserat;
     double estimate = 0.0;  ///< of its error, Pa
     Source source = Source::tangent;
 
     template <RecordOf<Point> Record, class Visit>
     friend void describe(Record& point, Visit&& visit) {
       visit(FieldNotes{"cell", "", "its number"}, point.cell);
-      visit(FieldNotes{"offset", "", "from the cell to the point"}, point.offset);
-      visit(FieldNotes{"farthest", "", "place since the cell was last run"}, point.farthest);
+      visit(FieldNotes{"offset", "", "from the cell to the point"}, kept_of(point.offset));
+      visit(FieldNotes{"farthest", "", "place since the cell was last run"}, kept_of(point.farthest));
       visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
       visit(FieldNotes{"estimate", "Pa", "of its error"}, point.estimate);
       visit(FieldNotes{"source", "", "where the stress came from"}, point.source);
@@ -124,11 +128,11 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   };
   /// A cell during the step: where it was, or run onward to a point. The first branches are the cells.
   struct Branch {
-    std::size_t cell = 0;     ///< it comes from
-    Increment<2> place = {};  ///< from that cell to here
-    std::size_t leader = 0;   ///< point it was run to
-    PlaneReply answer = {};
-    Departure departure = {};
+    std::size_t cell = 0;       ///< it comes from
+    Increment<dim> place = {};  ///< from that cell to here
+    std::size_t leader = 0;     ///< point it was run to
+    PointReply<dim> answer = {};
+    Departure<dim> departure = {};
     bool was_run = false;
     std::size_t start = 0;     ///< branch that its run began at
     Excursion excursion = {};  ///< of the cell on its way here
@@ -137,8 +141,8 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   struct Followed {
     std::size_t point;
     StatePointer state;
-    PlaneReply reply = {};  ///< to the increment below, of the step at work
-    Increment<2> increment = {};
+    PointReply<dim> reply = {};  ///< to the increment below, of the step at work
+    Increment<dim> increment = {};
   };
 
   void begin_step();
@@ -158,19 +162,19 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   std::vector<std::size_t> run_turns(const std::vector<std::size_t>& leaders);
   /// Enters what a run over an increment from the branch of number `start` has made, and what it has shown.
   /// @returns the number of the new branch
-  std::size_t enter(Branch moved, std::size_t start, const Increment<2>& increment);
+  std::size_t enter(Branch moved, std::size_t start, const Increment<dim>& increment);
   /// Farthest place of a point at the start of the step.
-  [[nodiscard]] Increment<2> farthest(std::size_t point) const;
-  [[nodiscard]] std::vector<PlaneReply> run(std::span<const PlaneRequest> requests,
-                                            std::span<const std::size_t> points, std::int64_t& steps);
+  [[nodiscard]] Increment<dim> farthest(std::size_t point) const;
+  [[nodiscard]] std::vector<PointReply<dim>> run(std::span<const PointRequest<dim>> requests,
+                                                 std::span<const std::size_t> points, std::int64_t& steps);
   /// The increment that takes the cell of a point through the step.
-  [[nodiscard]] Increment<2> increment_of_step(std::size_t point) const;
+  [[nodiscard]] Increment<dim> increment_of_step(std::size_t point) const;
   /// Size of an error of a stress, as a share of the reference pressure.
-  [[nodiscard]] double share_of(const Vector7& error) const { return measure_.stress(error) / reference_; }
+  [[nodiscard]] double share_of(const Vector& error) const { return measure_.stress(error) / reference_; }
   /// @param part skew and couple stress of the point at the start of the step; goes along to its end
-  Response<2> answer_to(std::size_t point, CosseratPart& part) const;
+  Response<dim> answer_to(std::size_t point, CosseratPart<dim>& part) const;
   /// The stress of the cells at a point, carried to it; without the Cosserat part of the case.
-  [[nodiscard]] Vector7 stress_of_cells(std::size_t point) const;
+  [[nodiscard]] Vector stress_of_cells(std::size_t point) const;
   [[nodiscard]] double tolerance() const { return options_.tolerance / tightening_ * reference_; }
   [[nodiscard]] LimitsReached reached(const Point& point) const;
   void choose_followed();
@@ -196,14 +200,14 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   void count_unused(std::vector<char> in_use);
   void forget_step();
 
-  CellCalls calls_;
+  CellCalls<dim> calls_;
   std::optional<CosseratParameters> cosserat_;
   PointsAtLimits at_limits_;
-  PackingAtStart packing_;
+  PackingAtStart<dim> packing_;
   AdaptivityOptions options_;
-  GrainMeasure measure_;
+  GrainMeasure<dim> measure_;
   double reference_ = 0.0;  ///< the pressure that errors are shares of, Pa
-  ErrorEstimate estimate_;
+  ErrorEstimate<dim> estimate_;
   double noise_strain_ = 0.0;  ///< whose elastic stress is the tolerance
 
   std::vector<Cell> cells_;
@@ -215,10 +219,10 @@ class AdaptiveMaterial : public fem::Material<2>, public GrainsOfPoints {
   std::vector<Branch> branches_;
   std::vector<std::vector<std::size_t>> branches_of_cell_;
   std::vector<std::size_t> branch_of_point_;
-  std::vector<Increment<2>> target_;          ///< from the cell's place to the point's
+  std::vector<Increment<dim>> target_;        ///< from the cell's place to the point's
   std::vector<Excursion> excursions_;         ///< of the points, at their targets
   std::map<std::size_t, std::size_t> turns_;  ///< branches at the farthest places of leaders, by leader
-  std::vector<Increment<2>> increments_;
+  std::vector<Increment<dim>> increments_;
 
   std::vector<Followed> followed_;  ///< in the order they were drawn
   MeasuredErrors errors_;           ///< of the points followed, shares of the reference pressure

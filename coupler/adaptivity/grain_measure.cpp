@@ -14,28 +14,33 @@ constexpr double kVolume = 0.35;
 
 }  // namespace
 
-Vector7 GrainMeasure::strain(const Increment<2>& increment) const {
-  Vector7 strain = fem::stretch_and_turn(increment).stretch.strain();
+template <int dim>
+typename GrainMeasure<dim>::Vector GrainMeasure<dim>::strain(const Increment<dim>& increment) const {
+  Vector strain = fem::stretch_and_turn(increment).stretch.strain();
   if (!controlled()) return symmetric_part(strain);
-  strain.tail<2>() *= diameter_;
+  strain.template tail<Cosserat<dim>::couples>() *= diameter_;
   return strain;
 }
 
-Vector7 GrainMeasure::unmeasured(const Vector7& strain) const {
-  Vector7 plain = strain;
-  if (controlled()) plain.tail<2>() /= diameter_;
+template <int dim>
+typename GrainMeasure<dim>::Vector GrainMeasure<dim>::unmeasured(const Vector& strain) const {
+  Vector plain = strain;
+  if (controlled()) plain.template tail<Cosserat<dim>::couples>() /= diameter_;
   return plain;
 }
 
-double GrainMeasure::size(const Increment<2>& offset) const {
-  Vector7 deviator = strain(offset);
-  const double volume = 0.5 * (deviator[k11] + deviator[k22]);
-  deviator[k11] -= volume;
-  deviator[k22] -= volume;
-  return std::sqrt(deviator.squaredNorm() + 2.0 * kVolume * kVolume * volume * volume);
+template <int dim>
+double GrainMeasure<dim>::size(const Increment<dim>& offset) const {
+  Vector deviator = strain(offset);
+  double sum = 0.0;
+  for (int i = 0; i < dim; ++i) sum += deviator(Cosserat<dim>::stress_place(i, i));
+  const double volume = sum / dim;
+  for (int i = 0; i < dim; ++i) deviator(Cosserat<dim>::stress_place(i, i)) -= volume;
+  return std::sqrt(deviator.squaredNorm() + dim * kVolume * kVolume * volume * volume);
 }
 
-double GrainMeasure::stress(const Vector7& stress) const {
+template <>
+double GrainMeasure<2>::stress(const Vector7& stress) const {
   const double shear = 0.5 * (stress[k12] + stress[k21]);
   double squared = stress[k11] * stress[k11] + stress[k22] * stress[k22] + 2.0 * shear * shear;
   if (controlled()) {
@@ -44,5 +49,17 @@ double GrainMeasure::stress(const Vector7& stress) const {
   }
   return std::sqrt(squared);
 }
+
+template <>
+double GrainMeasure<3>::stress(const Vector18& stress) const {
+  double squared = symmetric_part(stress).squaredNorm();
+  if (controlled())
+    squared += 0.5 * skew_stress_of<3>(stress).squaredNorm() +
+               stress.tail<9>().squaredNorm() / (diameter_ * diameter_);
+  return std::sqrt(squared);
+}
+
+template class GrainMeasure<2>;
+template class GrainMeasure<3>;
 
 }  // namespace polargrain::coupler

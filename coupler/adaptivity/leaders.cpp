@@ -64,18 +64,21 @@ std::vector<std::size_t> choose_leaders(const std::vector<std::size_t>& points,
   return leaders;
 }
 
-std::vector<std::size_t> span_directions(const std::vector<std::size_t>& points,
-                                         const std::function<Vector7(std::size_t)>& strain, double least) {
+template <int dim>
+std::vector<std::size_t> span_directions(
+    const std::vector<std::size_t>& points,
+    const std::function<typename Cosserat<dim>::Vector(std::size_t)>& strain, double least) {
+  using Vector = typename Cosserat<dim>::Vector;
   std::vector<std::size_t> left = points;
   std::stable_sort(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
     return strain(a).squaredNorm() > strain(b).squaredNorm();
   });
   std::vector<std::size_t> chosen;
-  std::vector<Vector7> directions;
+  std::vector<Vector> directions;
   for (const std::size_t point : left) {
-    const Vector7 own = strain(point);
+    const Vector own = strain(point);
     if (!chosen.empty() && (own.norm() < least || chosen.size() == kMostDirections)) break;
-    const bool is_new = std::ranges::all_of(directions, [&](const Vector7& direction) {
+    const bool is_new = std::ranges::all_of(directions, [&](const Vector& direction) {
       return own.dot(direction) < kSameDirection * own.norm();
     });
     if (!is_new) continue;
@@ -84,5 +87,10 @@ std::vector<std::size_t> span_directions(const std::vector<std::size_t>& points,
   }
   return chosen;
 }
+
+template std::vector<std::size_t> span_directions<2>(const std::vector<std::size_t>&,
+                                                     const std::function<Vector7(std::size_t)>&, double);
+template std::vector<std::size_t> span_directions<3>(const std::vector<std::size_t>&,
+                                                     const std::function<Vector18(std::size_t)>&, double);
 
 }  // namespace polargrain::coupler

@@ -20,7 +20,9 @@ std::vector<std::size_t> choose_leaders(const std::vector<std::size_t>& points,
 /// largest strain, and then the largest one that is more than 60 degrees from all that were chosen, at most six.
 /// @param points not empty @param strain of a point (GrainMeasure::strain) @param least norm of strains that show more than
 /// noise; smaller ones are passed over, but for the largest
-std::vector<std::size_t> span_directions(const std::vector<std::size_t>& points,
-                                         const std::function<Vector7(std::size_t)>& strain, double least);
+template <int dim>
+std::vector<std::size_t> span_directions(
+    const std::vector<std::size_t>& points,
+    const std::function<typename Cosserat<dim>::Vector(std::size_t)>& strain, double least);
 
 }  // namespace polargrain::coupler

@@ -26,8 +26,8 @@ class MaterialRecipe {
   virtual ~MaterialRecipe() = default;
   /// @param pool never null when needs_workers(); must outlive the material
   [[nodiscard]] virtual std::shared_ptr<fem::Material<2>> make(Pool* pool) const = 0;
-  /// The same for elements in space. @throws RunError where the model has no such material (MaterialModel::in_space)
-  [[nodiscard]] virtual std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const;
+  /// The same for elements in space.
+  [[nodiscard]] virtual std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const = 0;
   template <int dim>
   [[nodiscard]] std::shared_ptr<fem::Material<dim>> make_for(Pool* pool) const {
     if constexpr (dim == 2) {
@@ -63,7 +63,6 @@ struct MaterialModel {
   /// @returns null only when there were faults
   std::unique_ptr<MaterialRecipe> (*read)(const std::string& material, Section& section, Faults& faults,
                                           const CaseFiles& files);
-  bool in_space = false;  ///< whether elements in space can be made of it
 };
 
 /// All models, in the order of the help.

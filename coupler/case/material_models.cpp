@@ -10,10 +10,6 @@ MaterialModel elastic_model();
 MaterialModel elastoplastic_model();
 MaterialModel informed_model();
 
-std::shared_ptr<fem::Material<3>> MaterialRecipe::make_in_space(Pool*) const {
-  throw RunError("this model has no material for elements in space");
-}
-
 Weakened MaterialRecipe::weakened(double) const {
   if (!needs_workers()) return {};
   return {

@@ -72,12 +72,6 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        if (case_.dimension() == 3 && !model.in_space) {
-          section.fault("model", fmt::format("model: '{}' has no elements in space yet; there are {}", name,
-                                             listed(models_in_space())));
-          for (const Entry::Member& key : member.value.members) section.find(key.key);
-          continue;
-        }
         case_.materials[member.key] =
             model.read(member.key, section, faults_,
                        CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), ask_every_of(document_),
@@ -94,13 +88,6 @@ class CaseReader {
   [[nodiscard]] bool is_classical() const {
     return case_.with_problem(
         [](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
-  }
-
-  static std::vector<std::string> models_in_space() {
-    std::vector<std::string> names;
-    for (const MaterialModel& model : material_models())
-      if (model.in_space) names.push_back(model.name);
-    return names;
   }
 
   [[nodiscard]] std::map<std::string, std::vector<int>> regions_of_mesh() const {

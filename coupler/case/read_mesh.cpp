@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -18,6 +19,21 @@
 namespace polargrain::coupler {
 namespace {
 
+/// Divides the faces of each boundary into those of the patch and of the rest, where both have some: top_patch, top_rest.
+void divide_faces(fem::Mesh<3>& mesh) {
+  const std::vector<int>& patch = mesh.regions.at("patch");  // ascending
+  std::map<std::string, std::vector<fem::BoundarySide>> made;
+  for (const auto& [name, faces] : mesh.boundaries) {
+    std::vector<fem::BoundarySide> inside, outside;
+    for (const fem::BoundarySide& face : faces)
+      (std::ranges::binary_search(patch, face.element) ? inside : outside).push_back(face);
+    if (inside.empty() || outside.empty()) continue;
+    made[name + "_patch"] = std::move(inside);
+    made[name + "_rest"] = std::move(outside);
+  }
+  mesh.boundaries.merge(made);
+}
+
 /// Divides the elements into the region `patch`, whose centres lie within `size` of the lower left corner (in space: and
 /// front), and the region `rest`.
 template <int dim>
@@ -30,7 +46,9 @@ void make_patch(const typename Cosserat<dim>::Place& size, Section& section, fem
     section.fault("patch",
                   "patch: holds no element, or all of them; its size is measured from the lower left corner "
                   "to the centres of elements");
+    return;
   }
+  if constexpr (dim == 3) divide_faces(mesh);
 }
 
 /// Makes node sets of the rows of nodes at given heights.

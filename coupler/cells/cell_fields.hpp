@@ -16,13 +16,16 @@ namespace polargrain::coupler {
 // and, where skew and couple stress are the case's, skew_mobilisation and couple_mobilisation.
 
 /// The limits that a point has reached. @param stress of its cell, Pa @param cosserat nothing where the cells give everything
-LimitsReached limits_reached(const Vector7& stress, const std::optional<CosseratParameters>& cosserat,
-                             const CosseratPart& part, const PackingAtStart& packing);
+template <int dim>
+LimitsReached limits_reached(const typename Cosserat<dim>::Vector& stress,
+                             const std::optional<CosseratParameters>& cosserat, const CosseratPart<dim>& part,
+                             const PackingAtStart<dim>& packing);
 
 std::vector<std::string> names_of_cell_fields(bool has_part);
 /// @param values in that order
+template <int dim>
 void write_cell_fields(const CellDiagnostics& cell, const LimitsReached& reached,
-                       const std::optional<CosseratParameters>& cosserat, const CosseratPart& part,
+                       const std::optional<CosseratParameters>& cosserat, const CosseratPart<dim>& part,
                        std::span<double> values);
 
 }  // namespace polargrain::coupler

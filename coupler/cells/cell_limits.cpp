@@ -70,7 +70,7 @@ struct Pushed {
 };
 
 /// @param going the ways to go
-Pushed pushed(const CellCalls& calls, const PlaneReply& packing,
+Pushed pushed(const CellCalls<2>& calls, const PlaneReply& packing,
               const std::array<Increment<2>, kWays>& increments, std::vector<std::size_t> going) {
   Pushed found;
   std::vector<PlaneReply> at(kWays, packing);
@@ -108,8 +108,8 @@ std::array<Increment<2>, kWays> increments_to_limits(double mean_diameter) {
 
 }  // namespace
 
-CellLimits limits_without_bending(const CellCalls& to_shear, const PlaneReply& at_rest,
-                                  const CellCalls& to_turn, const PlaneReply& at_rest_to_turn) {
+CellLimits limits_without_bending(const CellCalls<2>& to_shear, const PlaneReply& at_rest,
+                                  const CellCalls<2>& to_turn, const PlaneReply& at_rest_to_turn) {
   const std::array<Increment<2>, kWays> increments = increments_to_limits(0.0);
   const Pushed sheared = pushed(to_shear, at_rest, increments, {kSheared});
   const Pushed turned = pushed(to_turn, at_rest_to_turn, increments, {kTurned});
@@ -121,7 +121,7 @@ CellLimits limits_without_bending(const CellCalls& to_shear, const PlaneReply& a
           why_not(turned, kTurned)};
 }
 
-CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter) {
+CellLimits limits_of(const CellCalls<2>& calls, const PlaneReply& packing, double mean_diameter) {
   const Pushed found =
       pushed(calls, packing, increments_to_limits(mean_diameter), {kSheared, kTurned, kBent});
   for (std::size_t way = 0; way < kWays; ++way) {

@@ -35,11 +35,11 @@ struct CellLimits {
 /// rest has its reason in not_sheared or not_turned. A limit that was found may be 0.
 /// @param to_shear cells to shear @param at_rest their packing
 /// @param to_turn cells to turn @param at_rest_to_turn their packing
-CellLimits limits_without_bending(const CellCalls& to_shear, const PlaneReply& at_rest,
-                                  const CellCalls& to_turn, const PlaneReply& at_rest_to_turn);
+CellLimits limits_without_bending(const CellCalls<2>& to_shear, const PlaneReply& at_rest,
+                                  const CellCalls<2>& to_turn, const PlaneReply& at_rest_to_turn);
 
 /// @param packing at rest, whose rotations are controlled @param mean_diameter of its grains, m
 /// @throws RunError where a path cannot be followed or a limit cannot be found
-CellLimits limits_of(const CellCalls& calls, const PlaneReply& packing, double mean_diameter);
+CellLimits limits_of(const CellCalls<2>& calls, const PlaneReply& packing, double mean_diameter);
 
 }  // namespace polargrain::coupler

@@ -8,25 +8,29 @@
 
 namespace polargrain::coupler {
 
-CellMaterial::CellMaterial(Pool& pool, std::uint32_t definition,
-                           const std::optional<CosseratParameters>& cosserat, const std::string& note)
-    : calls_(calls_of(pool, definition)), cosserat_(cosserat), at_limits_(cosserat.has_value()) {
+template <int dim>
+CellMaterial<dim>::CellMaterial(Pool& pool, std::uint32_t definition,
+                                const std::optional<CosseratParameters>& cosserat, const std::string& note)
+    : calls_(calls_of<dim>(pool, definition)), cosserat_(cosserat), at_limits_(cosserat.has_value()) {
   if (!note.empty()) notes_.push_back(note);
   const CellDefinition& cell = pool.definition(definition);
   if (cell.control.rotations == CellRotations::controlled) mean_radius_ = cell.packing.mean_radius();
 }
 
-void CellMaterial::allocate(std::size_t points) {
+template <int dim>
+void CellMaterial<dim>::allocate(std::size_t points) {
   PointState start;
   start.cell = packing_at_rest(calls_, notes_);
-  packing_ = PackingAtStart(start.cell);
+  packing_ = PackingAtStart<dim>(start.cell);
   start.cosserat = packing_.part();
   committed_.assign(points, start);
   trial_ = committed_;
 }
 
-void CellMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
-  std::vector<PlaneRequest> requests;
+template <int dim>
+void CellMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
+                                 std::span<Response<dim>> responses) {
+  std::vector<PointRequest<dim>> requests;
   std::vector<std::size_t> points;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
@@ -35,7 +39,7 @@ void CellMaterial::evaluate(std::span<const Increment<2>> increments, std::span<
                                                                 : increment_for_cell(increments[point])});
     points.push_back(point);
   }
-  std::vector<PlaneReply> replies = calls_.evaluate(requests, points);
+  std::vector<PointReply<dim>> replies = calls_.evaluate(requests, points);
   for (std::size_t r = 0; r < replies.size(); ++r) {
     PointState& point = trial_[points[r]];
     point.cell = std::move(replies[r]);
@@ -54,7 +58,8 @@ void CellMaterial::evaluate(std::span<const Increment<2>> increments, std::span<
   }
 }
 
-void CellMaterial::commit() {
+template <int dim>
+void CellMaterial<dim>::commit() {
   std::vector<StatePointer*> states;
   for (PointState& point : trial_) states.push_back(&point.cell.state);
   collect(calls_, states);
@@ -64,28 +69,36 @@ void CellMaterial::commit() {
   at_limits_.count(reached_limits);
 }
 
-LimitsReached CellMaterial::reached(const PointState& point) const {
-  return limits_reached(point.cell.response.stress, cosserat_, point.cosserat, packing_);
+template <int dim>
+LimitsReached CellMaterial<dim>::reached(const PointState& point) const {
+  return limits_reached<dim>(point.cell.response.stress, cosserat_, point.cosserat, packing_);
 }
 
-void CellMaterial::save(ArchiveWriter& archive) const {
+template <int dim>
+void CellMaterial<dim>::save(ArchiveWriter& archive) const {
   write_records(archive, "points", std::span<const PointState>(committed_));
   at_limits_.save(archive);
 }
 
-void CellMaterial::restore(ArchiveReader& archive) {
+template <int dim>
+void CellMaterial<dim>::restore(ArchiveReader& archive) {
   committed_ = read_records<PointState>(archive, "points", committed_.size());
   trial_ = committed_;
   at_limits_.restore(archive);
 }
 
-std::vector<std::string> CellMaterial::field_names() const {
+template <int dim>
+std::vector<std::string> CellMaterial<dim>::field_names() const {
   return names_of_cell_fields(cosserat_.has_value());
 }
 
-void CellMaterial::fields(std::size_t point, std::span<double> values) const {
+template <int dim>
+void CellMaterial<dim>::fields(std::size_t point, std::span<double> values) const {
   const PointState& state = committed_[point];
   write_cell_fields(state.cell.diagnostics, reached(state), cosserat_, state.cosserat, values);
 }
+
+template class CellMaterial<2>;
+template class CellMaterial<3>;
 
 }  // namespace polargrain::coupler

@@ -16,10 +16,12 @@
 
 namespace polargrain::coupler {
 
-/// A material whose stress comes from boxes of grains, one a point, evaluated by the workers of a pool. Cells
+/// A material whose stress comes from boxes of grains, one a point, evaluated by the workers of a pool: of discs or spheres
+/// in the plane, of spheres in space. Cells
 /// with free rotations give the symmetric stress; skew stress and couple stresses are those of the Cosserat
 /// part (cosserat_part.hpp). Cells with controlled rotations give everything.
-class CellMaterial : public fem::Material<2>, public GrainsOfPoints {
+template <int dim>
+class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -31,7 +33,7 @@ class CellMaterial : public fem::Material<2>, public GrainsOfPoints {
   void allocate(std::size_t points) override;
   /// Sends the increments of all points to the pool at once. A point whose increment is zero keeps its
   /// committed answer: nothing has happened to its grains.
-  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   /// Collects the states of the cells.
   void commit() override;
   void revert() override { trial_ = committed_; }
@@ -52,8 +54,8 @@ class CellMaterial : public fem::Material<2>, public GrainsOfPoints {
 
  private:
   struct PointState {
-    PlaneReply cell;  ///< the cell's own last answer, with its state
-    CosseratPart cosserat;
+    PointReply<dim> cell;  ///< the cell's own last answer, with its state
+    CosseratPart<dim> cosserat;
 
     template <RecordOf<PointState> Record, class Visit>
     friend void describe(Record& point, Visit&& visit) {
@@ -64,10 +66,10 @@ class CellMaterial : public fem::Material<2>, public GrainsOfPoints {
 
   [[nodiscard]] LimitsReached reached(const PointState& point) const;
 
-  CellCalls calls_;
+  CellCalls<dim> calls_;
   std::optional<CosseratParameters> cosserat_;
   PointsAtLimits at_limits_;
-  PackingAtStart packing_;
+  PackingAtStart<dim> packing_;
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> committed_;

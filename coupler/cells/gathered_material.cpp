@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/successive.hpp"
 
 namespace polargrain::coupler {
@@ -13,18 +14,20 @@ namespace {
 constexpr int kMostAgain = 10;
 
 /// In small deformation all increments are counted from the shape at the start of the run, and add up.
-Increment<2> added(const Increment<2>& way, const Increment<2>& step) {
+template <int dim>
+Increment<dim> added(const Increment<dim>& way, const Increment<dim>& step) {
   if (step.configuration != Configuration::fixed) return followed_by(way, step);
-  Increment<2> sum = way;
+  Increment<dim> sum = way;
   sum.displacement_gradient += step.displacement_gradient;
-  sum.micro_rotation += step.micro_rotation;
+  micro_rotation(sum) += micro_rotation(step);
   sum.curvature += step.curvature;
   return sum;
 }
 
 }  // namespace
 
-GatheredMaterial::GatheredMaterial(std::shared_ptr<fem::Material<2>> material, int steps)
+template <int dim>
+GatheredMaterial<dim>::GatheredMaterial(std::shared_ptr<fem::Material<dim>> material, int steps)
     : material_(std::move(material)),
       grains_(dynamic_cast<const GrainsOfPoints*>(material_.get())),
       steps_(steps) {
@@ -32,56 +35,67 @@ GatheredMaterial::GatheredMaterial(std::shared_ptr<fem::Material<2>> material, i
   if (steps < 1) throw RunError("at least one step must be taken together");
 }
 
-void GatheredMaterial::allocate(std::size_t points) {
+template <int dim>
+void GatheredMaterial<dim>::allocate(std::size_t points) {
   material_->allocate(points);
-  way_.assign(points, Increment<2>{});
+  way_.assign(points, Increment<dim>{});
   trial_ = way_;
   gathered_ = 0;
 }
 
-void GatheredMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
+template <int dim>
+void GatheredMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
+                                     std::span<Response<dim>> responses) {
   for (std::size_t point = 0; point < way_.size(); ++point)
     trial_[point] = added(way_[point], increments[point]);
   material_->evaluate(trial_, responses);
   was_dropped_ = false;
 }
 
-void GatheredMaterial::commit() {
+template <int dim>
+void GatheredMaterial<dim>::commit() {
   way_ = trial_;
   if (++gathered_ == steps_) settle();
 }
 
-void GatheredMaterial::revert() {
+template <int dim>
+void GatheredMaterial<dim>::revert() {
   trial_ = way_;
   material_->revert();
   was_dropped_ = true;
 }
 
-void GatheredMaterial::settle() {
+template <int dim>
+void GatheredMaterial<dim>::settle() {
   if (gathered_ == 0) return;
-  std::vector<Response<2>> answers(way_.size());
+  std::vector<Response<dim>> answers(way_.size());
   if (was_dropped_) material_->evaluate(way_, answers);  // it evaluated another way last
   was_dropped_ = false;
   // Better answers to the same way are felt from the next step on.
   for (int again = 0; again < kMostAgain && !material_->confirm(); ++again)
     material_->evaluate(way_, answers);
   material_->commit();
-  way_.assign(way_.size(), Increment<2>{});
+  way_.assign(way_.size(), Increment<dim>{});
   trial_ = way_;
   gathered_ = 0;
 }
 
-void GatheredMaterial::save(ArchiveWriter& archive) const {
+template <int dim>
+void GatheredMaterial<dim>::save(ArchiveWriter& archive) const {
   if (gathered_ > 0)
     throw RunError("steps that are taken together must be committed (settle) before they are saved");
   material_->save(archive);
 }
 
-void GatheredMaterial::restore(ArchiveReader& archive) {
+template <int dim>
+void GatheredMaterial<dim>::restore(ArchiveReader& archive) {
   material_->restore(archive);
-  way_.assign(way_.size(), Increment<2>{});
+  way_.assign(way_.size(), Increment<dim>{});
   trial_ = way_;
   gathered_ = 0;
 }
+
+template class GatheredMaterial<2>;
+template class GatheredMaterial<3>;
 
 }  // namespace polargrain::coupler

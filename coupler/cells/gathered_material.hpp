@@ -11,14 +11,15 @@ namespace polargrain::coupler {
 /// A material of Newton's method in explicit steps, which are too small to bring its cells to rest in each of them. It takes
 /// several together: its answer is that to the way since it committed last, and it commits after so many
 /// steps, and whenever results are written. In between it goes to and fro without loss, however it yields.
-class GatheredMaterial : public fem::Material<2>, public GrainsOfPoints {
+template <int dim>
+class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
  public:
   /// @param material not null, shows grains (GrainsOfPoints) @param steps that are taken together, at least 1
   /// @throws RunError when there are none, or the material shows no grains
-  GatheredMaterial(std::shared_ptr<fem::Material<2>> material, int steps);
+  GatheredMaterial(std::shared_ptr<fem::Material<dim>> material, int steps);
 
   void allocate(std::size_t points) override;
-  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   void commit() override;
   void revert() override;
   void settle() override;
@@ -26,7 +27,7 @@ class GatheredMaterial : public fem::Material<2>, public GrainsOfPoints {
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
 
-  void set_initial_stress(std::size_t point, const Vector7& stress) override {
+  void set_initial_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
     material_->set_initial_stress(point, stress);
   }
   [[nodiscard]] bool can_turn() const override { return material_->can_turn(); }
@@ -42,13 +43,13 @@ class GatheredMaterial : public fem::Material<2>, public GrainsOfPoints {
   [[nodiscard]] std::string at_limits() const override { return grains_->at_limits(); }
 
  private:
-  std::shared_ptr<fem::Material<2>> material_;
+  std::shared_ptr<fem::Material<dim>> material_;
   const GrainsOfPoints* grains_;  ///< the same
   int steps_;
-  bool was_dropped_ = false;         ///< the step that was evaluated last
-  int gathered_ = 0;                 ///< steps since the material committed last
-  std::vector<Increment<2>> way_;    ///< by point, over these steps
-  std::vector<Increment<2>> trial_;  ///< the same with the step on trial
+  bool was_dropped_ = false;           ///< the step that was evaluated last
+  int gathered_ = 0;                   ///< steps since the material committed last
+  std::vector<Increment<dim>> way_;    ///< by point, over these steps
+  std::vector<Increment<dim>> trial_;  ///< the same with the step on trial
 };
 
 }  // namespace polargrain::coupler

@@ -30,8 +30,9 @@ enum class BeyondMismatch {
   cell   ///< from the next step on the point's stress and tangent are those of its cell, for good
 };
 
+template <int dim>
 struct InformedParameters {
-  fem::ElasticParameters<2> elastic;  ///< of the law; its initial stress is that of the packing
+  fem::ElasticParameters<dim> elastic;  ///< of the law; its initial stress is that of the packing
   /// Of the law's invariant. Nothing: the standard ones, or, with controlled rotations, those of the cell (cell_limits.hpp).
   std::optional<fem::InvariantWeights> weights = {};
   /// lp of grains whose rotations are free, m: the law yields at couple stresses of lp times the pressure, whatever its
@@ -56,19 +57,20 @@ struct InformedParameters {
 /// dilatancy. A cell with controlled rotations follows micro-rotation and curvature too; its limits of skew and couple
 /// stress are the law's weights, and friction is read from its whole stress. The disagreement of law and cell is shown
 /// as the field stress_mismatch; where it is too large a point may go over to its cell's answer (own_answer.hpp).
-class InformedMaterial : public fem::Material<2>, public GrainsOfPoints {
+template <int dim>
+class InformedMaterial : public fem::Material<dim>, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param note remarks to the user on the parameters; may be empty
   /// @param with_tangent the same cells, answering with tangents; asked only with BeyondMismatch::cell
-  InformedMaterial(CellCalls calls, const InformedParameters& parameters, const std::string& note = {},
-                   CellCalls with_tangent = {});
+  InformedMaterial(CellCalls<dim> calls, const InformedParameters<dim>& parameters,
+                   const std::string& note = {}, CellCalls<dim> with_tangent = {});
 
   [[nodiscard]] double moment_length() const override { return parameters_.mean_diameter; }
   /// Every point starts from the packing at rest, which is first taken to its limits where the weights are its own; where the cell has no out-of-plane stress, from the mean of
   /// the two others.
   void allocate(std::size_t points) override;
-  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   /// Frozen: the cells now follow the step. One that has no good answer follows it in halves, quarters, ...
   /// @throws RunError when sixteenths fail too, and where law and cell disagree by more than they may.
   void commit() override;
@@ -96,55 +98,57 @@ class InformedMaterial : public fem::Material<2>, public GrainsOfPoints {
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
 
  private:
+  using Vector = typename Cosserat<dim>::Vector;
+
   struct PointState {
-    fem::ElastoplasticState<2> law;
-    fem::Mobilisation mobilisation;
+    fem::ElastoplasticState<dim> law;
+    fem::Mobilisation<dim> mobilisation;
     /// The law takes a change of friction up in a straight line over the plastic shear of the step before:
     /// from `held_friction` at the start of the step to that of the cone `take_up` later.
     double held_friction = 0.0;
     double take_up = 0.0;
-    PlaneReply cell;  ///< its last answer, with its state
-    OwnAnswer own;    ///< active: the law has been left, and holds the stress of the point
+    PointReply<dim> cell;  ///< its last answer, with its state
+    OwnAnswer<dim> own;    ///< active: the law has been left, and holds the stress of the point
   };
 
   template <class Visitor>
   static void visit_numbers(Visitor& visit, PointState& point, int window);
   /// Elastic constants and weights of a point's law in this step.
-  [[nodiscard]] fem::ElastoplasticFrame<2> frame_of(std::size_t point) const;
-  [[nodiscard]] Response<2> integrate(std::size_t point, const Increment<2>& increment);
+  [[nodiscard]] fem::ElastoplasticFrame<dim> frame_of(std::size_t point) const;
+  [[nodiscard]] Response<dim> integrate(std::size_t point, const Increment<dim>& increment);
   /// A step inside of the cone, or back to it, with the stiffness and contraction that the cell shows there.
-  [[nodiscard]] Response<2> integrate_unloading(const fem::ElastoplasticFrame<2>& frame,
-                                                const fem::Mobilisation& mobilisation,
-                                                const fem::ElastoplasticState<2>& start,
-                                                const Increment<2>& increment,
-                                                fem::ElastoplasticState<2>& end) const;
+  [[nodiscard]] Response<dim> integrate_unloading(const fem::ElastoplasticFrame<dim>& frame,
+                                                  const fem::Mobilisation<dim>& mobilisation,
+                                                  const fem::ElastoplasticState<dim>& start,
+                                                  const Increment<dim>& increment,
+                                                  fem::ElastoplasticState<dim>& end) const;
   /// The standard invariant leaves skew stress elastic: it returns to its limit behind the law, which goes by the same limit
   /// as the part of a cell (cosserat_part.hpp).
-  void limit_skew_of_laws(std::span<Response<2>> responses);
+  void limit_skew_of_laws(std::span<Response<dim>> responses);
   /// Skew and couple stress of a point with free rotations, for its mobilisation.
-  [[nodiscard]] CosseratPart cosserat_part_of(const PointState& point) const;
+  [[nodiscard]] CosseratPart<dim> cosserat_part_of(const PointState& point) const;
   [[nodiscard]] LimitsReached reached(const PointState& point) const;
   void count_limits();
-  void evaluate_frozen(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
-  void evaluate_fixed_point(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
+  void evaluate_frozen(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses);
+  void evaluate_fixed_point(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses);
   /// The points that go by their cells' answers.
-  void evaluate_own(std::span<const Increment<2>> increments, std::span<Response<2>> responses);
+  void evaluate_own(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses);
   /// The answer of the law to the stretch of a step, and where it ends, in the axes of the start of the step.
-  [[nodiscard]] Response<2> integrate_stretch(std::size_t point, const Increment<2>& stretch,
-                                              fem::ElastoplasticState<2>& end) const;
+  [[nodiscard]] Response<dim> integrate_stretch(std::size_t point, const Increment<dim>& stretch,
+                                                fem::ElastoplasticState<dim>& end) const;
   /// The same with friction and dilatancy of the step itself.
-  [[nodiscard]] Response<2> integrate_updated(std::size_t point, const Increment<2>& stretch,
-                                              const fem::Mobilisation& mobilisation,
-                                              fem::ElastoplasticState<2>& end) const;
+  [[nodiscard]] Response<dim> integrate_updated(std::size_t point, const Increment<dim>& stretch,
+                                                const fem::Mobilisation<dim>& mobilisation,
+                                                fem::ElastoplasticState<dim>& end) const;
   /// The increment that the grains of a cell feel.
-  [[nodiscard]] Increment<2> felt(const Increment<2>& increment) const;
+  [[nodiscard]] Increment<dim> felt(const Increment<dim>& increment) const;
   /// Lets the cells follow the increments of the step; puts their answers into `trial_`.
-  void follow(const CellCalls& calls, std::span<const std::size_t> points);
+  void follow(const CellCalls<dim>& calls, std::span<const std::size_t> points);
   /// Where law and cell disagree by more than they may, the point goes by its cell from the next step on.
   void leave_laws();
-  void take(const PlaneReply& reply, const Increment<2>& increment, std::size_t point);
-  /// Norm of the difference of the in-plane stresses of law and cell, over that of the law; controlled rotations: skew
-  /// stress and couple stress over lc included.
+  void take(const PointReply<dim>& reply, const Increment<dim>& increment, std::size_t point);
+  /// Norm of the difference of the stresses of law and cell, in the plane the in-plane ones, over that of the law;
+  /// controlled rotations: skew stress and couple stress over lc included.
   [[nodiscard]] double mismatch(const PointState& point) const;
   /// Tells, throws, or leaves the law, where it is leaving its cell in the step on trial.
   void watch_mismatch();
@@ -153,22 +157,22 @@ class InformedMaterial : public fem::Material<2>, public GrainsOfPoints {
   [[nodiscard]] bool controlled() const { return parameters_.mean_diameter > 0.0; }
   [[nodiscard]] bool may_change() const { return parameters_.beyond_mismatch == BeyondMismatch::cell; }
   /// The stress of a point as a law keeps it.
-  [[nodiscard]] fem::ScaledVector<double> scaled_stress(const Vector7& stress) const;
-  /// The strain that the cell feels, and its stress with the s33 it is lent by the law: scaled; symmetric in the
+  [[nodiscard]] fem::ScaledVector<double, dim> scaled_stress(const Vector& stress) const;
+  /// The strain that the cell feels, and its stress with the one that the law lends it (lent_stress.hpp): scaled; symmetric in the
   /// plane and without curvature and couple stress where rotations are free.
-  [[nodiscard]] fem::ScaledVector<double> scaled_strain(const Increment<2>& stretch) const;
-  [[nodiscard]] fem::ScaledVector<double> complete_cell_stress(const Vector7& cell,
-                                                               const fem::ScaledVector<double>& law) const;
+  [[nodiscard]] fem::ScaledVector<double, dim> scaled_strain(const Increment<dim>& stretch) const;
+  [[nodiscard]] fem::ScaledVector<double, dim> complete_cell_stress(
+      const Vector& cell, const fem::ScaledVector<double, dim>& law) const;
 
-  CellCalls calls_;
-  CellCalls with_tangent_;
-  OwnAnswerRules own_rules_;
+  CellCalls<dim> calls_;
+  CellCalls<dim> with_tangent_;
+  OwnAnswerRules<dim> own_rules_;
   PointsAtLimits at_limits_;
   bool told_of_mismatch_ = false;
   std::vector<std::string> notes_;
-  InformedParameters parameters_;
-  fem::ElastoplasticFrame<2> frame_;
-  std::vector<Increment<2>> increments_;  ///< of the last evaluation
+  InformedParameters<dim> parameters_;
+  fem::ElastoplasticFrame<dim> frame_;
+  std::vector<Increment<dim>> increments_;  ///< of the last evaluation
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;
 };

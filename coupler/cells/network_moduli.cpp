@@ -41,7 +41,8 @@ NetworkModuli network_moduli(const Matrix7& c) {
 NetworkModuli network_moduli(Pool& pool, CellDefinition definition) {
   definition.control.tangent = CellTangent::cosserat;
   std::vector<std::string> remarks;  // the material's own cell makes them too
-  return network_moduli(packing_at_rest(calls_of(pool, pool.define(definition)), remarks).response.tangent);
+  return network_moduli(
+      packing_at_rest(calls_of<2>(pool, pool.define(definition)), remarks).response.tangent);
 }
 
 namespace {
@@ -54,9 +55,9 @@ constexpr double kDampingToTurn = 0.5;
 CellLimits limits_of_free(Pool& pool, CellDefinition definition) {
   definition.control.rotations = CellRotations::controlled;
   definition.control.tangent = CellTangent::cosserat;
-  const CellCalls to_shear = calls_of(pool, pool.define(definition));
+  const CellCalls<2> to_shear = calls_of<2>(pool, pool.define(definition));
   definition.control.damping = std::max(definition.control.damping, kDampingToTurn);
-  const CellCalls to_turn = calls_of(pool, pool.define(std::move(definition)));
+  const CellCalls<2> to_turn = calls_of<2>(pool, pool.define(std::move(definition)));
   std::vector<std::string> remarks;  // the material's own cell makes them too
   return limits_without_bending(to_shear, packing_at_rest(to_shear, remarks), to_turn,
                                 packing_at_rest(to_turn, remarks));

@@ -72,12 +72,18 @@ std::vector<std::string> names_of_limit_fields(bool has_part) {
   return {"parted", "skew_mobilisation", "couple_mobilisation"};
 }
 
+template <int dim>
 void write_limit_fields(const LimitsReached& reached, const std::optional<CosseratParameters>& cosserat,
-                        const CosseratPart& part, std::span<double>::iterator to) {
+                        const CosseratPart<dim>& part, std::span<double>::iterator to) {
   *to++ = reached.parted ? 1.0 : 0.0;
   if (!cosserat) return;
   *to++ = part.skew_mobilisation(*cosserat);
   *to++ = part.couple_mobilisation(*cosserat);
 }
+
+template void write_limit_fields(const LimitsReached&, const std::optional<CosseratParameters>&,
+                                 const CosseratPart<2>&, std::span<double>::iterator);
+template void write_limit_fields(const LimitsReached&, const std::optional<CosseratParameters>&,
+                                 const CosseratPart<3>&, std::span<double>::iterator);
 
 }  // namespace polargrain::coupler

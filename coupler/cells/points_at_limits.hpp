@@ -47,7 +47,8 @@ class PointsAtLimits {
 /// couple_mobilisation, the stress over its limit.
 std::vector<std::string> names_of_limit_fields(bool has_part);
 /// @param cosserat nothing where the cells give everything @param to gets the values in that order
+template <int dim>
 void write_limit_fields(const LimitsReached& reached, const std::optional<CosseratParameters>& cosserat,
-                        const CosseratPart& part, std::span<double>::iterator to);
+                        const CosseratPart<dim>& part, std::span<double>::iterator to);
 
 }  // namespace polargrain::coupler

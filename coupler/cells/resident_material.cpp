@@ -21,10 +21,11 @@ constexpr double kHot = 0.1;
 
 }  // namespace
 
-ResidentMaterial::ResidentMaterial(Pool& pool, std::uint32_t definition,
-                                   const std::optional<CosseratParameters>& cosserat, int dem_steps,
-                                   const std::string& note)
-    : calls_(calls_of(pool, definition)),
+template <int dim>
+ResidentMaterial<dim>::ResidentMaterial(Pool& pool, std::uint32_t definition,
+                                        const std::optional<CosseratParameters>& cosserat, int dem_steps,
+                                        const std::string& note)
+    : calls_(calls_of<dim>(pool, definition)),
       cells_(pool, definition),
       dem_steps_(dem_steps),
       grains_(static_cast<double>(pool.definition(definition).packing.grains.size())),
@@ -36,15 +37,17 @@ ResidentMaterial::ResidentMaterial(Pool& pool, std::uint32_t definition,
   if (cell.control.rotations == CellRotations::controlled) mean_radius_ = cell.packing.mean_radius();
 }
 
-void ResidentMaterial::allocate(std::size_t points) {
+template <int dim>
+void ResidentMaterial<dim>::allocate(std::size_t points) {
   at_rest_ = packing_at_rest(calls_, notes_);
-  packing_ = PackingAtStart(at_rest_);
+  packing_ = PackingAtStart<dim>(at_rest_);
   points_.assign(points,
                  {at_rest_.response.stress, at_rest_.diagnostics, at_rest_.state, {}, packing_.part()});
   start();
 }
 
-void ResidentMaterial::start() {
+template <int dim>
+void ResidentMaterial<dim>::start() {
   std::vector<ResidentStart> starts;
   for (const PointState& point : points_) {
     const bool at_rest = point.state->name() == at_rest_.state->name();  // its bytes need not travel
@@ -56,14 +59,17 @@ void ResidentMaterial::start() {
   is_settled_ = true;
 }
 
-void ResidentMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
+template <int dim>
+void ResidentMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
+                                     std::span<Response<dim>> responses) {
   if (has_moved_) throw RunError("an explicit step is evaluated twice: resident boxes cannot go back");
-  const bool rest = std::ranges::all_of(increments, is_zero);
+  const bool rest =
+      std::ranges::all_of(increments, [](const Increment<dim>& increment) { return is_zero(increment); });
   if (!rest) {
     std::vector<CellIncrement> of_boxes;
-    for (const Increment<2>& increment : increments)
+    for (const Increment<dim>& increment : increments)
       of_boxes.push_back(
-          in_space(cosserat_ ? increment_for_free_cell(increment) : increment_for_cell(increment)));
+          increment_in_space(cosserat_ ? increment_for_free_cell(increment) : increment_for_cell(increment)));
     has_moved_ = true;
     is_settled_ = false;
     const std::vector<ResidentAnswer> answers = cells_.go_on(dem_steps_, of_boxes);
@@ -75,7 +81,7 @@ void ResidentMaterial::evaluate(std::span<const Increment<2>> increments, std::s
   }
   for (std::size_t p = 0; p < points_.size(); ++p) {
     PointState& point = points_[p];
-    Response<2>& response = responses[p];
+    Response<dim>& response = responses[p];
     response = at_rest_.response;
     response.stress = point.stress;
     if (cosserat_) {
@@ -87,29 +93,33 @@ void ResidentMaterial::evaluate(std::span<const Increment<2>> increments, std::s
   }
 }
 
-void ResidentMaterial::take(PointState& point, const ResidentAnswer& answer) const {
+template <int dim>
+void ResidentMaterial<dim>::take(PointState& point, const ResidentAnswer& answer) const {
   CellResponse response;
   response.stress = answer.stress;
   response.couple_stress = answer.couple_stress;
   response.known = at_rest_.knows_s33 ? KnownComponents::all : KnownComponents::plane;
-  point.stress = in_plane(response).stress;
+  point.stress = of_dimension<dim>(response).stress;
   point.diagnostics.unbalanced_force_ratio = answer.unbalanced_force_ratio;
   point.diagnostics.coordination_number = answer.coordination_number;
   point.diagnostics.contacts = std::llround(0.5 * answer.coordination_number * grains_);
 }
 
-void ResidentMaterial::commit() {
+template <int dim>
+void ResidentMaterial<dim>::commit() {
   has_moved_ = false;
   std::vector<LimitsReached> reached_limits;
   for (const PointState& point : points_) reached_limits.push_back(reached(point));
   at_limits_.count(reached_limits);
 }
 
-void ResidentMaterial::revert() {
+template <int dim>
+void ResidentMaterial<dim>::revert() {
   if (has_moved_) throw RunError("an explicit step cannot be reverted: resident boxes cannot go back");
 }
 
-void ResidentMaterial::settle() {
+template <int dim>
+void ResidentMaterial<dim>::settle() {
   if (has_moved_) throw RunError("resident boxes cannot be read out between evaluate and commit");
   if (is_settled_) return;
   std::vector<ResidentReadOut> boxes = cells_.read_out();
@@ -122,12 +132,14 @@ void ResidentMaterial::settle() {
   is_settled_ = true;
 }
 
-void ResidentMaterial::forget_unrest() {
+template <int dim>
+void ResidentMaterial<dim>::forget_unrest() {
   unrest_.assign(points_.size(), 0.0);
   unrest_steps_ = 0;
 }
 
-fem::Unrest ResidentMaterial::unrest() const {
+template <int dim>
+fem::Unrest ResidentMaterial<dim>::unrest() const {
   fem::Unrest all;
   if (unrest_steps_ == 0) return all;
   all.points = points_.size();
@@ -139,13 +151,15 @@ fem::Unrest ResidentMaterial::unrest() const {
   return all;
 }
 
-void ResidentMaterial::save(ArchiveWriter& archive) const {
+template <int dim>
+void ResidentMaterial<dim>::save(ArchiveWriter& archive) const {
   if (!is_settled_) throw RunError("resident boxes must be read out (settle) before they are saved");
   write_records(archive, "points", std::span<const PointState>(points_));
   at_limits_.save(archive);
 }
 
-void ResidentMaterial::restore(ArchiveReader& archive) {
+template <int dim>
+void ResidentMaterial<dim>::restore(ArchiveReader& archive) {
   points_ = read_records<PointState>(archive, "points", points_.size());
   for (const PointState& point : points_)
     if (!point.state) throw RunError("'points' lacks the state of a resident box");
@@ -153,17 +167,23 @@ void ResidentMaterial::restore(ArchiveReader& archive) {
   start();
 }
 
-LimitsReached ResidentMaterial::reached(const PointState& point) const {
-  return limits_reached(point.stress, cosserat_, point.cosserat, packing_);
+template <int dim>
+LimitsReached ResidentMaterial<dim>::reached(const PointState& point) const {
+  return limits_reached<dim>(point.stress, cosserat_, point.cosserat, packing_);
 }
 
-std::vector<std::string> ResidentMaterial::field_names() const {
+template <int dim>
+std::vector<std::string> ResidentMaterial<dim>::field_names() const {
   return names_of_cell_fields(cosserat_.has_value());
 }
 
-void ResidentMaterial::fields(std::size_t point, std::span<double> values) const {
+template <int dim>
+void ResidentMaterial<dim>::fields(std::size_t point, std::span<double> values) const {
   const PointState& state = points_[point];
   write_cell_fields(state.diagnostics, reached(state), cosserat_, state.cosserat, values);
 }
+
+template class ResidentMaterial<2>;
+template class ResidentMaterial<3>;
 
 }  // namespace polargrain::coupler

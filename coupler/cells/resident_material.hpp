@@ -18,7 +18,7 @@
 
 namespace polargrain::coupler {
 
-/// CellMaterial for explicit steps: its boxes stay with the workers and go on, one message a worker and step
+/// CellMaterial<dim> for explicit steps: its boxes stay with the workers and go on, one message a worker and step
 /// (resident_cells.hpp). Skew and couple stress as there.
 ///
 /// Boxes move when they are asked, so each step is evaluated once and committed; nothing can be dropped. Explicit steps ask
@@ -26,7 +26,8 @@ namespace polargrain::coupler {
 ///
 /// Diagnostics and states are those of the last settle, but for contacts, coordination_number and
 /// unbalanced_force_ratio, which are of the present.
-class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
+template <int dim>
+class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define, for this material alone
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -39,7 +40,7 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
   void allocate(std::size_t points) override;
   /// All boxes go on, each along its increment. When all increments are zero, as for the stress at the start, nobody is
   /// asked and the last answers count. @throws RunError when boxes have moved since the last commit
-  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   void commit() override;
   /// @throws RunError when boxes have moved since the last commit
   void revert() override;
@@ -52,7 +53,7 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
   void restore(ArchiveReader& archive) override;
 
   [[nodiscard]] double moment_length() const override { return 2.0 * mean_radius_; }
-  /// As those of CellMaterial.
+  /// As those of CellMaterial<dim>.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   /// Remarks of the engine on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
@@ -63,11 +64,11 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
 
  private:
   struct PointState {
-    Vector7 stress = Vector7::Zero();  ///< of the cell, of the present
+    typename Cosserat<dim>::Vector stress = Cosserat<dim>::Vector::Zero();  ///< of the cell, of the present
     CellDiagnostics diagnostics;
     StatePointer state;     ///< at the last settle
     ResidentMotion motion;  ///< then
-    CosseratPart cosserat;
+    CosseratPart<dim> cosserat;
 
     template <RecordOf<PointState> Record, class Visit>
     friend void describe(Record& point, Visit&& visit) {
@@ -85,14 +86,14 @@ class ResidentMaterial : public fem::Material<2>, public GrainsOfPoints {
   /// All boxes begin at the last settle.
   void start();
 
-  CellCalls calls_;
+  CellCalls<dim> calls_;
   ResidentCells cells_;
   int dem_steps_;
   double grains_;  ///< in a cell
   std::optional<CosseratParameters> cosserat_;
   PointsAtLimits at_limits_;
-  PlaneReply at_rest_;  ///< the packing
-  PackingAtStart packing_;
+  PointReply<dim> at_rest_;  ///< the packing
+  PackingAtStart<dim> packing_;
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> points_;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "fem/material/cone.hpp"
+#include "fem/material/cone_matching.hpp"
 #include "fem/material/mobilised.hpp"
+#include "fem/material/rotation.hpp"
 #include "fem/material/unloading.hpp"
 
 namespace polargrain::fem {
@@ -14,8 +17,10 @@ struct MobilisationOptions {
   /// The dilatancy is the slope over this many increments of the micro scale, at least 1.
   int window = 5;
   DilatancyLimits limits;
-  double cohesion = 0.0;          ///< of Mohr-Coulomb in plane strain, Pa; small and numerical
-  double initial_friction = 0.0;  ///< angle in plane strain, rad: the cone before anything is read
+  double cohesion = 0.0;          ///< of Mohr-Coulomb, Pa; small and numerical
+  double initial_friction = 0.0;  ///< angle, rad: the cone before anything is read
+  /// The state in which the cone has that angle and cohesion.
+  ConeMatch match = ConeMatch::plane_strain;
   /// Plastic shear over which a difference of mean stress between micro scale and law is worked off by the
   /// dilatancy, or the shear of a step where that is more; 0: never (the published scheme).
   double drift_shear = 0.01;
@@ -23,20 +28,22 @@ struct MobilisationOptions {
 
 /// One increment of the micro scale. Stresses have all of s11, s22, s33 (docs/theory/plasticity.md, B.9 on
 /// discs) and are in the axes of the start of the step where the material rotates (rotation.hpp).
+template <int dim>
 struct MicroStep {
-  ScaledVector<double> strain;         ///< scaled
-  ScaledVector<double> stress_before;  ///< scaled, Pa
-  ScaledVector<double> stress_after;   ///< scaled, Pa
-  double macro_mean = 0.0;             ///< mean stress of the macro law at the end, Pa
-  bool macro_plastic = false;          ///< the macro law yielded in this step
+  ScaledVector<double, dim> strain;         ///< scaled
+  ScaledVector<double, dim> stress_before;  ///< scaled, Pa
+  ScaledVector<double, dim> stress_after;   ///< scaled, Pa
+  double macro_mean = 0.0;                  ///< mean stress of the macro law at the end, Pa
+  bool macro_plastic = false;               ///< the macro law yielded in this step
 };
 
 /// The knowledge of one point about its micro scale: a plain value.
+template <int dim>
 struct Mobilisation {
   /// A point of the window: plastic strain of the micro scale over a measure of its deformation.
   struct Sample {
     double deformation = 0.0;  ///< sum of the norms of the strain increments
-    ScaledVector<double> plastic_strain = ScaledVector<double>::Zero();
+    ScaledVector<double, dim> plastic_strain = ScaledVector<double, dim>::Zero();
   };
 
   FrozenCone cone;              ///< for the next step of the macro law
@@ -51,10 +58,12 @@ struct Mobilisation {
 
 /// Before anything has been read: the cone of the initial friction without dilatancy.
 /// @throws InputError when the angle or the cohesion is outside its range.
-Mobilisation initial_mobilisation(const MobilisationOptions& options);
+template <int dim = 2>
+Mobilisation<dim> initial_mobilisation(const MobilisationOptions& options);
 
 /// The knowledge of the point, turned with the material: the plastic strains of the window.
-Mobilisation rotated(Mobilisation mobilisation, double angle);
+template <int dim>
+Mobilisation<dim> rotated(Mobilisation<dim> mobilisation, const std::type_identity_t<Turn<dim>>& turn);
 
 /// The knowledge of a point after one more increment of its micro scale.
 ///
@@ -64,7 +73,8 @@ Mobilisation rotated(Mobilisation mobilisation, double angle);
 /// when the micro scale loses strength while it is being loaded (softening).
 /// Grains that have come out of contact (less than a twentieth of the law's pressure) show nothing: friction stays, and the law contracts as drift_shear
 /// asks until they carry again.
-Mobilisation advance(const Mobilisation& start, const MicroStep& step, const SubspaceModuli& moduli,
-                     const MobilisationOptions& options);
+template <int dim>
+Mobilisation<dim> advance(const Mobilisation<dim>& start, const MicroStep<dim>& step,
+                          const SubspaceModuli& moduli, const MobilisationOptions& options);
 
 }  // namespace polargrain::fem

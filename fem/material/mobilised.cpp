@@ -21,13 +21,14 @@ double in_plane_radius(const ScaledVector<double>& tensor) {
 
 }  // namespace
 
-ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
-                                    const ScaledVector<double>& strain_increment,
-                                    const ScaledVector<double>& stress_increment) {
-  const Split<double> strain(strain_increment);
-  const Split<double> stress(stress_increment);
-  ScaledVector<double> plastic =
-      (strain.mean - stress.mean / (3.0 * moduli.bulk)) * volumetric_vector<double>();
+template <int dim>
+ScaledVector<double, dim> plastic_strain(const SubspaceModuli& moduli,
+                                         const ScaledVector<double, dim>& strain_increment,
+                                         const ScaledVector<double, dim>& stress_increment) {
+  const Split<double, dim> strain(strain_increment);
+  const Split<double, dim> stress(stress_increment);
+  ScaledVector<double, dim> plastic =
+      (strain.mean - stress.mean / (3.0 * moduli.bulk)) * volumetric_vector<double, dim>();
   for (std::size_t k = 0; k < 3; ++k) {
     if (moduli.stiffness[k] > 0.0) {
       plastic += strain.part[k] - stress.part[k] / moduli.stiffness[k];
@@ -36,16 +37,18 @@ ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
   return plastic;
 }
 
-std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
+template <int dim>
+std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double, dim>& stress,
                                     double cohesion) {
-  const Split<double> split(stress);
+  const Split<double, dim> split(stress);
   const double friction = (deviatoric_stress(split, moduli) - cohesion) / -split.mean;
   if (!(split.mean < 0.0) || !(friction >= 0.0)) return std::nullopt;
   return friction;
 }
 
-double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double>& strain) {
-  const Split<double> split(strain);
+template <int dim>
+double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double, dim>& strain) {
+  const Split<double, dim> split(strain);
   double squared = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (moduli.weight[k] > 0.0) squared += split.part[k].squaredNorm() / moduli.weight[k];
@@ -53,17 +56,19 @@ double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double>& st
   return std::sqrt(2.0 / 3.0 * squared);
 }
 
-std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic) {
-  const double shear = shear_strain(moduli, plastic);
+template <int dim>
+std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double, dim>& plastic) {
+  const double shear = shear_strain<dim>(moduli, plastic);
   if (!(shear > 0.0)) return std::nullopt;
-  return 3.0 * Split<double>(plastic).mean / shear;
+  return 3.0 * Split<double, dim>(plastic).mean / shear;
 }
 
-std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
-                                   const ScaledVector<double>& plastic, double cohesion,
+template <int dim>
+std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double, dim>& stress,
+                                   const ScaledVector<double, dim>& plastic, double cohesion,
                                    const DilatancyLimits& limits) {
-  const auto friction = cone_friction(moduli, stress, cohesion);
-  const auto dilatancy = cone_dilatancy(moduli, plastic);
+  const auto friction = cone_friction<dim>(moduli, stress, cohesion);
+  const auto dilatancy = cone_dilatancy<dim>(moduli, plastic);
   if (!friction || !dilatancy) return std::nullopt;
   return within(*friction, *dilatancy, limits);
 }
@@ -90,5 +95,24 @@ Mobilised within(double friction, double dilatancy, const DilatancyLimits& limit
   const double kept = std::clamp(dilatancy, limits.least, most);
   return {friction, kept, kept != dilatancy};
 }
+
+template ScaledVector<double, 2> plastic_strain<2>(const SubspaceModuli&, const ScaledVector<double, 2>&,
+                                                   const ScaledVector<double, 2>&);
+template std::optional<double> cone_friction<2>(const SubspaceModuli&, const ScaledVector<double, 2>&,
+                                                double);
+template double shear_strain<2>(const SubspaceModuli&, const ScaledVector<double, 2>&);
+template std::optional<double> cone_dilatancy<2>(const SubspaceModuli&, const ScaledVector<double, 2>&);
+template std::optional<Mobilised> mobilised<2>(const SubspaceModuli&, const ScaledVector<double, 2>&,
+                                               const ScaledVector<double, 2>&, double,
+                                               const DilatancyLimits&);
+template ScaledVector<double, 3> plastic_strain<3>(const SubspaceModuli&, const ScaledVector<double, 3>&,
+                                                   const ScaledVector<double, 3>&);
+template std::optional<double> cone_friction<3>(const SubspaceModuli&, const ScaledVector<double, 3>&,
+                                                double);
+template double shear_strain<3>(const SubspaceModuli&, const ScaledVector<double, 3>&);
+template std::optional<double> cone_dilatancy<3>(const SubspaceModuli&, const ScaledVector<double, 3>&);
+template std::optional<Mobilised> mobilised<3>(const SubspaceModuli&, const ScaledVector<double, 3>&,
+                                               const ScaledVector<double, 3>&, double,
+                                               const DilatancyLimits&);
 
 }  // namespace polargrain::fem

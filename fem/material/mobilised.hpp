@@ -24,26 +24,31 @@ struct DilatancyLimits {
 
 /// d eps - D^-1 d s in scaled components: the part of a strain increment that is not elastic. A subspace
 /// without elastic stiffness (Gc = 0) has no plastic part.
-ScaledVector<double> plastic_strain(const SubspaceModuli& moduli,
-                                    const ScaledVector<double>& strain_increment,
-                                    const ScaledVector<double>& stress_increment);
+template <int dim = 2>
+ScaledVector<double, dim> plastic_strain(const SubspaceModuli& moduli,
+                                         const ScaledVector<double, dim>& strain_increment,
+                                         const ScaledVector<double, dim>& stress_increment);
 
 /// mu = (q - k) / (-p) of a micro scale that has an out-of-plane stress, with the invariants of B.1; nothing
 /// when the mean stress is not compressive or q is below k.
 /// @param stress scaled average stress, Pa @param cohesion k of the cone, Pa
-std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
+template <int dim = 2>
+std::optional<double> cone_friction(const SubspaceModuli& moduli, const ScaledVector<double, dim>& stress,
                                     double cohesion);
 
 /// Shear of a scaled strain increment by the measure that gamma_p has of a plastic one (B.1).
-double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double>& strain);
+template <int dim = 2>
+double shear_strain(const SubspaceModuli& moduli, const ScaledVector<double, dim>& strain);
 
 /// beta = d eps_v^p / d gamma_p of a scaled plastic strain, or of its rate; nothing without plastic shear.
-std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double>& plastic);
+template <int dim = 2>
+std::optional<double> cone_dilatancy(const SubspaceModuli& moduli, const ScaledVector<double, dim>& plastic);
 
 /// mu and beta of one step of a micro scale that has an out-of-plane stress; nothing when one of them cannot
 /// be read: the caller then keeps the values it has. @param cohesion k of the frozen cone, Pa
-std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double>& stress,
-                                   const ScaledVector<double>& plastic, double cohesion,
+template <int dim = 2>
+std::optional<Mobilised> mobilised(const SubspaceModuli& moduli, const ScaledVector<double, dim>& stress,
+                                   const ScaledVector<double, dim>& plastic, double cohesion,
                                    const DilatancyLimits& limits = {});
 
 /// The same for a micro scale in the plane (discs), from s11, s22, s12, s21 only: the mobilised in-plane

@@ -13,11 +13,13 @@ constexpr double kMostContraction = 1.0;
 
 }  // namespace
 
-UnloadingMode::Felt UnloadingMode::felt(const ScaledVector<double>& strain, std::size_t parts) const {
-  const Split<double> split(strain);
+template <int dim>
+UnloadingMode::Felt<dim> UnloadingMode::felt(const ScaledVector<double, dim>& strain,
+                                             std::size_t parts) const {
+  const Split<double, dim> split(strain);
   std::array<double, 3> factor{1.0, 1.0, 1.0};
-  ScaledVector<double> sheared = ScaledVector<double>::Zero();
-  Felt felt{split.mean * volumetric_vector<double>(), ScaledMatrix<double>::Zero()};
+  ScaledVector<double, dim> sheared = ScaledVector<double, dim>::Zero();
+  Felt<dim> felt{split.mean * volumetric_vector<double, dim>(), ScaledMatrix<double, dim>::Zero()};
   for (std::size_t k = 0; k < 3; ++k) {
     if (k < parts) {
       factor[k] = stiffness;
@@ -25,20 +27,22 @@ UnloadingMode::Felt UnloadingMode::felt(const ScaledVector<double>& strain, std:
     }
     felt.strain += factor[k] * split.part[k];
   }
-  felt.slope = subspace_matrix(factor);
-  felt.slope.topLeftCorner<3, 3>().array() += 1.0 / 3.0;
+  felt.slope = subspace_matrix<double, dim>(factor);
+  add_volumetric(felt.slope, 1.0 / 3.0);
   const double size = sheared.norm();
   if (size > 0.0) {
-    felt.strain -= contraction / 3.0 * size * volumetric_vector<double>();
-    felt.slope -= contraction / 3.0 * volumetric_vector<double>() * (sheared / size).transpose();
+    felt.strain -= contraction / 3.0 * size * volumetric_vector<double, dim>();
+    felt.slope -= contraction / 3.0 * volumetric_vector<double, dim>() * (sheared / size).transpose();
   }
   return felt;
 }
 
-std::optional<UnloadingMode> unloading_mode(const SubspaceModuli& moduli, const ScaledVector<double>& strain,
-                                            const ScaledVector<double>& stress_increment) {
-  const Split<double> strains(strain);
-  const Split<double> stresses(stress_increment);
+template <int dim>
+std::optional<UnloadingMode> unloading_mode(const SubspaceModuli& moduli,
+                                            const ScaledVector<double, dim>& strain,
+                                            const ScaledVector<double, dim>& stress_increment) {
+  const Split<double, dim> strains(strain);
+  const Split<double, dim> stresses(stress_increment);
   double work = 0.0;
   double elastic = 0.0;
   double squares = 0.0;
@@ -52,5 +56,12 @@ std::optional<UnloadingMode> unloading_mode(const SubspaceModuli& moduli, const 
   return UnloadingMode{std::clamp(work / elastic, kSoftest, kStiffest),
                        std::clamp(volume / std::sqrt(squares), -kMostContraction, kMostContraction)};
 }
+
+template UnloadingMode::Felt<2> UnloadingMode::felt<2>(const ScaledVector<double, 2>&, std::size_t) const;
+template UnloadingMode::Felt<3> UnloadingMode::felt<3>(const ScaledVector<double, 3>&, std::size_t) const;
+template std::optional<UnloadingMode> unloading_mode<2>(const SubspaceModuli&, const ScaledVector<double, 2>&,
+                                                        const ScaledVector<double, 2>&);
+template std::optional<UnloadingMode> unloading_mode<3>(const SubspaceModuli&, const ScaledVector<double, 3>&,
+                                                        const ScaledVector<double, 3>&);
 
 }  // namespace polargrain::fem

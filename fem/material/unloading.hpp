@@ -13,18 +13,22 @@ struct UnloadingMode {
   double contraction = 0.0;  ///< volume strain that makes no stress, over the norm of the other strain
 
   /// The strain whose elastic stress is that of the micro scale, and its derivative by the strain itself.
+  template <int dim>
   struct Felt {
-    ScaledVector<double> strain;
-    ScaledMatrix<double> slope;
+    ScaledVector<double, dim> strain;
+    ScaledMatrix<double, dim> slope;
   };
   /// @param strain scaled @param parts which of the subspaces (stress_subspaces.hpp) the micro scale feels beside the
   ///   volume: 1, the symmetric deviator, or 3, all; the others stay elastic
-  [[nodiscard]] Felt felt(const ScaledVector<double>& strain, std::size_t parts) const;
+  template <int dim = 2>
+  [[nodiscard]] Felt<dim> felt(const ScaledVector<double, dim>& strain, std::size_t parts) const;
 };
 
 /// The unloading stiffness seen in one increment of a micro scale; empty where only the volume was strained. It is kept
 /// between 0.02 and 2: an elastic law takes no more, and no softening.
-std::optional<UnloadingMode> unloading_mode(const SubspaceModuli& moduli, const ScaledVector<double>& strain,
-                                            const ScaledVector<double>& stress_increment);
+template <int dim = 2>
+std::optional<UnloadingMode> unloading_mode(const SubspaceModuli& moduli,
+                                            const ScaledVector<double, dim>& strain,
+                                            const ScaledVector<double, dim>& stress_increment);
 
 }  // namespace polargrain::fem

@@ -20,15 +20,17 @@ namespace polargrain::fem {
 namespace {
 
 /// The elements of the project by what they are in VTK.
-std::map<int, const ElementType<2>*> types_by_vtk() {
-  std::map<int, const ElementType<2>*> types;
-  for (const std::string& name : element_names<2>()) {
-    const ElementType<2>& type = element_type<2>(name);
+template <int dim>
+std::map<int, const ElementType<dim>*> types_by_vtk() {
+  std::map<int, const ElementType<dim>*> types;
+  for (const std::string& name : element_names<dim>()) {
+    const ElementType<dim>& type = element_type<dim>(name);
     types.try_emplace(type.vtk_cell_type, &type);
   }
   return types;
 }
 
+template <int dim>
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : file_(file) {
@@ -39,8 +41,8 @@ class Reader {
     if (!piece_) fail("there is no unstructured grid in it");
   }
 
-  FieldFile read() const {
-    FieldFile content;
+  FieldFile<dim> read() const {
+    FieldFile<dim> content;
     read_nodes(content.mesh);
     read_elements(content.mesh);
     content.fields.points = fields_of("PointData", content.mesh.nodes.size());
@@ -80,18 +82,18 @@ class Reader {
     return values_of<Value>(found);
   }
 
-  void read_nodes(Mesh<2>& mesh) const {
+  void read_nodes(Mesh<dim>& mesh) const {
     const auto positions = array<double>("Points", "Points");
     for (std::size_t k = 0; k + 2 < positions.size(); k += 3)
-      mesh.nodes.emplace_back(positions[k], positions[k + 1]);
+      mesh.nodes.push_back(Eigen::Map<const Eigen::Vector3d>(&positions[k]).template head<dim>());
   }
 
-  void read_elements(Mesh<2>& mesh) const {
+  void read_elements(Mesh<dim>& mesh) const {
     const auto nodes = array<std::int64_t>("Cells", "connectivity");
     const auto ends = array<std::int64_t>("Cells", "offsets");
     const auto kinds = array<std::uint8_t>("Cells", "types");
     if (kinds.size() != ends.size()) fail("its cells do not fit together");
-    const std::map<int, const ElementType<2>*> types = types_by_vtk();
+    const std::map<int, const ElementType<dim>*> types = types_by_vtk<dim>();
     std::size_t begin = 0;
     for (std::size_t e = 0; e < kinds.size(); ++e) {
       const auto type = types.find(kinds[e]);
@@ -99,7 +101,7 @@ class Reader {
       const auto count = static_cast<std::size_t>(type->second->nodes);
       if (ends[e] < 0 || static_cast<std::uint64_t>(ends[e]) != begin + count || begin + count > nodes.size())
         fail(fmt::format("cell {} has not the nodes of its type", e));
-      Element<2>& element = mesh.elements.emplace_back(Element<2>{type->second, {}});
+      Element<dim>& element = mesh.elements.emplace_back(Element<dim>{type->second, {}});
       for (const std::size_t end = begin + count; begin < end; ++begin) {
         if (nodes[begin] < 0 || static_cast<std::uint64_t>(nodes[begin]) >= mesh.nodes.size())
           fail(fmt::format("cell {} has a node {} that is not there", e, nodes[begin]));
@@ -130,9 +132,13 @@ class Reader {
 
 }  // namespace
 
-FieldFile read_vtu(const std::filesystem::path& file) {
-  return Reader(file).read();
+template <int dim>
+FieldFile<dim> read_vtu(const std::filesystem::path& file) {
+  return Reader<dim>(file).read();
 }
+
+template FieldFile<2> read_vtu<2>(const std::filesystem::path&);
+template FieldFile<3> read_vtu<3>(const std::filesystem::path&);
 
 const Field* find_field(const std::vector<Field>& fields, const std::string& name) {
   const auto found = std::ranges::find(fields, name, &Field::name);

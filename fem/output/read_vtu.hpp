@@ -8,14 +8,16 @@
 namespace polargrain::fem {
 
 /// The content of a field file: a mesh without named parts, and its fields.
+template <int dim>
 struct FieldFile {
-  Mesh<2> mesh;
+  Mesh<dim> mesh;
   Fields fields;
 };
 
-/// Reads a file of write_vtu. Elements are of the first type that element_names() has for their VTK type.
+/// Reads a file of write_vtu, of the dimension. Elements are of the first type that element_names() has for their VTK type.
 /// @throws InputError naming the file when it is another kind of file, or its arrays do not fit together
-FieldFile read_vtu(const std::filesystem::path& file);
+template <int dim = 2>
+FieldFile<dim> read_vtu(const std::filesystem::path& file);
 
 /// The field of that name, or null.
 const Field* find_field(const std::vector<Field>& fields, const std::string& name);

@@ -22,8 +22,8 @@ class CellMaterialTest : public ::testing::Test {
  protected:
   CellMaterialTest() : scratch_("CellMaterial"), pool_(options()) {}
 
-  CellMaterial material(const std::string& script, std::size_t points) {
-    CellMaterial made(pool_, pool_.define(testing::fake_definition(script)), kCosserat);
+  CellMaterial<2> material(const std::string& script, std::size_t points) {
+    CellMaterial<2> made(pool_, pool_.define(testing::fake_definition(script)), kCosserat);
     made.allocate(points);
     return made;
   }
@@ -47,7 +47,7 @@ Increment<2> some_increment() {
   return increment;
 }
 
-Response<2> evaluate(CellMaterial& material, const Increment<2>& increment) {
+Response<2> evaluate(CellMaterial<2>& material, const Increment<2>& increment) {
   Response<2> response;
   material.evaluate({&increment, 1}, {&response, 1});
   return response;
@@ -62,7 +62,7 @@ Increment<2> increment_of(const Vector7& strain) {
 }
 
 TEST_F(CellMaterialTest, CosseratPartFollowsItsClosedForm) {
-  CellMaterial sand = material("", 1);
+  CellMaterial<2> sand = material("", 1);
   const Increment<2> increment = some_increment();
   const Vector7 strain = increment.strain();
   const Response<2> response = evaluate(sand, increment);
@@ -76,7 +76,7 @@ TEST_F(CellMaterialTest, CosseratPartFollowsItsClosedForm) {
 }
 
 TEST_F(CellMaterialTest, TangentIsTheDerivativeOfTheStress) {
-  CellMaterial sand = material("", 1);
+  CellMaterial<2> sand = material("", 1);
   evaluate(sand, some_increment());
   sand.commit();
   const Matrix7 tangent = evaluate(sand, some_increment()).tangent;
@@ -96,7 +96,7 @@ TEST_F(CellMaterialTest, TangentIsTheDerivativeOfTheStress) {
 }
 
 TEST_F(CellMaterialTest, IncrementsAddUpOverCommits) {
-  CellMaterial sand = material("", 1);
+  CellMaterial<2> sand = material("", 1);
   for (int step = 0; step < 3; ++step) {
     evaluate(sand, some_increment());
     sand.commit();
@@ -105,7 +105,7 @@ TEST_F(CellMaterialTest, IncrementsAddUpOverCommits) {
   whole.displacement_gradient *= 3.0;
   whole.micro_rotation *= 3.0;
   whole.curvature *= 3.0;
-  CellMaterial once = material("", 1);
+  CellMaterial<2> once = material("", 1);
   const Vector7 expected = evaluate(once, whole).stress;
   const Vector7 stress = evaluate(sand, Increment<2>{}).stress;
   EXPECT_LT((stress - expected).cwiseAbs().maxCoeff(), 1e-9);
@@ -116,7 +116,7 @@ TEST_F(CellMaterialTest, IncrementsAddUpOverCommits) {
 }
 
 TEST_F(CellMaterialTest, ACommitBringsTheStates) {
-  CellMaterial sand = material("", 1);
+  CellMaterial<2> sand = material("", 1);
   evaluate(sand, some_increment());
   evaluate(sand, some_increment());
   EXPECT_EQ(pool_.counts().states_fetched, 0);
@@ -128,7 +128,7 @@ TEST_F(CellMaterialTest, ACommitBringsTheStates) {
 }
 
 TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
-  CellMaterial sand = material("", 1);
+  CellMaterial<2> sand = material("", 1);
   const Response<2> first = evaluate(sand, some_increment());
   evaluate(sand, Increment<2>{});
   const Response<2> second = evaluate(sand, some_increment());
@@ -140,13 +140,13 @@ TEST_F(CellMaterialTest, EvaluateStartsFromTheCommittedState) {
 TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
   CosseratParameters limited = kCosserat;  // couple modulus 3.2e4 N
   limited.plastic_length = 2e-3;
-  CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), limited);
-  CellMaterial resumed(pool_, pool_.define(testing::fake_definition("")), limited);
+  CellMaterial<2> sand(pool_, pool_.define(testing::fake_definition("")), limited);
+  CellMaterial<2> resumed(pool_, pool_.define(testing::fake_definition("")), limited);
   sand.allocate(1);
   resumed.allocate(1);
   Increment<2> bent;
   bent.curvature << 0.0, 0.02;
-  const auto stress_after = [&](CellMaterial& material, double turn) {
+  const auto stress_after = [&](CellMaterial<2>& material, double turn) {
     bent.curvature.y() = turn;
     const Vector7 stress = evaluate(material, bent).stress;
     material.commit();
@@ -170,8 +170,8 @@ TEST_F(CellMaterialTest, ALimitOfTheCoupleStressHoldsAndItsHistoryIsKept) {
 TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKept) {
   CosseratParameters limited = kCosserat;  // Gc 10 MPa
   limited.skew_limit = 0.5;                // 50 kPa at the pressure of the packing
-  CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), limited);
-  CellMaterial resumed(pool_, pool_.define(testing::fake_definition("")), limited);
+  CellMaterial<2> sand(pool_, pool_.define(testing::fake_definition("")), limited);
+  CellMaterial<2> resumed(pool_, pool_.define(testing::fake_definition("")), limited);
   sand.allocate(3);
   resumed.allocate(3);
   const auto figure = [&sand](const std::string& name) {
@@ -210,7 +210,7 @@ TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKe
   // Turned back a little: 10 kPa are left.
   increments[1].micro_rotation = -0.001;
   increments[2] = Increment<2>{};
-  for (CellMaterial* const material : {&sand, &resumed}) {
+  for (CellMaterial<2>* const material : {&sand, &resumed}) {
     material->evaluate(increments, responses);
     material->commit();
     EXPECT_NEAR(responses[1].stress[k21] - responses[1].stress[k12], 10e3, 1e-6);
@@ -223,14 +223,14 @@ TEST_F(CellMaterialTest, PointsAtTheirLimitsAreCountedWhereAStepIsCommittedAndKe
 }
 
 TEST_F(CellMaterialTest, WithoutACosseratPartTheCellAnswersWhole) {
-  CellMaterial sand(pool_, pool_.define(testing::fake_definition("")), std::nullopt);
+  CellMaterial<2> sand(pool_, pool_.define(testing::fake_definition("")), std::nullopt);
   sand.allocate(1);
   EXPECT_EQ(evaluate(sand, some_increment()).stress,
             testing::fake_stress(increment_for_cell(some_increment())));
 }
 
 TEST_F(CellMaterialTest, LargeRotationsReachTheCellWhole) {
-  CellMaterial sand = material("", 1);
+  CellMaterial<2> sand = material("", 1);
   const double angle = 0.3;
   Increment<2> about_start;
   about_start.configuration = Configuration::start;
@@ -242,7 +242,7 @@ TEST_F(CellMaterialTest, LargeRotationsReachTheCellWhole) {
 }
 
 TEST_F(CellMaterialTest, NoCallForAZeroIncrement) {
-  CellMaterial sand = material("", 5);
+  CellMaterial<2> sand = material("", 5);
   const std::int64_t before = pool_.counts().evaluations;
   std::vector<Increment<2>> increments(5);
   increments[3] = some_increment();
@@ -254,7 +254,7 @@ TEST_F(CellMaterialTest, NoCallForAZeroIncrement) {
 }
 
 TEST_F(CellMaterialTest, AFailedCellFailsItsPointAlone) {
-  CellMaterial sand = material("fail_beyond 0.1", 2);
+  CellMaterial<2> sand = material("fail_beyond 0.1", 2);
   std::vector<Increment<2>> increments(2, some_increment());
   increments[1].displacement_gradient(0, 0) = 0.2;
   std::vector<Response<2>> responses(2);

@@ -186,11 +186,11 @@ TEST_F(EngineTest, AnElementOnAHomogeneousPathAnswersAsItsCellAlone) {
   Eigen::Matrix2d gradient;  // over the whole path: compression with some shear
   gradient << 1e-3, 4e-4, 4e-4, -5e-3;
 
-  const auto element = std::make_shared<coupler::CellMaterial>(pool, sand, kCosserat);
+  const auto element = std::make_shared<coupler::CellMaterial<2>>(pool, sand, kCosserat);
   fem::SolverOptions options;
   fem::Solver<2> solver(homogeneous(gradient, element), options);
   ASSERT_TRUE(solver.equilibrate().converged);
-  coupler::CellMaterial alone(pool, sand, kCosserat);
+  coupler::CellMaterial<2> alone(pool, sand, kCosserat);
   alone.allocate(1);
   Increment<2> increment;
   increment.displacement_gradient = gradient / kSteps;
@@ -222,12 +222,12 @@ TEST_F(EngineTest, AnElementWithControlledRotationsAnswersAsItsCellsAlone) {
   gradient << 1e-3, 4e-4, 4e-4, -2e-3;
   const Eigen::Vector2d curvature(2e-3, -5e-3);  // 1e-4 rad a grain
 
-  const auto element = std::make_shared<coupler::CellMaterial>(pool, sand, std::nullopt);
+  const auto element = std::make_shared<coupler::CellMaterial<2>>(pool, sand, std::nullopt);
   fem::Solver<2> solver(homogeneous(gradient, element, curvature), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   const fem::StepReport report = solver.advance(1.0);
   ASSERT_TRUE(report.converged) << report.message;
-  coupler::CellMaterial alone(pool, sand, std::nullopt);
+  coupler::CellMaterial<2> alone(pool, sand, std::nullopt);
   alone.allocate(solver.points());
   std::vector<Increment<2>> increments(solver.points());
   for (std::size_t point = 0; point < solver.points(); ++point) {

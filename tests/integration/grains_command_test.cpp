@@ -153,7 +153,7 @@ TEST_F(GrainsCommand, AReportShowsThoseOfTheElementThatHasShearedMost) {
   ASSERT_NE(place, std::string::npos);
   const std::size_t point = std::stoul(page.substr(place + words.size()));
   EXPECT_TRUE(point == 0 || point == 4) << point;
-  const fem::FieldFile last = fem::read_vtu(folder() / "out/fields/step-00004.vtu");
+  const fem::FieldFile<2> last = fem::read_vtu(folder() / "out/fields/step-00004.vtu");
   const std::vector<double>& sheared = fem::find_field(last.fields.cells, "deviatoric_strain")->values;
   EXPECT_EQ(point == 0, sheared[0] > sheared[1]);
   show("--point " + std::to_string(point));

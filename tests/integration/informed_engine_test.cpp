@@ -60,7 +60,7 @@ class InformedEngineTest : public ::testing::Test {
 
   /// The cell alone, in steps of 1e-4, its lateral strain led by its own tangent: no finite elements.
   Peak cell_alone() {
-    const coupler::CellCalls calls = coupler::calls_of(pool_, sand_);
+    const coupler::CellCalls<2> calls = coupler::calls_of<2>(pool_, sand_);
     coupler::PlaneReply reply = calls.initial();
     Peak peak;
     constexpr double kStep = 1e-4;
@@ -120,17 +120,18 @@ TEST_F(InformedEngineTest, PeaksOfBothSchemesAreTheCellsOwn) {
   for (const std::string& packing : packings) {
     use(packing);
     const Peak own = cell_alone();
-    const auto direct =
-        std::make_shared<coupler::CellMaterial>(pool_, sand_, coupler::CosseratParameters{16e6, 14e6, 0.02});
+    const auto direct = std::make_shared<coupler::CellMaterial<2>>(
+        pool_, sand_, coupler::CosseratParameters{16e6, 14e6, 0.02});
     const Peak cell = element(direct, 5e-3);
-    coupler::InformedParameters parameters;
+    coupler::InformedParameters<2> parameters;
     parameters.elastic.young_modulus = 2.0 * 16e6 * 1.2;
     parameters.elastic.poisson_ratio = 0.2;
     parameters.elastic.cosserat_shear_modulus = 14e6;
     parameters.elastic.internal_length = 0.02;
     parameters.mobilisation.initial_friction = 0.09;
     parameters.mobilisation.cohesion = 100.0;
-    const auto law = std::make_shared<coupler::InformedMaterial>(coupler::calls_of(pool_, sand_), parameters);
+    const auto law =
+        std::make_shared<coupler::InformedMaterial<2>>(coupler::calls_of<2>(pool_, sand_), parameters);
     const Peak informed = element(law, 1e-3);
     std::cout << "[figure] peak stress ratio: cell alone " << own.ratio << " at " << own.strain
               << ", model cell " << cell.ratio << " at " << cell.strain << ", model informed "
@@ -165,8 +166,8 @@ class ControlledInformedTest : public InformedEngineTest {
     moduli_ = coupler::resolved({}, pool_, pool_.definition(sand_), note);
   }
 
-  coupler::InformedParameters parameters(coupler::InformedUpdate update) const {
-    coupler::InformedParameters made;
+  coupler::InformedParameters<2> parameters(coupler::InformedUpdate update) const {
+    coupler::InformedParameters<2> made;
     made.elastic.poisson_ratio = 0.2;
     made.set_moduli(moduli_);
     made.update = update;
@@ -181,7 +182,7 @@ class ControlledInformedTest : public InformedEngineTest {
 };
 
 TEST_F(ControlledInformedTest, LimitsAreThoseOfContactsThatSlideAndRoll) {
-  const coupler::CellCalls calls = coupler::calls_of(pool_, sand_);
+  const coupler::CellCalls<2> calls = coupler::calls_of<2>(pool_, sand_);
   const coupler::CellLimits limits = coupler::limits_of(calls, calls.initial(), diameter_);
   // C.6 with mu = tan(0.5) and mu_th = 0.2; r_c is half a radius for equal discs, and the polar part of unequal ones
   // adds up to a third (dem_limits_test).
@@ -217,8 +218,8 @@ TEST_F(ControlledInformedTest, APointThatIsShearedBentAndTurnedStaysNearItsCell)
   };
   for (const coupler::InformedUpdate update :
        {coupler::InformedUpdate::frozen, coupler::InformedUpdate::fixed_point}) {
-    coupler::InformedMaterial law(coupler::calls_of(pool_, sand_), parameters(update));
-    coupler::CellMaterial cell(pool_, sand_, std::nullopt);
+    coupler::InformedMaterial<2> law(coupler::calls_of<2>(pool_, sand_), parameters(update));
+    coupler::CellMaterial<2> cell(pool_, sand_, std::nullopt);
     law.allocate(3);
     cell.allocate(3);
     // One that is sheared, bent and turned at once; one sheared, then bent; one sheared, then turned.

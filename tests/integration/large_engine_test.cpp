@@ -33,19 +33,20 @@ class LargeEngineTest : public ::testing::Test {
 
   std::shared_ptr<fem::Material<2>> material(const std::string& model) {
     const coupler::CosseratParameters cosserat{15e6, 10e6, 0.01, 0.004, 1.1};
-    if (model == "cell") return std::make_shared<coupler::CellMaterial>(pool_, sand_, cosserat);
+    if (model == "cell") return std::make_shared<coupler::CellMaterial<2>>(pool_, sand_, cosserat);
     if (model == "adaptive") {
       coupler::AdaptivityOptions options;
       options.tolerance = 0.02;
-      return std::make_shared<coupler::AdaptiveMaterial>(coupler::calls_of(pool_, sand_), cosserat, options);
+      return std::make_shared<coupler::AdaptiveMaterial<2>>(coupler::calls_of<2>(pool_, sand_), cosserat,
+                                                            options);
     }
-    coupler::InformedParameters informed;
+    coupler::InformedParameters<2> informed;
     informed.elastic.poisson_ratio = 0.25;
     informed.set_moduli(cosserat);
     informed.mobilisation.cohesion = 100.0;
     informed.mobilisation.initial_friction = 0.4;
     if (model == "informed, fixed point") informed.update = coupler::InformedUpdate::fixed_point;
-    return std::make_shared<coupler::InformedMaterial>(coupler::calls_of(pool_, sand_), informed);
+    return std::make_shared<coupler::InformedMaterial<2>>(coupler::calls_of<2>(pool_, sand_), informed);
   }
 
   double error(const std::string& model, double degrees, int steps, bool free_rotations = false) {

@@ -109,6 +109,33 @@ TEST(NewCommand, TriaxialIsATestOfSpheres) {
   EXPECT_TRUE(has(curve, "e33,e12,e13,e23")) << curve;  // of space
 }
 
+TEST(NewCommand, BodiesInSpaceAreSound) {
+  const Scratch scratch("new_in_space");
+  const Outcome written =
+      run_in(scratch.path(), kProgram + " new triaxial3d -o mine --grains 60 --elements 1 1");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome checked = check_moved(scratch, "mine");
+  ASSERT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_TRUE(has(checked.out, "no faults; 1 elements in space, 20 nodes")) << checked.out;
+  const Outcome run =
+      run_in(scratch.path(), kProgram +
+                                 " run mine/case.yaml -o out -w 1 --quiet --set steps.count=1 "
+                                 "--set boundary.1.move.u3='-0.2 mm'");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const CsvTable history(scratch.path() / "out/history.csv");
+  // The packing is under the pressure of the sides to its own tolerance, 1e-3 in each axis.
+  EXPECT_NEAR(history.numbers("stress_ratio")[0], 1.0, 2e-3);
+  EXPECT_NEAR(history.numbers("axial_strain")[1], 0.001, 1e-12);
+  EXPECT_GT(history.numbers("stress_ratio")[1], 1.05);
+
+  const Outcome footing = run_in(scratch.path(), kProgram + " new footing3d -o ground --no-pack");
+  ASSERT_EQ(footing.status, 0) << footing.errors;
+  std::filesystem::copy_file(scratch.path() / "mine/packing.h5", scratch.path() / "ground/packing.h5");
+  const Outcome sound = check_moved(scratch, "ground");
+  ASSERT_EQ(sound.status, 0) << sound.errors;
+  EXPECT_TRUE(has(sound.out, "no faults; 48 elements in space")) << sound.out;
+}
+
 TEST(NewCommand, ASlopeIsThatOfTheLibrary) {
   const Scratch scratch("new_slope");
   const Outcome written = run_in(scratch.path(), kProgram + " new slope -o hill");

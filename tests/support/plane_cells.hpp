@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "coupler/cells/plane_cell.hpp"
+#include "coupler/cells/point_cell.hpp"
 #include "dem/cell/cell_service.hpp"
 
 namespace polargrain::dem {

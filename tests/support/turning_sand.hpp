@@ -74,7 +74,7 @@ struct TurningSand {
     return reply(state, response);
   }
 
-  coupler::CellCalls calls() const {
+  coupler::CellCalls<2> calls() const {
     return {[this] { return at_rest(); },
             [this](std::span<const coupler::PlaneRequest> requests, std::span<const std::size_t>) {
               std::vector<coupler::PlaneReply> replies;

@@ -3,6 +3,7 @@
 // an increment and in the error estimate, and are carried, audited and kept like strains.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -18,7 +19,7 @@ constexpr double kConfining = 1e5;
 constexpr double kModulus = 3e7;
 constexpr double kHalf = 4e-3;  ///< measured strain at which the law has lost half of its stiffness
 constexpr double kDiameter = 0.01;
-const GrainMeasure kMeasure(kDiameter);
+const GrainMeasure<2> kMeasure(kDiameter);
 
 /// A law without history in the measured strain v (curvatures times d): s = -p + k v / (1 + |v| / half), m = d times
 /// that. What it keeps as its state is its strain.
@@ -48,7 +49,7 @@ class KnownCells {
     return reply;
   }
 
-  CellCalls calls() {
+  CellCalls<2> calls() {
     return {[] { return at(Vector7::Zero()); },
             [this](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
               std::vector<PlaneReply> replies;
@@ -65,15 +66,15 @@ class KnownCells {
 
 class AdaptiveCosseratTest : public ::testing::Test {
  protected:
-  AdaptiveMaterial material(std::size_t points, double tolerance, double audit = 0.0) {
-    AdaptiveMaterial made(cells_.calls(), std::nullopt,
-                          {.tolerance = tolerance, .audit = audit, .mean_diameter = kDiameter});
+  AdaptiveMaterial<2> material(std::size_t points, double tolerance, double audit = 0.0) {
+    AdaptiveMaterial<2> made(cells_.calls(), std::nullopt,
+                             {.tolerance = tolerance, .audit = audit, .mean_diameter = kDiameter});
     made.allocate(points);
     strain_.assign(points, Vector7::Zero());
     return made;
   }
 
-  std::vector<Response<2>> step(AdaptiveMaterial& sand, const std::vector<Increment<2>>& increments) {
+  std::vector<Response<2>> step(AdaptiveMaterial<2>& sand, const std::vector<Increment<2>>& increments) {
     for (std::size_t p = 0; p < increments.size(); ++p) strain_[p] += kMeasure.strain(increments[p]);
     std::vector<Response<2>> responses(increments.size());
     sand.evaluate(increments, responses);
@@ -90,7 +91,7 @@ class AdaptiveCosseratTest : public ::testing::Test {
     return largest / kConfining;
   }
 
-  static double figure(const AdaptiveMaterial& sand, const std::string& name) {
+  static double figure(const AdaptiveMaterial<2>& sand, const std::string& name) {
     for (const fem::Figure& figure : sand.figures())
       if (figure.name == name) return figure.value;
     ADD_FAILURE() << "no figure " << name;
@@ -122,7 +123,7 @@ TEST_F(AdaptiveCosseratTest, FewCellsServeBandsOfBendingAndTurningWithinTheToler
   int runs_before = 0;
   for (const double tolerance : {0.2, 0.02, 0.002}) {
     cells_.runs = 0;
-    AdaptiveMaterial sand = material(90, tolerance);
+    AdaptiveMaterial<2> sand = material(90, tolerance);
     double largest = 0.0;
     for (int k = 0; k < 20; ++k) largest = std::max(largest, error(step(sand, three_bands(90))));
     std::cout << "[figure] tolerance " << tolerance << ": largest error " << largest << ", " << cells_.runs
@@ -142,7 +143,7 @@ TEST_F(AdaptiveCosseratTest, FewCellsServeBandsOfBendingAndTurningWithinTheToler
 // Without the curvature in the estimate these points would be carried for ever.
 TEST_F(AdaptiveCosseratTest, PointsThatOnlyBendOrOnlyTurnAreRun) {
   for (const bool bends : {true, false}) {
-    AdaptiveMaterial sand = material(4, 0.02);
+    AdaptiveMaterial<2> sand = material(4, 0.02);
     Increment<2> increment;
     if (bends) increment.curvature << 0.1, 0.0;
     if (!bends) increment.micro_rotation = 1e-3;
@@ -157,7 +158,7 @@ TEST_F(AdaptiveCosseratTest, PointsThatOnlyBendOrOnlyTurnAreRun) {
 }
 
 TEST_F(AdaptiveCosseratTest, BoxAndGrainsTurnedAlikeAreNoStrainAndTurnAllOfTheStress) {
-  AdaptiveMaterial sand = material(1, 0.02);
+  AdaptiveMaterial<2> sand = material(1, 0.02);
   Increment<2> bend;
   bend.curvature << 0.1, 0.0;
   bend.configuration = Configuration::start;
@@ -177,8 +178,8 @@ TEST_F(AdaptiveCosseratTest, BoxAndGrainsTurnedAlikeAreNoStrainAndTurnAllOfTheSt
 }
 
 TEST_F(AdaptiveCosseratTest, AuditsSeeCoupleStressesAndAllGoesOnFromACheckpointBitForBit) {
-  AdaptiveMaterial whole = material(30, 0.02, 0.1);
-  AdaptiveMaterial first = material(30, 0.02, 0.1);
+  AdaptiveMaterial<2> whole = material(30, 0.02, 0.1);
+  AdaptiveMaterial<2> first = material(30, 0.02, 0.1);
   std::vector<Response<2>> expected, answers;
   const auto bands = [](int k) {
     std::vector<Increment<2>> increments = three_bands(30);
@@ -189,7 +190,7 @@ TEST_F(AdaptiveCosseratTest, AuditsSeeCoupleStressesAndAllGoesOnFromACheckpointB
   for (int k = 0; k < 6; ++k) step(first, bands(k));
   MemoryArchive archive;
   first.save(archive);
-  AdaptiveMaterial second = material(30, 0.02, 0.1);
+  AdaptiveMaterial<2> second = material(30, 0.02, 0.1);
   second.restore(archive);
   for (int k = 6; k < 12; ++k) answers = step(second, bands(k));
   for (std::size_t p = 0; p < 30; ++p) {
@@ -209,10 +210,11 @@ TEST_F(AdaptiveCosseratTest, AuditsSeeCoupleStressesAndAllGoesOnFromACheckpointB
 
 TEST(AdaptiveCosserat, TakesOneSourceOfSkewAndCoupleStress) {
   KnownCells cells;
-  EXPECT_THROW(AdaptiveMaterial(cells.calls(), std::nullopt, {}), RunError);
-  EXPECT_THROW(AdaptiveMaterial(cells.calls(), CosseratParameters{1e7, 1e7, 1e-3}, {.mean_diameter = 0.01}),
-               RunError);
-  EXPECT_EQ(AdaptiveMaterial(cells.calls(), std::nullopt, {.mean_diameter = 0.01}).moment_length(), 0.01);
+  EXPECT_THROW(AdaptiveMaterial<2>(cells.calls(), std::nullopt, {}), RunError);
+  EXPECT_THROW(
+      AdaptiveMaterial<2>(cells.calls(), CosseratParameters{1e7, 1e7, 1e-3}, {.mean_diameter = 0.01}),
+      RunError);
+  EXPECT_EQ(AdaptiveMaterial<2>(cells.calls(), std::nullopt, {.mean_diameter = 0.01}).moment_length(), 0.01);
 }
 
 }  // namespace

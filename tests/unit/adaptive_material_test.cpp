@@ -21,20 +21,20 @@ namespace {
 // be 1800 runs. The numbers were counted when the test was written; they may fall, and must not rise
 // unnoticed.
 TEST_F(AdaptiveMaterialTest, ARemarkOnTheScriptIsPassedOnOnce) {
-  CellCalls calls = cells_.calls();
+  CellCalls<2> calls = cells_.calls();
   calls.initial = [this] {
     PlaneReply packing = cells_.at(Eigen::Matrix2d::Zero());
     packing.response.message = "too many DEM steps";
     return packing;
   };
-  AdaptiveMaterial sand(calls, kCosserat, {0.02, 0.0, 1});
+  AdaptiveMaterial<2> sand(calls, kCosserat, {0.02, 0.0, 1});
   sand.allocate(3);
   EXPECT_EQ(sand.take_notes(), std::vector<std::string>{"too many DEM steps"});
   EXPECT_TRUE(sand.take_notes().empty());
 }
 
 TEST_F(AdaptiveMaterialTest, FewCellsServeManyPointsOfLikeHistory) {
-  AdaptiveMaterial sand = material(90, 0.02);
+  AdaptiveMaterial<2> sand = material(90, 0.02);
   double largest = 0.0;
   for (int k = 0; k < 20; ++k) largest = std::max(largest, error(step(sand, three_bands(90))));
   std::cout << "[figure] " << cells_.runs << " runs for 1800 point steps, " << figure(sand, "cells")
@@ -51,7 +51,7 @@ TEST_F(AdaptiveMaterialTest, FewCellsServeManyPointsOfLikeHistory) {
 }
 
 TEST_F(AdaptiveMaterialTest, CalmPointsNeverAllocateACell) {
-  AdaptiveMaterial sand = material(10, 0.02);
+  AdaptiveMaterial<2> sand = material(10, 0.02);
   std::vector<Eigen::Matrix2d> gradients(10, compression(2e-6));
   gradients[3] = compression(1e-3);
   for (int k = 0; k < 10; ++k) step(sand, gradients);
@@ -71,7 +71,7 @@ TEST_F(AdaptiveMaterialTest, TheErrorFollowsTheTolerance) {
   std::map<double, std::pair<double, int>> found;
   for (const double tolerance : {0.2, 0.02, 0.002}) {
     cells_.runs = 0;
-    AdaptiveMaterial sand = material(90, tolerance);
+    AdaptiveMaterial<2> sand = material(90, tolerance);
     double largest = 0.0;
     for (int k = 0; k < 20; ++k) largest = std::max(largest, error(step(sand, three_bands(90))));
     found[tolerance] = {largest, cells_.runs};
@@ -88,7 +88,7 @@ TEST_F(AdaptiveMaterialTest, TheErrorFollowsTheTolerance) {
 // Ten points of a hundred leave the others after ten steps: they take the state along, and one cell is enough
 // for them until they part as well.
 TEST_F(AdaptiveMaterialTest, ClustersSplitWhenTheyPart) {
-  AdaptiveMaterial sand = material(100, 0.02);
+  AdaptiveMaterial<2> sand = material(100, 0.02);
   for (int k = 0; k < 10; ++k) step(sand, std::vector<Eigen::Matrix2d>(100, compression(5e-4)));
   EXPECT_EQ(figure(sand, "cells"), 1.0);
   std::vector<Eigen::Matrix2d> gradients(100, compression(5e-4));
@@ -104,7 +104,7 @@ TEST_F(AdaptiveMaterialTest, ClustersSplitWhenTheyPart) {
 TEST_F(AdaptiveMaterialTest, FallsBackToACellAPointWhereNoTwoPointsAreAlike) {
   constexpr std::size_t kPoints = 30;
   constexpr int kSteps = 8;
-  AdaptiveMaterial sand = material(kPoints, 1e-3);
+  AdaptiveMaterial<2> sand = material(kPoints, 1e-3);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> entry(-1e-3, 1e-3);
   double largest = 0.0;
@@ -127,7 +127,7 @@ TEST_F(AdaptiveMaterialTest, FallsBackToACellAPointWhereNoTwoPointsAreAlike) {
 }
 
 TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
-  AdaptiveMaterial sand = material(6, 0.0);
+  AdaptiveMaterial<2> sand = material(6, 0.0);
   std::vector<Eigen::Matrix2d> gradients;
   for (int p = 0; p < 6; ++p) gradients.push_back(compression(1e-4 * (p + 1)));
   const std::vector<Response<2>> responses = step(sand, gradients);
@@ -137,7 +137,7 @@ TEST_F(AdaptiveMaterialTest, AToleranceOfZeroGivesEveryPointItsCell) {
 
 // An offset that a calm point has not told its cell is kept and told when the cell runs: nothing adds up over steps.
 TEST_F(AdaptiveMaterialTest, GrainsAreTurnedByAllOfALargeRotation) {
-  AdaptiveMaterial sand = material(2, 0.0);
+  AdaptiveMaterial<2> sand = material(2, 0.0);
   const double angle = 0.35;
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
   step(sand, {Eigen::Matrix2d::Zero(), turn}, Configuration::start);
@@ -149,7 +149,7 @@ TEST_F(AdaptiveMaterialTest, GrainsAreTurnedByAllOfALargeRotation) {
 
 // Cells take half a radian at once.
 TEST_F(AdaptiveMaterialTest, CellsAreTurnedByAnyRotationInParts) {
-  const CellCalls calls = cells_.calls();
+  const CellCalls<2> calls = cells_.calls();
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   PlaneRequest far{calls.initial().state, {}};
   far.increment.displacement_gradient = Eigen::Rotation2Dd(1.1).toRotationMatrix() - one;
@@ -168,7 +168,7 @@ TEST_F(AdaptiveMaterialTest, CellsAreTurnedByAnyRotationInParts) {
 }
 
 TEST_F(AdaptiveMaterialTest, NothingDriftsOverManySmallSteps) {
-  AdaptiveMaterial sand = material(1, 0.02);
+  AdaptiveMaterial<2> sand = material(1, 0.02);
   double largest = 0.0;
   for (int k = 0; k < 2000; ++k) largest = std::max(largest, error(step(sand, {compression(1e-5)})));
   std::cout << "[figure] 2000 steps of 1e-5: " << cells_.runs << " runs, largest error " << largest << '\n';
@@ -177,7 +177,7 @@ TEST_F(AdaptiveMaterialTest, NothingDriftsOverManySmallSteps) {
 }
 
 TEST_F(AdaptiveMaterialTest, AnExcursionIsPaidInOneRun) {
-  AdaptiveMaterial sand = material(1, 0.05);
+  AdaptiveMaterial<2> sand = material(1, 0.05);
   step(sand, {compression(2e-3)});  // so that the packing's curvature is known
   cells_.runs = 0;
   int quiet = 0;
@@ -193,11 +193,11 @@ TEST_F(AdaptiveMaterialTest, AnExcursionIsPaidInOneRun) {
 }
 
 TEST_F(AdaptiveMaterialTest, WithinAStepTheAnswerIsLinearAndRepeatable) {
-  AdaptiveMaterial sand = material(3, 0.05);
+  AdaptiveMaterial<2> sand = material(3, 0.05);
   const auto increments = [](double amount) {
-    return std::vector<Increment<2>>{increment_of(compression(amount)),
-                                     increment_of(compression(1.01 * amount)),
-                                     increment_of(compression(0.98 * amount))};
+    return std::vector<Increment<2>>{increment_of<2>(compression(amount)),
+                                     increment_of<2>(compression(1.01 * amount)),
+                                     increment_of<2>(compression(0.98 * amount))};
   };
   std::vector<Response<2>> first(3), second(3), between(3), again(3);
   sand.evaluate(increments(1.00e-3), first);
@@ -214,10 +214,10 @@ TEST_F(AdaptiveMaterialTest, WithinAStepTheAnswerIsLinearAndRepeatable) {
 }
 
 TEST_F(AdaptiveMaterialTest, RevertForgetsTheStep) {
-  AdaptiveMaterial sand = material(4, 0.02);
-  AdaptiveMaterial fresh = material(4, 0.02);
+  AdaptiveMaterial<2> sand = material(4, 0.02);
+  AdaptiveMaterial<2> fresh = material(4, 0.02);
   std::vector<Response<2>> lost(4);
-  sand.evaluate(std::vector<Increment<2>>(4, increment_of(compression(3e-3))), lost);
+  sand.evaluate(std::vector<Increment<2>>(4, increment_of<2>(compression(3e-3))), lost);
   sand.revert();
   const std::vector<Eigen::Matrix2d> gradients(4, compression(1e-3));
   const std::vector<Response<2>> a = step(sand, gradients);
@@ -227,15 +227,15 @@ TEST_F(AdaptiveMaterialTest, RevertForgetsTheStep) {
 
 TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
   cells_.breaks_at = 5e-3;
-  AdaptiveMaterial sand = material(3, 0.02);
-  std::vector<Increment<2>> increments{increment_of(compression(1e-4)), increment_of(compression(6e-3)),
-                                       increment_of(compression(1e-4))};
+  AdaptiveMaterial<2> sand = material(3, 0.02);
+  std::vector<Increment<2>> increments{increment_of<2>(compression(1e-4)), increment_of<2>(compression(6e-3)),
+                                       increment_of<2>(compression(1e-4))};
   std::vector<Response<2>> responses(3);
   sand.evaluate(increments, responses);
   EXPECT_EQ(responses[1].quality, Quality::failed);
   EXPECT_EQ(responses[1].message, "the box collapsed");
   sand.revert();
-  increments[1] = increment_of(compression(1e-4));
+  increments[1] = increment_of<2>(compression(1e-4));
   sand.evaluate(increments, responses);
   for (const Response<2>& response : responses) EXPECT_EQ(response.quality, Quality::good);
 }
@@ -244,7 +244,7 @@ TEST_F(AdaptiveMaterialTest, AFailedCellFailsThePointsItServes) {
 // step and creeps each time; the points' cell is run now and then.
 TEST_F(AdaptiveMaterialTest, AuditsMeasureWhatNoEstimateSeesAndItStaysPartOfTheError) {
   cells_.creep = 0.001 * kConfining;
-  AdaptiveMaterial sand = material(4, 0.05, 1.0);
+  AdaptiveMaterial<2> sand = material(4, 0.05, 1.0);
   step(sand, std::vector<Eigen::Matrix2d>(4, compression(1e-3)));
   const double first = figure(sand, "error_bound_last");
   EXPECT_LT(first, 1e-9) << "the cell was run to where all points are";
@@ -265,7 +265,7 @@ TEST_F(AdaptiveMaterialTest, AuditsMeasureWhatNoEstimateSeesAndItStaysPartOfTheE
 
 TEST_F(AdaptiveMaterialTest, AStepBeyondTheToleranceIsAnsweredAnewAndWhatCannotBeMendedIsSaid) {
   cells_.creep = 0.008 * kConfining;
-  AdaptiveMaterial sand = material(40, 0.02, 0.1);
+  AdaptiveMaterial<2> sand = material(40, 0.02, 0.1);
   for (int k = 0; k < 12; ++k) {
     std::vector<Eigen::Matrix2d> gradients;
     for (int p = 0; p < 40; ++p) gradients.push_back(compression(1.2e-4 * (1.0 + 0.05 * (p % 11) / 11.0)));
@@ -290,7 +290,7 @@ TEST_F(AdaptiveMaterialTest, AStepBeyondTheToleranceIsAnsweredAnewAndWhatCannotB
 }
 
 TEST_F(AdaptiveMaterialTest, AuditsAreDenseAtFirstAndThinWithEvidence) {
-  AdaptiveMaterial sand = material(90, 0.02, 0.01);
+  AdaptiveMaterial<2> sand = material(90, 0.02, 0.01);
   step(sand, three_bands(90));
   EXPECT_GE(figure(sand, "points_followed"), 11.0);
   for (int k = 0; k < 20; ++k) step(sand, three_bands(90));
@@ -304,11 +304,11 @@ TEST_F(AdaptiveMaterialTest, AuditsAreDenseAtFirstAndThinWithEvidence) {
   EXPECT_EQ(figure(sand, "vouched_for"), 1.0);
   EXPECT_TRUE(sand.take_notes().empty());
   // Of many points more are followed, their root: 20 of 400, one less behind a calm step.
-  AdaptiveMaterial many = material(400, 0.02, 0.01);
+  AdaptiveMaterial<2> many = material(400, 0.02, 0.01);
   step(many, three_bands(400));
   EXPECT_GE(figure(many, "points_followed"), 19.0);
   EXPECT_LE(figure(many, "points_followed"), 20.0);
-  AdaptiveMaterial none = material(90, 0.02, 0.0);
+  AdaptiveMaterial<2> none = material(90, 0.02, 0.0);
   step(none, three_bands(90));
   EXPECT_NE(none.doubt().find("is unknown"), std::string::npos);
 }
@@ -323,15 +323,15 @@ TEST_F(AdaptiveMaterialTest, TheBoundCoversTheTrueMeanErrorFromTheFirstStep) {
   for (const int steps : {1, 3}) {
     int covered = 0;
     for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
-      AdaptiveMaterial sand(cells_.calls(), kCosserat, {0.05, 0.01, seed});
+      AdaptiveMaterial<2> sand(cells_.calls(), kCosserat, {0.05, 0.01, seed});
       sand.allocate(200);
       strain_.assign(200, Eigen::Matrix2d::Zero());
       std::vector<Response<2>> responses;
       for (int k = 0; k < steps; ++k) responses = step(sand, own);
       double mean = 0.0;
       for (std::size_t p = 0; p < 200; ++p)
-        mean +=
-            GrainMeasure().stress(responses[p].stress - KnownCells::stress(strain_[p])) / kConfining / 200.0;
+        mean += GrainMeasure<2>().stress(responses[p].stress - KnownCells::stress(strain_[p])) / kConfining /
+                200.0;
       covered += mean <= figure(sand, "error_bound_last") ? 1 : 0;
     }
     const double share = static_cast<double>(covered) / kDraws;
@@ -343,7 +343,7 @@ TEST_F(AdaptiveMaterialTest, TheBoundCoversTheTrueMeanErrorFromTheFirstStep) {
 }
 
 TEST_F(AdaptiveMaterialTest, SharingEndsWhereThereIsNothingToShare) {
-  AdaptiveMaterial sand = material(8, 0.002);
+  AdaptiveMaterial<2> sand = material(8, 0.002);
   std::vector<Eigen::Matrix2d> gradients;
   for (int p = 0; p < 8; ++p) gradients.push_back(compression((p % 2 == 0 ? 1.0 : -1.0) * 5e-4 * (p + 1)));
   for (int k = 0; k < 3; ++k) step(sand, gradients);
@@ -352,16 +352,16 @@ TEST_F(AdaptiveMaterialTest, SharingEndsWhereThereIsNothingToShare) {
   const std::vector<std::string> notes = sand.take_notes();
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes.front().find("no cells are left to share"), std::string::npos) << notes.front();
-  AdaptiveMaterial alike = material(8, 0.02);
+  AdaptiveMaterial<2> alike = material(8, 0.02);
   step(alike, std::vector<Eigen::Matrix2d>(8, compression(1e-3)));
   EXPECT_EQ(figure(alike, "shares"), 1.0);
 }
 
 // Runs by part: a step that is given up leaves runs that nobody used.
 TEST_F(AdaptiveMaterialTest, RunsOfNoUseAreCounted) {
-  AdaptiveMaterial sand = material(2, 0.02);
+  AdaptiveMaterial<2> sand = material(2, 0.02);
   std::vector<Response<2>> responses(2);
-  sand.evaluate(std::vector<Increment<2>>(2, increment_of(compression(3e-3))), responses);
+  sand.evaluate(std::vector<Increment<2>>(2, increment_of<2>(compression(3e-3))), responses);
   const double runs = figure(sand, "cell_runs");
   EXPECT_GE(runs, 1.0);
   EXPECT_EQ(figure(sand, "cell_dem_steps"), 10.0 * runs);
@@ -373,8 +373,8 @@ TEST_F(AdaptiveMaterialTest, RunsOfNoUseAreCounted) {
 }
 
 TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
-  AdaptiveMaterial whole = material(30, 0.02, 0.1);
-  AdaptiveMaterial first = material(30, 0.02, 0.1);
+  AdaptiveMaterial<2> whole = material(30, 0.02, 0.1);
+  AdaptiveMaterial<2> first = material(30, 0.02, 0.1);
   std::vector<std::vector<Eigen::Matrix2d>> path;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> size(-2e-4, 1e-3);
@@ -387,7 +387,7 @@ TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
   for (int k = 0; k < 6; ++k) step(first, path[k]);
   MemoryArchive archive;
   first.save(archive);
-  AdaptiveMaterial second = material(30, 0.02, 0.1);
+  AdaptiveMaterial<2> second = material(30, 0.02, 0.1);
   second.restore(archive);
   for (int k = 6; k < 12; ++k) answers = step(second, path[k]);
   for (int p = 0; p < 30; ++p) {
@@ -401,7 +401,7 @@ TEST_F(AdaptiveMaterialTest, GoesOnFromACheckpointBitForBit) {
     EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
   }
   EXPECT_GT(figure(whole, "cells"), 3.0) << "too simple a path to show anything";
-  AdaptiveMaterial other = material(31, 0.02, 0.1);
+  AdaptiveMaterial<2> other = material(31, 0.02, 0.1);
   EXPECT_THROW(other.restore(archive), RunError);
 }
 

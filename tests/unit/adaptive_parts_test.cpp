@@ -26,8 +26,8 @@ Eigen::Matrix2d gradient(double h11, double h12, double h21, double h22) {
 }
 
 TEST(Linearised, OffsetsLeadFromOnePlaceToTheOther) {
-  Increment<2> first = increment_of(gradient(0.1, -0.2, 0.05, -0.3));
-  Increment<2> second = increment_of(gradient(-0.05, 0.3, 0.1, 0.2));
+  Increment<2> first = increment_of<2>(gradient(0.1, -0.2, 0.05, -0.3));
+  Increment<2> second = increment_of<2>(gradient(-0.05, 0.3, 0.1, 0.2));
   first.micro_rotation = 0.02;
   second.micro_rotation = -0.05;
   first.curvature << 0.3, -0.1;
@@ -54,7 +54,7 @@ TEST(Linearised, ARotationTurnsSkewAndCoupleStressToo) {
   Response<2> answer;
   answer.stress << -1e5, -3e5, -2e5, 6e4, 2e4, 150.0, -40.0;
   const double angle = 1e-4;
-  Increment<2> turn = increment_of(gradient(0.0, -angle, angle, 0.0));
+  Increment<2> turn = increment_of<2>(gradient(0.0, -angle, angle, 0.0));
   turn.micro_rotation = angle;  // grains and box turn alike: no strain
   const Vector7 carried = linearised_stress(answer, turn);
   const Vector7 exact = fem::rotated(answer.stress, angle);
@@ -68,7 +68,7 @@ TEST(Linearised, ARotationTurnsTheStress) {
   Response<2> answer;
   answer.stress << -1e5, -3e5, -2e5, 4e4, 4e4, 0.0, 0.0;
   const double angle = 1e-4;
-  const Vector7 carried = linearised_stress(answer, increment_of(gradient(0.0, -angle, angle, 0.0)));
+  const Vector7 carried = linearised_stress(answer, increment_of<2>(gradient(0.0, -angle, angle, 0.0)));
   Eigen::Matrix2d stress;
   stress << -1e5, 4e4, 4e4, -3e5;
   const Eigen::Matrix2d rotation =
@@ -84,12 +84,12 @@ TEST(Linearised, ARotationTurnsTheStress) {
 TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
   Matrix7 elastic = Matrix7::Zero();
   elastic.topLeftCorner<2, 2>() << 3e7, 1e7, 1e7, 3e7;
-  const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
+  const ErrorEstimate<2> estimate(GrainMeasure<2>(), elastic, 1e-5);
   Response<2> start;
   start.tangent = elastic;
-  Departure packing;
+  Departure<2> packing;
   const auto times = [](double factor) {
-    return increment_of(gradient(factor * 1e-3, 0.0, 0.0, -factor * 1e-3));
+    return increment_of<2>(gradient(factor * 1e-3, 0.0, 0.0, -factor * 1e-3));
   };
   const Increment<2> offset = times(1.0);
   EXPECT_EQ(estimate.of(start, packing, Increment<2>{}), 0.0);
@@ -98,7 +98,7 @@ TEST(ErrorEstimate, KnowsNothingAtFirstAndLearnsFromARun) {
   end.stress = linearised_stress(start, offset);
   end.stress[k11] -= 300.0;  // what the run shows and the tangent did not
   end.stress[k22] += 400.0;
-  const Departure moved = estimate.learn(start, end, offset, packing);
+  const Departure<2> moved = estimate.learn(start, end, offset, packing);
   EXPECT_DOUBLE_EQ(estimate.of(start, packing, offset), 500.0);
   EXPECT_DOUBLE_EQ(estimate.of(end, moved, offset), 500.0);
   // The law of growth: power 3/2 inside of what was seen, the square beyond.
@@ -111,10 +111,10 @@ TEST(ErrorEstimate, UnloadingIsJudgedByTheElasticTangent) {
   elastic(k11, k11) = elastic(k22, k22) = 3e7;
   Response<2> soft;
   soft.tangent = 0.1 * elastic;
-  const Increment<2> onward = increment_of(gradient(-1e-3, 0.0, 0.0, 1e-3));
-  const Increment<2> back = increment_of(gradient(1e-3, 0.0, 0.0, -1e-3));
-  const Departure departure{1.0, onward.strain().norm(), onward.strain().normalized()};
-  const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
+  const Increment<2> onward = increment_of<2>(gradient(-1e-3, 0.0, 0.0, 1e-3));
+  const Increment<2> back = increment_of<2>(gradient(1e-3, 0.0, 0.0, -1e-3));
+  const Departure<2> departure{1.0, onward.strain().norm(), onward.strain().normalized()};
+  const ErrorEstimate<2> estimate(GrainMeasure<2>(), elastic, 1e-5);
   EXPECT_NEAR(estimate.of(soft, departure, onward), 1.0, 1e-9);
   // Half of the stress between both tangents, 0.9 * 3e7 * 1e-3 Pa in two components.
   EXPECT_NEAR(estimate.of(soft, departure, back), 1.0 + 0.5 * std::sqrt(2.0) * 27e3, 1e-6);
@@ -125,11 +125,11 @@ TEST(ErrorEstimate, AWayOutAndBackThatOneHasGoneAloneLeavesAnErrorInItsHistory) 
   elastic(k11, k11) = elastic(k22, k22) = 3e7;
   Response<2> soft;
   soft.tangent = 0.1 * elastic;
-  const Increment<2> along = increment_of(gradient(-3e-4, 0.0, 0.0, 4e-4));
-  const Departure departure{1.0, along.strain().norm(), along.strain().normalized()};
-  const ErrorEstimate estimate(GrainMeasure(), elastic, 1e-5);
+  const Increment<2> along = increment_of<2>(gradient(-3e-4, 0.0, 0.0, 4e-4));
+  const Departure<2> departure{1.0, along.strain().norm(), along.strain().normalized()};
+  const ErrorEstimate<2> estimate(GrainMeasure<2>(), elastic, 1e-5);
   EXPECT_DOUBLE_EQ(estimate.onward(departure, along), 5e-4);
-  EXPECT_EQ(estimate.onward(departure, increment_of(gradient(3e-4, 0.0, 0.0, -4e-4))), 0.0);
+  EXPECT_EQ(estimate.onward(departure, increment_of<2>(gradient(3e-4, 0.0, 0.0, -4e-4))), 0.0);
   const auto of = [&](Excursion point, Excursion cell) {
     return estimate.of_history(soft, departure, point, cell) / (0.5 * 0.9 * 3e7);
   };
@@ -145,7 +145,7 @@ TEST(ErrorEstimate, AWayOutAndBackThatOneHasGoneAloneLeavesAnErrorInItsHistory) 
 
 TEST(GrainMeasure, AVolumeChangeCountsLessAndARotationNothing) {
   const auto size = [](double h11, double h12, double h21, double h22) {
-    return GrainMeasure().size(increment_of(gradient(h11, h12, h21, h22)));
+    return GrainMeasure<2>().size(increment_of<2>(gradient(h11, h12, h21, h22)));
   };
   EXPECT_DOUBLE_EQ(size(0.0, 3e-3, 4e-3, 0.0), std::sqrt(2.0) * 3.5e-3);
   EXPECT_EQ(size(0.0, -2e-2, 2e-2, 0.0), 0.0);
@@ -154,8 +154,8 @@ TEST(GrainMeasure, AVolumeChangeCountsLessAndARotationNothing) {
 
 TEST(GrainMeasure, ControlledGrainsCountRelativeRotationAndCurvatureInDiameters) {
   constexpr double kDiameter = 0.01;
-  const GrainMeasure measure(kDiameter);
-  Increment<2> turned = increment_of(gradient(0.0, -2e-3, 2e-3, 0.0));
+  const GrainMeasure<2> measure(kDiameter);
+  Increment<2> turned = increment_of<2>(gradient(0.0, -2e-3, 2e-3, 0.0));
   turned.micro_rotation = 2e-3;  // box and grains turn alike
   EXPECT_EQ(measure.size(turned), 0.0);
   turned.micro_rotation = 5e-3;  // skew strain: e12 = -3e-3, e21 = 3e-3
@@ -164,11 +164,11 @@ TEST(GrainMeasure, ControlledGrainsCountRelativeRotationAndCurvatureInDiameters)
   bent.curvature << 0.3, 0.4;
   EXPECT_DOUBLE_EQ(measure.size(bent), 0.5 * kDiameter);
   EXPECT_DOUBLE_EQ(measure.unmeasured(measure.strain(bent))[kCurvature2], 0.4);
-  EXPECT_EQ(GrainMeasure().size(bent), 0.0) << "grains whose rotations are free feel no curvature";
+  EXPECT_EQ(GrainMeasure<2>().size(bent), 0.0) << "grains whose rotations are free feel no curvature";
   Vector7 stress;
   stress << 0.0, 0.0, 7.0, 2e3, 4e3, 30.0, -40.0;
   EXPECT_DOUBLE_EQ(measure.stress(stress), std::sqrt(4e6 + 16e6 + 25e6));
-  EXPECT_DOUBLE_EQ(GrainMeasure().stress(stress), std::sqrt(18e6));
+  EXPECT_DOUBLE_EQ(GrainMeasure<2>().stress(stress), std::sqrt(18e6));
   // The measured strain does the work: stress . strain = (m / d) (kappa d).
   Vector7 measured = stress;
   measured.tail<2>() /= kDiameter;
@@ -262,8 +262,8 @@ TEST(Leaders, FirstRunsSpanTheDirectionsThatOccur) {
   };
   std::vector<std::size_t> points(13);
   std::iota(points.begin(), points.end(), std::size_t{0});
-  EXPECT_EQ(span_directions(points, strain, 1e-6), (std::vector<std::size_t>{0, 11, 10}));
-  EXPECT_EQ(span_directions({12}, strain, 1e-6), (std::vector<std::size_t>{12}));
+  EXPECT_EQ(span_directions<2>(points, strain, 1e-6), (std::vector<std::size_t>{0, 11, 10}));
+  EXPECT_EQ(span_directions<2>({12}, strain, 1e-6), (std::vector<std::size_t>{12}));
 }
 
 }  // namespace

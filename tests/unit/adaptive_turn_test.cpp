@@ -100,7 +100,7 @@ class SliderCells {
     return reply(grains);
   }
 
-  CellCalls calls() {
+  CellCalls<2> calls() {
     return {[] { return reply(Sliders{}); },
             [this](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
               std::vector<PlaneReply> replies;
@@ -119,17 +119,17 @@ Eigen::Matrix2d gradient(double amount) {
 
 class AdaptiveTurnTest : public ::testing::Test {
  protected:
-  AdaptiveMaterial material(std::size_t points, double tolerance, double audit = 0.0) {
-    AdaptiveMaterial made(cells_.calls(), kCosserat, {tolerance, audit, 1});
+  AdaptiveMaterial<2> material(std::size_t points, double tolerance, double audit = 0.0) {
+    AdaptiveMaterial<2> made(cells_.calls(), kCosserat, {tolerance, audit, 1});
     made.allocate(points);
     exact_.assign(points, Sliders{});
     return made;
   }
 
   /// Takes a step. @returns the largest error of a point, a share of the confining pressure
-  double step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients) {
+  double step(AdaptiveMaterial<2>& sand, const std::vector<Eigen::Matrix2d>& gradients) {
     std::vector<Increment<2>> increments;
-    for (const Eigen::Matrix2d& h : gradients) increments.push_back(increment_of(h));
+    for (const Eigen::Matrix2d& h : gradients) increments.push_back(increment_of<2>(h));
     std::vector<Response<2>> responses(gradients.size());
     int asked = 0;
     do sand.evaluate(increments, responses);
@@ -139,12 +139,12 @@ class AdaptiveTurnTest : public ::testing::Test {
     double largest = 0.0;
     for (std::size_t p = 0; p < gradients.size(); ++p) {
       exact_[p].follow(components(gradients[p]));
-      largest = std::max(largest, GrainMeasure().stress(responses[p].stress - exact_[p].stress()));
+      largest = std::max(largest, GrainMeasure<2>().stress(responses[p].stress - exact_[p].stress()));
     }
     return largest / kConfining;
   }
 
-  static double figure(const AdaptiveMaterial& sand, const std::string& name) {
+  static double figure(const AdaptiveMaterial<2>& sand, const std::string& name) {
     for (const fem::Figure& figure : sand.figures())
       if (figure.name == name) return figure.value;
     ADD_FAILURE() << "no figure " << name;
@@ -168,7 +168,7 @@ constexpr double kOfProducts = 6e-8 * 3e7 / kConfining;
 // be cancelled against it.
 TEST_F(AdaptiveTurnTest, AnExcursionThatIsTakenBackDoesNotHideAnError) {
   for (const double tolerance : {0.01, 0.03, 0.1}) {
-    AdaptiveMaterial sand = material(1, tolerance);
+    AdaptiveMaterial<2> sand = material(1, tolerance);
     for (int k = 0; k < 4; ++k) step(sand, {gradient(1e-3)});
     double largest = 0.0;
     int carried = 0;
@@ -191,7 +191,7 @@ TEST_F(AdaptiveTurnTest, AnExcursionThatIsTakenBackDoesNotHideAnError) {
 // One long step back, as in a scene that is unloaded in few steps: its offset to the cell is small again.
 TEST_F(AdaptiveTurnTest, AStepBackToTheCellsPlaceIsLedByWayOfTheTurn) {
   constexpr double kTolerance = 0.01;
-  AdaptiveMaterial sand = material(1, kTolerance);
+  AdaptiveMaterial<2> sand = material(1, kTolerance);
   for (int k = 0; k < 4; ++k) step(sand, {gradient(1e-3)});
   const int before = cells_.runs;
   for (int k = 0; k < 4; ++k) step(sand, {gradient(1e-4)});
@@ -209,7 +209,7 @@ TEST_F(AdaptiveTurnTest, PointsThatTurnAtDifferentPlacesShareCells) {
   constexpr std::size_t kPoints = 60;
   std::map<double, double> runs;
   for (const double tolerance : {0.01, 0.03, 0.1}) {
-    AdaptiveMaterial sand = material(kPoints, tolerance);
+    AdaptiveMaterial<2> sand = material(kPoints, tolerance);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> size(0.9, 1.1);
     std::vector<Eigen::Matrix2d> own;
@@ -233,13 +233,13 @@ TEST_F(AdaptiveTurnTest, PointsThatTurnAtDifferentPlacesShareCells) {
 }
 
 TEST_F(AdaptiveTurnTest, ACheckpointKeepsWhereAPointHasBeen) {
-  AdaptiveMaterial whole = material(1, 0.01);
+  AdaptiveMaterial<2> whole = material(1, 0.01);
   for (int k = 0; k < 4; ++k) step(whole, {gradient(1e-3)});
   for (int k = 0; k < 4; ++k) step(whole, {gradient(1e-4)});
   step(whole, {gradient(-2e-5)});
   MemoryArchive archive;
   whole.save(archive);
-  AdaptiveMaterial again(cells_.calls(), kCosserat, {0.01, 0.0, 1});
+  AdaptiveMaterial<2> again(cells_.calls(), kCosserat, {0.01, 0.0, 1});
   again.allocate(1);
   again.restore(archive);
   const double runs = figure(whole, "cell_runs");
@@ -249,7 +249,7 @@ TEST_F(AdaptiveTurnTest, ACheckpointKeepsWhereAPointHasBeen) {
 
 // Audited, so that the run says itself what it misses.
 TEST_F(AdaptiveTurnTest, ATurnIsVouchedFor) {
-  AdaptiveMaterial sand = material(60, 0.02, 0.1);
+  AdaptiveMaterial<2> sand = material(60, 0.02, 0.1);
   const auto all = [&](double amount) {
     std::vector<Eigen::Matrix2d> gradients;
     for (int p = 0; p < 60; ++p) gradients.push_back(gradient(amount * (1.0 + 0.002 * p)));

@@ -52,15 +52,15 @@ TEST(CellIncrement, InLargeDeformationTheBoxTurnsByAllOfARotation) {
 
 TEST(CosseratPart, CoupleStressTurnsInLargeDeformationAndTheSkewStressStays) {
   const CosseratParameters cosserat{40e6, 10e6, 0.02};
-  CosseratPart part;
+  CosseratPart<2> part;
   part.follow(some_increment(), Response<2>{}, cosserat, 1.0);
   const Eigen::Vector2d before = part.couple_stress;
-  const double skew = part.skew_stress;
+  const double skew = part.skew_stress(0);
   Increment<2> turn = turn_by(0.5 * M_PI);
   part.follow(turn, Response<2>{}, cosserat, 1.0);
   EXPECT_NEAR(part.couple_stress.x(), -before.y(), 1e-12 * before.norm());
   EXPECT_NEAR(part.couple_stress.y(), before.x(), 1e-12 * before.norm());
-  EXPECT_EQ(part.skew_stress, skew);
+  EXPECT_EQ(part.skew_stress(0), skew);
   turn.configuration = Configuration::fixed;
   const Eigen::Vector2d turned = part.couple_stress;
   part.follow(turn, Response<2>{}, cosserat, 1.0);

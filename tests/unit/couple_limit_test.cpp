@@ -32,7 +32,7 @@ Increment<2> bending(double k1, double k2) {
 }
 
 TEST(CoupleLimit, BendingYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
-  CosseratPart part;
+  CosseratPart<2> part;
   const Response<2> cell = cell_under(kPressure);
   constexpr double kStep = 0.1;  // rad/m; the limit is reached at 400 / 180 = 2.2
   double expected = 0.0;
@@ -50,7 +50,7 @@ TEST(CoupleLimit, BendingYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
 }
 
 TEST(CoupleLimit, FallsWithThePressureAndIsNothingInTension) {
-  CosseratPart part;
+  CosseratPart<2> part;
   part.follow(bending(10.0, 0.0), cell_under(kPressure), kLimited, 1.0);
   EXPECT_DOUBLE_EQ(part.couple_stress.x(), kLimit);
   EXPECT_DOUBLE_EQ(
@@ -62,20 +62,20 @@ TEST(CoupleLimit, FallsWithThePressureAndIsNothingInTension) {
   const Response<2> pulled = part.follow(bending(1.0, 1.0), cell_under(-1.0), kLimited, 1.0);
   EXPECT_EQ(pulled.stress.tail<2>().norm(), 0.0);
   // But for the hold, which adds no stress.
-  EXPECT_NEAR(pulled.tangent.bottomRows<2>().norm(), CosseratPart::kHold * kCouple, 1e-9);
+  EXPECT_NEAR(pulled.tangent.bottomRows<2>().norm(), CosseratPart<2>::kHold * kCouple, 1e-9);
 }
 
 TEST(CoupleLimit, WithoutOneNothingChanges) {
   CosseratParameters elastic = kLimited;
   elastic.plastic_length.reset();
-  CosseratPart part;
+  CosseratPart<2> part;
   const Response<2> response = part.follow(bending(100.0, -50.0), cell_under(kPressure), elastic, 1.0);
   EXPECT_EQ(response.stress[kCurvature1], kCouple * 100.0);
   EXPECT_EQ(response.tangent(kCurvature2, kCurvature2), kCouple);
 }
 
 TEST(CoupleLimit, AFailedAnswerHasNone) {
-  CosseratPart part;
+  CosseratPart<2> part;
   Response<2> failed = cell_under(kPressure);
   failed.quality = Quality::failed;
   EXPECT_EQ(part.follow(bending(100.0, 0.0), failed, kLimited, 1.0).quality, Quality::failed);
@@ -94,20 +94,20 @@ Response<2> linear_cell(const Increment<2>& increment) {
 }
 
 TEST(CoupleLimit, TangentIsTheDerivativeOfTheStress) {
-  CosseratPart start;
+  CosseratPart<2> start;
   start.follow(bending(1.5, -1.0), cell_under(kPressure), kLimited, 1.0);
   Increment<2> base = bending(1.0, 2.5);
   base.displacement_gradient << -1e-3, 4e-4, 7e-4, -5e-4;
   base.micro_rotation = 2e-4;
   const auto answer = [&](const Increment<2>& increment) {
-    CosseratPart part = start;
+    CosseratPart<2> part = start;
     return part.follow(increment, linear_cell(increment), kLimited, 1.0);
   };
   const Response<2> here = answer(base);
   ASSERT_NEAR(here.stress.tail<2>().norm(), 4e-3 * -0.5 * (here.stress[k11] + here.stress[k22]), 1e-9);
   Matrix7 tangent = here.tangent;  // without the hold, which adds no stress
   const Eigen::Vector2d direction = here.stress.tail<2>().normalized();
-  tangent.bottomRightCorner<2, 2>() -= CosseratPart::kHold * kCouple * direction * direction.transpose();
+  tangent.bottomRightCorner<2, 2>() -= CosseratPart<2>::kHold * kCouple * direction * direction.transpose();
   double error = 0.0;
   for (const int column : {k11, k22, k12, k21, kCurvature1, kCurvature2}) {
     // Of the strain: a step of 1e-6, of the curvature one of 1e-3 rad/m.
@@ -140,13 +140,13 @@ TEST_F(LimitedAdaptiveTest, AdaptiveHasTheSameCoupleStressAndKeepsItsHistory) {
   Increment<2> increment = bending(0.02, -0.03);
   increment.displacement_gradient = compression(1e-4);
   const auto made = [&] {
-    AdaptiveMaterial sand(cells_.calls(), kSand, {0.0, 0.0, 1});
+    AdaptiveMaterial<2> sand(cells_.calls(), kSand, {0.0, 0.0, 1});
     sand.allocate(1);
     return sand;
   };
-  AdaptiveMaterial sand = made();
-  AdaptiveMaterial resumed = made();
-  CosseratPart part;
+  AdaptiveMaterial<2> sand = made();
+  AdaptiveMaterial<2> resumed = made();
+  CosseratPart<2> part;
   Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
   for (int step = 0; step < 6; ++step) {
     if (step == 4) increment.curvature *= -0.1;  // unloading, whose stress is that of the whole history

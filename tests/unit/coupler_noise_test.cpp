@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "coupler/cells/cell_noise.hpp"
-#include "coupler/cells/plane_cell.hpp"
+#include "coupler/cells/point_cell.hpp"
 
 namespace polargrain::coupler {
 namespace {

@@ -92,7 +92,7 @@ TEST_P(Output, is_read_back_by_vtk) {
   const std::filesystem::path file = folder_ / "fields_0001.vtu";
   write_vtu(file, solver.problem().mesh, collect_fields(solver));
 
-  const FieldFile again = read_vtu(file);
+  const FieldFile<2> again = read_vtu(file);
   EXPECT_EQ(again.mesh.nodes, solver.problem().mesh.nodes);
   ASSERT_EQ(again.mesh.elements.size(), solver.problem().mesh.elements.size());
   for (std::size_t e = 0; e < again.mesh.elements.size(); ++e)

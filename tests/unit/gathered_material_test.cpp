@@ -44,7 +44,7 @@ Increment<2> step_of(Configuration configuration) {
   return step;
 }
 
-void take(GatheredMaterial& material, const Increment<2>& step) {
+void take(GatheredMaterial<2>& material, const Increment<2>& step) {
   std::vector<Response<2>> responses(1);
   material.evaluate(std::vector{step}, responses);
   material.commit();
@@ -54,7 +54,7 @@ void take(GatheredMaterial& material, const Increment<2>& step) {
 TEST(GatheredMaterial, AsksForTheWholeWay) {
   for (const Configuration configuration : {Configuration::fixed, Configuration::start}) {
     const auto recorder = std::make_shared<Recorder>();
-    GatheredMaterial material(recorder, 3);
+    GatheredMaterial<2> material(recorder, 3);
     material.allocate(1);
     const Increment<2> step = step_of(configuration);
     take(material, step);
@@ -74,7 +74,7 @@ TEST(GatheredMaterial, AsksForTheWholeWay) {
 
 TEST(GatheredMaterial, CommitsEveryFewStepsAndWhereResultsAreWritten) {
   const auto recorder = std::make_shared<Recorder>();
-  GatheredMaterial material(recorder, 3);
+  GatheredMaterial<2> material(recorder, 3);
   material.allocate(1);
   const Increment<2> step = step_of(Configuration::fixed);
   for (int k = 0; k < 4; ++k) take(material, step);
@@ -91,7 +91,7 @@ TEST(GatheredMaterial, CommitsEveryFewStepsAndWhereResultsAreWritten) {
 // A step that is dropped leaves no trace.
 TEST(GatheredMaterial, RevertsToTheStepBefore) {
   const auto recorder = std::make_shared<Recorder>();
-  GatheredMaterial material(recorder, 9);
+  GatheredMaterial<2> material(recorder, 9);
   material.allocate(1);
   const Increment<2> step = step_of(Configuration::fixed);
   take(material, step);
@@ -105,7 +105,7 @@ TEST(GatheredMaterial, RevertsToTheStepBefore) {
 // As Newton's method does before it commits: asked until it stands by its answers, for the whole way.
 TEST(GatheredMaterial, LetsTheMaterialAnswerBetter) {
   const auto recorder = std::make_shared<Recorder>();
-  GatheredMaterial material(recorder, 2);
+  GatheredMaterial<2> material(recorder, 2);
   material.allocate(1);
   recorder->refusals = 3;
   const Increment<2> step = step_of(Configuration::fixed);
@@ -117,7 +117,7 @@ TEST(GatheredMaterial, LetsTheMaterialAnswerBetter) {
 }
 
 TEST(GatheredMaterial, RefusesNoStepsAtAll) {
-  EXPECT_THROW(GatheredMaterial(std::make_shared<Recorder>(), 0), RunError);
+  EXPECT_THROW(GatheredMaterial<2>(std::make_shared<Recorder>(), 0), RunError);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class ConeCells {
     }
     return reply(state, response.stress);
   }
-  [[nodiscard]] CellCalls calls() const {
+  [[nodiscard]] CellCalls<2> calls() const {
     return {[this] { return initial(); },
             [this](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
               std::vector<PlaneReply> replies;
@@ -123,7 +123,7 @@ TEST(CellLimits, TheWeightsOfAConeAreFoundAgain) {
 
 TEST(CellLimits, GrainsThatResistNothingAreNamed) {
   const ConeCells cells(kWeights);
-  CellCalls calls = cells.calls();
+  CellCalls<2> calls = cells.calls();
   calls.evaluate = [&cells](std::span<const PlaneRequest> requests, std::span<const std::size_t>) {
     return std::vector<PlaneReply>(requests.size(), cells.initial());
   };
@@ -136,8 +136,8 @@ TEST(CellLimits, GrainsThatResistNothingAreNamed) {
   }
 }
 
-InformedParameters parameters(InformedUpdate update) {
-  InformedParameters made;
+InformedParameters<2> parameters(InformedUpdate update) {
+  InformedParameters<2> made;
   made.elastic = elasticity();
   made.update = update;
   made.mean_diameter = kDiameter;
@@ -162,9 +162,9 @@ Increment<2> increment_of_path(int step, int steps) {
 /// over lc, as a share of the pressure. @param free_weights the standard ones in place of the cell's
 double error_of(InformedUpdate update, int steps, bool standard) {
   const ConeCells cells(kWeights);
-  InformedParameters given = parameters(update);
+  InformedParameters<2> given = parameters(update);
   if (standard) given.weights = fem::InvariantWeights{};
-  InformedMaterial law(cells.calls(), given);
+  InformedMaterial<2> law(cells.calls(), given);
   law.allocate(1);
   PlaneReply cell = cells.initial();
   double largest = 0.0;
@@ -197,8 +197,8 @@ TEST(InformedCosserat, BendingAndTurningFollowTheCellWithItsOwnWeights) {
 TEST(InformedCosserat, GoesOnFromAnArchiveBitForBit) {
   const ConeCells cells(kWeights);
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    InformedMaterial whole(cells.calls(), parameters(update));
-    InformedMaterial other(cells.calls(), parameters(update));
+    InformedMaterial<2> whole(cells.calls(), parameters(update));
+    InformedMaterial<2> other(cells.calls(), parameters(update));
     whole.allocate(1);
     other.allocate(1);
     Response<2> a, b;
@@ -223,12 +223,12 @@ TEST(InformedCosserat, GoesOnFromAnArchiveBitForBit) {
 
 TEST(InformedCosserat, APointThatHasLeftItsLawTakesTheWholeAnswerOfItsCell) {
   const ConeCells cells(kWeights);
-  InformedParameters given = parameters(InformedUpdate::frozen);
+  InformedParameters<2> given = parameters(InformedUpdate::frozen);
   given.weights = fem::InvariantWeights{};  // not the cell's, so that they part
   given.mismatch_limit = 0.05;
   given.beyond_mismatch = BeyondMismatch::cell;
   given.mobilisation.drift_shear = 1e-3;
-  InformedMaterial law(cells.calls(), given, "", cells.calls());
+  InformedMaterial<2> law(cells.calls(), given, "", cells.calls());
   law.allocate(1);
   PlaneReply cell = cells.initial();
   Response<2> response;
@@ -245,7 +245,7 @@ TEST(InformedCosserat, APointThatHasLeftItsLawTakesTheWholeAnswerOfItsCell) {
 
 TEST(InformedCosserat, TellsWhatItFoundAndMeasuresMomentsByTheGrains) {
   const ConeCells cells(kWeights);
-  InformedMaterial law(cells.calls(), parameters(InformedUpdate::frozen));
+  InformedMaterial<2> law(cells.calls(), parameters(InformedUpdate::frozen));
   law.allocate(1);
   const std::vector<std::string> notes = law.take_notes();
   ASSERT_EQ(notes.size(), 1U);
@@ -255,8 +255,8 @@ TEST(InformedCosserat, TellsWhatItFoundAndMeasuresMomentsByTheGrains) {
 }
 
 /// Cells whose grains turn freely, of a law that has a plastic length.
-InformedParameters with_plastic_length(double length, double initial_friction) {
-  InformedParameters made = parameters(InformedUpdate::frozen);
+InformedParameters<2> with_plastic_length(double length, double initial_friction) {
+  InformedParameters<2> made = parameters(InformedUpdate::frozen);
   made.mean_diameter = 0.0;
   made.mobilisation.initial_friction = initial_friction;
   // As a case hands it over.
@@ -268,7 +268,7 @@ TEST(InformedPlasticLength, CoupleStressIsLimitedToItTimesThePressureWhateverThe
   const ConeCells cells(fem::InvariantWeights{});
   constexpr double kLength = 7e-3;
   for (const double friction : {0.05, 0.3}) {
-    InformedMaterial law(cells.calls(), with_plastic_length(kLength, friction));
+    InformedMaterial<2> law(cells.calls(), with_plastic_length(kLength, friction));
     law.allocate(1);
     Response<2> response;
     for (int step = 0; step < 60;
@@ -290,7 +290,7 @@ TEST(InformedPlasticLength, CoupleStressIsLimitedToItTimesThePressureWhateverThe
 TEST(InformedPlasticLength, ShearAndBendingShareAnEllipse) {
   const ConeCells cells(fem::InvariantWeights{});
   constexpr double kLength = 7e-3;
-  InformedMaterial law(cells.calls(), with_plastic_length(kLength, 0.09));
+  InformedMaterial<2> law(cells.calls(), with_plastic_length(kLength, 0.09));
   law.allocate(1);
   std::vector<double> fields(law.field_names().size());
   Response<2> response;
@@ -318,7 +318,7 @@ TEST(InformedPlasticLength, ShearAndBendingShareAnEllipse) {
 
 TEST(InformedPlasticLength, TheTangentIsThatOfTheStep) {
   const ConeCells cells(fem::InvariantWeights{});
-  InformedMaterial law(cells.calls(), with_plastic_length(7e-3, 0.3));
+  InformedMaterial<2> law(cells.calls(), with_plastic_length(7e-3, 0.3));
   law.allocate(1);
   Increment<2> step;
   step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
@@ -345,8 +345,8 @@ TEST(InformedPlasticLength, TheTangentIsThatOfTheStep) {
 /// The skew stress of such a law is at most this share of its pressure in the plane.
 constexpr double kSkewShare = 0.5;
 
-InformedParameters with_skew_limit(InformedUpdate update) {
-  InformedParameters made = parameters(update);
+InformedParameters<2> with_skew_limit(InformedUpdate update) {
+  InformedParameters<2> made = parameters(update);
   made.mean_diameter = 0.0;
   // As a case hands it over.
   made.set_moduli(
@@ -365,7 +365,7 @@ double skew_of(const Response<2>& response) {
   return response.stress(k21) - response.stress(k12);
 }
 
-double figure(const InformedMaterial& law, const std::string& name) {
+double figure(const InformedMaterial<2>& law, const std::string& name) {
   for (const fem::Figure& each : law.figures())
     if (each.name == name) return each.value;
   ADD_FAILURE() << "no figure " << name;
@@ -376,8 +376,8 @@ TEST(InformedSkewLimit, TurningYieldsUnloadsElasticallyAndIsCountedAndKept) {
   const ConeCells cells(fem::InvariantWeights{});
   constexpr double kStep = 7e-4;  // 2.8e4 Pa; the limit is at 5e4 Pa
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    InformedMaterial law(cells.calls(), with_skew_limit(update));
-    InformedMaterial resumed(cells.calls(), with_skew_limit(update));
+    InformedMaterial<2> law(cells.calls(), with_skew_limit(update));
+    InformedMaterial<2> resumed(cells.calls(), with_skew_limit(update));
     law.allocate(1);
     resumed.allocate(1);
     std::vector<double> fields(law.field_names().size());
@@ -423,7 +423,7 @@ TEST(InformedSkewLimit, TurningYieldsUnloadsElasticallyAndIsCountedAndKept) {
 
 TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
   const ConeCells cells(fem::InvariantWeights{});
-  InformedMaterial law(cells.calls(), with_skew_limit(InformedUpdate::frozen));
+  InformedMaterial<2> law(cells.calls(), with_skew_limit(InformedUpdate::frozen));
   law.allocate(1);
   Increment<2> step = turned(2e-3);
   step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
@@ -436,7 +436,7 @@ TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
   }
   ASSERT_NEAR(skew_of(response), -0.5 * kSkewShare * (response.stress(k11) + response.stress(k22)), 1e-6);
   Matrix7 expected = response.tangent;
-  const double hold = CosseratPart::kHold * 10e6;
+  const double hold = CosseratPart<2>::kHold * 10e6;
   expected(k12, k12) -= hold;
   expected(k21, k21) -= hold;
   expected(k12, k21) += hold;
@@ -460,9 +460,9 @@ TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
 
 TEST(InformedSkewLimit, WithoutOneNothingChanges) {
   const ConeCells cells(fem::InvariantWeights{});
-  InformedParameters given = with_skew_limit(InformedUpdate::frozen);
+  InformedParameters<2> given = with_skew_limit(InformedUpdate::frozen);
   given.skew_limit.reset();
-  InformedMaterial law(cells.calls(), given);
+  InformedMaterial<2> law(cells.calls(), given);
   law.allocate(1);
   const Increment<2> far = turned(0.01);
   Response<2> response;

@@ -68,7 +68,7 @@ class KnownCells {
     return answer;
   }
 
-  CellCalls calls_to_it() {
+  CellCalls<2> calls_to_it() {
     return {[this] { return initial(); },
             [this](std::span<const PlaneRequest> requests, std::span<const std::size_t> points) {
               std::vector<PlaneReply> replies;
@@ -104,8 +104,8 @@ class KnownCells {
   fem::ElastoplasticLaw<2> law_;
 };
 
-InformedParameters parameters(InformedUpdate update) {
-  InformedParameters parameters;
+InformedParameters<2> parameters(InformedUpdate update) {
+  InformedParameters<2> parameters;
   parameters.elastic = elasticity();
   parameters.update = update;
   parameters.mobilisation.window = 1;
@@ -151,9 +151,9 @@ Curve reference() {
 
 Curve informed(InformedUpdate update, int steps, bool discs = false, double drift_shear = 0.0) {
   KnownCells cells(discs);
-  InformedParameters given = parameters(update);
+  InformedParameters<2> given = parameters(update);
   given.mobilisation.drift_shear = drift_shear;
-  InformedMaterial material(cells.calls_to_it(), given);
+  InformedMaterial<2> material(cells.calls_to_it(), given);
   // A frozen step costs nothing to solve further.
   Curve curve = compress(material, steps, update == InformedUpdate::frozen ? 1e-10 : testing::kStandstill);
   curve.calls = static_cast<double>(cells.calls) / steps;
@@ -170,13 +170,13 @@ TEST(InformedMaterial, FrozenIsFirstOrderAndTheFixedPointTenTimesBetter) {
 
 TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
   KnownCells grains(false);
-  CellCalls calls = grains.calls_to_it();
+  CellCalls<2> calls = grains.calls_to_it();
   calls.initial = [&grains] {
     PlaneReply packing = grains.initial();
     packing.response.message = "too many DEM steps";
     return packing;
   };
-  InformedMaterial sand(calls, parameters(InformedUpdate::frozen));
+  InformedMaterial<2> sand(calls, parameters(InformedUpdate::frozen));
   sand.allocate(2);
   EXPECT_EQ(sand.take_notes(), std::vector<std::string>{"too many DEM steps"});
   EXPECT_TRUE(sand.take_notes().empty());
@@ -188,7 +188,7 @@ class LateLaw {
   explicit LateLaw(double limit, bool stops) : sand_(grains_.calls_to_it(), late(limit, stops)) {
     compress(sand_, kSteps, 1e-10);
   }
-  InformedMaterial& sand() { return sand_; }
+  InformedMaterial<2>& sand() { return sand_; }
   [[nodiscard]] double mismatch() const {
     const std::vector<std::string> names = sand_.field_names();
     std::vector<double> values(names.size());
@@ -198,14 +198,14 @@ class LateLaw {
 
  private:
   static constexpr int kSteps = 20;
-  static InformedParameters late(double limit, bool stops) {
-    InformedParameters given = parameters(InformedUpdate::frozen);
+  static InformedParameters<2> late(double limit, bool stops) {
+    InformedParameters<2> given = parameters(InformedUpdate::frozen);
     given.mismatch_limit = limit;
     given.beyond_mismatch = stops ? BeyondMismatch::stop : BeyondMismatch::tell;
     return given;
   }
   KnownCells grains_{false};
-  InformedMaterial sand_;
+  InformedMaterial<2> sand_;
 };
 
 TEST(InformedMaterial, SaysOnceAndAtTheEndThatItHasLeftItsCell) {
@@ -233,11 +233,11 @@ TEST(InformedMaterial, MayNotLeaveItsCellWhereToldSo) {
 TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
     KnownCells grains(true), same(true);
-    InformedParameters given = parameters(update);
+    InformedParameters<2> given = parameters(update);
     given.mobilisation.drift_shear = 2e-3;  // worked off within three steps
     given.mismatch_limit = 1e-3;
     given.beyond_mismatch = BeyondMismatch::cell;
-    InformedMaterial sand(grains.calls_to_it(), given, "", grains.calls_to_it());
+    InformedMaterial<2> sand(grains.calls_to_it(), given, "", grains.calls_to_it());
     sand.allocate(2);
     const std::vector<std::string> names = sand.field_names();
     const auto field = [&](const char* name, std::size_t point) {
@@ -293,7 +293,7 @@ TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
 TEST(InformedMaterial, UnloadsAsSoftlyAsItsCell) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
     KnownCells grains(false, 0.5), same(false, 0.5);
-    InformedMaterial sand(grains.calls_to_it(), parameters(update));
+    InformedMaterial<2> sand(grains.calls_to_it(), parameters(update));
     sand.allocate(1);
     PlaneReply alone = same.initial();
     Vector7 before;
@@ -332,7 +332,7 @@ TEST(InformedMaterial, TheOutOfPlaneStressOfACellHasNoPartInItsFrictionInThePlan
   // the same friction would be far too strong in the plane.
   const auto compressed = [](double share) {
     KnownCells cells(false, 1.0, share);
-    InformedMaterial material(cells.calls_to_it(), parameters(InformedUpdate::frozen));
+    InformedMaterial<2> material(cells.calls_to_it(), parameters(InformedUpdate::frozen));
     return compress(material, 60, 1e-10);
   };
   const Curve whole = compressed(1.0);
@@ -360,18 +360,18 @@ Increment<2> compression(double strain) {
 
 class InformedPointTest : public ::testing::Test {
  protected:
-  InformedMaterial make(InformedUpdate update) {
-    InformedMaterial material(cells_.calls_to_it(), parameters(update));
+  InformedMaterial<2> make(InformedUpdate update) {
+    InformedMaterial<2> material(cells_.calls_to_it(), parameters(update));
     material.allocate(1);
     return material;
   }
   /// One that leaves its law beyond a mismatch of `limit`.
-  InformedMaterial make(InformedUpdate update, double limit) {
-    InformedParameters given = parameters(update);
+  InformedMaterial<2> make(InformedUpdate update, double limit) {
+    InformedParameters<2> given = parameters(update);
     given.mobilisation.drift_shear = 0.01;
     given.mismatch_limit = limit;
     given.beyond_mismatch = BeyondMismatch::cell;
-    InformedMaterial material(cells_.calls_to_it(), given, "", cells_.calls_to_it());
+    InformedMaterial<2> material(cells_.calls_to_it(), given, "", cells_.calls_to_it());
     material.allocate(1);
     return material;
   }
@@ -384,7 +384,7 @@ class InformedPointTest : public ::testing::Test {
 };
 
 TEST_F(InformedPointTest, FrozenAsksItsCellOnceACommittedStep) {
-  InformedMaterial sand = make(InformedUpdate::frozen);
+  InformedMaterial<2> sand = make(InformedUpdate::frozen);
   for (int i = 0; i < 5; ++i) evaluate(sand, compression(1e-3));
   EXPECT_EQ(cells_.calls, 0);
   sand.commit();
@@ -403,7 +403,7 @@ TEST_F(InformedPointTest, GrainsAreTurnedByAllOfALargeRotation) {
   turn.displacement_gradient = Eigen::Rotation2Dd(angle).toRotationMatrix() - Eigen::Matrix2d::Identity();
   turn.micro_rotation = angle;
   turn.configuration = Configuration::start;
-  InformedMaterial sand = make(InformedUpdate::frozen);
+  InformedMaterial<2> sand = make(InformedUpdate::frozen);
   evaluate(sand, turn);
   sand.commit();
   const Eigen::Matrix2d& told = cells_.last_request.increment.displacement_gradient;
@@ -412,7 +412,7 @@ TEST_F(InformedPointTest, GrainsAreTurnedByAllOfALargeRotation) {
 }
 
 TEST_F(InformedPointTest, FixedPointAsksItsCellInEveryEvaluation) {
-  InformedMaterial sand = make(InformedUpdate::fixed_point);
+  InformedMaterial<2> sand = make(InformedUpdate::fixed_point);
   for (int i = 0; i < 3; ++i) evaluate(sand, compression(1e-3));
   EXPECT_EQ(cells_.calls, 3);
   sand.commit();
@@ -421,7 +421,7 @@ TEST_F(InformedPointTest, FixedPointAsksItsCellInEveryEvaluation) {
 
 TEST_F(InformedPointTest, EvaluatingTwiceGivesTheSameBits) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    InformedMaterial sand = make(update);
+    InformedMaterial<2> sand = make(update);
     evaluate(sand, compression(2e-3));
     sand.commit();
     const Response<2> first = evaluate(sand, compression(1e-3));
@@ -433,7 +433,7 @@ TEST_F(InformedPointTest, EvaluatingTwiceGivesTheSameBits) {
 }
 
 TEST_F(InformedPointTest, ACellThatCannotFollowAStepTakesItInParts) {
-  InformedMaterial sand = make(InformedUpdate::frozen);
+  InformedMaterial<2> sand = make(InformedUpdate::frozen);
   cells_.fails_beyond = 3e-4;
   evaluate(sand, compression(1e-3));
   sand.commit();
@@ -455,7 +455,7 @@ TEST_F(InformedPointTest, ACellThatCannotFollowAStepTakesItInParts) {
 // afterwards, nothing is read from it.
 TEST_F(InformedPointTest, WhereItYieldsTheFixedPointScattersAsItsCell) {
   cells_.unrest = 5e-3;
-  InformedMaterial fixed = make(InformedUpdate::fixed_point);
+  InformedMaterial<2> fixed = make(InformedUpdate::fixed_point);
   EXPECT_TRUE(evaluate(fixed, Increment<2>{}).noise.is_zero());
   for (int step = 0; step < 3; ++step) {
     evaluate(fixed, compression(1e-3));
@@ -467,12 +467,12 @@ TEST_F(InformedPointTest, WhereItYieldsTheFixedPointScattersAsItsCell) {
   EXPECT_NEAR(yielding.noise.symmetric, 0.5 * std::abs(cell(k11) + cell(k22)) * 5e-3 / std::sqrt(100.0),
               1e-9);
   EXPECT_EQ(yielding.noise.couple, 0.0);
-  InformedMaterial frozen = make(InformedUpdate::frozen);
+  InformedMaterial<2> frozen = make(InformedUpdate::frozen);
   EXPECT_TRUE(evaluate(frozen, compression(1e-3)).noise.is_zero());
 }
 
 TEST_F(InformedPointTest, WithTheFixedPointACellThatFailsCutsTheStep) {
-  InformedMaterial sand = make(InformedUpdate::fixed_point);
+  InformedMaterial<2> sand = make(InformedUpdate::fixed_point);
   cells_.fails_beyond = 1e-6;
   const Response<2> response = evaluate(sand, compression(1e-3));
   EXPECT_EQ(response.quality, Quality::failed);
@@ -481,7 +481,7 @@ TEST_F(InformedPointTest, WithTheFixedPointACellThatFailsCutsTheStep) {
 }
 
 TEST_F(InformedPointTest, ACellThatFailsCutsTheStepOfAPointThatGoesByIt) {
-  InformedMaterial sand = make(InformedUpdate::frozen, 1e-6);
+  InformedMaterial<2> sand = make(InformedUpdate::frozen, 1e-6);
   for (int step = 0; step < 3; ++step) {
     evaluate(sand, compression(1e-3));
     sand.commit();
@@ -498,7 +498,7 @@ TEST_F(InformedPointTest, ACellThatFailsCutsTheStepOfAPointThatGoesByIt) {
 
 TEST_F(InformedPointTest, OfAPointThatGoesByItsCellAnArchiveKeepsAll) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    InformedMaterial sand = make(update, 1e-6);
+    InformedMaterial<2> sand = make(update, 1e-6);
     for (int step = 0; step < 3; ++step) {
       evaluate(sand, compression(1e-3));
       sand.commit();
@@ -506,7 +506,7 @@ TEST_F(InformedPointTest, OfAPointThatGoesByItsCellAnArchiveKeepsAll) {
     ASSERT_EQ(fields(sand)[6], 1.0);
     MemoryArchive archive;
     sand.save(archive);
-    InformedMaterial other = make(update, 1e-6);
+    InformedMaterial<2> other = make(update, 1e-6);
     other.restore(archive);
     for (int i = 0; i < 4; ++i) {
       const Response<2> a = evaluate(sand, compression(1e-3));
@@ -527,7 +527,7 @@ TEST_F(InformedPointTest, OfAPointThatGoesByItsCellAnArchiveKeepsAll) {
 
 TEST_F(InformedPointTest, GoesOnFromAnArchiveBitForBit) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    InformedMaterial sand = make(update);
+    InformedMaterial<2> sand = make(update);
     for (int i = 0; i < 4; ++i) {
       evaluate(sand, compression(1e-3));
       sand.commit();
@@ -536,7 +536,7 @@ TEST_F(InformedPointTest, GoesOnFromAnArchiveBitForBit) {
     sand.commit();
     MemoryArchive archive;
     sand.save(archive);
-    InformedMaterial other = make(update);
+    InformedMaterial<2> other = make(update);
     other.restore(archive);
     EXPECT_EQ(fields(sand), fields(other));
     for (const double strain : {-2e-4, -1e-4, 1e-3}) {
@@ -549,7 +549,7 @@ TEST_F(InformedPointTest, GoesOnFromAnArchiveBitForBit) {
 }
 
 TEST_F(InformedPointTest, ShowsWhatLawAndCellDisagreeAbout) {
-  InformedMaterial sand = make(InformedUpdate::frozen);
+  InformedMaterial<2> sand = make(InformedUpdate::frozen);
   Response<2> law;
   for (int i = 0; i < 3; ++i) {
     law = evaluate(sand, compression(1e-3));

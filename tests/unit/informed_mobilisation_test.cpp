@@ -24,8 +24,8 @@ ScaledVector<double> stress(double mu) {
 
 /// An increment in which the micro scale goes from one friction to another, with `plastic` shear (d gamma_p)
 /// in the direction of the stress (or against it) and the given dilatancy.
-MicroStep step(double from, double to, double plastic, double dilatancy = 0.0) {
-  MicroStep step{};
+MicroStep<2> step(double from, double to, double plastic, double dilatancy = 0.0) {
+  MicroStep<2> step{};
   step.stress_before = stress(from);
   step.stress_after = stress(to);
   ScaledVector<double> strain = ScaledVector<double>::Zero();
@@ -47,12 +47,12 @@ MobilisationOptions options(int window) {
 TEST(Mobilisation, GrainsOutOfContactArePressedTogetherAgain) {
   MobilisationOptions with_drift = options(3);
   with_drift.drift_shear = 0.01;
-  Mobilisation point = initial_mobilisation(with_drift);
+  Mobilisation<2> point = initial_mobilisation(with_drift);
   point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), with_drift);
   ASSERT_NEAR(point.cone.friction, 0.6, 1e-12);
   ASSERT_NEAR(point.cone.dilatancy, 0.2, 1e-12);
   // The rest of their stress, a hundredth, has a high friction, which must not count.
-  MicroStep apart = step(0.6, 0.6, 1e-3, 0.2);
+  MicroStep<2> apart = step(0.6, 0.6, 1e-3, 0.2);
   apart.stress_after = 0.01 * stress(3.0);
   point = advance(point, apart, moduli(), with_drift);
   EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
@@ -60,7 +60,7 @@ TEST(Mobilisation, GrainsOutOfContactArePressedTogetherAgain) {
   EXPECT_LT(point.cone.dilatancy, 0.0);
   EXPECT_TRUE(point.limited);
   // In contact again, with less friction than before: it is on its way up, the law keeps its own.
-  MicroStep again = step(0.0, 0.4, 1e-3, 0.2);
+  MicroStep<2> again = step(0.0, 0.4, 1e-3, 0.2);
   again.stress_before = apart.stress_after;
   point = advance(point, again, moduli(), with_drift);
   EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
@@ -77,7 +77,7 @@ TEST(Mobilisation, GrainsOutOfContactArePressedTogetherAgain) {
 }
 
 TEST(Mobilisation, ReadsFrictionAtTheEndAndDilatancyOverTheWindow) {
-  Mobilisation point = initial_mobilisation(options(3));
+  Mobilisation<2> point = initial_mobilisation(options(3));
   EXPECT_EQ(point.cone.friction, 0.0);
   point = advance(point, step(0.6, 0.6, 1e-3, 0.2), moduli(), options(3));
   EXPECT_NEAR(point.cone.friction, 0.6, 1e-12);
@@ -93,7 +93,7 @@ TEST(Mobilisation, ReadsFrictionAtTheEndAndDilatancyOverTheWindow) {
 }
 
 TEST(Mobilisation, StaysInUnloadingAndDoesNotFallOnTheWayBack) {
-  Mobilisation point = initial_mobilisation(options(5));
+  Mobilisation<2> point = initial_mobilisation(options(5));
   point = advance(point, step(0.0, 0.8, 1e-3, 0.1), moduli(), options(5));
   point = advance(point, step(0.8, 0.3, -1e-4), moduli(), options(5));
   EXPECT_NEAR(point.cone.friction, 0.8, 1e-12);
@@ -107,7 +107,7 @@ TEST(Mobilisation, StaysInUnloadingAndDoesNotFallOnTheWayBack) {
 }
 
 TEST(Mobilisation, FallsWhenTheMicroScaleSoftensUnderLoad) {
-  Mobilisation point = initial_mobilisation(options(5));
+  Mobilisation<2> point = initial_mobilisation(options(5));
   point = advance(point, step(0.0, 0.8, 1e-3), moduli(), options(5));
   point = advance(point, step(0.8, 0.75, 1e-3), moduli(), options(5));
   EXPECT_NEAR(point.cone.friction, 0.75, 1e-12);
@@ -116,24 +116,24 @@ TEST(Mobilisation, FallsWhenTheMicroScaleSoftensUnderLoad) {
 TEST(Mobilisation, KeepsTheConeWhileTheLawIsElastic) {
   MobilisationOptions given = options(5);
   given.initial_friction = 0.1;
-  const Mobilisation start = initial_mobilisation(given);
-  MicroStep elastic = step(0.0, 0.8, 1e-3);
+  const Mobilisation<2> start = initial_mobilisation(given);
+  MicroStep<2> elastic = step(0.0, 0.8, 1e-3);
   elastic.macro_plastic = false;
-  const Mobilisation point = advance(start, elastic, moduli(), given);
+  const Mobilisation<2> point = advance(start, elastic, moduli(), given);
   EXPECT_EQ(point.cone.friction, start.cone.friction);
   EXPECT_NEAR(point.micro_friction, 0.8, 1e-12);
 }
 
 TEST(Mobilisation, FlagsEveryLimit) {
-  Mobilisation start = initial_mobilisation(options(1));
+  Mobilisation<2> start = initial_mobilisation(options(1));
   // Limits: -0.5 and 1, and never above friction.
   EXPECT_EQ(advance(start, step(0.0, 0.8, 1e-3, -0.7), moduli(), options(1)).cone.dilatancy, -0.5);
   EXPECT_TRUE(advance(start, step(0.0, 0.8, 1e-3, -0.7), moduli(), options(1)).limited);
-  const Mobilisation above = advance(start, step(0.0, 0.8, 1e-3, 0.9), moduli(), options(1));
+  const Mobilisation<2> above = advance(start, step(0.0, 0.8, 1e-3, 0.9), moduli(), options(1));
   EXPECT_NEAR(above.cone.dilatancy, 0.8, 1e-12);
   EXPECT_TRUE(above.limited);
   EXPECT_FALSE(advance(start, step(0.0, 0.8, 1e-3, 0.7), moduli(), options(1)).limited);
-  MicroStep tension = step(0.0, 0.8, 1e-3);
+  MicroStep<2> tension = step(0.0, 0.8, 1e-3);
   tension.stress_after = -tension.stress_after;
   EXPECT_TRUE(advance(start, tension, moduli(), options(1)).limited);
 }
@@ -141,13 +141,13 @@ TEST(Mobilisation, FlagsEveryLimit) {
 TEST(Mobilisation, ADriftOfTheMeanStressIsWorkedOff) {
   MobilisationOptions given = options(1);
   given.drift_shear = 0.02;
-  MicroStep compressed = step(0.6, 0.6, 1e-3, 0.1);
+  MicroStep<2> compressed = step(0.6, 0.6, 1e-3, 0.1);
   compressed.macro_mean = kMean + 20e3;  // the micro scale is compressed more than the law
   const double expected = 0.1 + 20e3 / (moduli().bulk * 0.02);
-  const Mobilisation point = advance(initial_mobilisation(given), compressed, moduli(), given);
+  const Mobilisation<2> point = advance(initial_mobilisation(given), compressed, moduli(), given);
   EXPECT_NEAR(point.cone.dilatancy, expected, 1e-12);
   // The next step is expected to shear by 0.05, and must not overshoot.
-  MicroStep longer = step(0.6, 0.6, 0.05, 0.1);
+  MicroStep<2> longer = step(0.6, 0.6, 0.05, 0.1);
   longer.macro_mean = compressed.macro_mean;
   EXPECT_NEAR(advance(initial_mobilisation(given), longer, moduli(), given).cone.dilatancy,
               0.1 + 20e3 / (moduli().bulk * 0.05), 1e-12);

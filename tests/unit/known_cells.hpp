@@ -84,7 +84,7 @@ class KnownCells {
     return reply;
   }
 
-  CellCalls calls() {
+  CellCalls<2> calls() {
     return {[this] { return at(Eigen::Matrix2d::Zero()); },
             [this](std::span<const PlaneRequest> requests, std::span<const std::size_t> points) {
               std::vector<PlaneReply> replies;
@@ -99,19 +99,19 @@ class KnownCells {
 
 class AdaptiveMaterialTest : public ::testing::Test {
  protected:
-  AdaptiveMaterial material(std::size_t points, double tolerance, double audit = 0.0) {
-    AdaptiveMaterial made(cells_.calls(), kCosserat, {tolerance, audit, 1});
+  AdaptiveMaterial<2> material(std::size_t points, double tolerance, double audit = 0.0) {
+    AdaptiveMaterial<2> made(cells_.calls(), kCosserat, {tolerance, audit, 1});
     made.allocate(points);
     strain_.assign(points, Eigen::Matrix2d::Zero());
     return made;
   }
 
   /// Takes a step and follows the true strains. @returns the answers
-  std::vector<Response<2>> step(AdaptiveMaterial& sand, const std::vector<Eigen::Matrix2d>& gradients,
+  std::vector<Response<2>> step(AdaptiveMaterial<2>& sand, const std::vector<Eigen::Matrix2d>& gradients,
                                 Configuration configuration = Configuration::fixed) {
     std::vector<Increment<2>> increments;
     for (std::size_t p = 0; p < gradients.size(); ++p) {
-      increments.push_back(increment_of(gradients[p]));
+      increments.push_back(increment_of<2>(gradients[p]));
       increments.back().configuration = configuration;
       strain_[p] += 0.5 * (gradients[p] + gradients[p].transpose());
     }
@@ -130,12 +130,12 @@ class AdaptiveMaterialTest : public ::testing::Test {
     double largest = 0.0;
     for (std::size_t p = 0; p < responses.size(); ++p) {
       largest =
-          std::max(largest, GrainMeasure().stress(responses[p].stress - KnownCells::stress(strain_[p])));
+          std::max(largest, GrainMeasure<2>().stress(responses[p].stress - KnownCells::stress(strain_[p])));
     }
     return largest / kConfining;
   }
 
-  static double figure(const AdaptiveMaterial& sand, const std::string& name) {
+  static double figure(const AdaptiveMaterial<2>& sand, const std::string& name) {
     for (const fem::Figure& figure : sand.figures()) {
       if (figure.name == name) return figure.value;
     }

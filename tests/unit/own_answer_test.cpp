@@ -13,7 +13,7 @@ namespace {
 constexpr double kLength = 3e-3;
 constexpr double kWorkOff = 4e-3;
 
-OwnAnswerRules rules(bool controlled) {
+OwnAnswerRules<2> rules(bool controlled) {
   return {{13e6, 10e6, kLength}, controlled, kLength, kWorkOff};
 }
 
@@ -65,10 +65,10 @@ Increment<2> some_increment(double size) {
 
 TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
   for (const bool controlled : {false, true}) {
-    const OwnAnswerRules by = rules(controlled);
+    const OwnAnswerRules<2> by = rules(controlled);
     const Response<2> before = cell_after(Increment<2>{}, controlled);
-    const OwnAnswer start = left_law(by, stress_of_law(), reply(before));
-    OwnAnswer end;
+    const OwnAnswer<2> start = left_law(by, stress_of_law(), reply(before));
+    OwnAnswer<2> end;
     const Response<2> nothing = own_answer(by, start, Increment<2>{}, reply(before), end);
     EXPECT_LT((nothing.stress - stress_of_law()).norm(), 1e-9) << controlled;
     EXPECT_EQ(end.strained, 0.0);
@@ -94,15 +94,15 @@ TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
 
 TEST(OwnAnswer, StepsOfAnySizeLetGoOfTheSame) {
   // A strain in one direction, in one step or in five: the same share is left.
-  const OwnAnswerRules by = rules(false);
-  const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment<2>{}, false)));
+  const OwnAnswerRules<2> by = rules(false);
+  const OwnAnswer<2> start = left_law(by, stress_of_law(), reply(cell_after(Increment<2>{}, false)));
   const Increment<2> whole = some_increment(0.5 * kWorkOff);
-  OwnAnswer at_once;
+  OwnAnswer<2> at_once;
   const Vector7 expected = own_answer(by, start, whole, reply(cell_after(whole, false)), at_once).stress;
-  OwnAnswer point = start;
+  OwnAnswer<2> point = start;
   Vector7 stress;
   for (int part = 1; part <= 5; ++part) {
-    OwnAnswer next;
+    OwnAnswer<2> next;
     const Increment<2> so_far = some_increment(0.1 * part * kWorkOff);
     stress =
         own_answer(by, point, some_increment(0.1 * kWorkOff), reply(cell_after(so_far, false)), next).stress;
@@ -115,11 +115,11 @@ TEST(OwnAnswer, StepsOfAnySizeLetGoOfTheSame) {
 
 TEST(OwnAnswer, TheTangentSeesWhatIsWorkedOff) {
   for (const bool controlled : {false, true}) {
-    const OwnAnswerRules by = rules(controlled);
-    const OwnAnswer start = left_law(by, stress_of_law(), reply(cell_after(Increment<2>{}, controlled)));
+    const OwnAnswerRules<2> by = rules(controlled);
+    const OwnAnswer<2> start = left_law(by, stress_of_law(), reply(cell_after(Increment<2>{}, controlled)));
     const Vector7 strain = some_increment(0.3 * kWorkOff).strain();
     const auto answer = [&](const Vector7& at) {
-      OwnAnswer end;
+      OwnAnswer<2> end;
       const Increment<2> increment = increment_of(at);
       return own_answer(by, start, increment, reply(cell_after(increment, controlled)), end);
     };
@@ -138,16 +138,16 @@ TEST(OwnAnswer, TheTangentSeesWhatIsWorkedOff) {
 }
 
 TEST(OwnAnswer, WhatIsCarriedTurnsWithTheMaterial) {
-  const OwnAnswerRules by = rules(false);
+  const OwnAnswerRules<2> by = rules(false);
   Response<2> cell = cell_after(Increment<2>{}, false);
-  const OwnAnswer start = left_law(by, stress_of_law(), reply(cell));
+  const OwnAnswer<2> start = left_law(by, stress_of_law(), reply(cell));
   Increment<2> turn;  // by a quarter: R - I
   turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
   turn.micro_rotation = 0.5 * M_PI;
   turn.configuration = Configuration::start;
   std::swap(cell.stress(k11), cell.stress(k22));
   cell.stress(k12) = cell.stress(k21) = -cell.stress(k12);
-  OwnAnswer end;
+  OwnAnswer<2> end;
   const Vector7 turned = own_answer(by, start, turn, reply(cell), end).stress;
   EXPECT_NEAR(turned(k11), stress_of_law()(k22), 1e-6);
   EXPECT_NEAR(turned(k22), stress_of_law()(k11), 1e-6);

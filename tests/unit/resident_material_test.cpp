@@ -23,7 +23,7 @@ std::vector<Increment<2>> increments_of_step(int step) {
   return increments;
 }
 
-std::vector<Response<2>> step(ResidentMaterial& sand, int number) {
+std::vector<Response<2>> step(ResidentMaterial<2>& sand, int number) {
   std::vector<Response<2>> responses(kPoints);
   sand.evaluate(increments_of_step(number), responses);
   sand.commit();
@@ -37,9 +37,9 @@ void expect_same(const std::vector<Response<2>>& a, const std::vector<Response<2
 
 class ResidentMaterialTest : public ResidentTest {
  protected:
-  ResidentMaterial material(Pool& pool, const std::string& script = "",
-                            const std::optional<CosseratParameters>& cosserat = kCosserat) {
-    ResidentMaterial made(pool, pool.define(testing::resident_definition(script)), cosserat, 5);
+  ResidentMaterial<2> material(Pool& pool, const std::string& script = "",
+                               const std::optional<CosseratParameters>& cosserat = kCosserat) {
+    ResidentMaterial<2> made(pool, pool.define(testing::resident_definition(script)), cosserat, 5);
     made.allocate(kPoints);
     return made;
   }
@@ -47,7 +47,7 @@ class ResidentMaterialTest : public ResidentTest {
 
 TEST_F(ResidentMaterialTest, TheStressAtTheStartAsksNobody) {
   Pool pool(options(1));
-  ResidentMaterial sand = material(pool);
+  ResidentMaterial<2> sand = material(pool);
   std::vector<Response<2>> responses(kPoints);
   sand.evaluate(std::vector<Increment<2>>(kPoints), responses);
   sand.revert();
@@ -59,7 +59,7 @@ TEST_F(ResidentMaterialTest, TheStressAtTheStartAsksNobody) {
 
 TEST_F(ResidentMaterialTest, BoxesAndTheCosseratPartAnswer) {
   Pool pool(options(2));
-  ResidentMaterial sand = material(pool);
+  ResidentMaterial<2> sand = material(pool);
   const std::vector<Response<2>> first = step(sand, 0);
   const std::vector<Response<2>> second = step(sand, 1);
   testing::LineService service(testing::resident_definition(""));
@@ -85,7 +85,7 @@ TEST_F(ResidentMaterialTest, BoxesAndTheCosseratPartAnswer) {
 
 TEST_F(ResidentMaterialTest, AStepCannotBeTakenBack) {
   Pool pool(options(1));
-  ResidentMaterial sand = material(pool);
+  ResidentMaterial<2> sand = material(pool);
   std::vector<Response<2>> responses(kPoints);
   sand.evaluate(increments_of_step(0), responses);
   EXPECT_THROW(sand.revert(), RunError);
@@ -97,12 +97,12 @@ TEST_F(ResidentMaterialTest, AStepCannotBeTakenBack) {
   EXPECT_THROW(sand.save(archive), RunError);
   sand.settle();
   sand.save(archive);
-  EXPECT_THROW(ResidentMaterial(pool, 0, kCosserat, 0), RunError);
+  EXPECT_THROW(ResidentMaterial<2>(pool, 0, kCosserat, 0), RunError);
 }
 
 TEST_F(ResidentMaterialTest, AReadOutBringsDiagnosticsAndGrains) {
   Pool pool(options(2));
-  ResidentMaterial sand = material(pool);
+  ResidentMaterial<2> sand = material(pool);
   const StatePointer packing = sand.grains_of(4);
   step(sand, 0);
   EXPECT_EQ(sand.grains_of(4), packing);
@@ -127,7 +127,7 @@ TEST_F(ResidentMaterialTest, AReadOutBringsDiagnosticsAndGrains) {
 // 1.0608 stretches. Beyond 10 % a box is hot. A read-out begins a new mean.
 TEST_F(ResidentMaterialTest, UnrestIsAMeanOverTheStepsAndHotBoxesAreCounted) {
   Pool pool(options(2));
-  ResidentMaterial sand = material(pool);
+  ResidentMaterial<2> sand = material(pool);
   EXPECT_EQ(sand.unrest().points, 0U);
   std::vector<Increment<2>> stretches(kPoints);
   for (std::size_t p = 0; p < kPoints; ++p) stretches[p].displacement_gradient(0, 0) = p < 5 ? 0.2 : 0.05;
@@ -149,13 +149,13 @@ TEST_F(ResidentMaterialTest, UnrestIsAMeanOverTheStepsAndHotBoxesAreCounted) {
 TEST_F(ResidentMaterialTest, ARunGoesOnFromItsCheckpointToTheSameBits) {
   Pool pool(options(2));
   for (const int steps : {0, 3}) {
-    ResidentMaterial sand = material(pool);
+    ResidentMaterial<2> sand = material(pool);
     for (int k = 0; k < steps; ++k) step(sand, k);
     sand.settle();
     MemoryArchive archive;
     sand.save(archive);
     Pool other(options(3));
-    ResidentMaterial again = material(other, ends_once("ends_in_step " + std::to_string(steps + 2)));
+    ResidentMaterial<2> again = material(other, ends_once("ends_in_step " + std::to_string(steps + 2)));
     again.restore(archive);
     EXPECT_EQ(again.grains_of(2)->name(), sand.grains_of(2)->name());
     for (int k = steps; k < steps + 4; ++k) expect_same(step(again, k), step(sand, k));
@@ -165,7 +165,7 @@ TEST_F(ResidentMaterialTest, ARunGoesOnFromItsCheckpointToTheSameBits) {
 
 TEST_F(ResidentMaterialTest, ControlledBoxesAnswerWhole) {
   Pool pool(options(1));
-  ResidentMaterial sand = material(pool, "", std::nullopt);
+  ResidentMaterial<2> sand = material(pool, "", std::nullopt);
   const std::vector<Response<2>> responses = step(sand, 0);
   EXPECT_EQ(responses[2].stress[kCurvature1], 0.0);
   EXPECT_NE(responses[2].stress[k12], 0.0);

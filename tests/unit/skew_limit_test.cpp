@@ -41,7 +41,7 @@ double skew_of(const Response<2>& response) {
 }
 
 TEST(SkewLimit, TurningYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
-  CosseratPart part;
+  CosseratPart<2> part;
   const Response<2> cell = cell_under(kPressure);
   constexpr double kStep = 5e-4;  // the limit is reached at 8e4 / (4 Gc) = 4e-3
   double expected = 0.0;
@@ -58,14 +58,14 @@ TEST(SkewLimit, TurningYieldsUnloadsElasticallyAndYieldsTheOtherWay) {
 }
 
 TEST(SkewLimit, FallsWithThePressureAndIsNothingWhereGrainsHaveParted) {
-  CosseratPart part;
+  CosseratPart<2> part;
   part.follow(turned(1.0), cell_under(kPressure), kLimited, 1.0);
-  EXPECT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
+  EXPECT_DOUBLE_EQ(part.skew_stress(0), kShare * kPressure);
   part.follow(turned(0.0), cell_under(0.25 * kPressure), kLimited, 1.0);
-  EXPECT_DOUBLE_EQ(part.skew_stress, 0.25 * kShare * kPressure);
+  EXPECT_DOUBLE_EQ(part.skew_stress(0), 0.25 * kShare * kPressure);
   // Pressure that returns brings no skew stress back by itself.
   part.follow(turned(0.0), cell_under(kPressure), kLimited, 1.0);
-  EXPECT_DOUBLE_EQ(part.skew_stress, 0.25 * kShare * kPressure);
+  EXPECT_DOUBLE_EQ(part.skew_stress(0), 0.25 * kShare * kPressure);
   const Response<2> parted = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
   EXPECT_EQ(skew_of(parted), 0.0);
   EXPECT_EQ(parted.stress.tail<2>().norm(), 0.0);
@@ -73,29 +73,30 @@ TEST(SkewLimit, FallsWithThePressureAndIsNothingWhereGrainsHaveParted) {
   const Response<2> next = part.follow(turned(1.0), cell_under(-1.0), kLimited, 0.0);
   EXPECT_EQ(skew_of(next), 0.0);
   EXPECT_EQ(next.tangent.bottomRows<2>().norm(), 0.0);
-  EXPECT_DOUBLE_EQ(next.tangent(k21, k21), CosseratPart::kHold * kModulus);
+  EXPECT_DOUBLE_EQ(next.tangent(k21, k21), CosseratPart<2>::kHold * kModulus);
 }
 
 TEST(SkewLimit, StiffnessFollowsTheContactsAndItsChangeAddsNoStress) {
-  CosseratPart part;
+  CosseratPart<2> part;
   const Response<2> cell = cell_under(kPressure);
   part.follow(turned(1e-3), cell, kLimited, 0.4);
-  EXPECT_DOUBLE_EQ(part.skew_stress, 4.0 * kModulus * 1e-3);  // of the contacts at the start of the increment
-  const double before = part.skew_stress;
+  EXPECT_DOUBLE_EQ(part.skew_stress(0),
+                   4.0 * kModulus * 1e-3);  // of the contacts at the start of the increment
+  const double before = part.skew_stress(0);
   Increment<2> bent;
   bent.curvature << 0.5, 0.0;
   part.follow(bent, cell, kLimited, 0.4);
-  EXPECT_EQ(part.skew_stress, before);
+  EXPECT_EQ(part.skew_stress(0), before);
   EXPECT_DOUBLE_EQ(part.couple_stress.x(), 0.4 * kLimited.couple_modulus() * 0.5);
   const Response<2> response = part.follow(turned(1e-3), cell, kLimited, 0.9);
-  EXPECT_DOUBLE_EQ(part.skew_stress, before + 0.4 * 4.0 * kModulus * 1e-3);
+  EXPECT_DOUBLE_EQ(part.skew_stress(0), before + 0.4 * 4.0 * kModulus * 1e-3);
   EXPECT_DOUBLE_EQ(response.tangent(k21, k21), 0.4 * kModulus);
 }
 
 TEST(SkewLimit, AnyPathStaysWithinBothLimits) {
   std::mt19937_64 random(7);
   const auto share = [&random] { return 2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0; };
-  CosseratPart part;
+  CosseratPart<2> part;
   double at_limit = 0.0;
   for (int step = 0; step < 2000; ++step) {
     Increment<2> increment = turned(0.02 * share());
@@ -126,13 +127,13 @@ Response<2> linear_cell(const Increment<2>& increment) {
 
 TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
   for (const double turn : {1e-3, 9e-3}) {
-    CosseratPart start;
+    CosseratPart<2> start;
     start.follow(turned(1e-3), cell_under(kPressure), kLimited, 0.7);
     Increment<2> base = turned(turn);
     base.displacement_gradient << -1e-3, 4e-4, 7e-4, -5e-4;
     base.curvature << 0.1, 0.2;
     const auto answer = [&](const Increment<2>& increment) {
-      CosseratPart part = start;
+      CosseratPart<2> part = start;
       return part.follow(increment, linear_cell(increment), kLimited, 0.5);
     };
     const Response<2> here = answer(base);
@@ -142,7 +143,7 @@ TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
     Matrix7 expected = here.tangent;
     if (is_at_limit) {
       // The stiffness that keeps the micro-rotation solvable is in the tangent alone.
-      const double hold = CosseratPart::kHold * kModulus;
+      const double hold = CosseratPart<2>::kHold * kModulus;
       expected(k12, k12) -= hold;
       expected(k21, k21) -= hold;
       expected(k12, k21) += hold;
@@ -176,8 +177,8 @@ TEST(SkewLimit, TangentIsTheDerivativeOfTheStressOnAndOffTheLimit) {
 TEST(SkewLimit, ALimitOfZeroLeavesNoStressAndASolvableTangent) {
   CosseratParameters frictionless = kLimited;
   frictionless.skew_limit = 0.0;
-  CosseratPart part;
-  part.pressure = kPressure;
+  CosseratPart<2> part;
+  part.pressures(0, 0) = kPressure;
   const Response<2> response = part.follow(turned(0.01), cell_under(kPressure), frictionless, 1.0);
   EXPECT_EQ(skew_of(response), 0.0);
   EXPECT_GT(response.tangent(k21, k21), 0.0);
@@ -186,12 +187,12 @@ TEST(SkewLimit, ALimitOfZeroLeavesNoStressAndASolvableTangent) {
 }
 
 TEST(SkewLimit, InLargeDeformationTheCoupleStressTurnsAtItsLimitAndTheSkewStressStays) {
-  CosseratPart part;
+  CosseratPart<2> part;
   Increment<2> bent = turned(0.1);
   bent.curvature << 100.0, 0.0;
   part.follow(bent, cell_under(kPressure), kLimited, 1.0);
   ASSERT_DOUBLE_EQ(part.couple_stress.x(), 4e-3 * kPressure);
-  ASSERT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
+  ASSERT_DOUBLE_EQ(part.skew_stress(0), kShare * kPressure);
   Increment<2> turn;  // body and grains, by a quarter: R - I
   turn.displacement_gradient << -1.0, -1.0, 1.0, -1.0;
   turn.micro_rotation = 0.5 * M_PI;
@@ -199,20 +200,20 @@ TEST(SkewLimit, InLargeDeformationTheCoupleStressTurnsAtItsLimitAndTheSkewStress
   part.follow(turn, cell_under(kPressure), kLimited, 1.0);
   EXPECT_NEAR(part.couple_stress.y(), 4e-3 * kPressure, 1e-9);
   EXPECT_NEAR(part.couple_stress.x(), 0.0, 1e-9);
-  EXPECT_DOUBLE_EQ(part.skew_stress, kShare * kPressure);
+  EXPECT_DOUBLE_EQ(part.skew_stress(0), kShare * kPressure);
 }
 
 TEST(SkewLimit, MobilisationAndCountsAreThoseOfThePoint) {
-  const PackingAtStart packing = [] {
+  const PackingAtStart<2> packing = [] {
     PlaneReply reply;
     reply.response = cell_under(kPressure);
     reply.diagnostics.contacts = 200;
-    return PackingAtStart(reply);
+    return PackingAtStart<2>(reply);
   }();
   CellDiagnostics half;
   half.contacts = 100;
   EXPECT_DOUBLE_EQ(packing.kept(half), 0.5);
-  std::vector<CosseratPart> points(5, packing.part());
+  std::vector<CosseratPart<2>> points(5, packing.part());
   points[0].follow(turned(1e-3), cell_under(kPressure), kLimited, 1.0);  // 2e4 of 8e4
   EXPECT_NEAR(points[0].skew_mobilisation(kLimited), 0.25, 1e-12);
   points[1].follow(turned(1.0), cell_under(kPressure), kLimited, 1.0);
@@ -224,7 +225,7 @@ TEST(SkewLimit, MobilisationAndCountsAreThoseOfThePoint) {
   points[3].follow(bent, cell_under(kPressure), kLimited, 1.0);
   points[4].follow(bent, cell_under(1e-4 * kPressure), kLimited, 0.0);
   std::vector<LimitsReached> reached;
-  for (const CosseratPart& point : points)
+  for (const CosseratPart<2>& point : points)
     reached.push_back(point.reached(kLimited, packing.least_pressure()));
   PointsAtLimits counts(true);
   counts.count(reached);
@@ -255,13 +256,13 @@ class LimitedSkewAdaptiveTest : public AdaptiveMaterialTest {};
 
 TEST_F(LimitedSkewAdaptiveTest, AdaptiveHasTheSameSkewStressAsACellOfItsOwn) {
   constexpr CosseratParameters kSand{16e6, 14e6, 0.02, 2e-3, 0.5};
-  AdaptiveMaterial sand(cells_.calls(), kSand, {0.0, 0.0, 1});
+  AdaptiveMaterial<2> sand(cells_.calls(), kSand, {0.0, 0.0, 1});
   sand.allocate(1);
-  CosseratPart part;
+  CosseratPart<2> part;
   Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
   bool was_limited = false;
   for (int step = 0; step < 6; ++step) {
-    Increment<2> increment = increment_of(compression(1e-4));
+    Increment<2> increment = increment_of<2>(compression(1e-4));
     increment.micro_rotation = step < 4 ? 4e-4 : -1e-4;
     strain += compression(1e-4);
     const Vector7 expected = part.follow(increment, cells_.at(strain).response, kSand, 1.0).stress;

@@ -75,11 +75,11 @@ TEST(Unloading, IsKeptWithinWhatAnElasticLawTakes) {
 TEST(Unloading, IsReadWhereTheLawDoesNotFlowAndItsCellIsInsideOfTheCone) {
   const MobilisationOptions options;
   const ScaledVector<double> pressure = -100e3 * volumetric_vector<double>();
-  MicroStep step{strain(), pressure, pressure + soft_stress(0.4, 0.0), 0.0, false};
-  Mobilisation start = initial_mobilisation(options);
+  MicroStep<2> step{strain(), pressure, pressure + soft_stress(0.4, 0.0), 0.0, false};
+  Mobilisation<2> start = initial_mobilisation(options);
   EXPECT_FALSE(advance(start, step, moduli(), options).unloading) << "beyond the cone of no friction";
   start.cone.friction = 1.0;
-  const Mobilisation unloaded = advance(start, step, moduli(), options);
+  const Mobilisation<2> unloaded = advance(start, step, moduli(), options);
   ASSERT_TRUE(unloaded.unloading);
   EXPECT_NEAR(unloaded.unloading->stiffness, 0.4, 1e-12);
   step.macro_plastic = true;

@@ -37,9 +37,9 @@ std::shared_ptr<Material<2>> material_of(const std::string& model, const Turning
   if (model == "adaptive, a cell a point") {
     coupler::AdaptivityOptions options;
     options.tolerance = 0.0;
-    return std::make_shared<coupler::AdaptiveMaterial>(sand.calls(), cosserat, options);
+    return std::make_shared<coupler::AdaptiveMaterial<2>>(sand.calls(), cosserat, options);
   }
-  coupler::InformedParameters informed;
+  coupler::InformedParameters<2> informed;
   informed.elastic = elastic;
   informed.plastic_length = cosserat.plastic_length;
   informed.skew_limit = cosserat.skew_limit;
@@ -51,7 +51,7 @@ std::shared_ptr<Material<2>> material_of(const std::string& model, const Turning
     informed.mismatch_limit = 0.02;
     informed.beyond_mismatch = coupler::BeyondMismatch::cell;
   }
-  return std::make_shared<coupler::InformedMaterial>(sand.calls(), informed, "", sand.calls());
+  return std::make_shared<coupler::InformedMaterial<2>>(sand.calls(), informed, "", sand.calls());
 }
 
 const std::vector<std::string> kModels{

@@ -79,7 +79,7 @@ void controlled_rotations(const Scene& scene, const SceneRegion& region, Remarks
 }  // namespace
 
 void internal_length(const Scene& scene, Remarks& remarks) {
-  if (scene.problem().continuum == fem::Continuum::cauchy) return;
+  if (scene.is_classical()) return;
   for (const SceneRegion& region : scene.regions()) {
     controlled_rotations(scene, region, remarks);
     const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);

@@ -37,7 +37,7 @@ void moduli(const Scene& scene, Remarks& remarks) {
       look_at(scene, region, "Gc", shear, "the shear modulus of the packing at rest", remarks);
       continue;
     }
-    if (scene.problem().continuum == fem::Continuum::cauchy) continue;
+    if (scene.is_classical()) continue;
     const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure);
     const auto poisson = scene.quantity({"materials", region.material, "nu"}, coupler::Dimension::number);
     if (young && poisson && *poisson > -1.0)

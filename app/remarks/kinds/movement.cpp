@@ -14,16 +14,15 @@ constexpr double kLarge = 0.5;       // of the body
 constexpr double kLargeSmall = 0.1;  // in small deformation
 constexpr double kNothing = 1e-7;
 
-}  // namespace
-
-void movement(const Scene& scene, Remarks& remarks) {
-  for (const fem::PrescribedDof<2>& item : scene.problem().prescribed) {
-    if (item.dof == fem::Dof::w) continue;
+template <int dim>
+void look_at(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
+  for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
+    if (fem::is_rotation(item.dof)) continue;
     const double movement = scene.reached(item.value);
     if (movement == 0.0) continue;
-    const double side = item.dof == fem::Dof::u2 ? scene.body().size().y() : scene.body().smaller_side();
+    const double side = scene.strained_side(item.dof);
     const double share = movement / side;
-    const bool small = scene.problem().deformation == fem::Deformation::small;
+    const bool small = problem.deformation == fem::Deformation::small;
     const coupler::Entry* const value = scene.boundary_value(item.on, "move");
     const coupler::Entry& place = value != nullptr ? *value : scene.place({"boundary"});
     const std::string seen =
@@ -40,6 +39,12 @@ void movement(const Scene& scene, Remarks& remarks) {
                          place.fault(seen + ", less than rounding and grains can resolve"),
                          "check the units of the movement and of the mesh (Gmsh's numbers are in m)"});
   }
+}
+
+}  // namespace
+
+void movement(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at(scene, problem, remarks); });
 }
 
 }  // namespace polargrain::app

@@ -7,7 +7,7 @@
 
 namespace polargrain::app {
 void softening_cauchy(const Scene& scene, Remarks& remarks) {
-  if (scene.problem().continuum != fem::Continuum::cauchy) return;
+  if (!scene.is_classical()) return;
   for (const SceneRegion& region : scene.regions()) {
     // A single element has one deformation, whatever its size.
     if (!softens(scene, region) || region.elements.size() < 2) continue;
@@ -17,7 +17,7 @@ void softening_cauchy(const Scene& scene, Remarks& remarks) {
              .fault(fmt::format(
                  "continuum: 'cauchy' has no length, and material '{}' softens behind its peak: bands become one element "
                  "wide, and the curve falls the faster the finer the mesh ({} elements here)",
-                 region.material, scene.mesh().elements.size())),
+                 region.material, scene.body().elements.size())),
          "set 'continuum: cosserat' with Gc and lc, or do not read anything behind the peak"});
     return;
   }

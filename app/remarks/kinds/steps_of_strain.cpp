@@ -21,9 +21,15 @@ double largest_load_step(const Scene& scene) {
   double before = 0.0;
   for (const coupler::StepTarget& target : scene.the_case().plan) {
     if (target.control != coupler::StepTarget::Control::time) break;
-    for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
-      for (const fem::TimeTable* const table : {&load.pressure, &load.traction[0], &load.traction[1]})
-        largest = std::max(largest, std::abs(table->at(target.amount) - table->at(before)));
+    const auto change = [&](const fem::TimeTable& table) {
+      largest = std::max(largest, std::abs(table.at(target.amount) - table.at(before)));
+    };
+    scene.with_problem([&](const auto& problem) {
+      for (const auto& load : problem.boundary_loads) {
+        change(load.pressure);
+        for (const fem::TimeTable& along : load.traction) change(along);
+      }
+    });
     before = target.amount;
   }
   return largest;
@@ -34,7 +40,9 @@ void of_nothing(const Scene& scene, const SceneRegion& region, double elastic, R
   constexpr double kLeastOfElastic = 0.01;  // elastic strains of the packing in the whole run
   const double whole = scene.strain_of_run();
   const bool only_moved = scene.end_time().has_value() && largest_load_step(scene) == 0.0 &&
-                          scene.problem().body_loads.empty() && scene.problem().node_loads.empty();
+                          scene.with_problem([](const auto& problem) {
+                            return problem.body_loads.empty() && problem.node_loads.empty();
+                          });
   if (!only_moved || whole <= 0.0 || whole >= kLeastOfElastic * elastic) return;
   remarks.push_back(
       {Rank::doubtful, kLeastOfElastic * elastic / whole,

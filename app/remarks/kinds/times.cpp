@@ -12,19 +12,23 @@ namespace polargrain::app {
 namespace {
 
 /// All tables of a problem.
-std::vector<const fem::TimeTable*> tables_of(const fem::Problem<2>& problem) {
+std::vector<const fem::TimeTable*> tables_of(const Scene& scene) {
   std::vector<const fem::TimeTable*> tables;
-  for (const fem::PrescribedDof<2>& item : problem.prescribed) tables.push_back(&item.value);
-  for (const fem::BoundaryLoad<2>& load : problem.boundary_loads)
-    tables.insert(tables.end(),
-                  {&load.pressure, &load.traction[0], &load.traction[1], &load.couple_traction[0]});
-  for (const fem::NodeLoad& load : problem.node_loads) tables.push_back(&load.value);
-  for (const fem::BodyLoad<2>& load : problem.body_loads) tables.push_back(&load.factor);
+  scene.with_problem([&](const auto& problem) {
+    for (const auto& item : problem.prescribed) tables.push_back(&item.value);
+    for (const auto& load : problem.boundary_loads) {
+      tables.push_back(&load.pressure);
+      for (const fem::TimeTable& along : load.traction) tables.push_back(&along);
+      for (const fem::TimeTable& about : load.couple_traction) tables.push_back(&about);
+    }
+    for (const auto& load : problem.node_loads) tables.push_back(&load.value);
+    for (const auto& load : problem.body_loads) tables.push_back(&load.factor);
+  });
   return tables;
 }
 
 bool changes(const Scene& scene, double from, double to) {
-  for (const fem::TimeTable* const table : tables_of(scene.problem()))
+  for (const fem::TimeTable* const table : tables_of(scene))
     for (int k = 1; k <= 8; ++k)
       if (table->at(from + (to - from) * k / 8.0) != table->at(from)) return true;
   return false;
@@ -77,7 +81,7 @@ void missed_turns(const Scene& scene, Remarks& remarks) {
   const std::vector<coupler::StepTarget>& plan = scene.the_case().plan;
   if (!scene.end_time() || plan.empty()) return;
   double lost = 0.0;
-  for (const fem::TimeTable* const table : tables_of(scene.problem())) {
+  for (const fem::TimeTable* const table : tables_of(scene)) {
     const Ways ways = ways_of(*table, plan);
     if (ways.given > 0.0) lost = std::max(lost, 1.0 - ways.seen / ways.given);
   }

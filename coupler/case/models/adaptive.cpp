@@ -17,18 +17,24 @@ class AdaptiveRecipe : public MaterialRecipe {
   AdaptiveRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat,
                  const AdaptivityOptions& options, int ask_every)
       : definition_(std::move(definition)), cosserat_(cosserat), options_(options), ask_every_(ask_every) {}
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
-    std::string note;
-    std::optional<CosseratParameters> cosserat;
-    if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
-    auto material = std::make_shared<AdaptiveMaterial>(calls_of(*pool, pool->define(definition_)), cosserat,
-                                                       options_, note);
-    if (ask_every_ == 0) return material;
-    return std::make_shared<GatheredMaterial>(std::move(material), ask_every_);
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return made<2>(*pool); }
+  [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
+    return made<3>(*pool);
   }
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
+  template <int dim>
+  [[nodiscard]] std::shared_ptr<fem::Material<dim>> made(Pool& pool) const {
+    std::string note;
+    std::optional<CosseratParameters> cosserat;
+    if (cosserat_) cosserat = resolved(*cosserat_, pool, definition_, note);
+    auto material = std::make_shared<AdaptiveMaterial<dim>>(calls_of<dim>(pool, pool.define(definition_)),
+                                                            cosserat, options_, note);
+    if (ask_every_ == 0) return material;
+    return std::make_shared<GatheredMaterial<dim>>(std::move(material), ask_every_);
+  }
+
   CellDefinition definition_;
   std::optional<CosseratChoice> cosserat_;
   AdaptivityOptions options_;
@@ -41,7 +47,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   AdaptivityOptions options = read_adaptivity_options(section);
-  read_informed_parameters(section);  // checked, and no more: see there
+  check_informed_parameters(section, files.dimension);  // checked, and no more: see there
   if (definition.control.tangent == CellTangent::voigt) {
     section.fault(
         "tangent",

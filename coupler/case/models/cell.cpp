@@ -8,7 +8,6 @@
 #include "coupler/case/models/informed_parameters.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/resident_material.hpp"
-#include "coupler/cells/space_cell_material.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -20,25 +19,25 @@ class CellRecipe : public MaterialRecipe {
  public:
   CellRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat, int dem_steps)
       : definition_(std::move(definition)), cosserat_(cosserat), dem_steps_(dem_steps) {}
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
-    std::optional<CosseratParameters> cosserat;
-    std::string note;
-    if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
-    if (dem_steps_ > 0)
-      return std::make_shared<ResidentMaterial>(*pool, pool->define(definition_), cosserat, dem_steps_,
-                                                std::move(note));
-    return std::make_shared<CellMaterial>(*pool, pool->define(definition_), cosserat, std::move(note));
-  }
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return made<2>(*pool); }
   [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
-    std::optional<CosseratParameters> cosserat;
-    std::string note;
-    if (cosserat_) cosserat = resolved(*cosserat_, *pool, definition_, note);
-    return std::make_shared<SpaceCellMaterial>(*pool, pool->define(definition_), cosserat, std::move(note));
+    return made<3>(*pool);
   }
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
   [[nodiscard]] const CellDefinition* cell() const override { return &definition_; }
 
  private:
+  template <int dim>
+  [[nodiscard]] std::shared_ptr<fem::Material<dim>> made(Pool& pool) const {
+    std::optional<CosseratParameters> cosserat;
+    std::string note;
+    if (cosserat_) cosserat = resolved(*cosserat_, pool, definition_, note);
+    if (dem_steps_ > 0)
+      return std::make_shared<ResidentMaterial<dim>>(pool, pool.define(definition_), cosserat, dem_steps_,
+                                                     std::move(note));
+    return std::make_shared<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, std::move(note));
+  }
+
   CellDefinition definition_;
   std::optional<CosseratChoice> cosserat_;
   int dem_steps_;  // of an explicit step; 0: Newton's method
@@ -49,16 +48,11 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
-  read_informed_parameters(section);  // these two checked, and no more: see there
+  check_informed_parameters(section, files.dimension);  // these two checked, and no more: see there
   read_adaptivity_options(section);
   // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
   if (files.dem_steps > 0 && section.find("damping") == nullptr)
     definition.control.damping = kDampingOfResidents;
-  if (files.dimension == 3 && files.dem_steps > 0)
-    faults.push_back(section.entry().fault(
-        section.name() + ": explicit steps have no cells in space yet; set 'method: newton'"));
-  if (files.dimension == 3 && faults.size() == faults_before && definition.packing.dimension != 3)
-    section.fault("packing", "packing: elements in space need spheres, and this packing is of discs");
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat, files.dem_steps);
 }
@@ -69,7 +63,7 @@ MaterialModel cell_model() {
   return {
       "cell",
       "the stress of a box of grains (script, packing) and, with free rotations, a Cosserat part (G, Gc, lc)",
-      read, true};
+      read};
 }
 
 }  // namespace polargrain::coupler

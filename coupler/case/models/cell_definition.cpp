@@ -158,6 +158,8 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
       const Faults other =
           dimension_faults(definition.script, definition.script_file, definition.packing.dimension);
       faults.insert(faults.end(), other.begin(), other.end());
+      if (files.dimension == 3 && definition.packing.dimension != 3)
+        section.fault("packing", "packing: elements in space need spheres, and this packing is of discs");
     } catch (const InputError& error) {
       faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }

@@ -56,7 +56,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Fault
 }  // namespace
 
 MaterialModel elastic_model() {
-  return {"elastic", "isotropic Cosserat elasticity: E, nu, Gc, lc", read, true};
+  return {"elastic", "isotropic Cosserat elasticity: E, nu, Gc, lc", read};
 }
 
 }  // namespace polargrain::coupler

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/models/cone_match.hpp"
 #include "coupler/case/models/cosserat_moduli.hpp"
 #include "fem/material/cone_matching.hpp"
 #include "fem/material/local_material.hpp"
@@ -56,10 +57,6 @@ class ElastoplasticRecipe : public MaterialRecipe {
   std::string note_;
 };
 
-/// The words of `match`, in the order of fem::ConeMatch.
-const std::vector<std::string> kMatches{"triaxial_compression", "triaxial_extension", "plane_strain",
-                                        "inner"};
-
 /// The strength that a cone has where it was not matched; empty where that is no surprise.
 std::string note_on(const std::string& name, const fem::HardeningCone& cone, fem::ConeMatch match) {
   if (match != fem::ConeMatch::triaxial_compression) return {};
@@ -105,9 +102,7 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
       strength(section, "friction_angle", Dimension::angle, Limit::not_negative, kDegrees, shear),
       strength(section, "dilatancy_angle", Dimension::angle, Limit::any, kDegrees, shear),
       strength(section, "cohesion", Dimension::pressure, Limit::not_negative, 1.0, shear)};
-  const std::string word =
-      section.choice_or("match", kMatches, dim == 2 ? "plane_strain" : "triaxial_compression");
-  const auto match = static_cast<fem::ConeMatch>(std::ranges::find(kMatches, word) - kMatches.begin());
+  const fem::ConeMatch match = read_match(section, dim);
   if (section.find("invariants") != nullptr) {
     const std::vector<double> a = section.quantities("invariants", 3, Dimension::number, Limit::any);
     parameters.weights = {a[0], a[1], a[2]};
@@ -138,7 +133,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Fault
 
 MaterialModel elastoplastic_model() {
   return {"elastoplastic", "Cosserat cone: elastic parameters, friction_angle, dilatancy_angle, cohesion",
-          read, true};
+          read};
 }
 
 }  // namespace polargrain::coupler

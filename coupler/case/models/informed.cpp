@@ -15,9 +15,10 @@
 namespace polargrain::coupler {
 namespace {
 
+template <int dim>
 class InformedRecipe : public MaterialRecipe {
  public:
-  InformedRecipe(CellDefinition definition, const InformedParameters& parameters,
+  InformedRecipe(CellDefinition definition, const InformedParameters<dim>& parameters,
                  const std::optional<CosseratChoice>& cosserat, int ask_every)
       : ask_every_(ask_every),
         definition_(std::move(definition)),
@@ -28,35 +29,47 @@ class InformedRecipe : public MaterialRecipe {
     if (cosserat_.plastic_length.is_open()) cosserat_.plastic_length.none = true;
     definition_.control.tangent = CellTangent::none;  // the law has one of its own
   }
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
-    InformedParameters parameters = parameters_;
-    std::string note;
-    // Controlled rotations leave nothing to the case: stiffness and strength are the cell's.
-    parameters.set_moduli(resolved(cosserat_, *pool, definition_, note));
-    CellCalls with_tangent;
-    if (parameters.beyond_mismatch == BeyondMismatch::cell) {
-      CellDefinition definition = definition_;
-      definition.control.tangent = tangent_;
-      with_tangent = calls_of(*pool, pool->define(std::move(definition)));
-    }
-    auto material = std::make_shared<InformedMaterial>(calls_of(*pool, pool->define(definition_)), parameters,
-                                                       note, std::move(with_tangent));
-    if (ask_every_ == 0) return material;
-    return std::make_shared<GatheredMaterial>(std::move(material), ask_every_);
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return made<2>(*pool); }
+  [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
+    return made<3>(*pool);
   }
   [[nodiscard]] bool knows_s33() const override { return true; }  // the law's
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
 
  private:
+  template <int wanted>
+  [[nodiscard]] std::shared_ptr<fem::Material<wanted>> made(Pool& pool) const {
+    if constexpr (wanted == dim) {
+      InformedParameters<dim> parameters = parameters_;
+      std::string note;
+      // Controlled rotations leave nothing to the case: stiffness and strength are the cell's.
+      parameters.set_moduli(resolved(cosserat_, pool, definition_, note));
+      CellCalls<dim> with_tangent;
+      if (parameters.beyond_mismatch == BeyondMismatch::cell) {
+        CellDefinition definition = definition_;
+        definition.control.tangent = tangent_;
+        with_tangent = calls_of<dim>(pool, pool.define(std::move(definition)));
+      }
+      auto material = std::make_shared<InformedMaterial<dim>>(calls_of<dim>(pool, pool.define(definition_)),
+                                                              parameters, note, std::move(with_tangent));
+      if (ask_every_ == 0) return material;
+      return std::make_shared<GatheredMaterial<dim>>(std::move(material), ask_every_);
+    } else {
+      throw RunError("an informed material of another dimension was asked for");
+    }
+  }
+
   int ask_every_;  ///< explicit steps after which the cells follow; 0: Newton's method
   CellDefinition definition_;
   CellTangent tangent_;  ///< of the case: for points that go by their cells
-  InformedParameters parameters_;
+  InformedParameters<dim> parameters_;
   CosseratChoice cosserat_;
 };
 
 /// Explicit steps are too many to bring cells to rest in each of them.
-void refuse_asking_each_step(Section& section, const InformedParameters& parameters, const CaseFiles& files) {
+template <int dim>
+void refuse_asking_each_step(Section& section, const InformedParameters<dim>& parameters,
+                             const CaseFiles& files) {
   if (files.ask_every == 0) return;
   if (parameters.update == InformedUpdate::fixed_point)
     section.fault(
@@ -69,12 +82,13 @@ void refuse_asking_each_step(Section& section, const InformedParameters& paramet
         "beyond_mismatch: in explicit steps a law cannot go over to its cell; write tell or stop, or use `model: cell`");
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+template <int dim>
+std::unique_ptr<MaterialRecipe> read_for(const std::string& material, Section& section, Faults& faults,
+                                         const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
-  InformedParameters parameters = read_informed_parameters(section);
+  InformedParameters<dim> parameters = read_informed_parameters<dim>(section);
   if (cosserat && cosserat->plastic_length.value && parameters.weights) {
     // Given, or what `lc: measured` comes with.
     section.fault(
@@ -87,7 +101,13 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   refuse_asking_each_step(section, parameters, files);
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
-  return std::make_unique<InformedRecipe>(std::move(definition), parameters, cosserat, files.ask_every);
+  return std::make_unique<InformedRecipe<dim>>(std::move(definition), parameters, cosserat, files.ask_every);
+}
+
+std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
+                                     const CaseFiles& files) {
+  return files.dimension == 3 ? read_for<3>(material, section, faults, files)
+                              : read_for<2>(material, section, faults, files);
 }
 
 }  // namespace

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupler/case/models/cone_match.hpp"
+
 namespace polargrain::coupler {
 
-InformedParameters read_informed_parameters(Section& section) {
-  InformedParameters parameters;
+template <int dim>
+InformedParameters<dim> read_informed_parameters(Section& section) {
+  InformedParameters<dim> parameters;
   const double poisson = section.quantity_or("nu", Dimension::number, Limit::any, 0.2);
   if (!(poisson > -1.0 && poisson < 0.5)) section.fault("nu", "nu: must be above -1 and below 0.5");
   parameters.elastic.poisson_ratio = poisson;
@@ -38,6 +41,7 @@ InformedParameters read_informed_parameters(Section& section) {
     section.fault("initial_friction", "initial_friction: must be an angle below 90 degrees");
   }
   reading.initial_friction = angle;
+  if constexpr (dim == 3) reading.match = read_match(section, dim);
   reading.drift_shear =
       section.quantity_or("drift_shear", Dimension::number, Limit::not_negative, reading.drift_shear);
   reading.cohesion = section.quantity_or("cohesion", Dimension::pressure, Limit::positive, 100.0);
@@ -50,6 +54,17 @@ InformedParameters read_informed_parameters(Section& section) {
     }
   }
   return parameters;
+}
+
+template InformedParameters<2> read_informed_parameters<2>(Section&);
+template InformedParameters<3> read_informed_parameters<3>(Section&);
+
+void check_informed_parameters(Section& section, int dimension) {
+  if (dimension == 3) {
+    read_informed_parameters<3>(section);
+  } else {
+    read_informed_parameters<2>(section);
+  }
 }
 
 }  // namespace polargrain::coupler

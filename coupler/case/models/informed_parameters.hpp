@@ -7,8 +7,11 @@
 namespace polargrain::coupler {
 
 /// Reads the options of `informed` beside its cells and G, Gc, lc: nu, update, window, dilatancy_limits,
-/// initial_friction, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
+/// initial_friction, match, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
 /// them, so that a case changes from one to the other by one word. The moduli are left open.
-InformedParameters read_informed_parameters(Section& section);
+template <int dim>
+InformedParameters<dim> read_informed_parameters(Section& section);
+/// Reads them for their faults alone.
+void check_informed_parameters(Section& section, int dimension);
 
 }  // namespace polargrain::coupler

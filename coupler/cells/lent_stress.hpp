@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "common/cosserat.hpp"
+
+namespace polargrain::coupler {
+
+// The cone of a law is a circle about the mean stress, the strength of grains is not. At the same q/p the law would have
+// another friction angle wherever its intermediate stress differs from that of its cell (docs/theory/plasticity.md, B.9). So
+// friction is read from the major and minor stress of the cell, and the intermediate one is lent by the law in proportion:
+//
+//     s2 of the cell = s2 of the law (s1 + s3) of the cell / (s1 + s3) of the law,   where the law is under pressure
+//
+// In the plane the stress normal to it is the intermediate one, which discs have not. All Pa, tension positive.
+
+/// @param cell its stress; of controlled rotations with skew stress, which stays @param law its stress
+Vector7 with_lent_stress(const Vector7& cell, const Vector7& law);
+Vector18 with_lent_stress(const Vector18& cell, const Vector18& law);
+
+}  // namespace polargrain::coupler
