@@ -10,7 +10,7 @@ namespace polargrain::fem {
 template <int dim>
 struct SolverState;
 
-/// Which entries of a nodal vector (3 a node) are given, which are unknown, and which share an unknown.
+/// Which entries of a nodal vector are given, which are unknown, and which share an unknown.
 template <int dim>
 class Constraints {
  public:
@@ -25,8 +25,11 @@ class Constraints {
   /// @param state of the stage before @param stage that begins
   static Eigen::VectorXd new_offsets(const Problem<dim>& problem, const SolverState<dim>& state, int stage);
 
-  /// Number of unknowns.
+  /// Where nodal vectors keep the fields of the problem.
+  [[nodiscard]] const FieldPlaces<dim>& places() const { return places_; }
+  /// Number of unknowns; the fields come last.
   [[nodiscard]] int unknowns() const { return unknowns_; }
+  [[nodiscard]] int mechanical_unknowns() const { return mechanical_unknowns_; }
   /// Number of the unknown at an entry of a nodal vector; -1 where the entry is given.
   [[nodiscard]] int equation(std::size_t entry) const { return equation_[entry]; }
   [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
@@ -55,11 +58,13 @@ class Constraints {
     double offset = 0.0;
     bool fades = false;  ///< the offset, as `released` grows
   };
+  FieldPlaces<dim> places_;
   std::vector<Given> given_;
   std::vector<int> equation_;
   std::vector<std::size_t> first_;  ///< of each equation: the entry where forces are summed
   bool has_ties_;
   int unknowns_ = 0;
+  int mechanical_unknowns_ = 0;
 };
 
 }  // namespace polargrain::fem

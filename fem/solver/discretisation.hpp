@@ -34,8 +34,8 @@ struct Linearisation {
 template <int dim>
 class Discretisation {
  public:
-  /// @param mesh must outlive this object.
-  Discretisation(const Mesh<dim>& mesh, Continuum continuum);
+  /// @param mesh must outlive this object. @param field_entries of nodal vectors, behind those of node_dofs
+  Discretisation(const Mesh<dim>& mesh, Continuum continuum, Eigen::Index field_entries = 0);
 
   /// From now on elements that are not there have increments of zero and no forces. @param there as elements_in_stage has it
   void set_there(std::vector<char> there) { there_ = std::move(there); }

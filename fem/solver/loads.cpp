@@ -115,7 +115,8 @@ template <int dim>
 Loads<dim>::Loads(const Problem<dim>& problem, int stage)
     : problem_(&problem),
       there_(elements_in_stage(problem, stage)),
-      size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
+      size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))),
+      nodal_size_(problem.places().size()) {
   for (const BoundaryLoad<dim>& load : problem.boundary_loads)
     if (load.life.holds(stage)) add_boundary_load(problem, load);
   for (const NodeLoad& load : problem.node_loads)
@@ -207,7 +208,7 @@ std::vector<LoadStiffness> Loads<dim>::stiffness(double time) const {
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::linearised(double time, const Eigen::VectorXd& nodal) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (const LoadStiffness& side : stiffness(time)) {
     forces(side.entries) += side.values * nodal(side.entries);
   }
@@ -216,15 +217,15 @@ Eigen::VectorXd Loads<dim>::linearised(double time, const Eigen::VectorXd& nodal
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::at(double time) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const Part& part : parts_) forces += part.factor->at(time) * part.forces;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  for (const Part& part : parts_) forces.head(size_) += part.factor->at(time) * part.forces;
   return forces;
 }
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::slope(double time) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const Part& part : parts_) forces += part.factor->slope(time) * part.forces;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  for (const Part& part : parts_) forces.head(size_) += part.factor->slope(time) * part.forces;
   return forces;
 }
 

@@ -50,7 +50,8 @@ class Loads {
 
   const Problem<dim>* problem_;
   std::vector<char> there_;  ///< by element; empty: all of them
-  Eigen::Index size_;
+  Eigen::Index size_;        ///< of the parts, which know displacements and rotations alone
+  Eigen::Index nodal_size_;  ///< fields included
   std::vector<Part> parts_;
   struct Pressure {
     std::size_t part;
