@@ -34,6 +34,19 @@ ShapeFunctions<dim> of_cuboid(const ElementType<dim>& type, const Eigen::Matrix<
   return shape;
 }
 
+/// A triangle along the first two axes, a line along the third.
+ShapeFunctions<3> of_wedge(const Eigen::Vector3d& position) {
+  const ShapeFunctions<2> triangle = of_simplex<2>(position.head<2>());
+  ShapeFunctions<3> shape{Eigen::VectorXd(6), VectorRows<3>(6, 3)};
+  for (int a = 0; a < 6; ++a) {
+    const double side = a < 3 ? -1.0 : 1.0;
+    const double along = 0.5 * (1.0 + side * position(2));
+    shape.value(a) = triangle.value(a % 3) * along;
+    shape.derivative.row(a) << triangle.derivative.row(a % 3) * along, 0.5 * side * triangle.value(a % 3);
+  }
+  return shape;
+}
+
 }  // namespace
 
 template <int dim>
@@ -42,6 +55,8 @@ ShapeFunctions<dim> corner_shape_functions(const ElementType<dim>& type,
   // A line has two corners too, at -1 and 1.
   if constexpr (dim > 1)
     if (type.corners == dim + 1) return of_simplex<dim>(position);
+  if constexpr (dim == 3)
+    if (type.corners == 6) return of_wedge(position);
   return of_cuboid<dim>(type, position);
 }
 
