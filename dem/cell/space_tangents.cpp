@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/spheres/space_tangents.hpp"
+#include "dem/cell/space_tangents.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "dem/spheres/space_contact.hpp"
+#include "dem/cell/averages.hpp"
 
 namespace polargrain::dem {
 
@@ -88,19 +88,19 @@ Matrix18 classical_tangent(const ClassicalStrains& stresses) {
 
 LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame,
                                        const SpaceSlip& slip) {
-  const Eigen::Vector3d branch = frame * branch_of(contact);
+  const Eigen::Vector3d branch = frame * contact.branch;
   const Eigen::Vector3d n = branch.normalized();
   const Eigen::Matrix3d along = n * n.transpose();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
-  const double normal_force = space_normal_force(contact);
-  const Eigen::Vector3d moment = frame * moment_of(contact);
+  const double normal_force = contact.normal_force();
+  const Eigen::Vector3d moment = frame * contact.moment;
 
   SlippedSpring sliding;
   sliding.stiffness = contact.tangential_stiffness;
-  sliding.value = across * (frame * force_of(contact));
+  sliding.value = across * (frame * contact.force);
   sliding.limit = contact.friction * std::max(0.0, normal_force);
   sliding.slip = slip.sliding;
-  sliding.at_limit = slides_in_space(contact);
+  sliding.at_limit = contact.sliding();
   SlippedSpring bending;
   bending.stiffness = contact.rolling_stiffness;
   bending.value = across * moment;
