@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "dem/cell/averages.hpp"
+#include "dem/cell/tangent_strains.hpp"
 
 namespace polargrain::dem {
 
@@ -49,39 +49,6 @@ LinearSpring linear(const SlippedSpring& spring, const Eigen::Matrix3d& directio
   made.of_motion = spring.stiffness * (across * directions + (along - across) * way * way.transpose());
   made.of_opening = -(1.0 - along) / normal_force * spring.value * n.transpose();
   return made;
-}
-
-using ClassicalStrains = Eigen::Matrix<double, 18, 6>;
-
-/// Where e_ij stands.
-constexpr int place(int i, int j) {
-  return 3 * i + j;
-}
-/// The symmetric unit strains e11, e22, e33, e12 + e21, e13 + e31, e23 + e32.
-constexpr int kFirst[] = {0, 1, 2, 0, 0, 1};
-constexpr int kSecond[] = {0, 1, 2, 1, 2, 2};
-
-ClassicalStrains classical_strains() {
-  ClassicalStrains strains = ClassicalStrains::Zero();
-  for (int k = 0; k < 6; ++k) {
-    strains(place(kFirst[k], kSecond[k]), k) += 0.5;
-    strains(place(kSecond[k], kFirst[k]), k) += 0.5;
-  }
-  return strains;
-}
-
-Matrix18 classical_tangent(const ClassicalStrains& stresses) {
-  Matrix18 tangent = Matrix18::Zero();
-  for (int k = 0; k < 6; ++k)
-    tangent.col(place(kFirst[k], kSecond[k])) = tangent.col(place(kSecond[k], kFirst[k])) = stresses.col(k);
-  for (int k = 3; k < 6; ++k) {
-    const int one = place(kFirst[k], kSecond[k]);
-    const int other = place(kSecond[k], kFirst[k]);
-    const Eigen::RowVector<double, 18> shear = 0.5 * (tangent.row(one) + tangent.row(other));
-    tangent.row(one) = tangent.row(other) = shear;
-  }
-  tangent.bottomRows<9>().setZero();
-  return tangent;
 }
 
 }  // namespace
@@ -152,7 +119,7 @@ Matrix18 voigt_cosserat_space_tangent(const SpaceNetwork& network) {
 }
 
 Matrix18 voigt_space_tangent(const SpaceNetwork& network) {
-  return classical_tangent(voigt_cosserat_space_tangent(network) * classical_strains());
+  return classical_tangent<3>(voigt_cosserat_space_tangent(network) * classical_strains<3>());
 }
 
 template <int Strains>
@@ -172,9 +139,9 @@ std::optional<Eigen::Matrix<double, 18, Strains>> CondensedSpaceTangent::stresse
 
 std::optional<Matrix18> CondensedSpaceTangent::classical(const SpaceNetwork& network) {
   if (network.contacts.empty()) return Matrix18::Zero();
-  const auto relaxed = stresses<6>(network, {}, classical_strains());
+  const auto relaxed = stresses<6>(network, {}, classical_strains<3>());
   if (!relaxed) return std::nullopt;
-  return classical_tangent(*relaxed);
+  return classical_tangent<3>(*relaxed);
 }
 
 std::optional<Matrix18> CondensedSpaceTangent::cosserat(const SpaceNetwork& network,
