@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.hpp"
+#include "dem/box/lost_grains.hpp"
 #include "dem/contact/hertz_slope.hpp"
 
 namespace polargrain::dem {
@@ -300,9 +300,7 @@ void SphereBox::sum_up() {
     imbalance_.moment += ConstPlace(force + 4).norm();
   }
   if (std::isfinite(imbalance_.force + imbalance_.moment)) return;
-  throw RunError(
-      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed into each "
-      "other");
+  lose_grains();
 }
 
 std::span<const double> SphereBox::rotations() const {
