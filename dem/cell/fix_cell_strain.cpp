@@ -105,7 +105,7 @@ void FixCellStrain<dim>::setup(int) {
 template <int dim>
 void FixCellStrain<dim>::pre_initial_integrate() {
   motion_.advance();
-  loading_.bend<dim>(motion_.curvature_rate());
+  loading_.bend(motion_.curvature_rate());
   if (motion_.moving()) accelerate();
 }
 

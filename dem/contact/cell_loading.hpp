@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "common/cosserat.hpp"
 #include "dem/engine/engine_part.hpp"
 
 namespace polargrain::dem {
@@ -14,14 +13,13 @@ class CellLoading {
   /// Every contact between grains is to see their spins turned by the share of a rate of curvature from the middle of the
   /// branch to either centre (docs/theory/grains.md, C.6, C.8). Laws that take spins past the contact (stock rolling
   /// models) do not feel it.
-  /// @param rate (k,j) = d(micro-rotation k)/dx_j in a unit of time, in the frame of the box, rad/(m s): of discs the one
-  /// about e_3
-  template <int dim>
-  void bend(const Eigen::Matrix<double, Cosserat<dim>::rotations, dim>& rate) {
+  /// @param rate (k,j) = d(micro-rotation k)/dx_j in a unit of time, in the frame of the box, rad/(m s): about e_1 to e_3, or
+  /// of discs about e_3 alone
+  template <int turns, int dim>
+  void bend(const Eigen::Matrix<double, turns, dim>& rate) {
     rate_ = {};
-    for (int k = 0; k < Cosserat<dim>::rotations; ++k)
-      for (int j = 0; j < dim; ++j)
-        rate_[static_cast<std::size_t>(3 * Cosserat<dim>::axis(k) + j)] = rate(k, j);
+    for (int k = 0; k < turns; ++k)
+      for (int j = 0; j < dim; ++j) rate_[static_cast<std::size_t>(3 * (3 - turns + k) + j)] = rate(k, j);
     bends_ = !rate.isZero(0.0);
   }
 
