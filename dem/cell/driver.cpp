@@ -31,7 +31,8 @@ Driver<dim>::Driver(const Packing& packing, const std::string& script, const std
     grain_sizes_ = packing.grain_volume();
   }
   if (strain_ == nullptr)
-    lammps().error->all(FLERR, fmt::format("The packing needs a script with dimension {}", dim).c_str());
+    lammps().error->all(FLERR, dim == 3 ? "A packing of spheres in space needs a script with dimension 3"
+                                        : "A packing of discs needs a script with dimension 2");
   Box<dim> box;
   if constexpr (dim == 2) {
     box = Box<2>::from_base_vectors(packing.box).reduced();
