@@ -348,21 +348,28 @@ template <int dim>
 CellDiagnostics Cell<dim>::measure(const GrainBox<dim>& grains) const {
   const std::span<const Contact> contacts = grains.contacts();
   CellDiagnostics diagnostics = diagnostics_of(equilibrium(grains), contacts, inertia_.radii);
-  constexpr std::size_t turns = Cosserat<dim>::rotations;
+  constexpr int turns = Cosserat<dim>::rotations;
   diagnostics.multiplier = grains.multiplier()(turns - 1);
   const Eigen::Matrix3d frame = frame_in_space(grains.box());
   const Eigen::Matrix3d fabric = frame * fabric_tensor(contacts) * frame.transpose();
   diagnostics.fabric = {fabric(0, 0), fabric(1, 1), fabric(0, 1)};
 
-  // About e_3, the last of each grain.
   const std::span<const double> rotations = grains.rotations();
-  const auto number = static_cast<double>(rotations.size() / turns);
-  for (std::size_t k = turns - 1; k < rotations.size(); k += turns)
-    diagnostics.mean_rotation += rotations[k] / number;
-  double variance = 0.0;
-  for (std::size_t k = turns - 1; k < rotations.size(); k += turns)
-    variance += std::pow(rotations[k] - diagnostics.mean_rotation, 2) / number;
-  diagnostics.rotation_spread = std::sqrt(variance);
+  if (rotations.empty()) return diagnostics;
+  // About e_3, the last of each grain. Sums keep the order that results were published with.
+  const auto number = static_cast<Eigen::Index>(rotations.size() / turns);
+  if constexpr (dim == 2) {
+    for (const double rotation : rotations)
+      diagnostics.mean_rotation += rotation / static_cast<double>(number);
+    double variance = 0.0;
+    for (const double rotation : rotations)
+      variance += std::pow(rotation - diagnostics.mean_rotation, 2) / static_cast<double>(number);
+    diagnostics.rotation_spread = std::sqrt(variance);
+  } else {
+    const auto about_3 = Eigen::Map<const Eigen::Matrix3Xd>(rotations.data(), 3, number).row(2).array();
+    diagnostics.mean_rotation = about_3.mean();
+    diagnostics.rotation_spread = std::sqrt((about_3 - diagnostics.mean_rotation).square().mean());
+  }
   return diagnostics;
 }
 
