@@ -99,19 +99,19 @@ dem::Spheres spheres_of(const Packing& packing, bool rolling) {
   return spheres;
 }
 
-dem::SphereSnapshot at_rest(const Packing& packing, const dem::Spheres& spheres) {
-  dem::SphereSnapshot snapshot;
-  snapshot.box = dem::SpaceBox::from_base_vectors(packing.base_vectors());
+dem::Snapshot<3> at_rest(const Packing& packing, const dem::Spheres& spheres) {
+  dem::Snapshot<3> snapshot;
+  snapshot.box = dem::Box<3>::from_base_vectors(packing.base_vectors());
   snapshot.code = spheres.combination.code();
   snapshot.springs = dem::sphere_spring_count(spheres.combination);
   for (const Grain& grain : packing.grains)
-    snapshot.spheres.push_back({{grain.position.x(), grain.position.y(), grain.height}, {}, {}, {}});
+    snapshot.grains.push_back({{grain.position.x(), grain.position.y(), grain.height}, {}, {}, {}});
   return snapshot;
 }
 
 void lead(dem::SphereBox& box) {
   const Eigen::Matrix3d strain = kStrain * (rates() / kRate).asDiagonal();
-  box.begin(dem::SpacePath(box.box(), strain, kSteps), kMaterial.damping_rate, std::nullopt, kTimeStep);
+  box.begin(dem::BoxPath<3>(box.box(), strain, kSteps), kMaterial.damping_rate, std::nullopt, kTimeStep);
   box.set_up();
 }
 

@@ -56,7 +56,6 @@ SECTIONS = [
     ("Contact laws (D)", "contact_law_test"),
     ("Contact laws in a script (D.5)", "contact_standalone_test"),
     ("Specimen: lattice between platens", "specimen_lattice_test"),
-    ("Prescribed boundary (C.5)", "dem_boundary_test"),
 ]
 
 LONG = [

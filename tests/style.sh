@@ -12,6 +12,7 @@
 #   tests/style.sh paper              docs/paper: sections, words and references that JOSS asks for
 #   tests/style.sh made               docs: pages of figures are as their commands write them
 #   tests/style.sh keys               Markdown: keys, commands and options that the reference leaves out
+#   tests/style.sh includes           sources: includes that run upwards between folders
 #   tests/style.sh figures            README, settings, recipes: numbers that no command, code or test gives
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -50,12 +51,12 @@ case "${1:-}" in
     need python3
     python3 -B tests/pages.py "$@"
     ;;
-  figures)
+  figures | includes)
     need python3
-    python3 -B tests/figures.py
+    python3 -B "tests/$1.py"
     ;;
   *)
-    sed -n '3,16s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,17s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

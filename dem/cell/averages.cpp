@@ -5,25 +5,25 @@
 
 namespace polargrain::dem {
 
-Eigen::Matrix2d average_stress(std::span<const Contact> contacts, double volume) {
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+Eigen::Matrix3d average_stress(std::span<const Contact> contacts, double volume) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Contact& contact : contacts) sum += contact.branch * contact.force.transpose();
   return sum / volume;
 }
 
-Eigen::Vector2d average_couple_stress(std::span<const Contact> contacts, double volume) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const Contact& contact : contacts) sum += contact.couple() * contact.branch;
+Eigen::Matrix3d average_couple_stress(std::span<const Contact> contacts, double volume) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Contact& contact : contacts) sum += contact.branch * contact.couple().transpose();
   return sum / volume;
 }
 
-Eigen::Matrix2d fabric_tensor(std::span<const Contact> contacts) {
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+Eigen::Matrix3d fabric_tensor(std::span<const Contact> contacts) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Contact& contact : contacts) {
-    const Eigen::Vector2d n = contact.normal();
+    const Eigen::Vector3d n = contact.normal();
     sum += n * n.transpose();
   }
-  return contacts.empty() ? sum : Eigen::Matrix2d(sum / static_cast<double>(contacts.size()));
+  return contacts.empty() ? sum : Eigen::Matrix3d(sum / static_cast<double>(contacts.size()));
 }
 
 namespace {
@@ -37,7 +37,7 @@ double mean(std::span<const Contact> contacts, Quantity quantity) {
 
 double mean_contact_force(std::span<const Contact> contacts) {
   return mean(contacts, [](const Contact& contact) {
-    return std::sqrt(contact.force.squaredNorm() + contact.force_3 * contact.force_3);
+    return std::sqrt(contact.force.head<2>().squaredNorm() + contact.force.z() * contact.force.z());
   });
 }
 

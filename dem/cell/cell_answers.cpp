@@ -96,7 +96,7 @@ std::string no_residents(const DiscSelection& selection) {
 }
 
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
-                               std::span<const double> radii, bool (*slides)(const Contact&)) {
+                               std::span<const double> radii) {
   CellDiagnostics diagnostics;
   diagnostics.unbalanced_force_ratio = rest.unbalanced_force_ratio;
   diagnostics.unbalanced_moment_ratio = rest.unbalanced_moment_ratio;
@@ -111,7 +111,7 @@ CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact>
     return contacts.empty() ? 0.0 : static_cast<double>(count) / static_cast<double>(contacts.size());
   };
   diagnostics.contacts = static_cast<std::int64_t>(contacts.size());
-  diagnostics.sliding_fraction = fraction(slides);
+  diagnostics.sliding_fraction = fraction([](const Contact& contact) { return contact.sliding(); });
   diagnostics.rolling_fraction = fraction([](const Contact& contact) { return contact.rolling_at_limit; });
   return diagnostics;
 }

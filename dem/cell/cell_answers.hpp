@@ -13,12 +13,6 @@
 
 namespace polargrain::dem {
 
-// Parts that cells of discs and of spheres share.
-
-/// Spring that holds each grain in the condensed tangent, over the mean normal stiffness. From 1e-6 to 1e-3
-/// it changes no modulus by more than 1 %.
-inline constexpr double kHold = 1e-4;
-
 /// The largest strain, rotation against the continuum, or curvature times mean diameter that a cell takes in one
 /// increment.
 inline constexpr double kLargestIncrement = 0.25;
@@ -62,9 +56,8 @@ std::string remarks_at_rest(const std::string& remark, const CellControl& contro
 /// Why a scene cannot be stepped by resident boxes, and what to do.
 std::string no_residents(const DiscSelection& selection);
 
-/// Diagnostics from the contacts of a cell, but for fabric and rotations.
-/// @param radii of the grains, m @param slides whether a contact does: between discs, or spheres
+/// Diagnostics from the contacts of a cell, but for fabric and rotations. @param radii of the grains, m
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,
-                               std::span<const double> radii, bool (*slides)(const Contact&));
+                               std::span<const double> radii);
 
 }  // namespace polargrain::dem

@@ -121,47 +121,42 @@ PackedGrains packed_grains(LAMMPS_NS::LAMMPS& lammps) {
 }
 }  // namespace
 
-StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box& box, std::span<const double> rotations) {
+template <int dim>
+StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box<dim>& box, std::span<const double> rotations) {
   PackedGrains packed = packed_grains(lammps);
-  packed.box = box;
-  packed.rotations.assign(rotations.begin(), rotations.end());
-  return encode(packed, static_cast<std::size_t>(lammps.atom->nlocal));
-}
-
-StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const SpaceBox& box, std::span<const double> rotations) {
-  PackedGrains packed = packed_grains(lammps);
-  packed.space = box;
+  if constexpr (dim == 2) {
+    packed.box = box;
+  } else {
+    packed.space = box;
+  }
   packed.rotations.assign(rotations.begin(), rotations.end());
   return encode(packed, static_cast<std::size_t>(lammps.atom->nlocal));
 }
 
 namespace {
-/// A state of the loop over discs, taken up by the engine's own.
-RestoredState restore_discs(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  const DiscSelection models = disc_models(lammps);
-  if (!models.combination) throw RunError("this state belongs to a cell of another input script");
-  const DiscSnapshot snapshot = decode_discs(state);
-  put_discs(lammps, *models.combination, snapshot);
-  RestoredState restored{snapshot.box, {}, {}};
-  for (const DiscSnapshot::Motion& disc : snapshot.discs) restored.rotations.push_back(disc.turned);
-  return restored;
+void put_grains(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& models, const Snapshot<2>& discs) {
+  put_discs(lammps, models, discs);
+}
+void put_grains(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& models, const Snapshot<3>& spheres) {
+  put_spheres(lammps, models, spheres);
 }
 
-/// The same of the loop over spheres.
-RestoredState restore_spheres(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+/// A state of the loop over discs or spheres, taken up by the engine's own.
+template <int dim>
+RestoredState<dim> restore_snapshot(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   const DiscSelection models = disc_models(lammps);
   if (!models.combination) throw RunError("this state belongs to a cell of another input script");
-  const SphereSnapshot snapshot = decode_spheres(state);
-  put_spheres(lammps, *models.combination, snapshot);
-  RestoredState restored{{}, {}, snapshot.box};
-  for (const SphereSnapshot::Motion& sphere : snapshot.spheres)
-    restored.rotations.insert(restored.rotations.end(), sphere.turned.begin(), sphere.turned.end());
+  const Snapshot<dim> snapshot = decode_snapshot<dim>(state);
+  put_grains(lammps, *models.combination, snapshot);
+  RestoredState<dim> restored{snapshot.box, {}};
+  for (const GrainMotion<dim>& grain : snapshot.grains)
+    restored.rotations.insert(restored.rotations.end(), grain.turned.begin(), grain.turned.end());
   return restored;
 }
 }  // namespace
 
 bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  if (is_disc_state(state) || is_sphere_state(state)) return false;
+  if (is_snapshot<2>(state) || is_snapshot<3>(state)) return false;
   try {
     const PackedGrains packed = decode_grains(state);
     return packed.grains() == static_cast<std::size_t>(lammps.atom->natoms) &&
@@ -172,9 +167,9 @@ bool state_fits(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   }
 }
 
-RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  if (is_disc_state(state) && lammps.domain->dimension == 2) return restore_discs(lammps, state);
-  if (is_sphere_state(state) && lammps.domain->dimension == 3) return restore_spheres(lammps, state);
+template <int dim>
+RestoredState<dim> restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
+  if (is_snapshot<dim>(state)) return restore_snapshot<dim>(lammps, state);
   PackedGrains packed = decode_grains(state);
   gather_histories(lammps);
   check_records(packed, layout_of(lammps));
@@ -185,8 +180,17 @@ RestoredState restore_state(LAMMPS_NS::LAMMPS& lammps, const State& state) {
   for (std::size_t k = 0; k < packed.grains(); ++k)
     atom.avec->unpack_exchange(&packed.values[packed.starts[k]]);
   masses.put_back(atom);
-  packed.rotations.resize(packed.grains() * (packed.space ? 3 : 1), 0.0);
-  return {packed.box, std::move(packed.rotations), packed.space};
+  packed.rotations.resize(packed.grains() * Cosserat<dim>::rotations, 0.0);
+  if constexpr (dim == 2) {
+    return {packed.box, std::move(packed.rotations)};
+  } else {
+    return {packed.space.value(), std::move(packed.rotations)};
+  }
 }
+
+template StatePointer save_state(LAMMPS_NS::LAMMPS&, const Box<2>&, std::span<const double>);
+template StatePointer save_state(LAMMPS_NS::LAMMPS&, const Box<3>&, std::span<const double>);
+template RestoredState<2> restore_state(LAMMPS_NS::LAMMPS&, const State&);
+template RestoredState<3> restore_state(LAMMPS_NS::LAMMPS&, const State&);
 
 }  // namespace polargrain::dem

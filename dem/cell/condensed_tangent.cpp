@@ -17,8 +17,8 @@ std::optional<Eigen::Matrix<double, 7, Strains>> CondensedTangent::stresses(
 
 std::optional<Matrix7> CondensedTangent::classical(const ContactNetwork& network) {
   if (network.contacts.empty()) return Matrix7::Zero();
-  const auto relaxed = stresses<3>(network, {}, classical_strains());
-  if (relaxed) return classical_tangent(*relaxed);
+  const auto relaxed = stresses<3>(network, {}, classical_strains<2>());
+  if (relaxed) return classical_tangent<2>(*relaxed);
   ++fallbacks_;
   return plain_classical_tangent(network);
 }

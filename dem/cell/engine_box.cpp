@@ -1,35 +1,39 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/cell/engine_box.hpp"
 
-#include "dem/cell/cell_state.hpp"
-#include "dem/engine/liggghts.hpp"
+#include "dem/box/engine_grains.hpp"
+#include "dem/cell/fast_loop.hpp"
 
 namespace polargrain::dem {
 
-EngineBox::EngineBox(Driver& driver) : driver_(driver) {
+template <int dim>
+EngineBox<dim>::EngineBox(Driver<dim>& driver) : driver_(driver) {
   driver_.progress = [this] {
-    if (progress) progress();
+    if (this->progress) this->progress();
   };
 }
 
-void EngineBox::restore(const State& state) {
-  driver_.lammps().update->ntimestep = 0;  // nothing of an earlier path may show in this one
-  RestoredState restored = restore_state(driver_.lammps(), state);
-  driver_.strain().begin(BoxPath(restored.box, Eigen::Matrix2d::Zero(), 0), 0.0);
-  restored_rotations_ = std::move(restored.rotations);
-  driver_.strain().set_rotations(restored_rotations_);
+template <int dim>
+GrainMotion<dim> EngineBox<dim>::motion(int grain) const {
+  return motion_of<dim>(*driver_.lammps().atom, grain);
 }
 
-StatePointer EngineBox::save() {
-  return save_state(driver_.lammps(), driver_.strain().box().reduced(), driver_.strain().rotations());
+template <int dim>
+std::unique_ptr<GrainBox<dim>> choose_box(Driver<dim>& driver, CellLoop loop) {
+  using Loop = FastLoop<dim>;
+  LAMMPS_NS::LAMMPS& lammps = driver.lammps();
+  const DiscSelection selection = Loop::selection(lammps);
+  if (loop == CellLoop::engine || !selection.combination) return std::make_unique<EngineBox<dim>>(driver);
+  auto box = Loop::make(driver, *selection.combination, loop == CellLoop::plain);
+  const FixCellStrain<dim>& strain = driver.strain();
+  box->restore(Loop::snapshot(lammps, *selection.combination, strain.box(), strain.rotations()));
+  box->set_up();
+  return box;
 }
 
-void EngineBox::begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
-  driver_.strain().begin(path, damping_rate, std::move(rotation));
-}
-
-void EngineBox::set_rotation_weights(std::span<const double> weights) {
-  driver_.strain().set_rotation_weights(weights);
-}
+template class EngineBox<2>;
+template class EngineBox<3>;
+template std::unique_ptr<GrainBox<2>> choose_box(Driver<2>&, CellLoop);
+template std::unique_ptr<GrainBox<3>> choose_box(Driver<3>&, CellLoop);
 
 }  // namespace polargrain::dem

@@ -21,7 +21,7 @@ constexpr int kProgressChunk = 100;
 
 GrainEngine::GrainEngine(const Packing& packing, const std::string& script, const std::string& script_file,
                          const ContactLibraryFile& contact_library,
-                         const std::function<void(Engine&)>& after_script, const char* strain_fix)
+                         const std::function<void(Engine&)>& after_script)
     : grains_(static_cast<int>(packing.grains.size())),
       script_file_(script_file),
       recorder_(contact_recorder(engine_.lammps())) {
@@ -35,7 +35,7 @@ GrainEngine::GrainEngine(const Packing& packing, const std::string& script, cons
   engine_.script(script, script_file);
   if (after_script) after_script(engine_);
   time_step_.emplace(engine_.lammps());
-  engine_.command(fmt::format("fix polargrain_box all {}", strain_fix));
+  engine_.command("fix polargrain_box all cell/strain");
   engine_.lammps().atom->sortfreq = 0;  // the order of the grains is part of the state
 }
 

@@ -27,10 +27,8 @@ class GrainEngine {
   /// @param script_file for messages only
   /// @param contact_library of contact laws of the user's own, or empty @throws RunError as add_contact_library
   /// @param after_script called before the contact models read their parameters
-  /// @param strain_fix style of the fix that carries the box
   GrainEngine(const Packing& packing, const std::string& script, const std::string& script_file,
-              const ContactLibraryFile& contact_library, const std::function<void(Engine&)>& after_script,
-              const char* strain_fix);
+              const ContactLibraryFile& contact_library, const std::function<void(Engine&)>& after_script);
 
   Engine& engine() { return engine_; }
   LAMMPS_NS::LAMMPS& lammps() { return engine_.lammps(); }

@@ -18,7 +18,7 @@ double sliding_share(const Contact& contact, const WayOfSprings& way) {
 
 double rolling_share(const Contact& contact, const WayOfSprings& way) {
   if (contact.rolling_at_limit) return 0.0;
-  return contact.rolling_limit > 0.0 ? spring_share(std::abs(contact.moment), contact.rolling_limit,
+  return contact.rolling_limit > 0.0 ? spring_share(std::abs(contact.moment.z()), contact.rolling_limit,
                                                     contact.rolling_stiffness, way.turn)
                                      : 1.0;
 }
@@ -26,7 +26,7 @@ double rolling_share(const Contact& contact, const WayOfSprings& way) {
 }  // namespace
 
 LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& frame, double strain) {
-  const Eigen::Vector2d branch = frame * contact.branch;
+  const Eigen::Vector2d branch = frame * contact.branch.head<2>();
   const Eigen::Vector2d n = branch.normalized();
   const Eigen::Vector2d t(-n.y(), n.x());
 
@@ -43,7 +43,7 @@ LinearContact::LinearContact(const Contact& contact, const Eigen::Matrix2d& fram
   if (normal_force > 0.0) {
     const Eigen::RowVector2d of_opening = contact.normal_stiffness / normal_force * n.transpose();
     stiffness.topLeftCorner<2, 2>() -= (1.0 - held) * contact.tangential_force() * t * of_opening;
-    stiffness.row(2).head<2>() = -(1.0 - turning) * contact.moment * of_opening;
+    stiffness.row(2).head<2>() = -(1.0 - turning) * contact.moment.z() * of_opening;
   }
 
   // (v_B - v_A) . t - r_A w_A - r_B w_B (D.1); spins move the surfaces along t only.

@@ -2,39 +2,30 @@
 #include "dem/cell/packed_grains.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "common/error.hpp"
-#include "dem/cell/state_bounds.hpp"
+#include "dem/box/state_bounds.hpp"
 
 namespace polargrain::dem {
 
 namespace {
 
-/// First bytes of every state; plain numbers, so that another process of the same machine type reads it.
+/// First bytes of every state; plain numbers, so that another process of the same machine type reads it. Rotations may
+/// follow the values: of all grains or of none.
+template <int dim>
 struct Header {
   std::uint64_t magic = 0;
   std::uint64_t grains = 0;
   std::uint64_t history_values = 0;  ///< per contact and side
-  std::uint64_t values = 0;          ///< doubles of the packed grains; rotations may follow, one a grain
-  Box box;
+  std::uint64_t values = 0;          ///< doubles of the packed grains
+  typename Box<dim>::Numbers box{};
 };
-constexpr std::uint64_t kMagic = 0x31306c6c65636770ULL;  // "pgcell01" as bytes
-
-/// The same of spheres in space. Of three rotations a grain there are all or none.
-struct SpaceHeader {
-  std::uint64_t magic = 0;
-  std::uint64_t grains = 0;
-  std::uint64_t history_values = 0;
-  std::uint64_t values = 0;
-  std::array<double, 6> base{};   ///< the upper triangle, column after column, m
-  std::array<double, 9> frame{};  ///< column after column
-};
-constexpr std::uint64_t kSpaceMagic = 0x3130636170736770ULL;  // "pgspac01" as bytes
+template <int dim>
+constexpr std::uint64_t kMagic = dim == 2 ? 0x31306c6c65636770ULL   // "pgcell01" as bytes
+                                          : 0x3130636170736770ULL;  // "pgspac01"
 constexpr std::uint64_t kMostHistoryValues = 64;
 
 [[noreturn]] void damaged() {
@@ -66,64 +57,61 @@ void check_contacts(std::span<const double> record, const GrainLayout& layout, s
     if (index_of(record[layout.head + 1 + c * contact], grains) == grains) damaged();
 }
 
-void check_in_space(const PackedGrains& state, std::size_t grain, const GrainLayout& layout, double radius) {
-  const std::span<const double> record = state.record(grain);
-  SpaceMotionOfGrain motion;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    motion.place(k) = record[GrainLayout::kPlace + axis];
-    motion.velocity(k) = record[GrainLayout::kVelocity + axis];
-    motion.spin(k) = record[layout.spin + axis];
-    if (!state.rotations.empty()) motion.turned(k) = state.rotations[3 * grain + axis];
-  }
-  if (const std::string fault = motion_fault(*state.space, grain, motion, radius, layout.time_step);
-      !fault.empty())
+template <int dim>
+void check_motion(const PackedGrains& state, const Box<dim>& box, std::size_t grain,
+                  const GrainLayout& layout, double radius) {
+  constexpr std::size_t rotations = Cosserat<dim>::rotations;
+  const auto record = state.record(grain).begin();
+  GrainMotion<dim> motion;
+  std::copy_n(record + GrainLayout::kPlace, dim, motion.place.begin());
+  std::copy_n(record + GrainLayout::kVelocity, dim, motion.velocity.begin());
+  std::copy_n(record + static_cast<std::ptrdiff_t>(layout.spin) + Cosserat<dim>::axis(0), rotations,
+              motion.spin.begin());
+  if (!state.rotations.empty())
+    std::copy_n(state.rotations.begin() + static_cast<std::ptrdiff_t>(rotations * grain), rotations,
+                motion.turned.begin());
+  if (const std::string fault = motion_fault(box, grain, motion, radius, layout.time_step); !fault.empty())
     throw RunError(fault);
 }
 
-SpaceBox box_of(const SpaceHeader& header) {
-  SpaceBox box;
-  std::size_t place = 0;
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row <= column; ++row) box.base(row, column) = header.base[place++];
-  box.frame = Eigen::Map<const Eigen::Matrix3d>(header.frame.data());
-  return box;
+/// Lengths and box from the first bytes. @returns how many bytes that were
+template <int dim>
+std::size_t read_header(std::span<const std::byte> bytes, Header<2>& lengths, Box<dim>& box) {
+  Header<dim> header;
+  if (bytes.size() < sizeof header) throw RunError("this is not the state of a cell: it is too short");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  box = Box<dim>::from_numbers(header.box);
+  lengths = {header.magic, header.grains, header.history_values, header.values, {}};
+  return sizeof header;
 }
 
-SpaceHeader header_of(const SpaceBox& box) {
-  SpaceHeader header;
-  header.magic = kSpaceMagic;
-  std::size_t place = 0;
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row <= column; ++row) header.base[place++] = box.base(row, column);
-  Eigen::Map<Eigen::Matrix3d>(header.frame.data()) = box.frame;
-  return header;
+template <int dim>
+std::vector<std::byte> header_of(const PackedGrains& state, const Box<dim>& box, std::size_t grains) {
+  const Header<dim> header{kMagic<dim>, grains, state.history_values, state.values.size(), box.numbers()};
+  std::vector<std::byte> bytes(sizeof header);
+  std::memcpy(bytes.data(), &header, sizeof header);
+  return bytes;
 }
 
-/// Lengths are as in a plane state.
-Header lengths_of(const SpaceHeader& header) {
-  return {kMagic, header.grains, header.history_values, header.values, {}};
+std::vector<std::byte>& append(std::vector<std::byte>& bytes, const std::vector<double>& values) {
+  const auto more = std::as_bytes(std::span(values));
+  bytes.insert(bytes.end(), more.begin(), more.end());
+  return bytes;
 }
 
 }  // namespace
 
 PackedGrains decode_grains(const State& state) {
-  Header header;
+  Header<2> header;
   const std::span<const std::byte> bytes = state.bytes();
-  if (bytes.size() < sizeof(Header)) throw RunError("this is not the state of a cell: it is too short");
-  std::memcpy(&header, bytes.data(), sizeof(Header));
   PackedGrains packed;
-  std::size_t head = sizeof(Header);
-  if (header.magic == kSpaceMagic) {
-    SpaceHeader of_space;
-    head = sizeof(SpaceHeader);
-    if (bytes.size() < head) throw RunError("this is not the state of a cell: it is too short");
-    std::memcpy(&of_space, bytes.data(), head);
-    packed.space = box_of(of_space);
-    header = lengths_of(of_space);
+  std::size_t head = read_header(bytes, header, packed.box);
+  if (header.magic == kMagic<3>) {
+    head = read_header(bytes, header, packed.space.emplace());
+  } else if (header.magic != kMagic<2>) {
+    throw RunError("this is not the state of a cell");
   }
   const std::uint64_t doubles = (bytes.size() - head) / sizeof(double);
-  if (header.magic != kMagic) throw RunError("this is not the state of a cell");
   const std::uint64_t turns = packed.space ? 3 : 1;
   // Each grain has its length at least, so that sums of these numbers do not run over.
   const bool fits = header.values <= doubles && header.grains <= header.values && header.grains > 0 &&
@@ -132,7 +120,6 @@ PackedGrains decode_grains(const State& state) {
   if (!fits || (doubles != header.values && !has_rotations) ||
       bytes.size() != head + doubles * sizeof(double))
     throw RunError("this state of a cell was cut short, or is damaged");
-  packed.box = header.box;
   packed.history_values = header.history_values;
   packed.values.resize(header.values);
   packed.rotations.resize(has_rotations ? turns * header.grains : 0);
@@ -158,29 +145,9 @@ PackedGrains decode_grains(const State& state) {
 }
 
 StatePointer encode(const PackedGrains& state, std::size_t grains) {
-  Header header;
-  header.magic = kMagic;
-  header.grains = grains;
-  header.history_values = state.history_values;
-  header.values = state.values.size();
-  header.box = state.box;
-  const std::size_t head = state.space ? sizeof(SpaceHeader) : sizeof(Header);
-  std::vector<std::byte> bytes(head + (state.values.size() + state.rotations.size()) * sizeof(double));
-  std::byte* place = bytes.data();
-  if (state.space) {
-    SpaceHeader of_space = header_of(*state.space);
-    of_space.grains = header.grains;
-    of_space.history_values = header.history_values;
-    of_space.values = header.values;
-    std::memcpy(place, &of_space, head);
-  } else {
-    std::memcpy(place, &header, head);
-  }
-  place += head;
-  if (!state.values.empty()) std::memcpy(place, state.values.data(), state.values.size() * sizeof(double));
-  place += state.values.size() * sizeof(double);
-  if (!state.rotations.empty())
-    std::memcpy(place, state.rotations.data(), state.rotations.size() * sizeof(double));
+  std::vector<std::byte> bytes =
+      state.space ? header_of(state, *state.space, grains) : header_of(state, state.box, grains);
+  append(append(bytes, state.values), state.rotations);
   return std::make_shared<const State>(std::move(bytes));
 }
 
@@ -196,8 +163,8 @@ void check_records(const PackedGrains& state, const GrainLayout& layout) {
   double area = 0.0;
   double volume = 0.0;
   for (const double radius : layout.radii) {
-    area += std::numbers::pi * radius * radius;
-    volume += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    area += grain_size<2>(radius);
+    volume += grain_size<3>(radius);
   }
   const std::string fault = state.space ? box_fault(*state.space, volume) : box_fault(state.box, area);
   if (!fault.empty()) throw RunError(fault);
@@ -213,16 +180,10 @@ void check_records(const PackedGrains& state, const GrainLayout& layout) {
         throw RunError("this state belongs to a cell of another packing or another input script");
     const double radius = layout.radii[tag];
     if (state.space) {
-      check_in_space(state, k, layout, radius);
+      check_motion(state, *state.space, k, layout, radius);
       continue;
     }
-    const GrainMotion motion{
-        record[GrainLayout::kPlace],    record[GrainLayout::kPlace + 1],
-        record[GrainLayout::kVelocity], record[GrainLayout::kVelocity + 1],
-        record[layout.spin + 2],        state.rotations.empty() ? 0.0 : state.rotations[k]};
-    if (const std::string fault = motion_fault(state.box, k, motion, radius, layout.time_step);
-        !fault.empty())
-      throw RunError(fault);
+    check_motion(state, state.box, k, layout, radius);
     // The engine looks for grains in x3 too, though discs stay in their plane.
     if (!(std::abs(record[GrainLayout::kPlace + 2] - layout.heads[tag][GrainLayout::kPlace + 2]) <= radius))
       damaged();

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "common/state.hpp"
-#include "dem/cell/box.hpp"
-#include "dem/spheres/space_box.hpp"
+#include "dem/box/box.hpp"
 
 namespace polargrain::dem {
 
@@ -19,12 +18,12 @@ namespace polargrain::dem {
 /// The engine believes every length and every partner in it. A record unpacked there has to pass both checks
 /// below.
 struct PackedGrains {
-  Box box;                          ///< of a plane state
+  Box<2> box;                       ///< of a plane state
   std::size_t history_values = 0;   ///< springs of a contact
   std::vector<double> values;       ///< the records
   std::vector<std::size_t> starts;  ///< where each record begins, and where the last ends
   std::vector<double> rotations;    ///< rad, one a grain or, in space, three; or empty
-  std::optional<SpaceBox> space;    ///< the box of a state in space; nothing: a plane state
+  std::optional<Box<3>> space;      ///< the box of a state in space; nothing: a plane state
 
   [[nodiscard]] std::size_t grains() const { return starts.size() - 1; }
   [[nodiscard]] std::span<const double> record(std::size_t grain) const {
@@ -32,7 +31,7 @@ struct PackedGrains {
   }
 };
 
-/// The first bytes are not looked at: a state of other grains than discs (is_disc_state).
+/// The first bytes are not looked at: a state of other grains than discs (is_snapshot<2>).
 /// @throws RunError when lengths do not fit each other or a number is not finite
 PackedGrains decode_grains(const State& state);
 /// The opposite. `starts` is not needed.

@@ -31,7 +31,7 @@ Overlaps overlaps_of(std::span<const Contact> contacts, std::span<const double> 
     const double first = radii[static_cast<std::size_t>(contact.first)];
     const double second = radii[static_cast<std::size_t>(contact.second)];
     const double overlap =
-        (first + second - std::hypot(contact.branch.x(), contact.branch.y(), contact.branch_3)) /
+        (first + second - std::hypot(contact.branch.x(), contact.branch.y(), contact.branch.z())) /
         std::min(first, second);
     found.mean += overlap / static_cast<double>(contacts.size());
     found.largest = std::max(found.largest, overlap);

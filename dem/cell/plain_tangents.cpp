@@ -73,9 +73,9 @@ std::optional<Eigen::Matrix<double, 7, Strains>> relaxed_stresses(
 
 std::optional<Matrix7> plain_classical_tangent(const ContactNetwork& network) {
   if (network.contacts.empty()) return Matrix7::Zero();
-  const auto stresses = relaxed_stresses<3>(network, {}, classical_strains());
+  const auto stresses = relaxed_stresses<3>(network, {}, classical_strains<2>());
   if (!stresses) return std::nullopt;
-  return classical_tangent(*stresses);
+  return classical_tangent<2>(*stresses);
 }
 
 std::optional<Matrix7> plain_cosserat_tangent(const ContactNetwork& network,

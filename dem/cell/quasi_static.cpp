@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/cell/quasi_static.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
 #include "dem/cell/averages.hpp"
-#include "dem/cell/box.hpp"
 
 namespace polargrain::dem {
 
@@ -22,22 +20,13 @@ constexpr int kChunk = 20;
 /// is.
 constexpr double kLeastForce = 1e-3;
 
-/// Magnitude of the largest principal strain.
-double largest_principal(const Eigen::Matrix2d& strain) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(strain, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseAbs()
-      .maxCoeff();
-}
-
 }  // namespace
 
-std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains,
-                                     double (*normal_force)(const Contact&)) {
+std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains) {
   std::vector<double> weights(static_cast<std::size_t>(grains), 0.0);
   std::vector<int> count(weights.size(), 0);
   for (const Contact& contact : contacts) {
-    const double force = std::max(0.0, normal_force(contact));
+    const double force = std::max(0.0, contact.normal_force());
     weights[contact.first] += contact.arm_first * force;
     weights[contact.second] += contact.arm_second * force;
     ++count[contact.first];
@@ -66,9 +55,9 @@ Unbalanced unbalanced(const Imbalance& imbalance, std::span<const Contact> conta
 }
 
 Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& imbalance, double mean_radius,
-                           double least_force, double area, double grain_area) {
+                           double least_force, double box, double grain_sizes) {
   Equilibrium found;
-  found.void_ratio = area / grain_area - 1.0;
+  found.void_ratio = box / grain_sizes - 1.0;
   const Unbalanced ratios = unbalanced(imbalance, contacts, mean_radius, least_force);
   found.unbalanced_force_ratio = ratios.force_ratio;
   found.unbalanced_moment_ratio = ratios.moment_ratio;
@@ -84,30 +73,27 @@ void QuasiStatic::take_scales(const MeanGrain& grain, std::span<const Contact> a
   least_force_ = kLeastForce * mean_contact_force(at_rest);
 }
 
-BoxPath QuasiStatic::begin(const Box& box, const Increment<2>& increment, double time_step, double reach) {
-  const BoxPath whole(Box{1.0, 1.0, 0.0, 0.0}, increment.displacement_gradient, 1);
-  begin(largest_principal(whole.strain()), std::abs(increment.micro_rotation - whole.rotation()),
-        increment.curvature.norm(), time_step, reach);
-  return {box, increment.displacement_gradient, loading_};
+template <int dim>
+Lead<dim> QuasiStatic::begin(const Box<dim>& box, const Increment<dim>& increment, double time_step) {
+  const BoxPath<dim> whole({Box<dim>::Matrix::Identity()}, increment.displacement_gradient, 1);
+  begin(largest_principal_strain(whole), RotationLoading<dim>::of(increment).against(whole).norm(),
+        increment.curvature.norm(), time_step);
+  return {BoxPath<dim>(box, increment.displacement_gradient, loading_), rotation_of(increment)};
 }
+template Lead<2> QuasiStatic::begin(const Box<2>&, const Increment<2>&, double);
+template Lead<3> QuasiStatic::begin(const Box<3>&, const Increment<3>&, double);
 
-void QuasiStatic::begin(double strain, double turn, double curvature, double time_step, double reach) {
+void QuasiStatic::begin(double strain, double turn, double curvature, double time_step) {
   size_ = strain;
   if (controlled()) {
     // Grains that turn against the continuum slide on each other as fast as a shear strain of that size makes
     // them; a curvature turns them against each other by that times their distance.
-    const double distance = reach > 0.0 ? reach : 2.0 * mean_radius_;
-    size_ = std::max({size_, turn, curvature * distance});
+    size_ = std::max({size_, turn, curvature * (2.0 * mean_radius_)});
   }
   const double steps = std::ceil(size_ * time_of_grain_ / (control_.inertial_number * time_step));
   if (!(steps < 1e9)) throw RunError("the increment asks for more than 1e9 DEM steps");
   loading_ = std::max(control_.least_steps, static_cast<int>(steps));
   done_ = 0;
-}
-
-std::optional<RotationLoading> QuasiStatic::rotation_of(const Increment<2>& increment) const {
-  if (!controlled()) return std::nullopt;
-  return RotationLoading{increment.micro_rotation, increment.curvature};
 }
 
 int QuasiStatic::steps_to_next_look() const {
@@ -120,17 +106,12 @@ bool QuasiStatic::looks_now() const {
   return done_ == loading_ || (loaded() ? relaxed() : done_) % kChunk == 0;
 }
 
-Response<2> QuasiStatic::read_out(std::span<const Contact> contacts, const Box& box, double thickness) const {
-  const Eigen::Matrix2d frame = box.frame();
-  const double volume = box.area() * thickness;
-  const Eigen::Matrix2d stress = frame * average_stress(contacts, volume) * frame.transpose();
-  Response<2> response;
-  response.stress(k11) = stress(0, 0);
-  response.stress(k22) = stress(1, 1);
-  response.stress(k12) = stress(0, 1);
-  response.stress(k21) = stress(1, 0);
-  if (controlled()) response.stress.tail<2>() = frame * average_couple_stress(contacts, volume);
-  return response;
+QuasiStatic::ReadOut QuasiStatic::read_out(std::span<const Contact> contacts, const Eigen::Matrix3d& frame,
+                                           double volume) const {
+  ReadOut found;
+  found.stress = frame * average_stress(contacts, volume) * frame.transpose();
+  if (controlled()) found.couple_stress = frame * average_couple_stress(contacts, volume) * frame.transpose();
+  return found;
 }
 
 }  // namespace polargrain::dem

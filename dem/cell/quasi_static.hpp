@@ -7,7 +7,7 @@
 
 #include "common/cell.hpp"
 #include "common/increment.hpp"
-#include "dem/cell/box_motion.hpp"
+#include "dem/box/grain_box.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
 namespace polargrain::dem {
@@ -15,17 +15,7 @@ namespace polargrain::dem {
 /// Weights of the grains in the mean rotation (mode 2), W_p over the volume: the torque that the contacts of each
 /// can carry, up to the coefficient of friction, over the sum of all. Zero with fewer than two contacts, or the
 /// multiplier would spin up the grains that nothing holds. Empty when nothing carries any.
-/// @param normal_force of a contact, compressive: between discs, or spheres (space_normal_force)
-std::vector<double> rotation_weights(
-    std::span<const Contact> contacts, int grains,
-    double (*normal_force)(const Contact&) = [](const Contact& contact) { return contact.normal_force(); });
-
-/// Resultants of the contacts of the grains, and of the reaction that holds their mean rotation, before damping.
-struct Imbalance {
-  double force = 0.0;   ///< sum over grains of its magnitude, N
-  double moment = 0.0;  ///< the same, N m
-  int grains = 0;
-};
+std::vector<double> rotation_weights(std::span<const Contact> contacts, int grains);
 
 /// How far grains are from rest; see CellDiagnostics.
 struct Unbalanced {
@@ -45,14 +35,22 @@ struct Equilibrium {
   double unbalanced_force_ratio = 0.0;
   /// The same for moments, over the mean contact force times the mean radius.
   double unbalanced_moment_ratio = 0.0;
-  double void_ratio = 0.0;           ///< in plane
+  double void_ratio = 0.0;
   double coordination_number = 0.0;  ///< 2 contacts / grains
   double rattlers = 0.0;             ///< grains without a contact / grains
 };
 
-/// @param least_force see unbalanced @param area of the box, m^2 @param grain_area sum, m^2
+/// @param least_force see unbalanced @param box size of the box @param grain_sizes sum of those of the grains: m^2 in the
+/// plane, m^3 in space
 Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& imbalance, double mean_radius,
-                           double least_force, double area, double grain_area);
+                           double least_force, double box, double grain_sizes);
+
+/// The prescribed part of an increment: a path, and rotations where they are controlled.
+template <int dim>
+struct Lead {
+  BoxPath<dim> path;
+  typename BoxMotion<dim>::Loading rotation;
+};
 
 /// The mean of the grains of a packing.
 struct MeanGrain {
@@ -80,24 +78,23 @@ class QuasiStatic {
     return least_force_;
   }  ///< see unbalanced(), N; 0 before take_scales
 
-  /// Begins an increment. @param reach grains turn against each other by the curvature times this, m: 0 for their mean
-  /// diameter @returns the path of the box, of as many steps as the loading has
-  /// @throws RunError when that is more than 1e9
-  BoxPath begin(const Box& box, const Increment<2>& increment, double time_step, double reach = 0.0);
-  /// Begins an increment of any box.
-  /// @param strain largest principal one, its magnitude @param turn of the grains against the continuum, rad
-  /// @param curvature rad/m; where rotations are free neither it nor `turn` counts @param reach as above
-  /// @throws RunError when that is more than 1e9 steps
-  void begin(double strain, double turn, double curvature, double time_step, double reach = 0.0);
+  /// Begins an increment of a box. @returns its path, of as many steps as the loading has, and the rotations
+  /// @throws RunError when that is more than 1e9 steps, or the box would lose its area or volume
+  template <int dim>
+  Lead<dim> begin(const Box<dim>& box, const Increment<dim>& increment, double time_step);
   /// The rotations prescribed; empty where they are free.
-  [[nodiscard]] std::optional<RotationLoading> rotation_of(const Increment<2>& increment) const;
+  template <int dim>
+  [[nodiscard]] typename BoxMotion<dim>::Loading rotation_of(const Increment<dim>& increment) const {
+    if (!controlled()) return std::nullopt;
+    return RotationLoading<dim>::of(increment);
+  }
   [[nodiscard]] bool controlled() const { return control_.rotations == CellRotations::controlled; }
 
   [[nodiscard]] int steps_to_next_look() const;
   void advance(int steps) { done_ += steps; }
   /// Whether the steps done so far end with a look at the contacts.
   [[nodiscard]] bool looks_now() const;
-  /// Of the increment: the largest of its principal strain, turn and curvature times reach.
+  /// Of the increment: the largest of its principal strain, turn and curvature times mean diameter.
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] int loading() const { return loading_; }  ///< DEM steps
   [[nodiscard]] int done() const { return done_; }        ///< DEM steps of this increment
@@ -113,12 +110,20 @@ class QuasiStatic {
                         relaxed() >= control_.most_relaxation_steps);
   }
 
-  /// Stress and couple stress of the contacts in the laboratory, without a tangent; no couple stress where rotations are
-  /// free. @param thickness of the box, m
-  [[nodiscard]] Response<2> read_out(std::span<const Contact> contacts, const Box& box,
-                                     double thickness) const;
+  /// Stress and couple stress of the contacts in the laboratory; no couple stress where rotations are free.
+  /// @param frame of the box (frame_in_space) @param volume of the box, m^3
+  struct ReadOut {
+    Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();         ///< Pa
+    Eigen::Matrix3d couple_stress = Eigen::Matrix3d::Zero();  ///< N/m
+  };
+  [[nodiscard]] ReadOut read_out(std::span<const Contact> contacts, const Eigen::Matrix3d& frame,
+                                 double volume) const;
 
  private:
+  /// @param strain largest principal one, its magnitude @param turn of the grains against the continuum, rad
+  /// @param curvature rad/m; where rotations are free neither it nor `turn` counts
+  void begin(double strain, double turn, double curvature, double time_step);
+
   CellControl control_;
   double mean_radius_ = 0.0;
   double time_of_grain_ = 0.0;  // mean diameter * sqrt(density / pressure), s; inertial number = rate * this

@@ -23,7 +23,7 @@ inline double quick_force_ratio(const Imbalance& imbalance, std::span<const Cont
 }
 
 /// The resident boxes of a cell. `Kind` says how one box is made, led and read:
-///   Box                              the type of a box
+///   Grains                           the type of a box
 ///   make()                           a new one
 ///   put(box, state, motion)          state (null: the packing) and motion in place of what was there, forces set up
 ///   go_on(box, steps, increment)     see ResidentBoxes
@@ -75,7 +75,7 @@ class ResidentBoxesOf final : public ResidentBoxes {
 
  private:
   Kind kind_;
-  std::vector<std::unique_ptr<typename Kind::Box>> boxes_;
+  std::vector<std::unique_ptr<typename Kind::Grains>> boxes_;
 };
 
 }  // namespace polargrain::dem

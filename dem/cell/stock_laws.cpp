@@ -37,12 +37,9 @@ void StockLaws::complete(std::vector<Contact>& contacts) const {
     const double friction =
         friction_->compute_array(atom.type[contact.first] - 1, atom.type[contact.second] - 1);
     // The moment was taken from a difference of torques: a few digits are lost.
-    const double moment = std::sqrt(contact.moment * contact.moment + contact.moment_12.squaredNorm());
-    const double length = std::sqrt(contact.branch.squaredNorm() + contact.branch_3 * contact.branch_3);
-    const double normal_force =
-        std::abs(contact.force.dot(contact.branch) + contact.force_3 * contact.branch_3) / length;
+    const double normal_force = std::abs(contact.force.dot(contact.branch)) / contact.branch.norm();
     contact.rolling_limit = friction * radius * normal_force;
-    contact.rolling_at_limit = moment >= contact.rolling_limit * (1.0 - 1e-6);
+    contact.rolling_at_limit = contact.moment.norm() >= contact.rolling_limit * (1.0 - 1e-6);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <array>
 
 #include "common/increment.hpp"
 
@@ -8,29 +9,45 @@ namespace polargrain::dem {
 
 // The unit strains of a tangent, one a column, and the tangent that their stresses make.
 
-using ClassicalStrains = Eigen::Matrix<double, 7, 3>;
-using CosseratStrains = Eigen::Matrix<double, 7, 6>;
+/// The symmetric unit strains: e_ii, then e_ij + e_ji of the shears 12, 13, 23.
+template <int dim>
+struct Symmetric {
+  static constexpr int count = dim * (dim + 1) / 2;
+  using Columns = Eigen::Matrix<double, Cosserat<dim>::components, count>;
+  /// Components ij and ji of strain k.
+  static constexpr std::array<int, 2> places(int k) {
+    constexpr std::array<std::array<int, 2>, 3> shears{{{0, 1}, {0, 2}, {1, 2}}};
+    const auto [i, j] = k < dim ? std::array{k, k} : shears[static_cast<std::size_t>(k - dim)];
+    return {Cosserat<dim>::stress_place(i, j), Cosserat<dim>::stress_place(j, i)};
+  }
+};
 
-/// The symmetric unit strains e11, e22 and e12 + e21.
-inline ClassicalStrains classical_strains() {
-  ClassicalStrains strains = ClassicalStrains::Zero();
-  strains(k11, 0) = strains(k22, 1) = 1.0;
-  strains(k12, 2) = strains(k21, 2) = 0.5;
+template <int dim>
+typename Symmetric<dim>::Columns classical_strains() {
+  typename Symmetric<dim>::Columns strains = Symmetric<dim>::Columns::Zero();
+  for (int k = 0; k < Symmetric<dim>::count; ++k)
+    for (const int place : Symmetric<dim>::places(k)) strains(place, k) += 0.5;
   return strains;
 }
 
-inline Matrix7 classical_tangent(const ClassicalStrains& stresses) {
-  Matrix7 tangent = Matrix7::Zero();
-  tangent.col(k11) = stresses.col(0);
-  tangent.col(k22) = stresses.col(1);
-  tangent.col(k12) = tangent.col(k21) = stresses.col(2);
-  const Eigen::RowVector<double, 7> shear = 0.5 * (tangent.row(k12) + tangent.row(k21));
-  tangent.row(k12) = tangent.row(k21) = shear;
-  tangent.bottomRows<2>().setZero();
+/// Symmetrised in shear, and without couple stresses.
+template <int dim>
+typename Cosserat<dim>::Matrix classical_tangent(const typename Symmetric<dim>::Columns& stresses) {
+  typename Cosserat<dim>::Matrix tangent = Cosserat<dim>::Matrix::Zero();
+  for (int k = 0; k < Symmetric<dim>::count; ++k)
+    for (const int place : Symmetric<dim>::places(k)) tangent.col(place) = stresses.col(k);
+  for (int k = dim; k < Symmetric<dim>::count; ++k) {
+    const auto [one, other] = Symmetric<dim>::places(k);
+    const Eigen::RowVector<double, Cosserat<dim>::components> shear =
+        0.5 * (tangent.row(one) + tangent.row(other));
+    tangent.row(one) = tangent.row(other) = shear;
+  }
+  tangent.template bottomRows<Cosserat<dim>::couples>().setZero();
   return tangent;
 }
 
-/// All unit strains but e33.
+/// All unit strains of the plane but e33.
+using CosseratStrains = Eigen::Matrix<double, 7, 6>;
 inline CosseratStrains cosserat_strains() {
   CosseratStrains strains = CosseratStrains::Zero();
   strains(k11, 0) = strains(k22, 1) = 1.0;

@@ -17,7 +17,7 @@ Matrix7 voigt_cosserat_tangent(std::span<const Contact> contacts, const Eigen::M
 }
 
 Matrix7 voigt_tangent(std::span<const Contact> contacts, const Eigen::Matrix2d& frame, double volume) {
-  return classical_tangent(voigt_cosserat_tangent(contacts, frame, volume) * classical_strains());
+  return classical_tangent<2>(voigt_cosserat_tangent(contacts, frame, volume) * classical_strains<2>());
 }
 
 }  // namespace polargrain::dem

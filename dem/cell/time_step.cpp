@@ -27,7 +27,7 @@ struct Springs {
   explicit Springs(const Contact& contact)
       : first(contact.first),
         second(contact.second),
-        normal(Eigen::Vector3d(contact.branch.x(), contact.branch.y(), contact.branch_3).normalized()),
+        normal(contact.normal()),
         normal_stiffness(contact.normal_stiffness),
         tangential_stiffness(contact.tangential_stiffness),
         rolling_stiffness(contact.rolling_stiffness),

@@ -13,17 +13,14 @@ class CellLoading {
   /// Every contact between grains is to see their spins turned by the share of a rate of curvature from the middle of the
   /// branch to either centre (docs/theory/grains.md, C.6, C.8). Laws that take spins past the contact (stock rolling
   /// models) do not feel it.
-  /// @param rate (i,j) = d(micro-rotation about e_i)/dx_j in a unit of time, in the frame of the box, rad/(m s)
-  void bend(const Eigen::Matrix3d& rate) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) rate_[static_cast<std::size_t>(3 * i + j)] = rate(i, j);
+  /// @param rate (k,j) = d(micro-rotation k)/dx_j in a unit of time, in the frame of the box, rad/(m s): about e_1 to e_3, or
+  /// of discs about e_3 alone
+  template <int turns, int dim>
+  void bend(const Eigen::Matrix<double, turns, dim>& rate) {
+    rate_ = {};
+    for (int k = 0; k < turns; ++k)
+      for (int j = 0; j < dim; ++j) rate_[static_cast<std::size_t>(3 * (3 - turns + k) + j)] = rate(k, j);
     bends_ = !rate.isZero(0.0);
-  }
-  /// Of discs. @param rate d(micro-rotation about e_3)/dx_j
-  void bend_in_plane(const Eigen::Vector2d& rate) {
-    Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
-    whole.row(2).head<2>() = rate.transpose();
-    bend(whole);
   }
 
   [[nodiscard]] bool bends() const { return bends_; }

@@ -66,7 +66,7 @@ ContactPair::ContactPair(const Definition& definition, const Place& start)
 ContactPair::~ContactPair() = default;
 
 void ContactPair::bend(const Eigen::Vector2d& curvature_rate) {
-  cell_loading(room_->engine.lammps()).bend_in_plane(curvature_rate);
+  cell_loading(room_->engine.lammps()).bend(Eigen::RowVector2d(curvature_rate.transpose()));
 }
 
 ContactPair::Answer ContactPair::advance(const Place& next, const Spins& spins) {

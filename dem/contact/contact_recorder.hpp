@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
@@ -13,8 +14,12 @@ namespace polargrain::dem {
 struct Contact {
   int first = 0;
   int second = 0;
-  Eigen::Vector2d branch;             ///< from the centre of first to the centre of second, m
-  Eigen::Vector2d force;              ///< on first, by second, N
+  // Vectors in the frame of the box. Between discs branch and force lie in the plane, and moments along e_3.
+  Eigen::Vector3d branch = Eigen::Vector3d::Zero();  ///< from the centre of first to the centre of second, m
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< on first, by second, N
+  /// Rolling resistance moment on first by second (conjugate to the rotation of second relative to first), N m, of any
+  /// rolling model.
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double normal_stiffness = 0.0;      ///< N/m
   double tangential_stiffness = 0.0;  ///< N/m
   double normal_viscosity = 0.0;      ///< of the dashpot, N s/m
@@ -22,36 +27,32 @@ struct Contact {
   double arm_first = 0.0;             ///< centre of first to the contact point, m
   double arm_second = 0.0;
   double friction = 0.0;  ///< sliding friction coefficient of the pair; 0 when the script has no friction
-  /// Rolling resistance moment about e_3 on first by second (conjugate to the rotation of second relative to
-  /// first), N m, of any rolling model.
-  double moment = 0.0;
   double rolling_stiffness = 0.0;  ///< k_th, N m/rad; known for rolling models li_chu and epsd2, otherwise 0
   bool rolling_at_limit = false;   ///< the rolling spring stands at its limit (rolling models li_chu, epsd2)
   double rolling_limit = 0.0;      ///< of the rolling moment, N m; 0 where it is not known
-  double branch_3 = 0.0;           ///< component of the branch along e_3, m; 0 between discs
-  double force_3 = 0.0;            ///< component of the force along e_3, N; 0 between discs
-  /// The rolling resistance moment about e_1 and e_2, N m; 0 between discs.
-  Eigen::Vector2d moment_12 = Eigen::Vector2d::Zero();
   double torsion_stiffness =
       0.0;  ///< against twisting about the normal, N m/rad; known for li_chu, otherwise 0
   bool torsion_at_limit = false;  ///< the torsion spring stands at its limit (li_chu)
 
-  [[nodiscard]] Eigen::Vector2d normal() const { return branch.normalized(); }  ///< from first to second
+  [[nodiscard]] Eigen::Vector3d normal() const { return branch.normalized(); }  ///< from first to second
   /// Compressive normal force, positive when the grains push each other.
   [[nodiscard]] double normal_force() const { return -force.dot(normal()); }
-  /// Force on first along t = e_3 x n.
+  /// Of discs: force on first along t = e_3 x n.
   [[nodiscard]] double tangential_force() const {
-    const Eigen::Vector2d n = normal();
+    const Eigen::Vector3d n = normal();
     return -force.x() * n.y() + force.y() * n.x();
   }
   /// The couple conjugate to the curvature along the branch: the rolling moment, and the polar part of the
-  /// tangential force, which discs of unequal radii have (docs/theory/grains.md, C.8); N m.
-  [[nodiscard]] double couple() const { return moment - 0.5 * (arm_second - arm_first) * tangential_force(); }
+  /// tangential force, which grains of unequal radii have (docs/theory/grains.md, C.8); N m.
+  [[nodiscard]] Eigen::Vector3d couple() const {
+    return moment + 0.5 * (arm_second - arm_first) * force.cross(normal());
+  }
   /// The tangential spring stands at its Coulomb limit. The force computation scales it exactly there, so
   /// only round-off is allowed for.
   [[nodiscard]] bool sliding() const {
-    return friction > 0.0 &&
-           std::abs(tangential_force()) >= friction * std::abs(normal_force()) * (1.0 - 1e-9);
+    const Eigen::Vector3d n = normal();
+    const double along = force.dot(n);
+    return friction > 0.0 && (force - along * n).norm() >= friction * std::abs(along) * (1.0 - 1e-9);
   }
 };
 

@@ -101,10 +101,8 @@ class RecordedModel : public Model {
     Contact contact;
     contact.first = i;
     contact.second = j < atom.nlocal ? j : atom.map(atom.tag[j]);
-    contact.branch = {-delta[0], -delta[1]};
-    contact.force = {force[0], force[1]};
-    contact.branch_3 = -delta[2];
-    contact.force_3 = force[2];
+    contact.branch = {-delta[0], -delta[1], -delta[2]};
+    contact.force = {force[0], force[1], force[2]};
     contact.normal_stiffness = normal_stiffness;
     contact.tangential_stiffness = tangential_stiffness;
     contact.normal_viscosity = normal_viscosity;
@@ -114,9 +112,9 @@ class RecordedModel : public Model {
     contact.friction = friction_ ? friction_->compute_array(atom.type[i] - 1, atom.type[j] - 1) : 0.0;
     // The force turns the grain by its arm towards the contact; the rest of the torque is the rolling law's.
     const double towards = arm_i / std::hypot(delta[0], delta[1], delta[2]);
-    contact.moment = torque[2] + towards * (delta[0] * force[1] - delta[1] * force[0]);
-    contact.moment_12 = {torque[0] + towards * (delta[1] * force[2] - delta[2] * force[1]),
-                         torque[1] + towards * (delta[2] * force[0] - delta[0] * force[2])};
+    contact.moment = {torque[0] + towards * (delta[1] * force[2] - delta[2] * force[1]),
+                      torque[1] + towards * (delta[2] * force[0] - delta[0] * force[2]),
+                      torque[2] + towards * (delta[0] * force[1] - delta[1] * force[0])};
     contact.rolling_stiffness = rolling.stiffness;
     contact.rolling_at_limit = rolling.at_limit;
     contact.rolling_limit = rolling.limit;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.hpp"
+#include "dem/box/lost_grains.hpp"
 
 namespace polargrain::dem {
 
@@ -25,15 +25,6 @@ struct Place {
   int row = 0;
   LatticeVector copy;
 };
-
-/// @throws RunError when a disc is so far away, or nowhere, that no copy of the box can be told
-std::int32_t copy_of(double boxes) {
-  constexpr double kMostBoxes = 1e6;
-  if (std::abs(boxes) < kMostBoxes) return static_cast<std::int32_t>(std::floor(boxes));
-  throw RunError(
-      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed "
-      "into each other");
-}
 
 /// Bins of a periodic box that is divided evenly along its base vectors, none narrower than it must be where
 /// the box allows.

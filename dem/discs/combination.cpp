@@ -55,8 +55,7 @@ std::optional<RollingLaw> rolling_of(int number) {
 /// `pack/gravity`; the making of packings does its work in the loops too.
 std::string foreign_fix(const LAMMPS& lammps) {
   constexpr std::array<std::string_view, 7> kKnown{"property/global", "nve/sphere",  "enforce2d",
-                                                   "contacthistory",  "cell/strain", "cell/space_strain",
-                                                   "pack/gravity"};
+                                                   "contacthistory",  "cell/strain", "pack/gravity"};
   int integrators = 0;
   for (int k = 0; k < lammps.modify->nfix; ++k) {
     const LAMMPS_NS::Fix& fix = *lammps.modify->fix[k];

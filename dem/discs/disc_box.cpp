@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/error.hpp"
 #include "dem/discs/laws.hpp"
@@ -26,6 +25,10 @@ double least_stretch(const Eigen::Matrix2d& f) {
   const double determinant = f.determinant();
   const double root = std::sqrt(std::max(0.0, mean * mean - determinant * determinant));
   return std::sqrt(std::max(0.0, mean - root));
+}
+
+LatticeVector image_of(const Snapshot<2>::Springs& contact) {
+  return {contact.image[0], contact.image[1]};
 }
 
 }  // namespace
@@ -55,34 +58,36 @@ DiscBox::DiscBox(Definition definition)
 }
 
 void DiscBox::restore(const State& state) {
-  restore(decode_discs(state));
+  restore(decode_snapshot<2>(state));
 }
 
-void DiscBox::restore(const DiscSnapshot& snapshot) {
-  if (snapshot.discs.size() != discs_.size() || snapshot.code != definition_.combination.code() ||
+void DiscBox::restore(const Snapshot<2>& snapshot) {
+  if (snapshot.grains.size() != discs_.size() || snapshot.code != definition_.combination.code() ||
       snapshot.springs != list_.springs)
     throw RunError("this state belongs to a cell of another packing or another input script");
-  check(snapshot);
+  if (const std::string fault = snapshot_fault(snapshot, definition_.radii, definition_.time_step);
+      !fault.empty())
+    throw RunError(fault);
   for (std::size_t k = 0; k < discs_.size(); ++k) {
-    const DiscSnapshot::Motion& from = snapshot.discs[k];
+    const GrainMotion<2>& from = snapshot.grains[k];
     Disc& disc = discs_[k];
-    disc.x = from.x;
-    disc.y = from.y;
-    disc.vx = from.vx;
-    disc.vy = from.vy;
-    disc.spin = from.spin;
-    motions_[k] = {0.0, 0.0, 0.0, from.turned};
+    disc.x = from.place[0];
+    disc.y = from.place[1];
+    disc.vx = from.velocity[0];
+    disc.vy = from.velocity[1];
+    disc.spin = from.spin[0];
+    motions_[k] = {0.0, 0.0, 0.0, from.turned[0]};
   }
-  motion_ = BoxMotion(BoxPath(snapshot.box, Eigen::Matrix2d::Zero(), 0), std::nullopt, definition_.time_step);
+  motion_ = BoxMotion<2>(BoxPath<2>(snapshot.box), std::nullopt, definition_.time_step);
   // The springs wait in the form of a list for the one that is made next.
   former_.images.assign(1, LatticeVector{});
   former_.rows.assign(1, 0);
   former_.pairs.clear();
-  for (const DiscSnapshot::Springs& contact : snapshot.contacts) {
+  for (const Snapshot<2>::Springs& contact : snapshot.contacts) {
     while (static_cast<std::int32_t>(former_.rows.size()) <= contact.first)
       former_.rows.push_back(static_cast<std::int32_t>(former_.pairs.size()));
-    auto image = std::find(former_.images.begin(), former_.images.end(), contact.image);
-    if (image == former_.images.end()) image = former_.images.insert(image, contact.image);
+    auto image = std::find(former_.images.begin(), former_.images.end(), image_of(contact));
+    if (image == former_.images.end()) image = former_.images.insert(image, image_of(contact));
     former_.pairs.push_back(
         {contact.second, static_cast<std::uint16_t>(image - former_.images.begin()), 0, 0.0});
   }
@@ -91,56 +96,44 @@ void DiscBox::restore(const DiscSnapshot& snapshot) {
   find_candidates();
 }
 
-void DiscBox::check(const DiscSnapshot& snapshot) const {
-  double area = 0.0;
-  for (const double radius : definition_.radii) area += std::numbers::pi * radius * radius;
-  if (const std::string fault = box_fault(snapshot.box, area); !fault.empty()) throw RunError(fault);
-  for (std::size_t k = 0; k < snapshot.discs.size(); ++k) {
-    const std::string fault =
-        motion_fault(snapshot.box, k, snapshot.discs[k], definition_.radii[k], definition_.time_step);
-    if (!fault.empty()) throw RunError(fault);
-  }
-}
-
-void DiscBox::restore_moving(const State& state, const Eigen::Matrix2d& gradient, double spin) {
+void DiscBox::restore_moving(const State& state, const Eigen::Matrix2d& gradient,
+                             const Cosserat<2>::Rotation& spin) {
   restore(state);
   motion_.set_rates(gradient, spin);
 }
 
 StatePointer DiscBox::save_moving() {
-  DiscSnapshot snapshot = decode_discs(*save());
+  Snapshot<2> snapshot = decode_snapshot<2>(*save());
   const Eigen::Matrix2d& gradient = motion_.gradient();
   for (std::size_t k = 0; k < discs_.size(); ++k) {
-    DiscSnapshot::Motion& disc = snapshot.discs[k];
-    const Eigen::Vector2d change = gradient * Eigen::Vector2d(disc.x - discs_[k].x, disc.y - discs_[k].y);
-    disc.vx += change.x();
-    disc.vy += change.y();
+    GrainMotion<2>& disc = snapshot.grains[k];
+    const Eigen::Vector2d folded(disc.place[0] - discs_[k].x, disc.place[1] - discs_[k].y);
+    Eigen::Map<Eigen::Vector2d>(disc.velocity.data()) += gradient * folded;
   }
   return encode(snapshot);
 }
 
 StatePointer DiscBox::save() {
-  const Box box = motion_.box();
-  DiscSnapshot snapshot;
+  const Box<2>& box = motion_.box();
+  Snapshot<2> snapshot;
   snapshot.box = box.reduced();
   snapshot.code = definition_.combination.code();
   snapshot.springs = list_.springs;
   // b_2 of the reduced box is b_2 + fold b_1.
-  const auto fold = static_cast<std::int32_t>(std::lround((snapshot.box.tilt - box.tilt) / box.length_x));
-  const Eigen::Matrix2d base = snapshot.box.base_vectors();
+  const auto fold =
+      static_cast<std::int32_t>(std::lround((snapshot.box.base(0, 1) - box.base(0, 1)) / box.base(0, 0)));
+  const Eigen::Matrix2d base = snapshot.box.base;
   const Eigen::Matrix2d inverse = base.inverse();
   std::vector<LatticeVector> copies(discs_.size());
-  snapshot.discs.resize(discs_.size());
+  snapshot.grains.resize(discs_.size());
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const Disc& disc = discs_[k];
     LatticeVector& copy = copies[k];
     copy = copy_at(inverse, disc.x, disc.y);
-    snapshot.discs[k] = {disc.x - (base(0, 0) * copy.p + base(0, 1) * copy.q),
-                         disc.y - (base(1, 0) * copy.p + base(1, 1) * copy.q),
-                         disc.vx,
-                         disc.vy,
-                         disc.spin,
-                         motions_[k].turned};
+    snapshot.grains[k] = motion(static_cast<int>(k));
+    snapshot.grains[k].place = {disc.x - (base(0, 0) * copy.p + base(0, 1) * copy.q),
+                                disc.y - (base(1, 0) * copy.p + base(1, 1) * copy.q)};
+    snapshot.grains[k].turned = {motions_[k].turned};
   }
   for (std::size_t i = 0; i < discs_.size(); ++i)
     for (std::int32_t c = list_.rows[i]; c < list_.rows[i + 1]; ++c) {
@@ -153,15 +146,18 @@ StatePointer DiscBox::save() {
       snapshot.contacts.push_back(
           {static_cast<std::int32_t>(i),
            pair.second,
-           {old.p - old.q * fold + away.p - copies[i].p, old.q + away.q - copies[i].q}});
+           {{old.p - old.q * fold + away.p - copies[i].p, old.q + away.q - copies[i].q}}});
       snapshot.values.insert(snapshot.values.end(), values, values + list_.springs);
     }
-  check(snapshot);  // an answer must be a state to go on from
+  // An answer must be a state to go on from.
+  if (const std::string fault = snapshot_fault(snapshot, definition_.radii, definition_.time_step);
+      !fault.empty())
+    throw RunError(fault);
   return encode(snapshot);
 }
 
 void DiscBox::find_candidates() {
-  const Eigen::Matrix2d base = motion_.box().base_vectors();
+  const Eigen::Matrix2d base = motion_.box().base;
   list_.find(discs_, definition_.types, definition_.combination.types, base, skin_);
   list_.take_springs(former_);
   listed_inverse_ = base.inverse();
@@ -172,7 +168,7 @@ void DiscBox::find_candidates() {
 }
 
 bool DiscBox::outgrown() {
-  const Eigen::Matrix2d f = motion_.box().base_vectors() * listed_inverse_;
+  const Eigen::Matrix2d f = motion_.box().base * listed_inverse_;
   // How far discs may move against the affine flow before two that are no candidates may touch.
   const double stretch = least_stretch(f);
   const double room = 0.5 * (stretch * skin_ - (1.0 - stretch) * 2.0 * largest_radius_);
@@ -187,7 +183,7 @@ bool DiscBox::outgrown() {
 }
 
 void DiscBox::place_images() {
-  const Eigen::Matrix2d base = motion_.box().base_vectors();
+  const Eigen::Matrix2d base = motion_.box().base;
   const Eigen::Matrix2d& rate = motion_.rate();
   for (std::size_t k = 0; k < images_.size(); ++k) {
     const LatticeVector& image = list_.images[k];
@@ -196,20 +192,22 @@ void DiscBox::place_images() {
   }
 }
 
-void DiscBox::begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
-  motion_ = BoxMotion(path, rotation, definition_.time_step);
+void DiscBox::begin(const BoxPath<2>& path, double damping_rate, const Loading& rotation, double time_step) {
+  definition_.time_step = time_step;
+  motion_ = BoxMotion<2>(path, rotation, time_step);
   damping_rate_ = damping_rate;
   multiplier_ = 0.0;
   weights_.clear();  // they belong to another path
 }
 
-void DiscBox::go_on(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) {
-  motion_.go_on(path, rotation);
+void DiscBox::go_on(const BoxPath<2>& path, double damping_rate, const Loading& rotation) {
+  motion_.go_on(path, rotation, definition_.time_step);
   damping_rate_ = damping_rate;
 }
 
 void DiscBox::compute_forces(bool advance, bool record) {
-  const ContactLoop::Scene scene{discs_, images_, motion_.curvature_rate(), definition_.time_step, advance};
+  const ContactLoop::Scene scene{discs_, images_, motion_.curvature_rate().transpose(), definition_.time_step,
+                                 advance};
   if (!record) {
     loop_->add_forces(scene, list_, forces_);
     return;
@@ -244,16 +242,17 @@ void DiscBox::control_rotation(bool damped) {
   // = V rate with W = V weight (C.6). All grains get the change of the rate until then alike.
   const double step = definition_.time_step;
   const double rate = damped ? damping_rate_ : 0.0;
-  const double volume = motion_.box().area() * definition_.thickness;
+  const double volume = motion_.box().size() * definition_.thickness;
+  const double spin = motion_.spin()(0);
   double mean_spin = 0.0;
   double compliance = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const Disc& disc = discs_[k];
-    const double angular = forces_[k].torque * disc.inverse_inertia - rate * (disc.spin - motion_.spin());
+    const double angular = forces_[k].torque * disc.inverse_inertia - rate * (disc.spin - spin);
     mean_spin += weights_[k] * (disc.spin + step * angular);
     compliance += weights_[k] * weights_[k] * step * disc.inverse_inertia;
   }
-  multiplier_ = (motion_.spin() - mean_spin) / (compliance * volume);
+  multiplier_ = (spin - mean_spin) / (compliance * volume);
   const double torque = multiplier_ * volume;
   for (std::size_t k = 0; k < discs_.size(); ++k) forces_[k].torque += torque * weights_[k];
 }
@@ -265,14 +264,14 @@ struct Ending {
   double half, rate;                                ///< half a time step, s; damping rate, 1/s
   double flow_xx, flow_xy, flow_yx, flow_yy, spin;  ///< affine, 1/s
 
-  Ending(const BoxMotion& box, double step, double damping_rate)
+  Ending(const BoxMotion<2>& box, double step, double damping_rate)
       : half(0.5 * step),
         rate(damping_rate),
         flow_xx(box.gradient()(0, 0)),
         flow_xy(box.gradient()(0, 1)),
         flow_yx(box.gradient()(1, 0)),
         flow_yy(box.gradient()(1, 1)),
-        spin(box.spin()) {}
+        spin(box.spin()(0)) {}
 
   void apply(Disc& disc, const DiscForce& force, DiscMotion& motion) const {
     motion.ax = force.x * disc.inverse_mass - rate * (disc.vx - (flow_xx * disc.x + flow_xy * disc.y));
@@ -291,7 +290,7 @@ struct Beginning {
   double flow_xx, flow_xy, flow_yx, flow_yy;          ///< affine, 1/s
   double change_of_spin, turn;                        ///< rad/s, rad
 
-  Beginning(const BoxMotion& box, double time_step) : step(time_step), half(0.5 * time_step) {
+  Beginning(const BoxMotion<2>& box, double time_step) : step(time_step), half(0.5 * time_step) {
     const Eigen::Matrix2d change = box.change_of_gradient();
     const Eigen::Matrix2d flow = box.gradient_before();
     change_xx = change(0, 0);
@@ -302,8 +301,8 @@ struct Beginning {
     flow_xy = flow(0, 1);
     flow_yx = flow(1, 0);
     flow_yy = flow(1, 1);
-    change_of_spin = box.change_of_spin();
-    turn = box.turn();
+    change_of_spin = box.change_of_spin()(0);
+    turn = box.turn()(0);
   }
 
   /// @returns square of the speed against the affine flow
@@ -372,6 +371,17 @@ Imbalance DiscBox::imbalance() const {
 std::span<const double> DiscBox::rotations() const {
   for (std::size_t k = 0; k < motions_.size(); ++k) rotations_[k] = motions_[k].turned;
   return rotations_;
+}
+
+std::span<const double> DiscBox::places() const {
+  places_.clear();
+  for (const Disc& disc : discs_) places_.insert(places_.end(), {disc.x, disc.y});
+  return places_;
+}
+
+GrainMotion<2> DiscBox::motion(int disc) const {
+  const Disc& at = discs_[static_cast<std::size_t>(disc)];
+  return {{at.x, at.y}, {at.vx, at.vy}, {at.spin}, {}};
 }
 
 }  // namespace polargrain::dem

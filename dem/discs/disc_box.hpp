@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "dem/cell/grain_box.hpp"
+#include "dem/box/grain_box.hpp"
+#include "dem/box/snapshot.hpp"
 #include "dem/discs/contact_loop.hpp"
-#include "dem/discs/disc_state.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -16,7 +16,7 @@ namespace polargrain::dem {
 /// A box of discs that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet,
 /// the same box motion, damping and control of rotations as `fix cell/strain` with `fix nve/sphere`, in two
 /// passes a step: one over the contacts and one over the discs. Tests hold it to the engine's own loop.
-class DiscBox final : public GrainBox {
+class DiscBox final : public GrainBox<2> {
  public:
   /// The part of the discs that never changes.
   struct Definition {
@@ -32,15 +32,16 @@ class DiscBox final : public GrainBox {
 
   void restore(const State& state) override;
   /// The same from a snapshot. @throws RunError when it is not one of these discs and laws
-  void restore(const DiscSnapshot& snapshot);
+  void restore(const Snapshot<2>& snapshot);
   [[nodiscard]] StatePointer save() override;
-  void begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) override;
+  void begin(const BoxPath<2>& path, double damping_rate, const Loading& rotation, double time_step) override;
   /// As begin, but discs and box keep their velocities (ResidentBoxes); the weights of the rotation stay too.
-  void go_on(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation);
+  void go_on(const BoxPath<2>& path, double damping_rate, const Loading& rotation);
+  void set_time_step(double seconds) { definition_.time_step = seconds; }
   /// The box as it is with the rates of the step behind it.
-  [[nodiscard]] const BoxMotion& motion() const { return motion_; }
+  [[nodiscard]] const BoxMotion<2>& motion() const { return motion_; }
   /// As restore, and the discs come with the affine motion `gradient`, `spin` of their box in the step behind them.
-  void restore_moving(const State& state, const Eigen::Matrix2d& gradient, double spin);
+  void restore_moving(const State& state, const Eigen::Matrix2d& gradient, const Cosserat<2>::Rotation& spin);
   /// As save, but a disc that is folded back into the box takes the affine velocity of its new place.
   [[nodiscard]] StatePointer save_moving();
   void set_up() override;
@@ -49,15 +50,17 @@ class DiscBox final : public GrainBox {
   void set_rotation_weights(std::span<const double> weights) override;
   void hold_rotation() override;
   [[nodiscard]] std::span<const double> weights() const override { return weights_; }
-  [[nodiscard]] double multiplier() const override { return multiplier_; }
-  [[nodiscard]] Box box() const override { return motion_.box(); }
+  [[nodiscard]] Cosserat<2>::Rotation multiplier() const override {
+    return Cosserat<2>::Rotation(multiplier_);
+  }
+  [[nodiscard]] const Box<2>& box() const override { return motion_.box(); }
   [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
   [[nodiscard]] Imbalance imbalance() const override;
   [[nodiscard]] std::span<const double> rotations() const override;
+  [[nodiscard]] std::span<const double> places() const override;
+  [[nodiscard]] GrainMotion<2> motion(int disc) const override;
 
  private:
-  /// @throws RunError when no evaluation leaves such numbers behind
-  void check(const DiscSnapshot& snapshot) const;
   /// Makes the list anew; springs come from the former one.
   void find_candidates();
   /// Whether two discs that are no candidates may have come to touch.
@@ -71,7 +74,7 @@ class DiscBox final : public GrainBox {
   void begin_step(bool end_the_last);
   /// Second half of a step: damping, half a kick.
   void end_step();
-  [[nodiscard]] bool controlled() const { return motion_.rotation() && !weights_.empty(); }
+  [[nodiscard]] bool controlled() const { return motion_.rotation_is_prescribed() && !weights_.empty(); }
 
   Definition definition_;
   std::unique_ptr<ContactLoop> loop_;
@@ -87,23 +90,23 @@ class DiscBox final : public GrainBox {
   /// Bound of how far a disc has moved against the affine flow since the list was made, m.
   double wandered_ = 0.0;
   double largest_radius_ = 0.0;  ///< m
-  BoxMotion motion_;
+  BoxMotion<2> motion_;
   double damping_rate_ = 0.0;
   std::vector<double> weights_;
   double multiplier_ = 0.0;
   std::vector<Contact> contacts_;
-  mutable std::vector<double> rotations_;
+  mutable std::vector<double> rotations_, places_;
 };
 
 /// The discs of an initialised engine as they stand there, with the springs of its contact histories.
 DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
                                     double thickness);
-DiscSnapshot disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box& box,
-                           std::span<const double> rotations);
+Snapshot<2> disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<2>& box,
+                          std::span<const double> rotations);
 
 /// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who
 /// go on in the engine's own loop. The box is the caller's business; lists are not set up.
 /// @throws RunError when the snapshot is not one of these grains and models
-void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const DiscSnapshot& snapshot);
+void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<2>& snapshot);
 
 }  // namespace polargrain::dem

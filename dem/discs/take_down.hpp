@@ -13,8 +13,8 @@ inline Contact take_down(int first, int second, double dx, double dy, const Touc
   Contact contact;
   contact.first = first;
   contact.second = second;
-  contact.branch = {-dx, -dy};
-  contact.force = {fx, fy};
+  contact.branch = {-dx, -dy, 0.0};
+  contact.force = {fx, fy, 0.0};
   contact.normal_stiffness = normal.slope * normal.kn;
   contact.tangential_stiffness = normal.kt;
   contact.normal_viscosity = normal.normal_dashpot;
@@ -22,7 +22,7 @@ inline Contact take_down(int first, int second, double dx, double dy, const Touc
   contact.arm_first = touch.arm_first;
   contact.arm_second = touch.arm_second;
   contact.friction = p.friction;
-  contact.moment = -rolling.moment;
+  contact.moment.z() = -rolling.moment;
   contact.rolling_stiffness = rolling.stiffness;
   contact.rolling_at_limit = rolling.at_limit;
   contact.rolling_limit = rolling.limit;

@@ -9,7 +9,7 @@
 
 #include "common/elementary_functions.hpp"
 #include "common/error.hpp"
-#include "dem/cell/box.hpp"
+#include "dem/box/box.hpp"
 #include "dem/cell/packed_grains.hpp"
 #include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/placement.hpp"
@@ -123,8 +123,8 @@ Packing cut_from_bed(const Packing& bed, std::size_t first, std::size_t count) {
   Packing closed = bed;
   closed.state = nullptr;
   closed.grains.clear();
-  const Box box{bed.box(0, 0), best.height, best.shift};
-  closed.box = box.base_vectors();
+  closed.box << bed.box(0, 0), best.shift, 0.0, best.height;
+  const Box<2> box{closed.box};
   const double floor = bed.grains[order[best.first]].position.y();
   for (const std::size_t k : grains.subspan(best.first, count)) {
     Grain grain = bed.grains[k];
@@ -184,9 +184,9 @@ PreparedPacking turned(PreparedPacking prepared, double angle) {
   PackedGrains grains = decode_grains(*packing.state);
   const std::size_t count = grains.grains();
   if (grains.space)
-    grains.space->frame = turn * grains.space->frame;
+    grains.space->orientation = turn * grains.space->orientation;
   else
-    grains.box.rotation += angle;
+    grains.box.orientation += angle;
   packing.state = encode(grains, count);
   return prepared;
 }

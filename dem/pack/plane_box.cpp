@@ -28,13 +28,13 @@ class PlaneBox final : public PressedBox {
                   if (fall == Fall::yes) gravity_ = &add_gravity(engine);
                 }) {
     if (packing.state && state_fits(driver_.lammps(), *packing.state))
-      restore_state(driver_.lammps(), *packing.state);
+      restore_state<2>(driver_.lammps(), *packing.state);
     driver_.set_up();
     radii_ = inertia_of(driver_.lammps()).radii;
     stiffest_.see(driver_.contacts());
     if (driver_.contacts().empty() && !driver_.script_sets_time_step()) {
-      Driver probe(pressed_together(packing), specification.script, specification.script_file,
-                   specification.contact_library);
+      Driver<2> probe(pressed_together(packing), specification.script, specification.script_file,
+                      specification.contact_library);
       probe.set_up();
       stiffest_.see(probe.contacts());
       // Grains are folded back into the box once more: packings have the last bits that they always had.
@@ -48,13 +48,13 @@ class PlaneBox final : public PressedBox {
     h << strain(0), shear(0), 0.0, strain(1);
     h = turn_ * h * turn_.transpose();
     // The last step stands still, so that the grains keep nothing of the affine velocity.
-    driver_.strain().begin(BoxPath(driver_.strain().box().reduced(), h, steps - 1), damping_rate);
+    driver_.strain().begin(BoxPath<2>(driver_.strain().box().reduced(), h, steps - 1), damping_rate);
     driver_.run(steps);
   }
 
   [[nodiscard]] Look look() const override {
     const std::span<const Contact> contacts = driver_.contacts();
-    const double volume = driver_.volume();
+    const double volume = driver_.strain().box().size() * driver_.depth();
     const Equilibrium equilibrium = driver_.equilibrium();
     Look seen;
     seen.contacts = static_cast<int>(contacts.size());
@@ -64,12 +64,12 @@ class PlaneBox final : public PressedBox {
     seen.rattlers = equilibrium.rattlers;
     seen.void_ratio = equilibrium.void_ratio;
     seen.normal_stiffness = mean_normal_stiffness(contacts);
-    const Eigen::Matrix2d stress = average_stress(contacts, volume);
+    const Eigen::Matrix3d stress = average_stress(contacts, volume);
     seen.stress << stress(0, 0), stress(1, 1), 0.0;
     seen.shear(0) = 0.5 * (stress(0, 1) + stress(1, 0));
     for (const Contact& contact : contacts) {
       const double length = contact.branch.norm();
-      const Eigen::Array2d part = (contact.branch / length).array().square();
+      const Eigen::Array2d part = (contact.branch.head<2>() / length).array().square();
       const double kn = contact.normal_stiffness * length * length / volume;
       const double kt = contact.tangential_stiffness * length * length / volume;
       seen.stiffness.head<2>().array() += kn * part;
@@ -81,15 +81,15 @@ class PlaneBox final : public PressedBox {
   [[nodiscard]] Shape shape() const override {
     Shape shape;
     shape.overlaps = overlaps_of(driver_.contacts(), radii_);
-    shape.fabric.topLeftCorner<2, 2>() = fabric_tensor(driver_.contacts());
+    shape.fabric = fabric_tensor(driver_.contacts());
     return shape;
   }
 
   Packing packing(bool keep_contacts) override {
     LAMMPS_NS::LAMMPS& lammps = driver_.lammps();
-    const Box box = driver_.strain().box().reduced();
+    const Box<2> box = driver_.strain().box().reduced();
     Packing packing = packing_;
-    packing.box = turn_ * box.base_vectors();
+    packing.box = turn_ * box.base;
     for (int k = 0; k < lammps.atom->nlocal; ++k) {
       // Grains leave the box between two neighbour lists: fold them back.
       const Eigen::Vector2d position = box.folded({lammps.atom->x[k][0], lammps.atom->x[k][1]});
@@ -112,7 +112,7 @@ class PlaneBox final : public PressedBox {
  private:
   Packing packing_;
   Eigen::Matrix2d turn_;  // of the box, to the laboratory
-  Driver driver_;
+  Driver<2> driver_;
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
   std::string stepping_{std::string(kSteppingNote) + "LIGGGHTS's own loop, as all packings of discs"};

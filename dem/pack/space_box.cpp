@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "common/error.hpp"
+#include "dem/cell/averages.hpp"
 #include "dem/cell/cell_answers.hpp"
 #include "dem/cell/cell_state.hpp"
-#include "dem/cell/instruction_set.hpp"
+#include "dem/cell/engine_box.hpp"
 #include "dem/engine/liggghts.hpp"
 #include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/pressed_box.hpp"
-#include "dem/sphere_loop/choose_box.hpp"
+#include "dem/sphere_loop/instruction_set.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
-#include "dem/spheres/space_contact.hpp"
-#include "dem/spheres/sphere_engine.hpp"
 
 namespace polargrain::dem {
 
@@ -32,15 +30,14 @@ class PressedSpheres final : public PressedBox {
           if (friction) set_friction(engine, *friction);
           if (fall == Fall::yes) gravity_ = &add_gravity(engine);
         })) {
-    for (const Grain& grain : packing.grains)
-      solid_ += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+    for (const Grain& grain : packing.grains) solid_ += grain_size<3>(grain.radius);
     LAMMPS_NS::LAMMPS& lammps = engine_.lammps();
     if (packing.state && state_fits(lammps, *packing.state)) engine_.restore(*packing.state);
     engine_.set_up();
     radii_ = inertia_of(lammps).radii;
     stiffest_.see(engine_.contacts());
     if (engine_.contacts().empty() && !engine_.script_sets_time_step()) {
-      SphereEngine probe(engine_of(specification, pressed_together(packing), [&friction](Engine& engine) {
+      Driver<3> probe(engine_of(specification, pressed_together(packing), [&friction](Engine& engine) {
         if (friction) set_friction(engine, *friction);
       }));
       probe.set_up();
@@ -60,7 +57,7 @@ class PressedSpheres final : public PressedBox {
     Eigen::Matrix3d gradient = strain.asDiagonal();
     for (int plane = 0; plane < 3; ++plane) gradient(kPlanes[plane][0], kPlanes[plane][1]) = shear(plane);
     // The last step stands still, so that the grains keep nothing of the affine velocity.
-    grains_->begin(SpacePath::straight(grains_->box(), gradient, steps - 1), damping_rate, std::nullopt,
+    grains_->begin(BoxPath<3>::straight(grains_->box(), gradient, steps - 1), damping_rate, std::nullopt,
                    time_step());
     grains_->run(steps);
     const Eigen::Matrix3d& base = grains_->box().base;
@@ -73,7 +70,7 @@ class PressedSpheres final : public PressedBox {
 
   [[nodiscard]] Look look() const override {
     const std::span<const Contact> contacts = grains_->contacts();
-    const double volume = grains_->box().volume();
+    const double volume = grains_->box().size();
     const auto grains = static_cast<double>(packing_.grains.size());
     std::vector<bool> touched(packing_.grains.size(), false);
     Look seen;
@@ -82,8 +79,8 @@ class PressedSpheres final : public PressedBox {
     for (const Contact& contact : contacts) {
       touched[static_cast<std::size_t>(contact.first)] = touched[static_cast<std::size_t>(contact.second)] =
           true;
-      const Eigen::Vector3d branch = branch_of(contact);
-      const Eigen::Vector3d on_first = force_of(contact);
+      const Eigen::Vector3d& branch = contact.branch;
+      const Eigen::Vector3d& on_first = contact.force;
       force += on_first.norm() / seen.contacts;
       seen.normal_stiffness += contact.normal_stiffness / seen.contacts;
       seen.stress += branch.cwiseProduct(on_first) / volume;
@@ -102,19 +99,19 @@ class PressedSpheres final : public PressedBox {
     seen.coordination_number = 2.0 * seen.contacts / grains;
     seen.void_ratio = volume / solid_ - 1.0;
     if (!(force > 0.0)) return seen;
-    const Imbalance& left = grains_->imbalance();
+    const Imbalance left = grains_->imbalance();
     seen.unbalanced_force_ratio = left.force / carrying / force;
     seen.unbalanced_moment_ratio = left.moment / carrying / (force * mean_radius());
     return seen;
   }
 
   [[nodiscard]] Shape shape() const override {
-    return {overlaps_of(grains_->contacts(), radii_), space_fabric(grains_->contacts())};
+    return {overlaps_of(grains_->contacts(), radii_), fabric_tensor(grains_->contacts())};
   }
 
   Packing packing(bool keep_contacts) override {
-    const SpaceBox box = grains_->box().reduced();
-    const Eigen::Matrix2d turn = box.frame.topLeftCorner<2, 2>();
+    const Box<3> box = grains_->box().reduced();
+    const Eigen::Matrix2d turn = box.orientation.topLeftCorner<2, 2>();
     Packing packing = packing_;
     packing.box = turn * box.base.topLeftCorner<2, 2>();
     packing.thickness = box.base(2, 2);
@@ -139,8 +136,8 @@ class PressedSpheres final : public PressedBox {
   [[nodiscard]] const std::string& stepping() const override { return stepping_; }
 
  private:
-  static SphereEngine engine_of(const PackingSpecification& specification, const Packing& packing,
-                                const std::function<void(Engine&)>& after_script) {
+  static Driver<3> engine_of(const PackingSpecification& specification, const Packing& packing,
+                             const std::function<void(Engine&)>& after_script) {
     return {packing, specification.script, specification.script_file, specification.contact_library,
             after_script};
   }
@@ -155,8 +152,8 @@ class PressedSpheres final : public PressedBox {
   }
 
   Packing packing_;
-  SphereEngine engine_;
-  std::unique_ptr<SpaceGrainBox> grains_;
+  Driver<3> engine_;
+  std::unique_ptr<GrainBox<3>> grains_;
   std::vector<double> radii_;  // m, as the contacts count the grains
   StiffestContact stiffest_;
   double solid_ = 0.0;  // volume of the grains, m^3

@@ -247,8 +247,7 @@ void FixBiaxial::add_springs(std::vector<Contact>& contacts, Inertia& inertia) c
     Contact& added = contacts.emplace_back();
     added.first = grain;
     added.second = other;
-    added.branch = branch;
-    added.force.setZero();
+    added.branch.head<2>() = branch;
     return added;
   };
   for (int k = 0; k < atom->nlocal; ++k) {

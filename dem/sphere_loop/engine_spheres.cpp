@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From an engine that has read a script and a packing to a box of spheres, and back.
-#include <bit>
 #include <cmath>
 #include <string>
 #include <tuple>
 
 #include "common/error.hpp"
-#include "dem/engine/liggghts.hpp"
+#include "dem/box/engine_grains.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
 
 namespace polargrain::dem {
 
 namespace {
+
+using Place = Eigen::Map<const Eigen::Vector3d>;
 
 /// Which of the engine's values of a contact a spring of the loop is, in the order in which the models ask for them:
 /// sliding, rolling, then a rolling displacement, then a torsion. -1: the engine has none.
@@ -33,28 +34,6 @@ int history_values(const DiscCombination& laws) {
   int values = 0;
   for (const int place : history_places(laws)) values = std::max(values, place + 1);
   return values;
-}
-
-/// The engine's record of one grain's contacts: partners and, for each, the values of its history.
-struct GrainHistories {
-  std::vector<int> partners;
-  std::vector<double> values;
-};
-
-/// A whole number as the engine hides it among doubles.
-double bits_of(std::int64_t number) {
-  return std::bit_cast<double>(number);
-}
-
-/// In the form in which the engine passes them from process to process.
-std::vector<double> packed(const GrainHistories& grain, std::size_t values) {
-  std::vector<double> buffer{bits_of(static_cast<std::int64_t>(grain.partners.size()))};
-  for (std::size_t n = 0; n < grain.partners.size(); ++n) {
-    buffer.push_back(bits_of(grain.partners[n]));
-    buffer.insert(buffer.end(), grain.values.begin() + static_cast<std::ptrdiff_t>(n * values),
-                  grain.values.begin() + static_cast<std::ptrdiff_t>((n + 1) * values));
-  }
-  return buffer;
 }
 
 /// The image of the second sphere that is nearest to the first. @param base upper triangular
@@ -84,10 +63,6 @@ LAMMPS_NS::FixContactHistory* history_of(LAMMPS_NS::LAMMPS& lammps, const DiscCo
   return history;
 }
 
-Eigen::Vector3d place_of(const LAMMPS_NS::Atom& atom, int k) {
-  return Eigen::Map<const Eigen::Vector3d>(atom.x[k]);
-}
-
 }  // namespace
 
 Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination) {
@@ -102,20 +77,14 @@ Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination
   return spheres;
 }
 
-SphereSnapshot sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
-                               const SpaceBox& box, std::span<const double> rotations) {
+Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<3>& box,
+                            std::span<const double> rotations) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
-  SphereSnapshot snapshot;
+  Snapshot<3> snapshot;
   snapshot.box = box;
   snapshot.code = combination.code();
   snapshot.springs = sphere_spring_count(combination);
-  for (int k = 0; k < atom.nlocal; ++k) {
-    SphereSnapshot::Motion& sphere = snapshot.spheres.emplace_back();
-    std::copy_n(atom.x[k], 3, sphere.place.data());
-    std::copy_n(atom.v[k], 3, sphere.velocity.data());
-    std::copy_n(atom.omega[k], 3, sphere.spin.data());
-    if (!rotations.empty()) std::copy_n(&rotations[3 * static_cast<std::size_t>(k)], 3, sphere.turned.data());
-  }
+  snapshot.grains = motions_of<3>(atom, rotations);
   LAMMPS_NS::FixContactHistory* const history = history_of(lammps, combination);
   history->pre_exchange();  // from the neighbour list to the grains
   const std::array<int, kSphereSprings> places = history_places(combination);
@@ -123,8 +92,8 @@ SphereSnapshot sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination&
     for (int n = 0; n < history->n_partner(i); ++n) {
       const int j = atom.map(history->partner(i, n));
       if (j <= i || j >= atom.nlocal) continue;  // the other sphere tells of it
-      const SpaceLattice image = nearest_image(place_of(atom, i) - place_of(atom, j), box.base);
-      snapshot.contacts.push_back({i, j, {image.p, image.q, image.r}, 0});
+      const SpaceLattice image = nearest_image(Place(atom.x[i]) - Place(atom.x[j]), box.base);
+      snapshot.contacts.push_back({i, j, {image.p, image.q, image.r}});
       const double* const values = history->contacthistory(i, n);
       for (int k = 0; k < snapshot.springs; ++k)
         snapshot.values.push_back(places[k] < 0 ? 0.0 : values[places[k]]);
@@ -132,28 +101,19 @@ SphereSnapshot sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination&
   return snapshot;
 }
 
-void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
-                 const SphereSnapshot& snapshot) {
+void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<3>& snapshot) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
-  if (snapshot.spheres.size() != static_cast<std::size_t>(atom.nlocal) ||
+  if (snapshot.grains.size() != static_cast<std::size_t>(atom.nlocal) ||
       snapshot.code != combination.code() || snapshot.springs != sphere_spring_count(combination))
     throw RunError("this state belongs to a cell of another packing or another input script");
   LAMMPS_NS::FixContactHistory* const history = history_of(lammps, combination);
-  const std::vector<double> radii(atom.radius, atom.radius + atom.nlocal);
-  if (const std::string fault = snapshot_fault(snapshot, radii, lammps.update->dt); !fault.empty())
-    throw RunError(fault);
   history->pre_exchange();
-  for (int k = 0; k < atom.nlocal; ++k) {
-    const SphereSnapshot::Motion& sphere = snapshot.spheres[static_cast<std::size_t>(k)];
-    std::copy_n(sphere.place.data(), 3, atom.x[k]);
-    std::copy_n(sphere.velocity.data(), 3, atom.v[k]);
-    std::copy_n(sphere.spin.data(), 3, atom.omega[k]);
-  }
+  put_motions(lammps, snapshot);
   const std::array<int, kSphereSprings> places = history_places(combination);
   const auto values = static_cast<std::size_t>(history->get_dnum());
-  std::vector<GrainHistories> grains(snapshot.spheres.size());
+  ContactHistories histories(atom, values);
   for (std::size_t c = 0; c < snapshot.contacts.size(); ++c) {
-    const SphereSnapshot::Springs& contact = snapshot.contacts[c];
+    const Snapshot<3>::Springs& contact = snapshot.contacts[c];
     for (const auto& [me, other, sign] :
          {std::tuple(contact.first, contact.second, 1.0), std::tuple(contact.second, contact.first, -1.0)}) {
       std::vector<double> seen(values, 0.0);
@@ -162,15 +122,10 @@ void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
           seen[static_cast<std::size_t>(places[k])] =
               (k == kTorsion ? 1.0 : sign) *
               snapshot.values[c * static_cast<std::size_t>(snapshot.springs) + k];
-      GrainHistories& grain = grains[static_cast<std::size_t>(me)];
-      grain.partners.push_back(atom.tag[other]);
-      grain.values.insert(grain.values.end(), seen.begin(), seen.end());
+      histories.add(me, other, seen);
     }
   }
-  for (int k = 0; k < atom.nlocal; ++k) {
-    std::vector<double> buffer = packed(grains[static_cast<std::size_t>(k)], values);
-    history->unpack_exchange(k, buffer.data());
-  }
+  histories.put(*history);
   atom.nghost = 0;
 }
 

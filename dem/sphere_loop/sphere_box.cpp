@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.hpp"
+#include "dem/box/lost_grains.hpp"
 #include "dem/contact/hertz_slope.hpp"
 
 namespace polargrain::dem {
@@ -112,17 +112,16 @@ void SphereBox::place_images() {
   }
 }
 
-void SphereBox::begin(const SpacePath& path, double damping_rate,
-                      const std::optional<SpaceRotation>& rotation, double time_step) {
+void SphereBox::begin(const BoxPath<3>& path, double damping_rate, const Loading& rotation,
+                      double time_step) {
   time_step_ = time_step;
-  motion_ = SpaceMotion(path, rotation, time_step);
+  motion_ = BoxMotion<3>(path, rotation, time_step);
   damping_rate_ = damping_rate;
   multiplier_.setZero();
   weights_.clear();  // they belong to another path
 }
 
-void SphereBox::go_on(const SpacePath& path, double damping_rate,
-                      const std::optional<SpaceRotation>& rotation) {
+void SphereBox::go_on(const BoxPath<3>& path, double damping_rate, const Loading& rotation) {
   motion_.go_on(path, rotation, time_step_);
   damping_rate_ = damping_rate;
 }
@@ -175,10 +174,8 @@ Contact SphereBox::contact_of(int candidate, const double* record) const {
   Contact contact;
   contact.first = list_.first[candidate];
   contact.second = list_.second[candidate];
-  contact.branch = {-at(kDelta), -at(kDelta + 1)};
-  contact.branch_3 = -at(kDelta + 2);
-  contact.force = {at(kForce), at(kForce + 1)};
-  contact.force_3 = at(kForce + 2);
+  contact.branch = {-at(kDelta), -at(kDelta + 1), -at(kDelta + 2)};
+  contact.force = {at(kForce), at(kForce + 1), at(kForce + 2)};
   const double slope = laws.normal == NormalLaw::hertz ? kHertzSlope : 1.0;
   contact.normal_stiffness = slope * at(kStiffnesses);
   contact.tangential_stiffness = at(kStiffnesses + 1);
@@ -188,13 +185,11 @@ Contact SphereBox::contact_of(int candidate, const double* record) const {
   contact.arm_second = at(kArms + 1);
   contact.friction = list_.constants[kFriction][candidate];
   if (laws.rolling == RollingLaw::off) return contact;
-  const Eigen::Vector3d moment(-at(kMoment), -at(kMoment + 1), -at(kMoment + 2));
-  contact.moment_12 = moment.head<2>();
-  contact.moment = moment.z();
+  contact.moment = {-at(kMoment), -at(kMoment + 1), -at(kMoment + 2)};
   contact.rolling_stiffness = at(kRolling);
   contact.rolling_limit = at(kRollingLimit);
   if (laws.rolling == RollingLaw::epsd2) {
-    contact.rolling_at_limit = moment.norm() >= contact.rolling_limit * (1.0 - 1e-6);  // as StockLaws
+    contact.rolling_at_limit = contact.moment.norm() >= contact.rolling_limit * (1.0 - 1e-6);  // as StockLaws
     return contact;
   }
   contact.rolling_at_limit = at(kIsRolling) != 0.0;
@@ -235,7 +230,7 @@ void SphereBox::hold_rotation() {
 void SphereBox::control_rotation(bool damped) {
   // The spins of the next half step must average to the prescribed one, see FixCellStrain.
   const double rate = damped ? damping_rate_ : 0.0;
-  const double volume = motion_.box().volume();
+  const double volume = motion_.box().size();
   Eigen::Vector3d mean_spin = Eigen::Vector3d::Zero();
   double compliance = 0.0;
   for (int k = 0; k < count(); ++k) {
@@ -274,7 +269,7 @@ void SphereBox::begin_step(bool end_the_last) {
   put_matrix(motion.change, motion_.change_of_gradient());
   put_vector(motion.change_of_spin, motion_.change_of_spin());
   put_matrix(motion.flow, motion_.rate() * inverse);
-  put_matrix(motion.turn_of_spin, time_step_ * motion_.box().frame);
+  put_matrix(motion.turn_of_spin, time_step_ * motion_.box().orientation);
   put_vector(motion.turn, motion_.turn());
   wandered_ += time_step_ * std::sqrt(kernels_.begin_step(motion, end_the_last));
 }
@@ -305,9 +300,7 @@ void SphereBox::sum_up() {
     imbalance_.moment += ConstPlace(force + 4).norm();
   }
   if (std::isfinite(imbalance_.force + imbalance_.moment)) return;
-  throw RunError(
-      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed into each "
-      "other");
+  lose_grains();
 }
 
 std::span<const double> SphereBox::rotations() const {
@@ -323,9 +316,13 @@ std::span<const double> SphereBox::places() const {
   return places_;
 }
 
-SpaceMotionOfGrain SphereBox::motion(int sphere) const {
+GrainMotion<3> SphereBox::motion(int sphere) const {
   const double* const grain = &grains_[static_cast<std::size_t>(sphere) * kGrainStride];
-  return {ConstPlace(grain), ConstPlace(grain + 4), ConstPlace(grain + 8), Eigen::Vector3d::Zero()};
+  GrainMotion<3> motion;
+  std::copy_n(grain, 3, motion.place.begin());
+  std::copy_n(grain + 4, 3, motion.velocity.begin());
+  std::copy_n(grain + 8, 3, motion.spin.begin());
+  return motion;
 }
 
 }  // namespace polargrain::dem

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "dem/cell/instruction_set.hpp"
-#include "dem/sphere_loop/space_grain_box.hpp"
+#include "dem/box/grain_box.hpp"
+#include "dem/box/snapshot.hpp"
+#include "dem/sphere_loop/instruction_set.hpp"
 #include "dem/sphere_loop/sphere_constants.hpp"
-#include "dem/sphere_loop/sphere_state.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -18,9 +18,9 @@ namespace polargrain::dem {
 const SphereKernels& sphere_kernels(InstructionSet set, bool plain = false);
 
 /// A box of spheres that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet, the same
-/// box motion, damping and control of rotations as `fix cell/space_strain` with `fix nve/sphere`, in two passes a step:
+/// box motion, damping and control of rotations as `fix cell/strain` with `fix nve/sphere`, in two passes a step:
 /// one over the contacts and one over the spheres. Tests hold it to the engine's own loop.
-class SphereBox final : public SpaceGrainBox {
+class SphereBox final : public GrainBox<3> {
  public:
   SphereBox(Spheres spheres, const SphereKernels& kernels);
 
@@ -29,15 +29,14 @@ class SphereBox final : public SpaceGrainBox {
 
   void restore(const State& state) override;
   /// The same from a snapshot. @throws RunError when it is not one of these spheres and laws
-  void restore(const SphereSnapshot& snapshot);
+  void restore(const Snapshot<3>& snapshot);
   [[nodiscard]] StatePointer save() override;
-  void begin(const SpacePath& path, double damping_rate, const std::optional<SpaceRotation>& rotation,
-             double time_step) override;
+  void begin(const BoxPath<3>& path, double damping_rate, const Loading& rotation, double time_step) override;
   /// As begin, but spheres and box keep their velocities (ResidentBoxes); the weights of the rotation stay too.
-  void go_on(const SpacePath& path, double damping_rate, const std::optional<SpaceRotation>& rotation);
+  void go_on(const BoxPath<3>& path, double damping_rate, const Loading& rotation);
   void set_time_step(double seconds) { time_step_ = seconds; }
   /// The box as it is with the rates of the step behind it.
-  [[nodiscard]] const SpaceMotion& motion() const { return motion_; }
+  [[nodiscard]] const BoxMotion<3>& motion() const { return motion_; }
   /// As restore, and the spheres come with the affine motion `gradient`, `spin` of their box in the step behind them.
   void restore_moving(const State& state, const Eigen::Matrix3d& gradient, const Eigen::Vector3d& spin);
   /// As save, but a sphere that is folded back into the box takes the affine velocity of its new place.
@@ -47,13 +46,16 @@ class SphereBox final : public SpaceGrainBox {
 
   void set_rotation_weights(std::span<const double> weights) override;
   void hold_rotation() override;
-  [[nodiscard]] Eigen::Vector3d multiplier() const override { return motion_.box().frame * multiplier_; }
-  [[nodiscard]] const SpaceBox& box() const override { return motion_.box(); }
+  [[nodiscard]] std::span<const double> weights() const override { return weights_; }
+  [[nodiscard]] Eigen::Vector3d multiplier() const override {
+    return motion_.box().orientation * multiplier_;
+  }
+  [[nodiscard]] const Box<3>& box() const override { return motion_.box(); }
   [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
-  [[nodiscard]] const Imbalance& imbalance() const override { return imbalance_; }
+  [[nodiscard]] Imbalance imbalance() const override { return imbalance_; }
   [[nodiscard]] std::span<const double> rotations() const override;
   [[nodiscard]] std::span<const double> places() const override;
-  [[nodiscard]] SpaceMotionOfGrain motion(int sphere) const override;
+  [[nodiscard]] GrainMotion<3> motion(int sphere) const override;
 
  private:
   [[nodiscard]] int count() const { return static_cast<int>(spheres_.radii.size()); }
@@ -91,7 +93,7 @@ class SphereBox final : public SpaceGrainBox {
   std::vector<Eigen::Vector3d> listed_places_;
   double wandered_ = 0.0;  // bound of how far a sphere has moved against the affine flow since then, m
   double reach_ = 0.0;     // largest gap of candidates that may have closed since then, m
-  SpaceMotion motion_;
+  BoxMotion<3> motion_;
   double time_step_ = 0.0;
   double damping_rate_ = 0.0;
   std::vector<double> weights_;
@@ -103,13 +105,12 @@ class SphereBox final : public SpaceGrainBox {
 
 /// The spheres of an initialised engine as they stand there, with the springs of its contact histories.
 Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination);
-SphereSnapshot sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
-                               const SpaceBox& box, std::span<const double> rotations);
+Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<3>& box,
+                            std::span<const double> rotations);
 
 /// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who go on in
 /// the engine's own loop. The box is the caller's business; lists are not set up.
 /// @throws RunError when the snapshot is not one of these grains and models
-void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
-                 const SphereSnapshot& snapshot);
+void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<3>& snapshot);
 
 }  // namespace polargrain::dem

@@ -15,29 +15,29 @@ using ConstPlace = Eigen::Map<const Eigen::Vector3d>;
 }  // namespace
 
 void SphereBox::restore(const State& state) {
-  restore(decode_spheres(state));
+  restore(decode_snapshot<3>(state));
 }
 
-void SphereBox::restore(const SphereSnapshot& snapshot) {
-  if (snapshot.spheres.size() != spheres_.radii.size() || snapshot.code != spheres_.combination.code() ||
+void SphereBox::restore(const Snapshot<3>& snapshot) {
+  if (snapshot.grains.size() != spheres_.radii.size() || snapshot.code != spheres_.combination.code() ||
       snapshot.springs != springs_)
     throw RunError("this state belongs to a cell of another packing or another input script");
   if (const std::string fault = snapshot_fault(snapshot, spheres_.radii, time_step_); !fault.empty())
     throw RunError(fault);
-  for (std::size_t k = 0; k < snapshot.spheres.size(); ++k) {
-    const SphereSnapshot::Motion& from = snapshot.spheres[k];
+  for (std::size_t k = 0; k < snapshot.grains.size(); ++k) {
+    const GrainMotion<3>& from = snapshot.grains[k];
     double* const grain = &grains_[k * kGrainStride];
     std::copy(from.place.begin(), from.place.end(), grain);
     std::copy(from.velocity.begin(), from.velocity.end(), grain + 4);
     std::copy(from.spin.begin(), from.spin.end(), grain + 8);
     std::copy(from.turned.begin(), from.turned.end(), &turned_[k * 4]);
   }
-  motion_ = SpaceMotion(SpacePath(snapshot.box, Eigen::Matrix3d::Zero(), 0), std::nullopt, 1.0);
+  motion_ = BoxMotion<3>(BoxPath<3>(snapshot.box), std::nullopt, 1.0);
   // The springs wait in the form of a list for the one that is made next.
   SphereList waiting;
   waiting.grains = count();
   waiting.images.assign(1, SpaceLattice{});
-  for (const SphereSnapshot::Springs& contact : snapshot.contacts)
+  for (const Snapshot<3>::Springs& contact : snapshot.contacts)
     waiting.add(contact.first, contact.second, {contact.image[0], contact.image[1], contact.image[2]});
   for (int k = 0; k < list_.spring_count; ++k) {
     waiting.springs[k].assign(snapshot.contacts.size(), 0.0);
@@ -57,9 +57,9 @@ void SphereBox::restore_moving(const State& state, const Eigen::Matrix3d& gradie
 }
 
 StatePointer SphereBox::save_moving() {
-  SphereSnapshot snapshot = decode_spheres(*save());
-  for (std::size_t k = 0; k < snapshot.spheres.size(); ++k) {
-    SphereSnapshot::Motion& sphere = snapshot.spheres[k];
+  Snapshot<3> snapshot = decode_snapshot<3>(*save());
+  for (std::size_t k = 0; k < snapshot.grains.size(); ++k) {
+    GrainMotion<3>& sphere = snapshot.grains[k];
     const Eigen::Vector3d folded = ConstPlace(sphere.place.data()) - ConstPlace(&grains_[k * kGrainStride]);
     Place(sphere.velocity.data()) += motion_.gradient() * folded;
   }
@@ -68,7 +68,7 @@ StatePointer SphereBox::save_moving() {
 
 StatePointer SphereBox::save() {
   const Eigen::Matrix3d& old_base = motion_.box().base;
-  SphereSnapshot snapshot;
+  Snapshot<3> snapshot;
   snapshot.box = motion_.box().reduced();
   snapshot.code = spheres_.combination.code();
   snapshot.springs = springs_;
@@ -80,11 +80,11 @@ StatePointer SphereBox::save() {
   for (int k = 0; k < 9; ++k) whole(k) = static_cast<int>(std::lround(ratio(k)));
 
   std::vector<SpaceLattice> copies(spheres_.radii.size());
-  snapshot.spheres.resize(copies.size());
+  snapshot.grains.resize(copies.size());
   for (std::size_t k = 0; k < copies.size(); ++k) {
     const double* const grain = &grains_[k * kGrainStride];
     copies[k] = copy_at(inverse, ConstPlace(grain));
-    SphereSnapshot::Motion& to = snapshot.spheres[k];
+    GrainMotion<3>& to = snapshot.grains[k];
     Place(to.place.data()) = ConstPlace(grain) - copies[k].of(base);
     std::copy_n(grain + 4, 3, to.velocity.data());
     std::copy_n(grain + 8, 3, to.spin.data());
@@ -107,7 +107,7 @@ StatePointer SphereBox::save() {
     const SpaceLattice& away = copies[list_.second[c]];
     const Eigen::Vector3i seen = whole * Eigen::Vector3i(image.p, image.q, image.r) +
                                  Eigen::Vector3i(away.p - home.p, away.q - home.q, away.r - home.r);
-    snapshot.contacts.push_back({list_.first[c], list_.second[c], {seen.x(), seen.y(), seen.z()}, 0});
+    snapshot.contacts.push_back({list_.first[c], list_.second[c], {seen.x(), seen.y(), seen.z()}});
     for (int k = 0; k < springs_; ++k) snapshot.values.push_back(list_.springs[k][c]);
   }
   // A state that nobody could go on from is no answer.

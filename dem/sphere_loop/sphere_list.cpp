@@ -7,20 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "common/error.hpp"
+#include "dem/box/lost_grains.hpp"
 
 namespace polargrain::dem {
 
 namespace {
-
-/// @throws RunError when a sphere is so far away, or nowhere, that no copy of the box can be told
-std::int32_t copy_of(double boxes) {
-  constexpr double kMostBoxes = 1e6;
-  if (std::abs(boxes) < kMostBoxes) return static_cast<std::int32_t>(std::floor(boxes));
-  throw RunError(
-      "Lost grains: the time step is too large for the stiffness of the contacts, or grains were pressed "
-      "into each other");
-}
 
 /// The spheres of a periodic box in bins that divide it evenly along its base vectors, none narrower than the reach
 /// where the box allows, with copies of those near its faces all around: neighbours stand in bins side by side.

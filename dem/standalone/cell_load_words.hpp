@@ -8,7 +8,6 @@
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/script_time_step.hpp"
 #include "dem/engine/liggghts.hpp"
-#include "dem/spheres/space_box.hpp"
 
 namespace polargrain::dem {
 

@@ -18,6 +18,8 @@
 namespace polargrain::dem {
 namespace {
 
+constexpr double kTimeStep = 1e-5;  // s
+
 constexpr int kSide = 6;
 
 long runs() {
@@ -45,17 +47,17 @@ DiscBox::Definition discs_of(const Packing& packing) {
     definition.types.push_back(0);
   }
   definition.thickness = packing.thickness;
-  definition.time_step = 1e-5;
+  definition.time_step = kTimeStep;
   return definition;
 }
 
-DiscSnapshot at_rest(const Packing& packing, const DiscCombination& laws) {
-  DiscSnapshot snapshot;
-  snapshot.box = Box::from_base_vectors(packing.box);
+Snapshot<2> at_rest(const Packing& packing, const DiscCombination& laws) {
+  Snapshot<2> snapshot;
+  snapshot.box = Box<2>::from_base_vectors(packing.box);
   snapshot.code = laws.code();
   snapshot.springs = spring_count(laws.rolling);
   for (const Grain& grain : packing.grains)
-    snapshot.discs.push_back({grain.position.x(), grain.position.y(), 0.0, 0.0, 0.0, 0.0});
+    snapshot.grains.push_back({{grain.position.x(), grain.position.y()}, {}, {}, {}});
   return snapshot;
 }
 
@@ -63,7 +65,7 @@ DiscSnapshot at_rest(const Packing& packing, const DiscCombination& laws) {
 StatePointer sheared(DiscBox& box, int steps) {
   Eigen::Matrix2d h;
   h << -1e-4, 2e-4, 0.0, -1e-4;
-  box.begin(BoxPath(box.box(), h, steps), 100.0, std::nullopt);
+  box.begin(BoxPath<2>(box.box(), h, steps), 100.0, std::nullopt, kTimeStep);
   box.set_up();
   box.run(steps);
   return box.save();
@@ -76,7 +78,7 @@ TEST(FlippedStates, OfDiscsAreRefusedOrGoneOnFrom) {
   box.restore(at_rest(cell.packing, discs.combination));
   const StatePointer good = sheared(box, 40);
   ASSERT_EQ(state_fault(cell, *good), "");
-  ASSERT_GT(decode_discs(*good).contacts.size(), 50u);
+  ASSERT_GT(decode_snapshot<2>(*good).contacts.size(), 50u);
 
   testing::Spoiler spoiled(20260117);
   long accepted = 0;
@@ -106,9 +108,8 @@ TEST(FlippedStates, OfDiscsThatFlingGrainsAwayEndInWords) {
   const DiscBox::Definition discs = discs_of(cell.packing);
   DiscBox box(discs);
   box.restore(at_rest(cell.packing, discs.combination));
-  DiscSnapshot snapshot = decode_discs(*sheared(box, 40));
-  snapshot.discs[1].x = snapshot.discs[0].x;  // at one point: no direction to push them apart in
-  snapshot.discs[1].y = snapshot.discs[0].y;
+  Snapshot<2> snapshot = decode_snapshot<2>(*sheared(box, 40));
+  snapshot.grains[1].place = snapshot.grains[0].place;  // at one point: no direction to push them apart in
   try {
     box.restore(snapshot);
     sheared(box, 40);
@@ -147,8 +148,8 @@ Packed packed_lattice(const Packing& packing) {
   made.layout.history_values = made.state.history_values = kSprings;
   made.layout.spin = 14;
   made.layout.fixed = {8, 9, 11};
-  made.layout.time_step = 1e-5;
-  made.state.box = Box::from_base_vectors(packing.box);
+  made.layout.time_step = kTimeStep;
+  made.state.box = Box<2>::from_base_vectors(packing.box);
   const auto count = static_cast<std::int64_t>(packing.grains.size());
   for (std::int64_t k = 0; k < count; ++k) {
     const Grain& grain = packing.grains[static_cast<std::size_t>(k)];

@@ -40,7 +40,7 @@ inline dem::Contact contact_of(int first, int second, const Eigen::Vector2d& bra
   dem::Contact contact;
   contact.first = first;
   contact.second = second;
-  contact.branch = branch;
+  contact.branch.head<2>() = branch;
   const double overlap = radius_first + radius_second - branch.norm();
   const double radius = radius_first * radius_second / (radius_first + radius_second);
   contact.normal_stiffness = 1e6 * (1.0 + 0.1 * lot());
@@ -53,10 +53,10 @@ inline dem::Contact contact_of(int first, int second, const Eigen::Vector2d& bra
   const bool sliding = lot() < mobilisation.sliding;
   const double sense = lot() < 0.5 ? -1.0 : 1.0;
   const double tangential_force = sense * contact.friction * normal_force * (sliding ? 1.0 : 0.9 * lot());
-  const Eigen::Vector2d n = contact.normal();
-  contact.force = -normal_force * n + tangential_force * Eigen::Vector2d(-n.y(), n.x());
+  const Eigen::Vector3d n = contact.normal();
+  contact.force = -normal_force * n + tangential_force * Eigen::Vector3d(-n.y(), n.x(), 0.0);
   contact.rolling_at_limit = lot() < mobilisation.rolling;
-  contact.moment = (lot() < 0.5 ? -0.4 : 0.4) * radius * normal_force;
+  contact.moment.z() = (lot() < 0.5 ? -0.4 : 0.4) * radius * normal_force;
   return contact;
 }
 

@@ -4,11 +4,11 @@
 #include <limits>
 #include <vector>
 
+#include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
+#include "dem/cell/increment_slip.hpp"
 #include "dem/cell/quasi_static.hpp"
-#include "dem/spheres/increment_slip.hpp"
-#include "dem/spheres/space_contact.hpp"
-#include "dem/spheres/space_tangents.hpp"
+#include "dem/cell/space_tangents.hpp"
 
 namespace polargrain::test {
 
@@ -64,14 +64,14 @@ inline std::vector<LoadedNetwork> loaded_networks(CellDefinition definition, con
       made.grains = static_cast<int>(after.grains.size());
       made.volume = after.box.determinant();
       made.strain = k * gradient.cwiseAbs().maxCoeff();
-      made.sliding = static_cast<double>(std::ranges::count_if(made.contacts, dem::slides_in_space)) /
+      made.sliding = static_cast<double>(std::ranges::count_if(made.contacts, &dem::Contact::sliding)) /
                      static_cast<double>(made.contacts.size());
       dem::IncrementSlip slip;
       slip.start(contacts_before, places_of(before).data(), rotations_of(before),
                  {before.box, Eigen::Matrix3d::Identity()}, made.grains);
       made.slips = slip.until(made.contacts, rotations_of(after), {after.box, Eigen::Matrix3d::Identity()},
                               Eigen::Matrix3d::Zero());
-      made.weights = dem::rotation_weights(made.contacts, made.grains, dem::space_normal_force);
+      made.weights = dem::rotation_weights(made.contacts, made.grains);
       kept.push_back(std::move(made));
     }
     request.state = walker->evaluate(request).state;

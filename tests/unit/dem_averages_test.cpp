@@ -22,8 +22,8 @@ std::vector<Contact> lattice(double normal_force, double tangential_force = 0.0,
   for (int k = 0; k < 3; ++k) {
     const double angle = k * std::numbers::pi / 3.0;
     Contact contact;
-    contact.branch = {std::cos(angle), std::sin(angle)};
-    const Eigen::Vector2d tangent(-std::sin(angle), std::cos(angle));
+    contact.branch = {std::cos(angle), std::sin(angle), 0.0};
+    const Eigen::Vector3d tangent(-std::sin(angle), std::cos(angle), 0.0);
     contact.force = -normal_force * contact.branch + tangential_force * tangent;
     contact.normal_stiffness = kNormal;
     contact.tangential_stiffness = kTangential;
@@ -35,7 +35,7 @@ std::vector<Contact> lattice(double normal_force, double tangential_force = 0.0,
 const double kArea = std::sqrt(3.0) / 2.0;
 
 TEST(Averages, PressureOfTheLattice) {
-  const Eigen::Matrix2d stress = average_stress(lattice(0.01), kArea);
+  const Eigen::Matrix3d stress = average_stress(lattice(0.01), kArea);
   EXPECT_NEAR(stress(0, 0), -std::sqrt(3.0) * 0.01, 1e-16);  // p = sqrt(3) f_n / d
   EXPECT_NEAR(stress(1, 1), -std::sqrt(3.0) * 0.01, 1e-16);
   EXPECT_NEAR(stress(0, 1), 0.0, 1e-16);
@@ -43,7 +43,7 @@ TEST(Averages, PressureOfTheLattice) {
 
 TEST(Averages, TangentialForcesMakeSkewStress) {
   // sigma_12 - sigma_21 = (1/V) sum |l| f_t (C.2)
-  const Eigen::Matrix2d stress = average_stress(lattice(0.01, 0.002), kArea);
+  const Eigen::Matrix3d stress = average_stress(lattice(0.01, 0.002), kArea);
   EXPECT_NEAR(stress(0, 1) - stress(1, 0), 3.0 * 0.002 / kArea, 1e-16);
 }
 
@@ -77,18 +77,19 @@ TEST(Averages, RollingContactAtItsLimitFollowsTheNormalForce) {
   // e from M.
   std::vector<Contact> contacts = lattice(0.01);
   contacts.resize(1);
-  contacts[0].moment = 0.1 * 0.01;
+  contacts[0].moment.z() = 0.1 * 0.01;
   contacts[0].rolling_stiffness = 0.02;
   contacts[0].rolling_at_limit = true;
   const Matrix7 tangent = voigt_cosserat_tangent(contacts, Eigen::Matrix2d::Identity(), 1.0);
   EXPECT_NEAR(tangent(kCurvature1, k11), -0.1 * kNormal, 1e-15);
   EXPECT_EQ(tangent(kCurvature1, kCurvature1), 0.0);
-  EXPECT_NEAR(average_couple_stress(contacts, 1.0)(0), 1e-3, 1e-18);
+  EXPECT_NEAR(average_couple_stress(contacts, 1.0)(0, 2), 1e-3, 1e-18);
 }
 
 TEST(Averages, FabricOfTheLatticeIsIsotropic) {
   std::vector<Contact> contacts = lattice(0.01);
-  EXPECT_LT((fabric_tensor(contacts) - 0.5 * Eigen::Matrix2d::Identity()).norm(), 1e-15);
+  const Eigen::Matrix3d exact = Eigen::Vector3d(0.5, 0.5, 0.0).asDiagonal();
+  EXPECT_LT((fabric_tensor(contacts) - exact).norm(), 1e-15);
   contacts.resize(1);
   EXPECT_NEAR(fabric_tensor(contacts)(0, 0), 1.0, 1e-15);
 }

@@ -102,13 +102,13 @@ Spheres spheres_of(const Packing& packing, const Laws& laws) {
   return spheres;
 }
 
-SphereSnapshot at_rest(const Packing& packing, const Spheres& spheres) {
-  SphereSnapshot snapshot;
-  snapshot.box = SpaceBox::from_base_vectors(packing.base_vectors());
+Snapshot<3> at_rest(const Packing& packing, const Spheres& spheres) {
+  Snapshot<3> snapshot;
+  snapshot.box = Box<3>::from_base_vectors(packing.base_vectors());
   snapshot.code = spheres.combination.code();
   snapshot.springs = sphere_spring_count(spheres.combination);
   for (const Grain& grain : packing.grains)
-    snapshot.spheres.push_back({{grain.position.x(), grain.position.y(), grain.height}, {}, {}, {}});
+    snapshot.grains.push_back({{grain.position.x(), grain.position.y(), grain.height}, {}, {}, {}});
   return snapshot;
 }
 
@@ -116,10 +116,10 @@ SphereSnapshot at_rest(const Packing& packing, const Spheres& spheres) {
 void run(SphereBox& box, int steps) {
   Eigen::Matrix3d strain;
   strain << 2e-3, 1e-3, -5e-4, 3e-4, 1e-3, 4e-4, -2e-4, 5e-4, -4e-3;
-  SpaceRotation rotation;
+  RotationLoading<3> rotation;
   rotation.rotation << 3e-4, -2e-4, 5e-4;
   rotation.curvature << 0.02, -0.01, 0.01, 0.0, 0.015, -0.02, 0.01, 0.0, -0.01;
-  box.begin(SpacePath(box.box(), strain, steps), 3000.0, rotation, kTimeStep);
+  box.begin(BoxPath<3>(box.box(), strain, steps), 3000.0, rotation, kTimeStep);
   box.set_up();
   const std::size_t count = box.places().size() / 3;
   box.set_rotation_weights(std::vector<double>(count, 1.0 / static_cast<double>(count)));
@@ -133,7 +133,7 @@ class SphereKernelsOf : public testing::TestWithParam<Laws> {};
 TEST_P(SphereKernelsOf, GiveTheSameBitsWithEveryInstructionSet) {
   const Packing made = packing();
   const Spheres spheres = spheres_of(made, GetParam());
-  const SphereSnapshot start = at_rest(made, spheres);
+  const Snapshot<3> start = at_rest(made, spheres);
   SphereBox plain(spheres, sphere_kernels(InstructionSet::baseline, true));
   plain.restore(start);
   run(plain, 300);
@@ -160,7 +160,7 @@ TEST_P(SphereKernelsOf, SlideAndRollInTheTestOfTheirBits) {
   SphereBox box(spheres, sphere_kernels(best_instruction_set()));
   box.restore(at_rest(made, spheres));
   run(box, 300);
-  const SphereSnapshot end = decode_spheres(*box.save());
+  const Snapshot<3> end = decode_snapshot<3>(*box.save());
   EXPECT_GT(box.contacts().size(), 1500U);
   EXPECT_GT(end.contacts.size(), 1500U);
   EXPECT_TRUE(
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, SphereKernelsOf, testing::ValuesIn(kLaws),
 // Against a search over all pairs and images.
 TEST(SphereLists, HoldEveryPairOnceAndTouchingOnesFirst) {
   const Packing made = packing();
-  const Eigen::Matrix3d base = SpaceBox::from_base_vectors(made.base_vectors()).base;
+  const Eigen::Matrix3d base = Box<3>::from_base_vectors(made.base_vectors()).base;
   const int n =
       300;  // in a box where they lie far apart, and in one where some see several images of each other
   for (const double shrunk : {1.0, 0.15}) {
@@ -236,7 +236,7 @@ TEST(SphereBoxes, ForcesOfContactsBalance) {
   std::vector<Eigen::Vector3d> forces(made.grains.size(), Eigen::Vector3d::Zero());
   double mean = 0.0;
   for (const Contact& contact : box.contacts()) {
-    const Eigen::Vector3d force(contact.force.x(), contact.force.y(), contact.force_3);
+    const Eigen::Vector3d force(contact.force.x(), contact.force.y(), contact.force.z());
     forces[static_cast<std::size_t>(contact.first)] += force;
     forces[static_cast<std::size_t>(contact.second)] -= force;
     mean += force.norm();

@@ -31,7 +31,7 @@ TEST(ContactLaw, RigidRotationOfAPairChangesNothing) {
   const double force_drift =
       (after.force - before.force).norm() / std::abs(before.contact.tangential_force());
   const double moment_drift =
-      std::abs(after.contact.moment - before.contact.moment) / std::abs(before.contact.moment);
+      std::abs(after.contact.moment.z() - before.contact.moment.z()) / std::abs(before.contact.moment.z());
   std::cout << "[figure] drift over a turn: tangential force " << force_drift << ", moment " << moment_drift
             << "\n";
   // Mechanics asks for 1e-3. Springs that keep their length leave what a chord misses of its arc: turn^2 / 24
@@ -78,7 +78,7 @@ TEST(ContactLaw, PureRollingMeetsOnlyTheMoment) {
     const Eigen::Vector3d spin = (arm_a + arm_b) / arm_b * rate * Eigen::Vector3d::UnitZ();
     const auto answer = pair.advance(place_at(angle), {Eigen::Vector3d::Zero(), spin});
     const double exact = std::min(stiffness * angle * (arm_a + arm_b) / arm_b, limit);
-    worst_moment = std::max(worst_moment, std::abs(answer.contact.moment - exact) / limit);
+    worst_moment = std::max(worst_moment, std::abs(answer.contact.moment.z() - exact) / limit);
     worst_force = std::max(worst_force, std::abs(answer.contact.tangential_force()) / kNormalForce);
     if (std::abs(k - steps / 2) > 2) {
       EXPECT_EQ(answer.contact.rolling_at_limit, k > steps / 2);
@@ -105,9 +105,10 @@ TEST(ContactLaw, AgreesWithTheStockLawsWhereTheyOverlap) {
     const auto place = place_at(1e-7 * k);
     const auto mine = ours.advance(place, spins);
     const auto theirs = stock.advance(place, spins);
-    worst = std::max({worst, (mine.force - theirs.force).norm() / kNormalForce,
-                      (mine.torque_first - theirs.torque_first).norm() / (kReduced * kNormalForce),
-                      std::abs(mine.contact.moment - theirs.contact.moment) / (kReduced * kNormalForce)});
+    worst =
+        std::max({worst, (mine.force - theirs.force).norm() / kNormalForce,
+                  (mine.torque_first - theirs.torque_first).norm() / (kReduced * kNormalForce),
+                  std::abs(mine.contact.moment.z() - theirs.contact.moment.z()) / (kReduced * kNormalForce)});
     slid |= mine.contact.sliding();
     rolled |= mine.contact.rolling_at_limit;
   }
@@ -157,7 +158,7 @@ TEST(ContactLaw, CurvatureOfTheCellTurnsAndSlidesTheGrains) {
     answer = pair.advance(place_at(0.3), {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   const Eigen::Vector3d branch = place_at(0.3).second;
   const double exact = stiffness * (curvature[0] * branch.x() + curvature[1] * branch.y());
-  EXPECT_NEAR(answer.contact.moment / exact, 1.0, 1e-9);  // round-off of torque minus arm times force
+  EXPECT_NEAR(answer.contact.moment.z() / exact, 1.0, 1e-9);  // round-off of torque minus arm times force
   EXPECT_NEAR(answer.contact.rolling_stiffness / stiffness, 1.0, 1e-12);
   // Unequal radii slide (C.8): du_s = -(r_B - r_A) kappa . l / 2.
   const double slip = -0.5 * (answer.contact.arm_second - answer.contact.arm_first) *

@@ -8,8 +8,6 @@ if(TARGET polargrain_dem)
   polargrain_test(dem_two_cells_test verification verification/dem_two_cells_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_rowe_test verification verification/dem_rowe_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(dem_limits_test verification verification/dem_limits_test.cpp support/engine_main.cpp LIBS polargrain_dem)
-  polargrain_test(dem_boundary_test verification verification/dem_boundary_test.cpp support/boundary_cell.cpp
-                  support/engine_main.cpp LIBS polargrain_contact_models)
   polargrain_test(dem_polar_test verification verification/dem_polar_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(sphere_paths_test verification verification/sphere_paths_test.cpp support/engine_main.cpp LIBS polargrain_dem)
   polargrain_test(sphere_cell_test verification verification/sphere_cell_test.cpp support/engine_main.cpp LIBS polargrain_dem)

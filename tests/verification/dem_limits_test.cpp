@@ -82,7 +82,7 @@ TEST(CellLimits, CoupleStressIsThatOfContactsAtTheirRollingLimit) {
   double of_moments = 0.0;
   double polar_limit = 0.0;
   for (const Contact& contact : cell->contacts()) {
-    of_moments += contact.branch.x() * contact.moment / volume(definition.packing);
+    of_moments += contact.branch.x() * contact.moment.z() / volume(definition.packing);
     polar_limit += std::abs(0.5 * (contact.arm_second - contact.arm_first) * contact.branch.x()) *
                    contact.friction * contact.normal_force() / volume(definition.packing);
     const double weight = contact.branch.norm() * contact.normal_force();
@@ -150,7 +150,7 @@ TEST(CellIdentities, VirtualWorkOfAnyMotionIsThatOfTheStress) {
     Eigen::Matrix<double, 6, 1> both;
     both << motion[contact.first], motion[contact.second];
     const Eigen::Vector3d opening = law.motions * both + law.affine * strain;
-    const double done = contact.force.dot(opening.head<2>()) + contact.moment * opening.z();
+    const double done = contact.force.head<2>().dot(opening.head<2>()) + contact.moment.z() * opening.z();
     work += done;
     size += std::abs(done);
   }
@@ -178,7 +178,7 @@ TEST(CellIdentities, WorkIsTheStoredEnergyWhenNothingSlips) {
     for (const Contact& contact : cell->contacts()) {
       sum += 0.5 * contact.normal_force() * contact.normal_force() / contact.normal_stiffness +
              0.5 * contact.tangential_force() * contact.tangential_force() / contact.tangential_stiffness +
-             0.5 * contact.moment * contact.moment / contact.rolling_stiffness;
+             0.5 * contact.moment.z() * contact.moment.z() / contact.rolling_stiffness;
     }
     return sum;
   };

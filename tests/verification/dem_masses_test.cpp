@@ -14,7 +14,7 @@ namespace polargrain::dem {
 namespace {
 
 /// The engine's own sum over the grains (`mass(all)` in a script), kg.
-double engine_mass(Driver& driver) {
+double engine_mass(Driver<2>& driver) {
   return driver.lammps().group->mass(0);
 }
 
@@ -26,7 +26,7 @@ double packing_mass(const Packing& packing) {
 
 TEST(Masses, DiscsOfACellWeighWhatThePackingSays) {
   const CellDefinition cell = test::demo_cell();
-  Driver driver(cell.packing, cell.script, cell.script_file);
+  Driver<2> driver(cell.packing, cell.script, cell.script_file);
   driver.set_up();
   EXPECT_NEAR(packing_mass(cell.packing), 8.78, 0.01);  // 400 discs 0.1 m thick of 2650 kg/m^3
   EXPECT_NEAR(engine_mass(driver) / packing_mass(cell.packing), 1.0, 1e-12);
@@ -38,7 +38,7 @@ TEST(Masses, EachDiscTurnsWithHalfItsMassTimesTheRadiusSquared) {
   CellDefinition cell = test::demo_cell();
   cell.packing.box *= 2.0;
   for (Grain& grain : cell.packing.grains) grain.position *= 2.0;
-  Driver driver(cell.packing, cell.script, cell.script_file);
+  Driver<2> driver(cell.packing, cell.script, cell.script_file);
   driver.set_up();
   LAMMPS_NS::Atom& atom = *driver.lammps().atom;
   constexpr double kTorque = 1e-3;  // N m
@@ -52,7 +52,7 @@ TEST(Masses, EachDiscTurnsWithHalfItsMassTimesTheRadiusSquared) {
 TEST(Masses, SpheresInALayerWeighWhatThePackingSays) {
   CellDefinition cell = test::demo_cell();
   for (Grain& grain : cell.packing.grains) grain.mass = 2650.0 * 4.0 / 3.0 * M_PI * std::pow(grain.radius, 3);
-  Driver driver(cell.packing, cell.script, cell.script_file);
+  Driver<2> driver(cell.packing, cell.script, cell.script_file);
   EXPECT_NEAR(engine_mass(driver) / packing_mass(cell.packing), 1.0, 1e-12);
 }
 
@@ -62,12 +62,12 @@ TEST(Masses, AStateOfHeavierGrainsLeavesThemTheirOwnMasses) {
   {
     CellDefinition other = cell;  // as states were written while discs weighed 0.75 / r times too much
     for (Grain& grain : other.packing.grains) grain.mass *= 0.75 / grain.radius;
-    Driver driver(other.packing, other.script, other.script_file);
+    Driver<2> driver(other.packing, other.script, other.script_file);
     driver.set_up();
     heavy = save_state(driver.lammps(), driver.strain().box());
   }
-  Driver driver(cell.packing, cell.script, cell.script_file);
-  restore_state(driver.lammps(), *heavy);
+  Driver<2> driver(cell.packing, cell.script, cell.script_file);
+  restore_state<2>(driver.lammps(), *heavy);
   driver.set_up();
   driver.run(10);
   EXPECT_NEAR(engine_mass(driver) / packing_mass(cell.packing), 1.0, 1e-12);

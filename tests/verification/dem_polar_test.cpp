@@ -101,8 +101,7 @@ std::vector<Contact> contacts_of(const TwoRadii& lattice, int columns, int rows)
         Contact contact;
         contact.first = number(column, row);
         contact.second = number(column + step.x(), row + step.y());
-        contact.branch = lattice.spacing() * step.cast<double>();
-        contact.force = Eigen::Vector2d::Zero();
+        contact.branch.head<2>() = lattice.spacing() * step.cast<double>();
         contact.normal_stiffness = lattice.normal;
         contact.tangential_stiffness = lattice.tangential;
         contact.rolling_stiffness = lattice.rolling;

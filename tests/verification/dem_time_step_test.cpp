@@ -25,8 +25,7 @@ Contact contact_of(int first, int second, const Eigen::Vector2d& branch, double 
   Contact contact;
   contact.first = first;
   contact.second = second;
-  contact.branch = branch;
-  contact.force.setZero();
+  contact.branch.head<2>() = branch;
   contact.normal_stiffness = kn;
   contact.tangential_stiffness = kt;
   contact.arm_first = arm_first;
@@ -99,7 +98,7 @@ double lattice_frequency(int columns, int rows, double kn, double kt, double kr,
 TEST(TimeStep, WavesOfTheHexagonalLattice) {
   for (const int size : {4, 8}) {
     const CellDefinition cell = test::lattice(size, size, CellRotations::free);
-    Driver driver(cell.packing, cell.script, cell.script_file);
+    Driver<2> driver(cell.packing, cell.script, cell.script_file);
     driver.set_up();
     ASSERT_EQ(driver.contacts().size(), 3U * size * size);
     const double arm = driver.contacts().front().arm_first;
@@ -121,13 +120,13 @@ TEST(TimeStep, WavesOfTheHexagonalLattice) {
 
 /// Largest unbalanced ratio within some thousand steps of `share` of the stable step, from a packing at rest.
 double unrest(const CellDefinition& cell, double share, double damping) {
-  Driver driver(cell.packing, cell.script, cell.script_file);
+  Driver<2> driver(cell.packing, cell.script, cell.script_file);
   driver.set_up();
   const double rate = driver.damping_rate(damping);
   const double stable = stable_time_step(largest_frequency(driver.contacts(), inertia_of(driver.lammps())),
                                          longest_viscous_time(driver.contacts()), rate);
   set_time_step(driver.lammps(), share * stable);
-  driver.strain().begin(BoxPath(driver.strain().box(), Eigen::Matrix2d::Zero(), 0), rate);
+  driver.strain().begin(BoxPath<2>(driver.strain().box()), rate);
   driver.set_up();
   // A push that no mode escapes, small enough that contacts stay.
   LAMMPS_NS::Atom& atom = *driver.lammps().atom;
@@ -163,7 +162,7 @@ TEST(TimeStep, DampingShortensTheStableStepOfThePacking) {
 
 TEST(TimeStep, OfACellFollowsFromItsContacts) {
   const CellDefinition cell = test::demo_cell();
-  Driver driver(cell.packing, cell.script, cell.script_file);
+  Driver<2> driver(cell.packing, cell.script, cell.script_file);
   driver.set_up();
   EXPECT_FALSE(driver.script_sets_time_step());
   EXPECT_EQ(driver.settle_time_step(cell.control.damping), "");

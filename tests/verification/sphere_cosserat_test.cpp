@@ -11,11 +11,11 @@
 #include <random>
 
 #include "common/error.hpp"
+#include "dem/box/rotation.hpp"
+#include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/quasi_static.hpp"
-#include "dem/spheres/rotation.hpp"
-#include "dem/spheres/space_contact.hpp"
-#include "dem/spheres/space_tangents.hpp"
+#include "dem/cell/space_tangents.hpp"
 #include "tests/support/sphere_cells.hpp"
 #include "tests/support/sphere_lattices.hpp"
 
@@ -273,8 +273,8 @@ TEST(CosseratSpheres, CoupleStressOfMomentsAtTheirLimit) {
     double sum = 0.0;
     double weights = 0.0;
     for (const Contact& contact : cell->contacts()) {
-      of_moments += branch_of(contact).x() * moment_of(contact).z() / definition.packing.volume();
-      const double weight = branch_of(contact).norm() * space_normal_force(contact);
+      of_moments += contact.branch.x() * contact.moment.z() / definition.packing.volume();
+      const double weight = contact.branch.norm() * contact.normal_force();
       sum += weight * contact.arm_first * contact.arm_second / (contact.arm_first + contact.arm_second);
       weights += weight;
     }
@@ -311,7 +311,7 @@ TEST(CosseratSpheres, VirtualWorkOfAnyMotionIsThatOfTheStress) {
           .finished();
   const Eigen::Matrix3d frame = triangular_parts(deformed).rotation;
   const std::vector<double> weights =
-      rotation_weights(contacts, static_cast<int>(definition.packing.grains.size()), space_normal_force);
+      rotation_weights(contacts, static_cast<int>(definition.packing.grains.size()));
 
   std::mt19937 numbers(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -331,8 +331,8 @@ TEST(CosseratSpheres, VirtualWorkOfAnyMotionIsThatOfTheStress) {
     Eigen::Matrix<double, 12, 1> both;
     both << motion[static_cast<std::size_t>(contact.first)], motion[static_cast<std::size_t>(contact.second)];
     const Eigen::Matrix<double, 6, 1> opening = law.motions * both + law.affine * strain;
-    const double done = (frame * force_of(contact)).dot(opening.head<3>()) +
-                        (frame * moment_of(contact)).dot(opening.tail<3>());
+    const double done =
+        (frame * contact.force).dot(opening.head<3>()) + (frame * contact.moment).dot(opening.tail<3>());
     work += done;
     size += std::abs(done);
   }
@@ -356,11 +356,11 @@ TEST(CosseratSpheres, WorkIsTheStoredEnergyWhenNothingSlips) {
   const auto energy = [&cell] {
     double sum = 0.0;
     for (const Contact& contact : cell->contacts()) {
-      const Eigen::Vector3d n = branch_of(contact).normalized();
-      const double normal = force_of(contact).dot(n);
+      const Eigen::Vector3d n = contact.branch.normalized();
+      const double normal = contact.force.dot(n);
       sum += 0.5 * normal * normal / contact.normal_stiffness +
-             0.5 * (force_of(contact) - normal * n).squaredNorm() / contact.tangential_stiffness +
-             0.5 * moment_of(contact).squaredNorm() / contact.rolling_stiffness;  // torsion is as stiff
+             0.5 * (contact.force - normal * n).squaredNorm() / contact.tangential_stiffness +
+             0.5 * contact.moment.squaredNorm() / contact.rolling_stiffness;  // torsion is as stiff
     }
     return sum;
   };

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "dem/box/snapshot.hpp"
 #include "dem/cell/cell_service.hpp"
-#include "dem/cell/instruction_set.hpp"
 #include "dem/cell/state_fault.hpp"
-#include "dem/sphere_loop/sphere_state.hpp"
+#include "dem/sphere_loop/instruction_set.hpp"
 #include "tests/support/sphere_cells.hpp"
 
 namespace polargrain::dem {
@@ -157,8 +157,8 @@ TEST_P(SphereLoop, AgreesWithTheEngineOverAThousandSteps) {
                   1e-5 * (there.unbalanced_moment_ratio + 1e-9));
       EXPECT_NEAR(here.multiplier, there.multiplier, 1e-6 * engine[k].response.stress.norm());
     }
-    EXPECT_TRUE(is_sphere_state(*spheres[2].state));  // it was this loop that ran
-    EXPECT_FALSE(is_sphere_state(*engine[2].state));
+    EXPECT_TRUE(is_snapshot<3>(*spheres[2].state));  // it was this loop that ran
+    EXPECT_FALSE(is_snapshot<3>(*engine[2].state));
     std::printf("[figure] %s %s: %.1e of the pressure after 1,000 steps\n", GetParam().name.c_str(),
                 rotations == CellRotations::free ? "free" : "controlled", difference(spheres[2], engine[2]));
   }
@@ -190,7 +190,7 @@ TEST(SphereLoopStates, GoOnInTheEnginesLoop) {
     const CellReply there = gone_on(definition, CellLoop::engine, state);
     EXPECT_LT((here.response.stress - there.response.stress).norm(), 1e-9 * there.response.stress.norm());
     // Springs matter here: without them the answer is another.
-    SphereSnapshot bare = decode_spheres(*state);
+    Snapshot<3> bare = decode_snapshot<3>(*state);
     bare.contacts.clear();
     bare.values.clear();
     const CellReply without = gone_on(definition, CellLoop::automatic, encode(bare));

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "common/csv_table.hpp"
+#include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
-#include "dem/spheres/space_contact.hpp"
 #include "tests/support/sphere_cells.hpp"
 
 namespace polargrain::dem {
@@ -118,7 +118,7 @@ TEST(SphereContacts, CarryTheForcesOfTheIndependentCode) {
   for (const Contact& contact : cell->contacts()) {
     const std::int64_t first = definition.packing.grains[static_cast<std::size_t>(contact.first)].id;
     const std::int64_t second = definition.packing.grains[static_cast<std::size_t>(contact.second)].id;
-    const Eigen::Vector3d on_larger = first < second ? -force_of(contact) : force_of(contact);
+    const Eigen::Vector3d on_larger = first < second ? -contact.force : contact.force;
     found[std::minmax(first, second)] = on_larger;
   }
   double sum = 0.0;

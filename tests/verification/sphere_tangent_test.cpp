@@ -12,8 +12,7 @@
 #include "dem/cell/averages.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/quasi_static.hpp"
-#include "dem/spheres/space_contact.hpp"
-#include "dem/spheres/space_tangents.hpp"
+#include "dem/cell/space_tangents.hpp"
 #include "tests/support/sheared_spheres.hpp"
 #include "tests/support/sphere_cells.hpp"
 
@@ -362,7 +361,7 @@ const test::LoadedNetwork& sheared_network() {
   return made;
 }
 
-constexpr double kHoldOfCells = 3e-3;  // sphere_cell.cpp
+constexpr double kHoldOfCells = 3e-3;  // cell_tangents.cpp
 
 TEST(SphereTangent, SinglePrecisionHasTheDigitsOfATangent) {
   const SpaceNetwork network = sheared_network().network(kHoldOfCells);

@@ -11,10 +11,9 @@
 #include <cstdlib>
 
 #include "common/error.hpp"
+#include "dem/box/snapshot.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/state_fault.hpp"
-#include "dem/discs/disc_state.hpp"
-#include "dem/sphere_loop/sphere_state.hpp"
 #include "tests/support/flipped_bytes.hpp"
 #include "tests/support/lattice_fixture.hpp"
 #include "tests/support/sphere_cells.hpp"
@@ -124,7 +123,7 @@ TEST_P(SpoiledStates, EndNoEngineByASignal) {
   request.increment.displacement_gradient(0, 1) = 2e-4;
   request.increment.displacement_gradient(1, 1) = -1e-4;
   const StatePointer good = make_cell_service(maker)->evaluate(request).state;
-  ASSERT_EQ(is_disc_state(*good) || is_sphere_state(*good), GetParam().maker == CellLoop::automatic);
+  ASSERT_EQ(is_snapshot<2>(*good) || is_snapshot<3>(*good), GetParam().maker == CellLoop::automatic);
   ASSERT_EQ(state_fault(maker, *good), "");
 
   const auto cell = make_cell_service(definition);

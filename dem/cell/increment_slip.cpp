@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/spheres/increment_slip.hpp"
+#include "dem/cell/increment_slip.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "common/elementary_functions.hpp"
-#include "dem/spheres/space_contact.hpp"
+#include "dem/cell/averages.hpp"
 
 namespace polargrain::dem {
 
@@ -34,10 +34,10 @@ IncrementSlip::Springs IncrementSlip::springs_of(const Contact& contact, const E
   Springs springs;
   springs.first = contact.first;
   springs.second = contact.second;
-  springs.branch = frame * branch_of(contact);
+  springs.branch = frame * contact.branch;
   const Eigen::Vector3d n = springs.branch.normalized();
-  const Eigen::Vector3d force = frame * force_of(contact);
-  const Eigen::Vector3d moment = frame * moment_of(contact);
+  const Eigen::Vector3d force = frame * contact.force;
+  const Eigen::Vector3d moment = frame * contact.moment;
   const double torsion = moment.dot(n);
   springs.sliding.setZero();
   springs.rotation.setZero();
@@ -49,17 +49,17 @@ IncrementSlip::Springs IncrementSlip::springs_of(const Contact& contact, const E
 }
 
 void IncrementSlip::start(std::span<const Contact> contacts, const double* positions,
-                          std::span<const double> rotations, const SpaceBox& box, int grains) {
+                          std::span<const double> rotations, const Box<3>& box, int grains) {
   box_ = box;
   places_.clear();
   turns_.clear();
   for (int grain = 0; grain < grains; ++grain) {
-    places_.push_back(box.frame *
+    places_.push_back(box.orientation *
                       Eigen::Map<const Eigen::Vector3d>(positions + 3 * static_cast<std::ptrdiff_t>(grain)));
     turns_.push_back(turn_of(rotations, grain));
   }
   springs_.clear();
-  for (const Contact& contact : contacts) springs_.push_back(springs_of(contact, box.frame));
+  for (const Contact& contact : contacts) springs_.push_back(springs_of(contact, box.orientation));
   std::stable_sort(springs_.begin(), springs_.end(), [](const Springs& a, const Springs& b) {
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });
@@ -77,15 +77,15 @@ const IncrementSlip::Springs* IncrementSlip::found(const Contact& contact,
 }
 
 std::vector<SpaceSlip> IncrementSlip::until(std::span<const Contact> contacts,
-                                            std::span<const double> rotations, const SpaceBox& box,
+                                            std::span<const double> rotations, const Box<3>& box,
                                             const Eigen::Matrix3d& curvature) const {
-  const Eigen::Matrix3d base = box_.frame * box_.base;
-  const Eigen::Matrix3d images = box_.inverse() * box_.frame.transpose();
-  const Eigen::Matrix3d back = base * box.inverse() * box.frame.transpose();
+  const Eigen::Matrix3d base = box_.orientation * box_.base;
+  const Eigen::Matrix3d images = box_.inverse() * box_.orientation.transpose();
+  const Eigen::Matrix3d back = base * box.inverse() * box.orientation.transpose();
   std::vector<SpaceSlip> slips;
   slips.reserve(contacts.size());
   for (const Contact& contact : contacts) {
-    const Springs now = springs_of(contact, box.frame);
+    const Springs now = springs_of(contact, box.orientation);
     const Eigen::Vector3d n = now.branch.normalized();
     const auto first = static_cast<std::size_t>(contact.first);
     const auto second = static_cast<std::size_t>(contact.second);
@@ -106,7 +106,7 @@ std::vector<SpaceSlip> IncrementSlip::until(std::span<const Contact> contacts,
       turning += then->rotation;
     } else {
       const double overlap =
-          contact.normal_stiffness > 0.0 ? space_normal_force(contact) / contact.normal_stiffness : 0.0;
+          contact.normal_stiffness > 0.0 ? contact.normal_force() / contact.normal_stiffness : 0.0;
       const double nearer = before.norm() - now.branch.norm();
       const double share = overlap > 0.0 && nearer > overlap ? overlap / nearer : 1.0;
       opening *= share;

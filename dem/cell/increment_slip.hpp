@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "dem/box/box_motion.hpp"
 #include "dem/contact/contact_recorder.hpp"
-#include "dem/spheres/space_box.hpp"
 
 namespace polargrain::dem {
 
@@ -34,10 +34,10 @@ class IncrementSlip {
   /// @param positions three a grain, in the frame of the box, m @param rotations three a grain, in the laboratory, rad,
   /// or empty: they count from zero
   void start(std::span<const Contact> contacts, const double* positions, std::span<const double> rotations,
-             const SpaceBox& box, int grains);
+             const Box<3>& box, int grains);
   /// One a contact. @param rotations as in start(), at the end @param curvature of the increment, in the laboratory, rad/m
   [[nodiscard]] std::vector<SpaceSlip> until(std::span<const Contact> contacts,
-                                             std::span<const double> rotations, const SpaceBox& box,
+                                             std::span<const double> rotations, const Box<3>& box,
                                              const Eigen::Matrix3d& curvature) const;
 
  private:
@@ -52,7 +52,7 @@ class IncrementSlip {
   /// Of the same pair of grains, by the same of its images; null when they did not touch.
   [[nodiscard]] const Springs* found(const Contact& contact, const Eigen::Vector3d& branch) const;
 
-  SpaceBox box_;
+  Box<3> box_;
   std::vector<Eigen::Vector3d> places_;  // in the laboratory, m
   std::vector<Eigen::Vector3d> turns_;   // in the laboratory, rad
   std::vector<Springs> springs_;         // by the pair of grains

@@ -5,16 +5,26 @@
 #include <span>
 
 #include "common/state.hpp"
-#include "dem/cell/box_motion.hpp"
-#include "dem/cell/quasi_static.hpp"
+#include "dem/box/box_motion.hpp"
+#include "dem/box/state_bounds.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
 namespace polargrain::dem {
 
+/// Resultants of the contacts of the grains, and of the reaction that holds their mean rotation, before damping.
+struct Imbalance {
+  double force = 0.0;   ///< sum over grains of its magnitude, N
+  double moment = 0.0;  ///< the same, N m
+  int grains = 0;
+};
+
 /// Grains in a periodic box that can be carried along a path: the box that a cell drives. Order of calls: restore,
-/// begin, set_up, then run as often as wanted; the rest tells of the last force pass.
+/// begin, set_up, then run as often as wanted; the rest tells of the last force pass. Vectors of the grains lie one behind
+/// the other: `dim` numbers a place, one rotation a disc and three a sphere.
+template <int dim>
 class GrainBox {
  public:
+  using Loading = typename BoxMotion<dim>::Loading;
   virtual ~GrainBox() = default;
 
   /// Replaces the state. @throws RunError when it does not fit these grains and models
@@ -23,8 +33,9 @@ class GrainBox {
   [[nodiscard]] virtual StatePointer save() = 0;
 
   /// Sets the path of the steps to come; the box is at its start. Nothing leaves the rotations free (mode 1).
-  /// @param damping_rate of the viscous damping against the affine flow, 1/s
-  virtual void begin(const BoxPath& path, double damping_rate, std::optional<RotationLoading> rotation) = 0;
+  /// @param damping_rate of the viscous damping against the affine flow, 1/s @param time_step s
+  virtual void begin(const BoxPath<dim>& path, double damping_rate, const Loading& rotation,
+                     double time_step) = 0;
   /// Contacts and forces at the positions as they are. No step.
   virtual void set_up() = 0;
   /// DEM steps, at least 1.
@@ -38,16 +49,20 @@ class GrainBox {
   virtual void hold_rotation() = 0;
   /// W_p over the volume: they add up to 1; empty without them.
   [[nodiscard]] virtual std::span<const double> weights() const = 0;
-  /// sigma_21 - sigma_12 that holds the mean rotation, Pa; 0 in mode 1.
-  [[nodiscard]] virtual double multiplier() const = 0;
+  /// Of the last force pass in the laboratory, Pa; zero in mode 1 (FixCellStrain::multiplier).
+  [[nodiscard]] virtual typename Cosserat<dim>::Rotation multiplier() const = 0;
 
-  [[nodiscard]] virtual Box box() const = 0;
+  [[nodiscard]] virtual const Box<dim>& box() const = 0;
   /// Of the last force pass; grains are counted from 0 as in the packing.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
   /// Resultants of the last force pass.
   [[nodiscard]] virtual Imbalance imbalance() const = 0;
   /// Rotations in the laboratory since the packing, rad.
   [[nodiscard]] virtual std::span<const double> rotations() const = 0;
+  /// Places in the frame of the box, m.
+  [[nodiscard]] virtual std::span<const double> places() const = 0;
+  /// Of one grain, in the frame of the box; without its rotation.
+  [[nodiscard]] virtual GrainMotion<dim> motion(int grain) const = 0;
 };
 
 }  // namespace polargrain::dem

@@ -5,10 +5,10 @@
 #include <span>
 
 #include "common/cell_response.hpp"
+#include "dem/cell/increment_slip.hpp"
 #include "dem/cell/network_solver.hpp"
 #include "dem/cell/relaxed_network.hpp"
 #include "dem/contact/contact_recorder.hpp"
-#include "dem/spheres/increment_slip.hpp"
 
 namespace polargrain::dem {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/spheres/space_tangents.hpp"
+#include "dem/cell/space_tangents.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "dem/spheres/space_contact.hpp"
+#include "dem/cell/tangent_strains.hpp"
 
 namespace polargrain::dem {
 
@@ -51,56 +51,23 @@ LinearSpring linear(const SlippedSpring& spring, const Eigen::Matrix3d& directio
   return made;
 }
 
-using ClassicalStrains = Eigen::Matrix<double, 18, 6>;
-
-/// Where e_ij stands.
-constexpr int place(int i, int j) {
-  return 3 * i + j;
-}
-/// The symmetric unit strains e11, e22, e33, e12 + e21, e13 + e31, e23 + e32.
-constexpr int kFirst[] = {0, 1, 2, 0, 0, 1};
-constexpr int kSecond[] = {0, 1, 2, 1, 2, 2};
-
-ClassicalStrains classical_strains() {
-  ClassicalStrains strains = ClassicalStrains::Zero();
-  for (int k = 0; k < 6; ++k) {
-    strains(place(kFirst[k], kSecond[k]), k) += 0.5;
-    strains(place(kSecond[k], kFirst[k]), k) += 0.5;
-  }
-  return strains;
-}
-
-Matrix18 classical_tangent(const ClassicalStrains& stresses) {
-  Matrix18 tangent = Matrix18::Zero();
-  for (int k = 0; k < 6; ++k)
-    tangent.col(place(kFirst[k], kSecond[k])) = tangent.col(place(kSecond[k], kFirst[k])) = stresses.col(k);
-  for (int k = 3; k < 6; ++k) {
-    const int one = place(kFirst[k], kSecond[k]);
-    const int other = place(kSecond[k], kFirst[k]);
-    const Eigen::RowVector<double, 18> shear = 0.5 * (tangent.row(one) + tangent.row(other));
-    tangent.row(one) = tangent.row(other) = shear;
-  }
-  tangent.bottomRows<9>().setZero();
-  return tangent;
-}
-
 }  // namespace
 
 LinearSpaceContact::LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame,
                                        const SpaceSlip& slip) {
-  const Eigen::Vector3d branch = frame * branch_of(contact);
+  const Eigen::Vector3d branch = frame * contact.branch;
   const Eigen::Vector3d n = branch.normalized();
   const Eigen::Matrix3d along = n * n.transpose();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
-  const double normal_force = space_normal_force(contact);
-  const Eigen::Vector3d moment = frame * moment_of(contact);
+  const double normal_force = contact.normal_force();
+  const Eigen::Vector3d moment = frame * contact.moment;
 
   SlippedSpring sliding;
   sliding.stiffness = contact.tangential_stiffness;
-  sliding.value = across * (frame * force_of(contact));
+  sliding.value = across * (frame * contact.force);
   sliding.limit = contact.friction * std::max(0.0, normal_force);
   sliding.slip = slip.sliding;
-  sliding.at_limit = slides_in_space(contact);
+  sliding.at_limit = contact.sliding();
   SlippedSpring bending;
   bending.stiffness = contact.rolling_stiffness;
   bending.value = across * moment;
@@ -152,7 +119,7 @@ Matrix18 voigt_cosserat_space_tangent(const SpaceNetwork& network) {
 }
 
 Matrix18 voigt_space_tangent(const SpaceNetwork& network) {
-  return classical_tangent(voigt_cosserat_space_tangent(network) * classical_strains());
+  return classical_tangent<3>(voigt_cosserat_space_tangent(network) * classical_strains<3>());
 }
 
 template <int Strains>
@@ -172,9 +139,9 @@ std::optional<Eigen::Matrix<double, 18, Strains>> CondensedSpaceTangent::stresse
 
 std::optional<Matrix18> CondensedSpaceTangent::classical(const SpaceNetwork& network) {
   if (network.contacts.empty()) return Matrix18::Zero();
-  const auto relaxed = stresses<6>(network, {}, classical_strains());
+  const auto relaxed = stresses<6>(network, {}, classical_strains<3>());
   if (!relaxed) return std::nullopt;
-  return classical_tangent(*relaxed);
+  return classical_tangent<3>(*relaxed);
 }
 
 std::optional<Matrix18> CondensedSpaceTangent::cosserat(const SpaceNetwork& network,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/spheres/rotation.hpp"
+#include "dem/box/rotation.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -9,8 +9,11 @@
 
 namespace polargrain::dem {
 
-Eigen::Vector3d axial(const Eigen::Matrix3d& a) {
-  return 0.5 * Eigen::Vector3d(a(2, 1) - a(1, 2), a(0, 2) - a(2, 0), a(1, 0) - a(0, 1));
+Eigen::Matrix2d rotation_by(double angle) {
+  const auto [sine, cosine] = sine_and_cosine(angle);
+  Eigen::Matrix2d matrix;
+  matrix << cosine, -sine, sine, cosine;
+  return matrix;
 }
 
 Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector) {
@@ -24,7 +27,7 @@ Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector) {
 }
 
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
-  const Eigen::Vector3d w = axial(rotation);  // sine of the angle, along the axis
+  const Eigen::Vector3d w = axial<3>(rotation);  // sine of the angle, along the axis
   const double sine = w.norm();
   if (sine == 0.0) return Eigen::Vector3d::Zero();
   return arc_tangent(sine, 0.5 * (rotation.trace() - 1.0)) / sine * w;
