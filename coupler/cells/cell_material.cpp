@@ -64,6 +64,12 @@ void CellMaterial::commit() {
   at_limits_.count(reached_limits);
 }
 
+void CellMaterial::take_over(std::vector<PointState> points, const PointsAtLimits& at_limits) {
+  committed_ = std::move(points);
+  trial_ = committed_;
+  at_limits_ = at_limits;
+}
+
 LimitsReached CellMaterial::reached(const PointState& point) const {
   return limits_reached(point.cell.response.stress, cosserat_, point.cosserat, packing_);
 }

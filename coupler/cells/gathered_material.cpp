@@ -39,7 +39,14 @@ void GatheredMaterial::allocate(std::size_t points) {
   gathered_ = 0;
 }
 
+void GatheredMaterial::expect(const fem::Asking& asking) {
+  if (gathered_ > 0 && !asking.once)
+    throw RunError("steps that are taken together must be committed (settle) before iterations go on");
+  gathers_ = asking.once;
+}
+
 void GatheredMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {
+  if (!gathers_) return material_->evaluate(increments, responses);
   for (std::size_t point = 0; point < way_.size(); ++point)
     trial_[point] = added(way_[point], increments[point]);
   material_->evaluate(trial_, responses);
@@ -47,11 +54,13 @@ void GatheredMaterial::evaluate(std::span<const Increment<2>> increments, std::s
 }
 
 void GatheredMaterial::commit() {
+  if (!gathers_) return material_->commit();
   way_ = trial_;
   if (++gathered_ == steps_) settle();
 }
 
 void GatheredMaterial::revert() {
+  if (!gathers_) return material_->revert();
   trial_ = way_;
   material_->revert();
   was_dropped_ = true;

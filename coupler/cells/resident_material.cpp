@@ -44,6 +44,21 @@ void ResidentMaterial::allocate(std::size_t points) {
   start();
 }
 
+void ResidentMaterial::expect(const fem::Asking& asking) {
+  if (asking.seconds <= 0.0) return;
+  if (!is_settled_) throw RunError("resident boxes change their DEM steps where they are read out (settle)");
+  if (dem_seconds_ == 0.0) {
+    // Of the packing, not of the present: so a run that was broken off takes the same steps.
+    cells_.start(std::vector<ResidentStart>(1));
+    const std::vector<CellIncrement> none(1);
+    dem_seconds_ = cells_.go_on(1, none).front().time_step;
+    start();
+    if (!(dem_seconds_ > 0.0)) throw RunError("the workers do not tell how long a DEM step is");
+  }
+  constexpr int kLeast = 2;  // one is unstable (docs/theory/explicit.md)
+  dem_steps_ = std::max(kLeast, static_cast<int>(std::lround(asking.seconds / dem_seconds_)));
+}
+
 void ResidentMaterial::start() {
   std::vector<ResidentStart> starts;
   for (const PointState& point : points_) {
@@ -54,6 +69,17 @@ void ResidentMaterial::start() {
   forget_unrest();
   has_moved_ = false;
   is_settled_ = true;
+}
+
+const std::vector<ResidentMaterial::PointState>& ResidentMaterial::settled() const {
+  if (!is_settled_) throw RunError("resident boxes must be read out (settle) before they are handed on");
+  return points_;
+}
+
+void ResidentMaterial::take_over(std::vector<PointState> points, const PointsAtLimits& at_limits) {
+  points_ = std::move(points);
+  at_limits_ = at_limits;
+  start();
 }
 
 void ResidentMaterial::evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) {

@@ -268,7 +268,7 @@ struct SphereCell::ResidentKind {
     const CellResponse response = cell.respond(box, Matrix18::Zero());
     return {response.stress, response.couple_stress,
             quick_force_ratio(box.imbalance(), box.contacts(), cell.protocol_.least_force()),
-            2.0 * static_cast<double>(box.contacts().size()) / cell.engine_.grains()};
+            2.0 * static_cast<double>(box.contacts().size()) / cell.engine_.grains(), cell.time_step_};
   }
   [[nodiscard]] ResidentReadOut read(Box& box) const {
     ResidentReadOut all;

@@ -111,6 +111,7 @@ template <int dim>
 void Newton<dim>::withhold_imbalance() {
   withheld_ = loads.at(state.time) - discretisation.internal_forces(state.responses);
   released_ = 0.0;
+  jump_let_go_ = 1.0;  // the imbalance of a jump is in it
 }
 
 template <int dim>

@@ -102,6 +102,11 @@ struct Problem {
   std::vector<std::string> stages = {};
   /// Of the regions that come or go; all others are there in every stage.
   std::map<std::string, Lifetime> lifetimes = {};
+  // Of steps in real time (Solver::begin_real_time) alone.
+  std::map<std::string, double> densities = {};  ///< kg/m^3, of each region, pores included
+  /// Boundaries that let waves out: dashpots there (quiet_boundary.hpp). Displacements that are given on them hold them in the
+  /// balance at the start, and the forces of that stay.
+  std::vector<std::string> quiet = {};
 };
 
 /// The prescribed dofs of a stage in the order in which they hold: those on a set of nodes go before those on a boundary, which go
