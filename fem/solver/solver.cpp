@@ -219,7 +219,10 @@ StepReport Solver<dim>::advance(double time, double released, int most_iteration
   implementation_->materials.expect({.once = false});
   const double start = state().time;
   const auto released_at = implementation_->releasing(released);
-  return implementation_->march(
+  int& of_attempt = implementation_->options.most_iterations;
+  const int usual = of_attempt;
+  if (most_iterations > 0) of_attempt = std::min(usual, most_iterations);
+  StepReport report = implementation_->march(
       {},
       [&](double end, double) {
         return StepGoal{.time = end == 1.0 ? time : start + end * (time - start),
@@ -227,6 +230,8 @@ StepReport Solver<dim>::advance(double time, double released, int most_iteration
                         .released = released_at(end)};
       },
       most_iterations);
+  of_attempt = usual;
+  return report;
 }
 
 template <int dim>
