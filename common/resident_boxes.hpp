@@ -28,6 +28,7 @@ struct ResidentAnswer {
   Eigen::Matrix3d couple_stress = Eigen::Matrix3d::Zero();  ///< N/m; zero where rotations are free
   double unbalanced_force_ratio = 0.0;                      ///< see CellDiagnostics
   double coordination_number = 0.0;                         ///< 2 contacts / grains
+  double time_step = 0.0;                                   ///< s, of the packing at rest
 };
 
 /// A resident box with everything about it, as it is when results are written.

@@ -53,7 +53,7 @@ std::string remedy_of(const std::string& name) {
 std::vector<QuasiStaticMeasure> quasi_static_measures(const coupler::Case& the_case,
                                                       const RunRecord& record) {
   std::vector<QuasiStaticMeasure> measures;
-  if (!the_case.is_explicit()) return measures;
+  if (!the_case.is_explicit() || the_case.real_time) return measures;
   for (const Kind& kind : kinds(the_case.explicit_error)) {
     QuasiStaticMeasure measure{kind.name, kind.meaning, kind.tolerance};
     std::vector<double> values;

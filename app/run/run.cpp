@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <optional>
 
 #include "app/grains/cell_paths.hpp"
@@ -31,6 +32,8 @@
 #include "coupler/pool/log_excerpt.hpp"
 #include "coupler/pool/process.hpp"
 #include "coupler/replay/replay.hpp"
+#include "fem/solver/automatic.hpp"
+#include "fem/solver/explicit_rate.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -202,16 +205,48 @@ class Run {
     return true;
   }
 
-  fem::StepReport begin() { return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate(); }
+  fem::StepReport begin() {
+    if (case_.real_time) return solver_->begin_real_time(case_.explicit_options);
+    if (case_.is_automatic()) return solver_->begin_automatic(case_.effort, case_.explicit_options);
+    return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate();
+  }
 
   fem::StepReport take(const coupler::StepTarget& target) {
     if (const coupler::CaseStage* const stage = case_.stage_of(step_); stage && stage->first_step == step_)
       log_.info("stage '{}'", stage->name);
     begin_stage_of(case_, step_, *solver_);
+    if (case_.real_time) return solver_->advance_real_time(target.amount, case_.explicit_options);
     if (target.explicit_steps == 0) return take_balanced_step(target, *solver_);
+    return take_explicit(target);
+  }
+
+  /// By explicit steps, or (automatic) by whichever method is due.
+  fem::StepReport take_explicit(const coupler::StepTarget& target) {
     fem::ExplicitOptions options = case_.explicit_options;
     if (!files_.has_fields(step_)) options.rest = 0.0;
-    return solver_->advance_explicit(target.amount, target.explicit_steps, options);
+    const double before = record_.steps.empty() ? 1.0 : record_.steps.back().report.speed;
+    const double speed = case_.rate_follows ? speed_behind(record_) : 1.0;
+    options.speed_before = before / speed;
+    if (speed != before) log_.info("  speed of the explicit steps {:.3g} of that at the start", speed);
+    const auto steps = static_cast<int>(std::ceil(target.explicit_steps / speed));
+    fem::StepReport report;
+    if (case_.is_automatic()) {
+      std::vector<fem::StepReport> reports;
+      for (const CommittedStep& step : record_.steps) reports.push_back(step.report);
+      report = fem::advance_automatic(*solver_, target.amount, reports, {case_.effort, steps, options});
+    } else {
+      report = solver_->advance_explicit(target.amount, steps, options);
+    }
+    report.speed = speed;
+    return report;
+  }
+
+  /// The speed of explicit steps after those of the record.
+  [[nodiscard]] double speed_behind(const RunRecord& record) const {
+    if (record.steps.empty()) return 1.0;
+    fem::ExplicitRate rate;
+    rate.error = case_.explicit_error;
+    return rate.next_speed(record.steps.back().report, solver_->steps_of_wave());
   }
 
   /// The costs of the cells since the start of the run, before the checkpoint included.

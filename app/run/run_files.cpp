@@ -21,6 +21,11 @@ std::vector<std::string> columns_of_steps(const coupler::Case& the_case) {
   if (the_case.is_explicit())
     columns.insert(columns.end(), coupler::columns_of_explicit_steps().begin(),
                    coupler::columns_of_explicit_steps().end());
+  if (the_case.is_automatic()) columns.emplace_back(coupler::kGivenUp);
+  if (the_case.rate_follows) columns.emplace_back(coupler::kSpeed);
+  if (the_case.real_time)
+    columns.insert(columns.end(), coupler::columns_of_energies().begin(),
+                   coupler::columns_of_energies().end());
   if (!the_case.stages.empty()) columns.emplace_back(coupler::kStageColumn);
   return columns;
 }
@@ -123,6 +128,12 @@ void RunFiles::add(const CommittedStep& step) {
                                row_of.kinetic_share, row_of.hot_points, row_of.error()})
       row.push_back(exact(share));
   }
+  if (case_.is_automatic()) row.push_back(std::to_string(report.given_up));
+  if (case_.rate_follows) row.push_back(exact(report.speed));
+  if (case_.real_time)
+    for (const double energy : {report.energies.external, report.energies.internal, report.energies.kinetic,
+                                report.energies.damped, report.energies.absorbed, report.energies.error()})
+      row.push_back(exact(energy));
   if (!case_.stages.empty()) {
     const coupler::CaseStage* const stage = case_.stage_of(step.step);
     row.push_back(std::to_string(stage == nullptr ? 0 : stage - case_.stages.data() + 1));
@@ -214,6 +225,15 @@ std::vector<CommittedStep> steps_of_history(const std::string& history, const co
                              .nodes_unbalanced = real(17),
                              .grains_unbalanced = real(18),
                              .hot_points = real(20)};
+    }
+    if (the_case.is_automatic()) report.given_up = static_cast<int>(whole(22));
+    if (the_case.rate_follows) report.speed = real(the_case.is_automatic() ? 23 : 22);
+    if (the_case.real_time) {
+      report.energies = {.kinetic = real(24),
+                         .internal = real(23),
+                         .external = real(22),
+                         .damped = real(25),
+                         .absorbed = real(26)};
     }
     step.values.emplace_back("time", report.time);
     for (std::size_t c = columns_of_steps(the_case).size(); c < cells.size(); ++c)

@@ -23,6 +23,15 @@ void log_step(spdlog::logger& log, const fem::StepReport& report, double largest
         "  {} jumps of the stresses were passed; the largest left a force residual of {:.3e}, let go since",
         report.jumps, report.jump_residual);
   }
+  if (report.given_up > 0)
+    log.warn("  {} iterations did not balance it: explicit steps go on from here", report.given_up);
+  if (report.energies.kinetic > 0.0) {
+    log.info(
+        "  {} explicit steps to {:.6g} s, kinetic energy {:.4g} of {:.4g} J supplied, energy error {:.2e}",
+        report.explicit_steps, report.time, report.energies.kinetic, report.energies.external,
+        report.energies.error());
+    return;
+  }
   if (report.explicit_steps > 0) {
     log.info(
         "  {} explicit steps, {} of them to come to rest, mean force residual {:.3e}, kinetic energy of the chosen masses "

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "app/run/automatic_record.hpp"
+#include "app/run/energy_record.hpp"
 #include "app/run/json_text.hpp"
 #include "app/run/monitor_notes.hpp"
 #include "app/run/proof.hpp"
@@ -137,7 +139,10 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"proof", proof_figures(the_case, record)}};
   if (the_case.dimension() == 3) summary["dimension"] = 3;
   if (!the_case.stages.empty()) summary["stages"] = stage_figures(the_case);
-  if (the_case.is_explicit()) summary["quasi_static"] = quasi_static_figures(the_case, record);
+  if (the_case.is_automatic()) summary["automatic"] = automatic_figures(record);
+  if (the_case.real_time) summary["energies"] = energy_figures(record);
+  if (the_case.is_explicit() && !the_case.real_time)
+    summary["quasi_static"] = quasi_static_figures(the_case, record);
   // Of all that stands above, whatever it is: a key that is added is under the proof.
   summary["proof"]["summary"] = name_of_summary(summary);
   fem::write_file(file, json_text(summary));
@@ -157,9 +162,13 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
   std::string text = fmt::format("{:>6}", "step");
   for (const std::string& name : the_case.table) text += fmt::format("  {:>15}", name);
   const bool is_explicit = the_case.is_explicit();
-  text += is_explicit
-              ? fmt::format("  {:>15}  {:>15}\n", "explicit steps", "error estimate")
-              : fmt::format("  {:>17}{}\n", "Newton iterations", the_case.stages.empty() ? "" : "  stage");
+  const bool iterates = !is_explicit || the_case.is_automatic();
+  if (iterates) text += fmt::format("  {:>17}", "Newton iterations");
+  if (is_explicit)
+    text += fmt::format("  {:>15}  {:>15}", "explicit steps",
+                        the_case.real_time ? "energy error" : "error estimate");
+  if (!the_case.stages.empty()) text += "  stage";
+  text += '\n';
   const std::size_t count = record.steps.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kMostRows - 1) / kMostRows);
   for (std::size_t s = 0; s < count; ++s) {
@@ -168,10 +177,12 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
     text += fmt::format("{:>6}", step.step);
     for (const std::string& name : the_case.table)
       text += fmt::format("  {:>15.6g}", value_of(step.values, name));
-    text += is_explicit
-                ? fmt::format("  {:>15}  {:>13.2g} %\n", step.report.explicit_steps,
-                              100.0 * step.report.quasi_static.error())
-                : fmt::format("  {:>17}{}\n", step.report.iterations, stage_text(the_case, step.step));
+    if (iterates) text += fmt::format("  {:>17}", step.report.iterations - step.report.explicit_steps);
+    if (is_explicit)
+      text += fmt::format(
+          "  {:>15}  {:>13.2g} %", step.report.explicit_steps,
+          100.0 * (the_case.real_time ? step.report.energies.error() : step.report.quasi_static.error()));
+    text += stage_text(the_case, step.step) + '\n';
   }
   if (record.within_noise > 0) {
     text += fmt::format("{} substeps were accepted above the tolerance, within the noise of the stresses\n",
@@ -191,7 +202,8 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
         "by the end of its step\n",
         record.jumps, record.jump_residual);
   }
-  text += quasi_static_text(the_case, record);
+  if (the_case.real_time) text += energy_text(record);
+  text += automatic_text(the_case, record) + quasi_static_text(the_case, record);
   return text;
 }
 

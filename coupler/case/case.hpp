@@ -71,7 +71,11 @@ struct Case {
   std::vector<CaseStage> stages;  ///< all of the plan, in its order; empty: no stage of it has a name
   fem::SolverOptions solver;
   fem::ExplicitOptions explicit_options;  ///< of rows whose fields are written; others do not come to rest
-  double explicit_error = 0.02;           ///< error of the reactions that is allowed in explicit steps
+  int effort =
+      0;  ///< iterations that a step may take before explicit steps go on; 0: the method is not automatic
+  bool real_time = false;        ///< explicit steps of true masses; the loading time is in s
+  bool rate_follows = false;     ///< the rate of explicit steps, so that explicit_error holds
+  double explicit_error = 0.02;  ///< error of the reactions that is allowed in explicit steps
   std::vector<Monitor> monitors;
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
@@ -110,7 +114,8 @@ struct Case {
   /// The number of steps.
   [[nodiscard]] int steps() const { return static_cast<int>(plan.size()); }
   [[nodiscard]] bool needs_workers() const;
-  /// Whether it goes on in explicit steps.
+  [[nodiscard]] bool is_automatic() const { return effort > 0; }
+  /// Whether it goes on in explicit steps, or (is_automatic) may.
   [[nodiscard]] bool is_explicit() const { return !plan.empty() && plan.front().explicit_steps > 0; }
 };
 

@@ -12,7 +12,9 @@ namespace polargrain::coupler {
 struct CaseFiles {
   std::filesystem::path directory;  ///< of the case file
   ScriptRules scripts = {};
-  int dem_steps = 0;     ///< of an explicit step; 0: cells are asked by Newton's method
+  int dem_steps = 0;  ///< of an explicit step; 0: cells are asked by Newton's method
+  bool iterates =
+      true;  ///< whether steps are balanced by iterations; with dem_steps too where the method is automatic
   int ask_every = 0;     ///< explicit steps after which cells of a law follow; 0: as dem_steps
   int dimension = 2;     ///< of the elements, 2 or 3
   bool cosserat = true;  ///< false: a classical continuum, which asks for no Gc and no lc

@@ -49,6 +49,13 @@ class MaterialRecipe {
   [[nodiscard]] virtual bool knows_s33() const {
     return grains() == nullptr || grains()->packing.dimension == 3;
   }
+  /// Density with its pores, kg/m^3: given, or that of the packing; 0: not known. Steps in real time need it.
+  [[nodiscard]] double density() const {
+    if (given_density > 0.0 || grains() == nullptr) return given_density;
+    return grains()->packing.grain_mass() / grains()->packing.volume();
+  }
+  double given_density = 0.0;
+
   /// Whether the material resists a micro-rotation relative to the continuum (Gc > 0).
   [[nodiscard]] virtual bool holds_micro_rotations() const { return true; }
 };

@@ -96,7 +96,10 @@ inline constexpr int kDemSteps = 5;
 int dem_steps_of(const Entry& document);
 /// Explicit steps after which the cells of `informed` follow; 0 where the case asks for another method.
 int ask_every_of(const Entry& document);
-/// Reads the keys of `method: explicit` and gives each step of the plan its explicit steps.
-void read_explicit(Section& steps, CaseParts& parts);
+/// Whether steps are balanced by iterations: all, or (`method: automatic`) those that can be.
+bool iterates(const Entry& document);
+/// Reads the keys of `method: explicit` or, with those of iterations, `automatic` and gives each step of the plan its explicit
+/// steps.
+void read_explicit(Section& steps, bool automatic, CaseParts& parts);
 
 }  // namespace polargrain::coupler

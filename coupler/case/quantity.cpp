@@ -19,7 +19,7 @@ struct Unit {
   bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 30> kUnits{{
+constexpr std::array<Unit, 32> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -47,6 +47,8 @@ constexpr std::array<Unit, 30> kUnits{{
     {Dimension::unit_weight, "N/m3", 1.0},
     {Dimension::unit_weight, "kN/m3", 1e3},
     {Dimension::unit_weight, "MN/m3", 1e6},
+    {Dimension::density, "kg/m3", 1.0},
+    {Dimension::density, "t/m3", 1e3},
     {Dimension::duration, "s", 1.0},
     {Dimension::duration, "min", 60.0},
     {Dimension::duration, "h", 3600.0},
@@ -89,6 +91,8 @@ std::string expectation(Dimension dimension) {
       return "a time in s, or with one of the units " + units;
     case Dimension::unit_weight:
       return "a force per volume in N/m3, or with one of the units " + units;
+    case Dimension::density:
+      return "a density in kg/m3, or with one of the units " + units;
     case Dimension::number:
       break;
   }

@@ -17,6 +17,7 @@ enum class Dimension {
   moment,
   force_per_length,  ///< per thickness
   unit_weight,
+  density,
   duration
 };
 

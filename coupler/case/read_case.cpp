@@ -51,6 +51,7 @@ class CaseReader {
       check_initial_stress(*entry);
     }
     if (const Entry* entry = top.require("steps", "a map with at least 'count'")) read_steps(*entry, parts_);
+    give_densities();
     if (const Entry* entry = top.find("monitors")) read_monitors(*entry);
     if (const Entry* entry = top.find("output")) read_output(*entry);
     if (const Entry* entry = top.find("workers")) read_workers(*entry);
@@ -72,16 +73,43 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        case_.materials[member.key] =
+        std::unique_ptr<MaterialRecipe> recipe =
             model.read(member.key, section, faults_,
-                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), ask_every_of(document_),
-                                 case_.dimension(), !is_classical()});
+                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), iterates(document_),
+                                 ask_every_of(document_), case_.dimension(), !is_classical()});
+        const double density = section.quantity_or("density", Dimension::density, Limit::positive, 0.0);
+        if (recipe) recipe->given_density = density;
+        case_.materials[member.key] = std::move(recipe);
         section.finish();
       }
     }
     materials.finish();
     if (entry.kind == Entry::Kind::map && entry.members.empty()) {
       faults_.push_back(entry.fault("materials: expected at least one material"));
+    }
+  }
+
+  /// Of each region, for steps in real time.
+  void give_densities() {
+    if (!case_.real_time) {
+      case_.with_problem([&](const auto& problem) {
+        if (boundary_ != nullptr && !problem.quiet.empty())
+          faults_.push_back(boundary_->fault(
+              "boundary: quiet boundaries let waves out, which there are in real time alone; write 'time: real' below "
+              "'steps', or leave quiet out"));
+      });
+      return;
+    }
+    for (const auto& [region, material] : case_.regions) {
+      const auto recipe = case_.materials.find(material);
+      if (recipe == case_.materials.end() || !recipe->second) continue;
+      const double density = recipe->second->density();
+      if (density <= 0.0)
+        faults_.push_back({material_lines_[material]->value.file, material_lines_[material]->line,
+                           fmt::format("material '{}': real time needs its density, such as "
+                                       "'density: 1900 kg/m3'",
+                                       material)});
+      case_.with_problem([&](auto& problem) { problem.densities[region] = density; });
     }
   }
 
@@ -154,7 +182,9 @@ class CaseReader {
       };
       if (is_among(built_in_values()) || is_among(columns_of_steps()) ||
           (case_.is_explicit() && is_among(columns_of_explicit_steps())) ||
-          (!case_.stages.empty() && member.key == kStageColumn))
+          (!case_.stages.empty() && member.key == kStageColumn) ||
+          (case_.is_automatic() && is_among({kGivenUp})) || (case_.rate_follows && is_among({kSpeed})) ||
+          (case_.real_time && is_among(columns_of_energies())))
         monitors.fault(member.key, fmt::format("the name '{}' is taken; choose another", member.key));
       // A spreadsheet computes what begins like a formula.
       const bool is_formula = member.key.find_first_of("=+-@") == 0;
@@ -370,6 +400,12 @@ const std::vector<std::string>& columns_of_explicit_steps() {
   static const std::vector<std::string> names{"explicit_steps",   "rest_steps",        "reaction_difference",
                                               "nodes_unbalanced", "grains_unbalanced", "kinetic_share",
                                               "hot_points",       "error_estimate"};
+  return names;
+}
+
+const std::vector<std::string>& columns_of_energies() {
+  static const std::vector<std::string> names{"supplied_energy", "stress_energy",   "kinetic_energy",
+                                              "damped_energy",   "absorbed_energy", "energy_error"};
   return names;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// steps: method: explicit (docs/theory/explicit.md)
+// steps: method: explicit, and automatic (docs/theory/explicit.md)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "common/elementary_functions.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/element/kinematics.hpp"
+#include "fem/solver/explicit_rate.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -25,6 +26,9 @@ constexpr int kAskEvery = 20;
 
 /// Unbalanced forces of the nodes over the loads, at rest.
 constexpr double kRest = 1e-3;
+
+/// Iterations that a step may take before explicit steps go on: some four times as many as a step of cells usually takes.
+constexpr int kEffort = 40;
 
 /// Explicit steps of a case: more would not end.
 constexpr double kMostExplicitSteps = 1e8;
@@ -58,11 +62,17 @@ double longest_way(const fem::Problem<dim>& problem, double start, double end) {
   return longest;
 }
 
+bool is_real_time(const Entry& document) {
+  const Entry* const steps = document.find("steps");
+  const Entry* const time = steps == nullptr ? nullptr : steps->find("time");
+  return time != nullptr && time->text == "real";
+}
+
 /// A whole number of explicit steps, before the steps are read; 0 where the case asks for another method.
 int early(const Entry& document, const std::string& key, int least, int otherwise) {
   const Entry* const steps = document.find("steps");
   const Entry* const method = steps == nullptr ? nullptr : steps->find("method");
-  if (method == nullptr || method->text != "explicit") return 0;
+  if (method == nullptr || (method->text != "explicit" && method->text != "automatic")) return 0;
   Faults faults;  // read once more, with its faults, by read_explicit
   Section section(*steps, "steps", faults);
   return section.whole_or(key, least, otherwise);
@@ -78,17 +88,54 @@ int ask_every_of(const Entry& document) {
   return early(document, "ask_every", 1, kAskEvery);
 }
 
-void read_explicit(Section& steps, CaseParts& parts) {
+bool iterates(const Entry& document) {
+  const Entry* const steps = document.find("steps");
+  const Entry* const method = steps == nullptr ? nullptr : steps->find("method");
+  return method == nullptr || method->text != "explicit" || is_real_time(document);
+}
+
+namespace {
+
+/// Steps follow from masses and stiffness; nothing is to be chosen but damping.
+void read_real_time(Section& steps, CaseParts& parts) {
   Case& result = parts.result;
+  result.real_time = true;
+  // 1/s: no dimension of a case has that unit.
+  result.explicit_options.mass_damping =
+      steps.quantity_or("mass_damping", Dimension::number, Limit::not_negative, 0.0);
+  for (const char* const key : {"pace", "explicit_steps", "dem_steps", "error", "rest_at_output"})
+    if (steps.find(key) != nullptr)
+      steps.fault(key,
+                  fmt::format("{}: in real time it follows from masses and stiffness; leave it out", key));
+  if (steps.find("ask_every") != nullptr) static_cast<void>(steps.whole_or("ask_every", 1, kAskEvery));
+  for (StepTarget& target : result.plan) {
+    if (target.control != StepTarget::Control::time)
+      steps.fault("time", "time: real time follows no measure; give the stages `until`, in s");
+    target.explicit_steps = 1;  // at least: the run finds how many
+  }
+}
+
+}  // namespace
+
+void read_explicit(Section& steps, bool automatic, CaseParts& parts) {
+  Case& result = parts.result;
+  if (steps.choice_or("time", {"loading", "real"}, "loading") == "real") {
+    if (automatic) steps.fault("time", "time: real time has explicit steps alone; write 'method: explicit'");
+    return read_real_time(steps, parts);
+  }
+  if (automatic) result.effort = steps.whole_or("effort", 1, kEffort);
   static_cast<void>(steps.whole_or("dem_steps", kLeastDemSteps, kDemSteps));
   static_cast<void>(steps.whole_or("ask_every", 1, kAskEvery));
-  const double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
+  double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
   steps.require_below("pace", 0.01, "a boundary would run into its elements like a hammer");
   const int given = steps.whole_or("explicit_steps", 0, 0);
   if (given > 0 && steps.find("pace") != nullptr)
     steps.fault("pace", "pace: `explicit_steps` says it already; leave one of them out");
   result.explicit_error =
       steps.quantity_or("error", Dimension::number, Limit::positive, result.explicit_error);
+  // Who says what error is allowed, and no rate, lets the program find it.
+  result.rate_follows = steps.find("error") != nullptr && given == 0 && steps.find("pace") == nullptr;
+  if (result.rate_follows) pace *= std::min(1.0, result.explicit_error / fem::ExplicitRate{}.error);
   steps.require_below("error", 1.0, "it is a share of the reactions, 2 % is '2 %' or 0.02");
   if (steps.choice_or("rest_at_output", {"yes", "no"}, "no") == "yes") result.explicit_options.rest = kRest;
   const double end = result.plan.empty() ? 0.0 : result.plan.back().amount;

@@ -6,6 +6,8 @@
 #include <array>
 #include <functional>
 
+#include "common/csv_table.hpp"
+#include "coupler/case/data_files.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/solver/geostatic.hpp"
 
@@ -56,6 +58,44 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
   return true;
 }
 
+/// A table of time (s) and acceleration (m/s2) in a CSV file of two columns.
+fem::TimeTable accelerations_of(const CsvTable& table) {
+  if (table.names().size() != 2)
+    table.fail(table.line_of_names(), "expected two columns: time (s) and acceleration (m/s2)");
+  std::vector<fem::TimeTable::Point> points;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    points.push_back({table.number(row, 0), table.number(row, 1)});
+    if (row > 0 && !(points[row].time > points[row - 1].time))
+      table.fail(table.line_of(row), "the times must rise from row to row");
+  }
+  if (points.size() < 2) table.fail(table.line_of_names(), "expected at least two rows");
+  return fem::TimeTable::of_accelerations(points);
+}
+
+/// `accelerate: {u1: quake.csv}`. @returns whether it is there
+bool read_accelerations(Section& item, CaseParts& parts,
+                        const std::function<void(fem::Dof, const fem::TimeTable&)>& take) {
+  const Entry* const entry = item.find("accelerate");
+  if (entry == nullptr) return false;
+  Section files(*entry, item.name() + ": accelerate", parts.faults);
+  for (const std::string& name : dof_names(parts.result.dimension())) {
+    if (files.find(name) == nullptr) continue;
+    const std::string file = files.text(name, "a CSV file of times and accelerations");
+    const auto found = find_data_file(file, parts.directory);
+    if (!found) {
+      files.fault(name, fmt::format("{}: there is no file {} beside the case", name, file));
+      continue;
+    }
+    try {
+      take(dof_of(name), accelerations_of(CsvTable(*found)));
+    } catch (const InputError& error) {
+      parts.faults.insert(parts.faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  files.finish();
+  return true;
+}
+
 bool read_supports(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
   const auto prescribe = [&](fem::Dof dof, const fem::TimeTable& value) {
     parts.result.with_problem([&](auto& problem) {
@@ -63,6 +103,7 @@ bool read_supports(Section& item, const std::vector<std::string>& places, CasePa
     });
   };
   bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts, prescribe);
+  found = read_accelerations(item, parts, prescribe) || found;
   if (item.find("fix") == nullptr) return found;
   const std::vector<std::string>& known = dof_names(parts.result.dimension());
   for (const std::string& name : item.words("fix", "a list of " + listed(known))) {
@@ -168,11 +209,19 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
         problem.prescribed[k].from_here = false;
     });
   }
+  const bool quiet =
+      item.choice_or("quiet", {"true", "false", "yes", "no"}, "false").find_first_of("ty") == 0;
+  if (quiet) {
+    parts.check_places(item, "on", places, "a quiet boundary");
+    parts.result.with_problem(
+        [&](auto& problem) { problem.quiet.insert(problem.quiet.end(), places.begin(), places.end()); });
+  }
   item.finish();
   if (!tractions) parts.check_places(item, "on", places);
-  if (!supports && !tractions && !forces && !tie && entry.kind == Entry::Kind::map) {
+  if (!supports && !tractions && !forces && !tie && !quiet && entry.kind == Entry::Kind::map) {
     parts.faults.push_back(entry.fault(
-        name + ": has no support and no load; give fix, move, pressure, traction, node_force or tie"));
+        name +
+        ": has no support and no load; give fix, move, accelerate, pressure, traction, node_force, tie or quiet"));
   }
 }
 

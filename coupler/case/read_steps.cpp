@@ -32,8 +32,11 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   const Entry* stages = steps.find("stages");
   if (stages == nullptr) {
     const int count = step_count(steps, 0);
+    const double end = steps.quantity_or("duration", Dimension::duration, Limit::positive, 1.0);
+    if (steps.find("duration") != nullptr && steps.find("time") == nullptr)
+      steps.fault("duration", "duration: the loading time ends at 1; real time needs 'time: real'");
     for (int i = 1; i <= count; ++i) {
-      plan.push_back({StepTarget::Control::time, static_cast<double>(i) / count, {}});
+      plan.push_back({StepTarget::Control::time, i == count ? end : end * i / count, {}});
     }
   } else {
     if (steps.find("count") != nullptr) {
@@ -41,11 +44,12 @@ void read_steps(const Entry& entry, CaseParts& parts) {
     }
     read_stages(*stages, parts);
   }
-  if (steps.choice_or("method", {"newton", "explicit"}, "newton") == "explicit") {
+  const std::string method = steps.choice_or("method", {"newton", "explicit", "automatic"}, "newton");
+  if (method != "newton") {
     if (parts.builds)
       steps.fault("method",
                   "method: stages in which parts come or go are computed by newton alone; remove the method");
-    read_explicit(steps, parts);
+    read_explicit(steps, method == "automatic", parts);
   }
   fem::SolverOptions& solver = parts.result.solver;
   solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);

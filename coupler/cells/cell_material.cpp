@@ -70,6 +70,13 @@ void CellMaterial<dim>::commit() {
 }
 
 template <int dim>
+void CellMaterial<dim>::take_over(std::vector<PointState> points, const PointsAtLimits& at_limits) {
+  committed_ = std::move(points);
+  trial_ = committed_;
+  at_limits_ = at_limits;
+}
+
+template <int dim>
 LimitsReached CellMaterial<dim>::reached(const PointState& point) const {
   return limits_reached<dim>(point.cell.response.stress, cosserat_, point.cosserat, packing_);
 }

@@ -52,7 +52,7 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
     return committed_[point].cell.state;
   }
 
- private:
+  /// A point and its cell.
   struct PointState {
     PointReply<dim> cell;  ///< the cell's own last answer, with its state
     CosseratPart<dim> cosserat;
@@ -63,7 +63,12 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
       visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
     }
   };
+  /// The committed points, and the same given; nothing may be on trial.
+  [[nodiscard]] const std::vector<PointState>& committed() const { return committed_; }
+  void take_over(std::vector<PointState> points, const PointsAtLimits& at_limits);
+  [[nodiscard]] const PointsAtLimits& points_at_limits() const { return at_limits_; }
 
+ private:
   [[nodiscard]] LimitsReached reached(const PointState& point) const;
 
   CellCalls<dim> calls_;

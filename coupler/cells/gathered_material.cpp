@@ -44,8 +44,16 @@ void GatheredMaterial<dim>::allocate(std::size_t points) {
 }
 
 template <int dim>
+void GatheredMaterial<dim>::expect(const fem::Asking& asking) {
+  if (gathered_ > 0 && !asking.once)
+    throw RunError("steps that are taken together must be committed (settle) before iterations go on");
+  gathers_ = asking.once;
+}
+
+template <int dim>
 void GatheredMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
                                      std::span<Response<dim>> responses) {
+  if (!gathers_) return material_->evaluate(increments, responses);
   for (std::size_t point = 0; point < way_.size(); ++point)
     trial_[point] = added(way_[point], increments[point]);
   material_->evaluate(trial_, responses);
@@ -54,12 +62,14 @@ void GatheredMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
 
 template <int dim>
 void GatheredMaterial<dim>::commit() {
+  if (!gathers_) return material_->commit();
   way_ = trial_;
   if (++gathered_ == steps_) settle();
 }
 
 template <int dim>
 void GatheredMaterial<dim>::revert() {
+  if (!gathers_) return material_->revert();
   trial_ = way_;
   material_->revert();
   was_dropped_ = true;

@@ -19,9 +19,12 @@ class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
   GatheredMaterial(std::shared_ptr<fem::Material<dim>> material, int steps);
 
   void allocate(std::size_t points) override;
+  /// Steps are taken together where they are explicit; iterations (`method: automatic`) ask the material itself.
+  void expect(const fem::Asking& asking) override;
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   void commit() override;
   void revert() override;
+  [[nodiscard]] bool confirm() override { return gathers_ || material_->confirm(); }
   void settle() override;
   /// @throws RunError between settle and the next one
   void save(ArchiveWriter& archive) const override;
@@ -46,6 +49,7 @@ class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
   std::shared_ptr<fem::Material<dim>> material_;
   const GrainsOfPoints* grains_;  ///< the same
   int steps_;
+  bool gathers_ = true;                ///< the steps are explicit
   bool was_dropped_ = false;           ///< the step that was evaluated last
   int gathered_ = 0;                   ///< steps since the material committed last
   std::vector<Increment<dim>> way_;    ///< by point, over these steps

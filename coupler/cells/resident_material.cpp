@@ -47,6 +47,22 @@ void ResidentMaterial<dim>::allocate(std::size_t points) {
 }
 
 template <int dim>
+void ResidentMaterial<dim>::expect(const fem::Asking& asking) {
+  if (asking.seconds <= 0.0) return;
+  if (!is_settled_) throw RunError("resident boxes change their DEM steps where they are read out (settle)");
+  if (dem_seconds_ == 0.0) {
+    // Of the packing, not of the present: so a run that was broken off takes the same steps.
+    cells_.start(std::vector<ResidentStart>(1));
+    const std::vector<CellIncrement> none(1);
+    dem_seconds_ = cells_.go_on(1, none).front().time_step;
+    start();
+    if (!(dem_seconds_ > 0.0)) throw RunError("the workers do not tell how long a DEM step is");
+  }
+  constexpr int kLeast = 2;  // one is unstable (docs/theory/explicit.md)
+  dem_steps_ = std::max(kLeast, static_cast<int>(std::lround(asking.seconds / dem_seconds_)));
+}
+
+template <int dim>
 void ResidentMaterial<dim>::start() {
   std::vector<ResidentStart> starts;
   for (const PointState& point : points_) {
@@ -57,6 +73,19 @@ void ResidentMaterial<dim>::start() {
   forget_unrest();
   has_moved_ = false;
   is_settled_ = true;
+}
+
+template <int dim>
+const std::vector<typename ResidentMaterial<dim>::PointState>& ResidentMaterial<dim>::settled() const {
+  if (!is_settled_) throw RunError("resident boxes must be read out (settle) before they are handed on");
+  return points_;
+}
+
+template <int dim>
+void ResidentMaterial<dim>::take_over(std::vector<PointState> points, const PointsAtLimits& at_limits) {
+  points_ = std::move(points);
+  at_limits_ = at_limits;
+  start();
 }
 
 template <int dim>

@@ -38,6 +38,8 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
 
   /// Asks for the packing at rest, once; every box starts from it.
   void allocate(std::size_t points) override;
+  /// In real time: as many DEM steps a step as have its duration, at least two.
+  void expect(const fem::Asking& asking) override;
   /// All boxes go on, each along its increment. When all increments are zero, as for the stress at the start, nobody is
   /// asked and the last answers count. @throws RunError when boxes have moved since the last commit
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
@@ -62,7 +64,7 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
   [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
   [[nodiscard]] StatePointer grains_of(std::size_t point) const override { return points_[point].state; }
 
- private:
+  /// A point and its box.
   struct PointState {
     typename Cosserat<dim>::Vector stress = Cosserat<dim>::Vector::Zero();  ///< of the cell, of the present
     CellDiagnostics diagnostics;
@@ -79,7 +81,15 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
       visit(FieldNotes{"cosserat", "", "skew and couple stress of the case"}, point.cosserat);
     }
   };
+  /// The committed points, read out, and the same given: the boxes move in there. Nothing may be on trial.
+  /// @throws RunError when boxes have moved since the last settle
+  [[nodiscard]] const std::vector<PointState>& settled() const;
+  void take_over(std::vector<PointState> points, const PointsAtLimits& at_limits);
+  [[nodiscard]] const PointsAtLimits& points_at_limits() const { return at_limits_; }
+  /// The packing that all boxes start from.
+  [[nodiscard]] const PointReply<dim>& at_rest() const { return at_rest_; }
 
+ private:
   void take(PointState& point, const ResidentAnswer& answer) const;
   [[nodiscard]] LimitsReached reached(const PointState& point) const;
   void forget_unrest();
@@ -89,7 +99,8 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
   CellCalls<dim> calls_;
   ResidentCells cells_;
   int dem_steps_;
-  double grains_;  ///< in a cell
+  double dem_seconds_ = 0.0;  ///< of a DEM step of the packing at rest; 0: not asked yet
+  double grains_;             ///< in a cell
   std::optional<CosseratParameters> cosserat_;
   PointsAtLimits at_limits_;
   PointReply<dim> at_rest_;  ///< the packing

@@ -13,7 +13,7 @@
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 10;
+inline constexpr std::uint32_t kProtocolVersion = 11;
 
 /// A request asks for no more cells or states.
 inline constexpr std::size_t kMostInRequest = 64;

@@ -304,7 +304,8 @@ struct Cell<dim>::ResidentKind {
     const CellResponse response = cell.respond(box, Tangent::Zero());
     return {response.stress, response.couple_stress,
             quick_force_ratio(box.imbalance(), box.contacts(), cell.protocol_.least_force()),
-            2.0 * static_cast<double>(box.contacts().size()) / cell.driver_.grains()};
+            2.0 * static_cast<double>(box.contacts().size()) / cell.driver_.grains(),
+            cell.driver_.strain().time_step()};
   }
   [[nodiscard]] ResidentReadOut read(Grains& box) const {
     ResidentReadOut all;

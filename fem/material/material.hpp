@@ -19,6 +19,13 @@ struct Figure {
   double value;
 };
 
+/// How the steps to come ask a material.
+struct Asking {
+  /// Explicit steps: each is evaluated once, and committed. Else iterations ask again and again from the same state.
+  bool once = false;
+  double seconds = 0.0;  ///< that such a step takes; 0: steps have no time of their own
+};
+
 /// A material and the states of all the points that are made of it. Every point has two states: the one at
 /// the start of the step (committed) and the trial one. Three verbs move them: evaluate, commit, revert.
 ///
@@ -48,6 +55,9 @@ class Material {
   /// The length over which moments of this material act, m: the mean diameter of grains that answer with couple
   /// stresses of their own. 0: the material has no such length, and moments are measured by the size of the elements.
   [[nodiscard]] virtual double moment_length() const { return 0.0; }
+
+  /// Told before the first evaluation and before each step, when nothing is on trial.
+  virtual void expect(const Asking& asking) { (void)asking; }
 
   /// Answers for all points at once, so that a material may spread the work (cells over workers).
   /// @param increments one a point, from the committed state; @param responses one a point, overwritten.

@@ -77,19 +77,21 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       join(entry_of<dim>(static_cast<std::size_t>(nodes.front()), equal.dof),
            entry_of<dim>(static_cast<std::size_t>(node), equal.dof));
   }
+  leader_.resize(equation_.size());
+  for (std::size_t entry = 0; entry < equation_.size(); ++entry) leader_[entry] = find(entry);
   if (const std::vector<char> there = elements_in_stage(problem, stage); !there.empty()) {
     // An unknown that no element knows: neither at its own node nor at those tied to it.
     const std::vector<char> nodes = nodes_of_elements(mesh, there);
     std::vector<char> known(equation_.size(), 0);
     for (std::size_t entry = 0; entry < mechanics; ++entry)
-      if (nodes[entry / Cosserat<dim>::dofs] != 0) known[find(entry)] = 1;
+      if (nodes[entry / Cosserat<dim>::dofs] != 0) known[leader_[entry]] = 1;
     for (std::size_t entry = 0; entry < mechanics; ++entry)
-      if (known[find(entry)] == 0) equation_[entry] = -1;
+      if (known[leader_[entry]] == 0) equation_[entry] = -1;
   }
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
     if (entry == mechanics) mechanical_unknowns_ = unknowns_;
     if (equation_[entry] < 0) continue;
-    const std::size_t first = find(entry);
+    const std::size_t first = leader_[entry];
     if (first == entry) {
       equation_[entry] = unknowns_++;
       first_.push_back(entry);
@@ -98,6 +100,19 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
     }
   }
   if (mechanics == equation_.size()) mechanical_unknowns_ = unknowns_;
+}
+
+template <int dim>
+void Constraints<dim>::release(const std::vector<std::size_t>& entries) {
+  for (const std::size_t entry : entries) {
+    std::erase_if(given_, [entry](const Given& item) { return item.entry == entry; });
+    int& of_leader = equation_[leader_[entry]];
+    if (of_leader < 0) {
+      of_leader = unknowns_++;
+      first_.push_back(leader_[entry]);
+    }
+    equation_[entry] = of_leader;
+  }
 }
 
 template <int dim>

@@ -34,6 +34,10 @@ class Constraints {
   [[nodiscard]] int equation(std::size_t entry) const { return equation_[entry]; }
   [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
 
+  /// Makes given displacements unknowns, behind those there are. @param entries of nodal vectors, those tied to them too; free
+  /// ones stay as they are
+  void release(const std::vector<std::size_t>& entries);
+
   /// Overwrites the given entries of a nodal vector by their values at `time`.
   /// @param released share of the way from where they were to values that do not count from there
   void apply(double time, Eigen::VectorXd& nodal, double released = 1.0) const;
@@ -61,7 +65,8 @@ class Constraints {
   FieldPlaces<dim> places_;
   std::vector<Given> given_;
   std::vector<int> equation_;
-  std::vector<std::size_t> first_;  ///< of each equation: the entry where forces are summed
+  std::vector<std::size_t> first_;   ///< of each equation: the entry where forces are summed
+  std::vector<std::size_t> leader_;  ///< of each entry: the one that it moves with, itself without a tie
   bool has_ties_;
   int unknowns_ = 0;
   int mechanical_unknowns_ = 0;

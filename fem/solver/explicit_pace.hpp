@@ -15,8 +15,15 @@ class ExplicitPace {
  public:
   /// @param steps of a row without a ramp, at least 1 @param ramp steps @param since_rest steps of the rows before, since
   /// the nodes were at rest
-  ExplicitPace(double start, double end, int steps, int ramp, int since_rest)
-      : start_(start), end_(end), ramp_(ramp), before_(std::min(since_rest, ramp)) {
+  /// @param speed_before at the end of the row before, over the even speed of this one, which it comes to over `change` steps
+  ExplicitPace(double start, double end, int steps, int ramp, int since_rest, double speed_before = 1.0,
+               int change = 0)
+      : start_(start),
+        end_(end),
+        ramp_(ramp),
+        before_(std::min(since_rest, ramp)),
+        surplus_(before_ < ramp ? 0.0 : speed_before - 1.0),
+        change_(std::max(1, change)) {
     while (way(steps_) < steps) ++steps_;
   }
 
@@ -36,7 +43,11 @@ class ExplicitPace {
 
  private:
   /// Sum of the speeds min(1, k / ramp) of the first steps of the row.
-  [[nodiscard]] double way(int step) const { return way_from_rest(before_ + step) - way_from_rest(before_); }
+  [[nodiscard]] double way(int step) const {
+    const double changing = std::min(step, change_);
+    const double surplus = surplus_ * (changing - changing * (changing + 1.0) / (2.0 * change_));
+    return way_from_rest(before_ + step) - way_from_rest(before_) + surplus;
+  }
   [[nodiscard]] double way_from_rest(int step) const {
     const double inside = std::min(step, ramp_);
     return (ramp_ > 0 ? inside * (inside + 1.0) / (2.0 * ramp_) : 0.0) + (step - inside);
@@ -45,18 +56,22 @@ class ExplicitPace {
   double start_;
   double end_;
   int ramp_;
-  int before_;  ///< steps of the ramp that are behind
+  int before_;      ///< steps of the ramp that are behind
+  double surplus_;  ///< of the speed at first, over the even one
+  int change_;      ///< steps in which it goes
   int steps_ = 1;
 };
 
-/// ExplicitOptions::rotation_damping at the unknowns that are micro-rotations, zero at the others.
+/// The share of the velocity of each unknown that a step takes away: ExplicitOptions::rotation_damping of micro-rotations, and
+/// mass_damping times the step of displacements. @param seconds of a step
 template <int dim>
-Eigen::VectorXd damping_of_rotations(const Problem<dim>& problem, const Constraints<dim>& constraints,
-                                     const ExplicitOptions& options) {
+Eigen::VectorXd damping_of_steps(const Problem<dim>& problem, const Constraints<dim>& constraints,
+                                 const ExplicitOptions& options, double seconds) {
   Eigen::VectorXd damping = Eigen::VectorXd::Zero(constraints.unknowns());
   for (std::size_t entry = 0; entry < entry_of<dim>(problem.mesh.nodes.size()); ++entry)
-    if (is_rotation(dof_at<dim>(entry)) && constraints.is_free(entry))
-      damping(constraints.equation(entry)) = options.rotation_damping;
+    if (constraints.is_free(entry))
+      damping(constraints.equation(entry)) =
+          is_rotation(dof_at<dim>(entry)) ? options.rotation_damping : options.mass_damping * seconds;
   return damping;
 }
 

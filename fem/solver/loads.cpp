@@ -216,6 +216,33 @@ Eigen::VectorXd Loads<dim>::linearised(double time, const Eigen::VectorXd& nodal
 }
 
 template <int dim>
+void Loads<dim>::hold(const Eigen::VectorXd& forces) {
+  static const TimeTable kAlways = TimeTable::constant(1.0);
+  parts_.push_back({forces, &kAlways});
+}
+
+template <int dim>
+std::vector<ShareOfSide<dim>> shares_of_boundary(const Mesh<dim>& mesh, const std::string& boundary) {
+  std::vector<ShareOfSide<dim>> shares;
+  for (const BoundarySide& side : mesh.boundaries.at(boundary)) {
+    const std::vector<int> numbers = mesh.side_nodes(side);
+    Eigen::VectorXd of_nodes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers.size()));
+    Place<dim> normal = Place<dim>::Zero();
+    double area = 0.0;
+    for (const SidePoint<dim>& point : points_of_side<dim>(mesh, side, numbers)) {
+      of_nodes += point.weight * point.normal.norm() * point.shape.cwiseAbs2();
+      area += point.weight * point.normal.norm();
+      normal += point.weight * point.normal;
+    }
+    of_nodes *= area / of_nodes.sum();
+    for (std::size_t a = 0; a < numbers.size(); ++a)
+      shares.push_back(
+          {side.element, numbers[a], of_nodes(static_cast<Eigen::Index>(a)), normal.normalized()});
+  }
+  return shares;
+}
+
+template <int dim>
 Eigen::VectorXd Loads<dim>::at(double time) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (const Part& part : parts_) forces.head(size_) += part.factor->at(time) * part.forces;
@@ -241,6 +268,8 @@ double Loads<dim>::largest_force() const {
   return sum;
 }
 
+template std::vector<ShareOfSide<2>> shares_of_boundary(const Mesh<2>&, const std::string&);
+template std::vector<ShareOfSide<3>> shares_of_boundary(const Mesh<3>&, const std::string&);
 template class Loads<2>;
 template class Loads<3>;
 

@@ -14,6 +14,19 @@ struct LoadStiffness {
   Eigen::MatrixXd values;    ///< a row a force, a column a displacement
 };
 
+/// The part of a boundary that belongs to one node of one of its sides.
+template <int dim>
+struct ShareOfSide {
+  int element;
+  int node;
+  double area;                           ///< m^2; in the plane per unit thickness, m
+  typename Cosserat<dim>::Place normal;  ///< outward, of length 1, in the middle of the side
+};
+
+/// All of them: areas by the squares of the shape functions, scaled to the whole side, so that all are positive.
+template <int dim>
+std::vector<ShareOfSide<dim>> shares_of_boundary(const Mesh<dim>& mesh, const std::string& boundary);
+
 /// Nodal forces of the loads of a problem, consistent with the shape functions. Loads keep their direction
 /// and the area they act on, so each is one nodal vector times its table; only pressures follow the boundary,
 /// when move_to says where it is.
@@ -26,6 +39,9 @@ class Loads {
   /// Lets the pressures act on the boundary where `nodal` displaces it; all else acts as on the mesh as it
   /// was made.
   void move_to(const Eigen::VectorXd& nodal);
+
+  /// Adds nodal forces that stay as they are.
+  void hold(const Eigen::VectorXd& forces);
 
   /// Nodal vector: forces in N, moments in N m; in the plane N/m and N.
   [[nodiscard]] Eigen::VectorXd at(double time) const;

@@ -160,6 +160,7 @@ template <int dim>
 void Newton<dim>::withhold_imbalance() {
   withheld_ = loads.at(state.time) - committed_internal_forces();
   released_ = 0.0;
+  jump_let_go_ = 1.0;  // the imbalance of a jump is in it
 }
 
 template <int dim>

@@ -56,8 +56,6 @@ class Newton {
   [[nodiscard]] Residual initial_residual();
   /// Holds back the imbalance of the committed state until steps release it (StepGoal::released).
   void withhold_imbalance();
-  /// Whether that has been done.
-  [[nodiscard]] bool withholds() const { return withheld_.size() > 0; }
   /// Goes over to a stage of construction: elements, supports and loads of it, and the imbalance of all that changes held
   /// back. @throws RunError where the nodes have moved so that an element that comes is inside out, or nothing resists a
   /// micro-rotation of what is there
@@ -86,6 +84,10 @@ class Newton {
   [[nodiscard]] int steps_of_wave() const;
   /// nodal_masses of the committed state.
   [[nodiscard]] Eigen::VectorXd stable_masses(double safety);
+  /// true_masses by these answers, on the mesh of the committed state.
+  [[nodiscard]] TrueMasses real_masses(const std::vector<Response<dim>>& answers, double safety);
+  /// Of each element, by Problem::densities. @throws RunError where a region has no density
+  [[nodiscard]] std::vector<double> densities() const;
   /// Share that committed steps have let go of the forces held back at the start.
   [[nodiscard]] double released() const { return released_; }
   /// Where the attempt that has just failed was out of balance; to be asked before revert().

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A step that goes where it is told: the explicit steps of Solver.
+#include "common/error.hpp"
 #include "fem/solver/newton.hpp"
 
 namespace polargrain::fem {
@@ -71,6 +72,29 @@ Eigen::VectorXd Newton<dim>::stable_masses(double safety) {
   return nodal_masses(discretisation, linearised(state.responses), safety);
 }
 
+template <int dim>
+std::vector<double> Newton<dim>::densities() const {
+  std::vector<double> all(discretisation.elements(), 0.0);
+  for (const auto& [region, elements] : problem.mesh.regions) {
+    const auto density = problem.densities.find(region);
+    if (density == problem.densities.end()) continue;
+    for (const int element : elements) all[static_cast<std::size_t>(element)] = density->second;
+  }
+  for (const double density : all)
+    if (!(density > 0.0)) throw RunError("steps in real time need the density of each region");
+  return all;
+}
+
+template <int dim>
+TrueMasses Newton<dim>::real_masses(const std::vector<Response<dim>>& answers, double safety) {
+  move_to_committed();
+  return true_masses(discretisation, linearised(answers), densities(), safety);
+}
+
+template std::vector<double> Newton<2>::densities() const;
+template TrueMasses Newton<2>::real_masses(const std::vector<Response<2>>&, double);
+template std::vector<double> Newton<3>::densities() const;
+template TrueMasses Newton<3>::real_masses(const std::vector<Response<3>>&, double);
 template Attempt Newton<2>::go_on(double, double, const Eigen::VectorXd&, StepReport&);
 template Eigen::VectorXd Newton<2>::unbalanced() const;
 template Eigen::VectorXd Newton<2>::stable_masses(double);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
@@ -74,6 +75,70 @@ Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Li
   return masses;
 }
 
+namespace {
+
+/// The share of an element in the time step.
+struct OfElement {
+  Eigen::MatrixXd stiffness;  ///< symmetric
+  Eigen::VectorXd weights;    ///< of each entry: volume that belongs to its node
+  std::vector<Eigen::Index> displacements;
+  std::vector<Eigen::Index> rotations;
+};
+
+template <int dim>
+OfElement of_element(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, std::size_t e) {
+  OfElement element;
+  const Eigen::MatrixXd tangent = discretisation.element_tangent(e, of);
+  element.stiffness = 0.5 * (tangent + tangent.transpose());
+  const Eigen::VectorXd shares = shares_of_nodes(discretisation, e);
+  element.weights = Eigen::VectorXd::Zero(tangent.rows());
+  for (Eigen::Index entry = 0; entry < tangent.rows(); ++entry) {
+    (is_rotation(dof_at<dim>(entry)) ? element.rotations : element.displacements).push_back(entry);
+    element.weights(entry) = shares(entry / Cosserat<dim>::dofs);
+  }
+  return element;
+}
+
+double largest_of(const OfElement& element, const std::vector<Eigen::Index>& entries,
+                  const Eigen::VectorXd& masses) {
+  return largest_eigenvalue(scaled(element.stiffness(entries, entries), Eigen::VectorXd(masses(entries))));
+}
+
+}  // namespace
+
+template <int dim>
+TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
+                       const std::vector<double>& densities, double safety) {
+  // Rotations this much slower than the step allows: coupled with displacements they hardly shorten it.
+  constexpr double kSlowRotations = 4.0;
+  TrueMasses all{Eigen::VectorXd::Zero(discretisation.nodal_size()), 0.0};
+  double fastest = 0.0;  // eigenvalue, 1/s^2
+  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    const OfElement element = of_element(discretisation, of, e);
+    const double largest = largest_of(element, element.displacements, densities[e] * element.weights);
+    if (!(largest > 0.0))
+      throw RunError(fmt::format("element {} has no stiffness that a time step could follow from", e));
+    fastest = std::max(fastest, largest);
+  }
+  double together = 0.0;
+  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    const OfElement element = of_element(discretisation, of, e);
+    Eigen::VectorXd masses = densities[e] * element.weights;
+    const double rotary = largest_of(element, element.rotations, element.weights);
+    for (const Eigen::Index entry : element.rotations)
+      masses(entry) =
+          rotary > 0.0 ? kSlowRotations * rotary / fastest * element.weights(entry) : element.weights(entry);
+    together = std::max(together, largest_eigenvalue(scaled(element.stiffness, masses)));
+    all.masses(discretisation.element_dofs(e)) += masses;
+  }
+  all.seconds = 2.0 * safety / std::sqrt(together);
+  return all;
+}
+
+template TrueMasses true_masses<2>(const Discretisation<2>&, const Linearisation<2>&,
+                                   const std::vector<double>&, double);
+template TrueMasses true_masses<3>(const Discretisation<3>&, const Linearisation<3>&,
+                                   const std::vector<double>&, double);
 template Eigen::VectorXd nodal_masses<2>(const Discretisation<2>& discretisation, const Linearisation<2>& of,
                                          double safety);
 template Eigen::VectorXd nodal_masses<3>(const Discretisation<3>& discretisation, const Linearisation<3>& of,

@@ -18,4 +18,18 @@ template <int dim>
 Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
                              double safety);
 
+/// True masses, and the time step that is stable with them.
+struct TrueMasses {
+  Eigen::VectorXd masses;  ///< nodal vector: kg, kg m^2; in the plane per m of thickness
+  double seconds = 0.0;    ///< safety times the critical step
+};
+
+/// Lumped as above. Rotations get the inertia that makes them no faster than the displacements: true ones would be far faster,
+/// and turn with the waves all the same.
+/// @param densities kg/m^3, of each element
+/// @throws RunError when an element has no stiffness at all
+template <int dim>
+TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
+                       const std::vector<double>& densities, double safety);
+
 }  // namespace polargrain::fem

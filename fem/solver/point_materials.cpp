@@ -56,6 +56,11 @@ void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem,
 }
 
 template <int dim>
+void PointMaterials<dim>::expect(const Asking& asking) {
+  for (Batch& batch : batches_) batch.material->expect(asking);
+}
+
+template <int dim>
 void PointMaterials<dim>::evaluate(const std::vector<Increment<dim>>& increments,
                                    std::vector<Response<dim>>& responses) {
   for (Batch& batch : batches_) {

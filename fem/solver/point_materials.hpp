@@ -18,6 +18,8 @@ class PointMaterials {
   /// @throws RunError when a material is null or takes no initial stress where one is given.
   PointMaterials(const Problem<dim>& problem, const Discretisation<dim>& discretisation);
 
+  /// See Material::expect.
+  void expect(const Asking& asking);
   /// One response a point, in the order of the discretisation.
   void evaluate(const std::vector<Increment<dim>>& increments, std::vector<Response<dim>>& responses);
   [[nodiscard]] bool can_turn() const;

@@ -118,6 +118,11 @@ struct Problem {
 
   /// Where nodal vectors keep the fields.
   [[nodiscard]] FieldPlaces<dim> places() const { return {mesh.nodes.size(), fields}; }
+  // Of steps in real time (Solver::begin_real_time) alone.
+  std::map<std::string, double> densities = {};  ///< kg/m^3, of each region, pores included
+  /// Boundaries that let waves out: dashpots there (quiet_boundary.hpp). Displacements that are given on them hold them in the
+  /// balance at the start, and the forces of that stay.
+  std::vector<std::string> quiet = {};
 };
 
 /// The prescribed dofs of a stage in the order in which they hold: those on a set of nodes go before those on a boundary, which go

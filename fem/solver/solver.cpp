@@ -14,20 +14,13 @@
 #include "common/packed_values.hpp"
 #include "common/prefixed_archive.hpp"
 #include "fem/element/dofs.hpp"
-#include "fem/solver/explicit_pace.hpp"
 #include "fem/solver/jump_watch.hpp"
 #include "fem/solver/left_out.hpp"
-#include "fem/solver/newton.hpp"
+#include "fem/solver/solver_implementation.hpp"
 #include "fem/solver/state_archive.hpp"
 #include "fem/solver/substeps.hpp"
 
 namespace polargrain::fem {
-namespace {
-
-constexpr int kRampIsOver = 1 << 30;  // explicit steps since rest, more than any ramp has
-
-}  // namespace
-
 namespace {
 
 /// Sum of the normal strains that a mesh of the dimension can have.
@@ -39,60 +32,6 @@ double volumetric(const typename Cosserat<dim>::Vector& strain) {
 }
 
 }  // namespace
-
-template <int dim>
-struct Solver<dim>::Implementation : Newton<dim> {
-  using Newton<dim>::Newton;
-  using Newton<dim>::attempt;
-  using Newton<dim>::best_residual;
-  using Newton<dim>::evaluate_initial_state;
-  using Newton<dim>::excess;
-  using Newton<dim>::initial_residual;
-  using Newton<dim>::observer;
-  using Newton<dim>::options;
-  using Newton<dim>::pass_jump;
-  using Newton<dim>::revert;
-  using Newton<dim>::state;
-  using Newton<dim>::trouble;
-
-  Trouble last_trouble;      ///< of the last attempt that failed
-  int steps_since_rest = 0;  ///< explicit ones, as far as they count for a ramp
-
-  /// Goes the whole of a step in substeps, cut where an attempt fails. Shares of the step, not times or
-  /// lengths, are what is cut, so that a step under another control may follow.
-  /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
-  /// @param most_iterations that it may take, lost ones too; 0: as many as it needs
-  template <class GoalAt>
-  StepReport march(StepReport report, GoalAt goal_at, int most_iterations = 0);
-
-  /// Share of the forces held back that is let go at a share of the way from here to where `goal` of them are.
-  [[nodiscard]] auto releasing(double goal) const {
-    return [from = this->released(), goal](double end) {
-      return end == 1.0 ? goal : from + end * (goal - from);
-    };
-  }
-
-  /// Holds back the imbalance of the committed state, and the displacements given then, and lets them go in shares.
-  StepReport let_go(StepReport report);
-
-  /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
-  void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
-
-  /// Evaluates the initial state. @returns its residual, which is in the report too; nothing, with a message there, where a
-  /// material cannot begin
-  std::optional<Residual> start(StepReport& report);
-
-  /// The outcome of a jump.
-  struct Passing {
-    bool passed = false;  ///< else nothing was committed
-    bool stuck = false;   ///< what was committed cannot be balanced
-    std::string reason;   ///< why it is stuck
-  };
-  /// Passes the jump that the last attempt has met, when it may and the jump is not larger than `largest`, and lets go
-  /// at the place reached what is out of balance then; further jumps on the way too.
-  /// @param goal what was aimed at
-  Passing pass(StepGoal goal, double largest, StepReport& report);
-};
 
 template <int dim>
 void Solver<dim>::Implementation::tell_cut(double tried, const std::string& reason, double next,
@@ -222,43 +161,47 @@ void Solver<dim>::set_observer(Observer* observer) {
 }
 
 template <int dim>
-StepReport Solver<dim>::Implementation::let_go(StepReport report) {
-  this->withhold_imbalance();
-  // The imbalance of the stress at time zero and the loads is no step of the user's: no shorter one helps.
-  constexpr int kMostTries = 10;
+StepReport Solver<dim>::Implementation::let_go(StepReport report, int most_iterations) {
+  withhold_imbalance();
   state.next_step = 0.0;
   report = march(
       std::move(report),
       [&](double end, double) {
         return StepGoal{.time = state.time, .measure = {}, .released = end, .releases_displacements = true};
       },
-      kMostTries * options.most_iterations);
+      most_iterations);
   state.next_step = 0.0;
   return report;
 }
 
 template <int dim>
+bool Solver<dim>::Implementation::is_balanced(const Residual& residual) const {
+  Eigen::VectorXd given = state.displacement;
+  constraints.apply(state.time, given);
+  return given == state.displacement && excess(residual) <= 1.0;
+}
+
+template <int dim>
 StepReport Solver<dim>::redistribute() {
   StepReport report;
+  implementation_->materials.expect({.once = false});
   report.time = state().time;
   if (const Attempt begun = implementation_->evaluate_initial_state(report); !begun.converged) {
     report.message = begun.reason;
     return report;
   }
-  return implementation_->let_go(std::move(report));
+  return implementation_->let_go(std::move(report), implementation_->most_of_start());
 }
 
 template <int dim>
 StepReport Solver<dim>::equilibrate() {
   Implementation& self = *implementation_;
+  self.materials.expect({.once = false});
   StepReport report;
   const std::optional<Residual> residual = self.start(report);
   if (!residual) return report;
-  Eigen::VectorXd given = self.state.displacement;
-  self.constraints.apply(self.state.time, given);
-  report.converged = given == self.state.displacement && self.excess(*residual) <= 1.0;
-  if (report.converged) return report;
-  return self.let_go(std::move(report));
+  report.converged = self.is_balanced(*residual);
+  return report.converged ? report : self.let_go(std::move(report), self.most_of_start());
 }
 
 template <int dim>
@@ -272,14 +215,23 @@ void Solver<dim>::reset_displacements() {
 }
 
 template <int dim>
-StepReport Solver<dim>::advance(double time, double released) {
+StepReport Solver<dim>::advance(double time, double released, int most_iterations) {
+  implementation_->materials.expect({.once = false});
   const double start = state().time;
   const auto released_at = implementation_->releasing(released);
-  return implementation_->march({}, [&](double end, double) {
-    return StepGoal{.time = end == 1.0 ? time : start + end * (time - start),
-                    .measure = {},
-                    .released = released_at(end)};
-  });
+  int& of_attempt = implementation_->options.most_iterations;
+  const int usual = of_attempt;
+  if (most_iterations > 0) of_attempt = std::min(usual, most_iterations);
+  StepReport report = implementation_->march(
+      {},
+      [&](double end, double) {
+        return StepGoal{.time = end == 1.0 ? time : start + end * (time - start),
+                        .measure = {},
+                        .released = released_at(end)};
+      },
+      most_iterations);
+  of_attempt = usual;
+  return report;
 }
 
 template <int dim>
@@ -318,113 +270,6 @@ StepReport Solver<dim>::advance_arc_length(double length, double released) {
 }
 
 template <int dim>
-StepReport Solver<dim>::begin_explicit() {
-  Implementation& self = *implementation_;
-  self.refuse_explicit();
-  StepReport report;
-  if (!self.start(report)) return report;
-  self.withhold_imbalance();
-  self.materials.settle();
-  report.converged = true;
-  return report;
-}
-
-template <int dim>
-StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitOptions& options) {
-  Implementation& self = *implementation_;
-  self.refuse_explicit();
-  SolverState<dim>& state = self.state;
-  StepReport report;
-  const bool first = state.velocity.size() == 0;
-  if (first) {
-    // A run that goes on from behind its begin has its state, and nothing is held back yet.
-    if (!self.withholds()) self.withhold_imbalance();
-    state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
-    state.velocity = Eigen::VectorXd::Zero(self.constraints.unknowns());
-  } else if (state.velocity.size() != self.constraints.unknowns() ||
-             state.mass.size() != state.velocity.size()) {
-    throw RunError("the checkpoint holds explicit steps of another problem");
-  }
-  const int wave = self.steps_of_wave();
-  const int ramp = options.ramp > 0 ? options.ramp : wave;
-  const ExplicitPace pace(state.time, time, steps, ramp, self.steps_since_rest);
-  const Eigen::VectorXd damping = damping_of_rotations(self.problem, self.constraints, options);
-  RowOfForces<dim> row(self.constraints, pace.steps(), pace.last_times(2 * wave));
-  Eigen::VectorXd forces = self.constraints.restrict_to_free(self.unbalanced());
-  Residual sum;
-  double kinetic = 0.0;
-  // @returns whether it could be taken; the report says why not
-  const auto step_to = [&](double end, double released) {
-    state.velocity =
-        ((1.0 - 0.5 * damping.array()) * state.velocity.array() + forces.array() / state.mass.array()) /
-        (1.0 + 0.5 * damping.array());
-    const Attempt went = self.go_on(end, released, state.velocity, report);
-    if (!went.converged) {
-      self.last_trouble = self.trouble(went.reason, report);
-      report.message =
-          fmt::format("explicit step {} of {}: {}", report.explicit_steps + 1, pace.steps(), went.reason);
-      report.time = state.time;
-      return false;
-    }
-    ++report.explicit_steps;
-    forces = self.constraints.restrict_to_free(self.last_unbalanced());
-    return true;
-  };
-  for (int step = 1; step <= pace.steps(); ++step) {
-    if (!step_to(pace.time(step), first ? pace.fraction(step) : self.released())) return report;
-    const Residual residual = self.relative(self.last_unbalanced());
-    sum.force += residual.force / pace.steps();
-    sum.moment += residual.moment / pace.steps();
-    if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
-      self.observer->iterated({state.time, 0, step, residual.force, residual.moment});
-    kinetic = std::max(kinetic, 0.5 * state.velocity.cwiseAbs2().dot(state.mass));
-    row.add(self.last_supplied());
-  }
-  QuasiStatic& reached = report.quasi_static;
-  if (state.internal_work != 0.0) reached.kinetic_share = kinetic / std::abs(state.internal_work);
-  reached.reaction_difference = row.difference(external_forces());
-  Eigen::VectorXd reactions = row.reactions();
-  if (options.rest > 0.0) {
-    // Kinetic damping (Cundall 1976): the nodes stop whenever they are fastest, which is where they pass their balance.
-    double before = 0.0;
-    sum = self.relative(self.last_unbalanced());
-    while (sum.force > options.rest && report.rest_steps < options.most_rest_steps) {
-      if (!step_to(time, self.released())) return report;
-      ++report.rest_steps;
-      sum = self.relative(self.last_unbalanced());
-      const double energy = 0.5 * state.velocity.cwiseAbs2().dot(state.mass);
-      // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
-      // drive the fastest waves.
-      if (energy < before) state.velocity = -0.5 * forces.cwiseQuotient(state.mass);
-      before = energy < before ? 0.0 : energy;
-    }
-    state.velocity.setZero();
-    RowOfForces<dim> at_rest(self.constraints, 1, {});
-    at_rest.add(self.last_supplied());
-    reactions = at_rest.reactions();
-    reached.reaction_difference = at_rest.difference(external_forces());
-  }
-  reached.nodes_unbalanced = sum.force;
-  if (const Unrest unrest = self.materials.unrest(); unrest.points > 0) {
-    reached.grains_unbalanced = unrest.sum / static_cast<double>(unrest.points);
-    reached.hot_points = static_cast<double>(unrest.hot) / static_cast<double>(unrest.points);
-  }
-  // A ramp that is over stays over, even where the next row would have a longer one.
-  self.steps_since_rest = options.rest > 0.0 ? 0
-                          : self.steps_since_rest + pace.steps() >= ramp
-                              ? kRampIsOver
-                              : self.steps_since_rest + pace.steps();
-  state.reactions = reactions;
-  self.materials.settle();
-  report.converged = true;
-  report.substeps = 1;
-  report.time = state.time;
-  report.force_residual = sum.force;
-  report.moment_residual = sum.moment;
-  return report;
-}
-
-template <int dim>
 const Trouble& Solver<dim>::trouble() const {
   return implementation_->last_trouble;
 }
@@ -457,6 +302,7 @@ void Solver<dim>::restore(ArchiveReader& archive) {
   self.materials.restore(materials);
   PrefixedReader contributions(archive, "contributions/");
   self.contributions.restore(contributions);
+  if (self.state.seconds > 0.0) self.release_quiet_boundary();
   self.move_to_committed();
 }
 

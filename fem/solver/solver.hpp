@@ -63,9 +63,24 @@ struct ExplicitOptions {
   /// Steps over which nodes at rest come to their speed. 0: as many as a wave needs through the mesh there and back; such a
   /// ramp hardly excites the slowest wave.
   int ramp = 0;
+  /// Speed of the row before over that of this one; it changes evenly within the time of a wave. Of no account from rest.
+  double speed_before = 1.0;
   /// Force residual that the nodes come to at the end of the row, their boundaries held; 0: they go on as they are.
   double rest = 0.0;
   int most_rest_steps = 2000;  ///< for that
+  double mass_damping = 0.0;   ///< 1/s, in real time: forces of -mass_damping * mass * velocity
+};
+
+/// Energies of steps in real time, J (in the plane per m of thickness), since their begin.
+struct Energies {
+  double kinetic = 0.0;
+  double internal = 0.0;  ///< work of the stresses
+  double external = 0.0;  ///< work of loads and supports
+  double damped = 0.0;    ///< by ExplicitOptions, rotation_damping included
+  double absorbed = 0.0;  ///< by quiet boundaries
+
+  /// External energy that the others do not account for, over the largest of all. 0 but for rounding in small deformation.
+  [[nodiscard]] double error() const;
 };
 
 /// After one evaluation of all materials.
@@ -97,9 +112,12 @@ struct StepReport {
   int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
   int jumps = 0;            ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
   int explicit_steps = 0;   ///< that it took; 0 where it was balanced by iterations
+  int given_up = 0;         ///< iterations that did not balance it (automatic.hpp): explicit steps went on
   int rest_steps = 0;       ///< of them: after the last movement, see ExplicitOptions::rest
-  QuasiStatic quasi_static;             ///< of explicit steps
-  double jump_residual = 0.0;           ///< the largest force residual that one of them left, let go since
+  Energies energies;        ///< of steps in real time
+  QuasiStatic quasi_static;    ///< of explicit steps
+  double speed = 1.0;          ///< of explicit steps whose rate follows what they reach (explicit_rate.hpp)
+  double jump_residual = 0.0;  ///< the largest force residual that one of them left, let go since
   std::vector<double> force_residuals;  ///< by iteration, of the last attempt
   std::vector<double> moment_residuals;
   double material_seconds = 0.0;
@@ -157,6 +175,11 @@ struct SolverState {
   int stage = 0;
   Eigen::VectorXd offsets;  ///< by entry: where supports that began in a later stage count from; empty before
   Eigen::VectorXd shown_from;  ///< results show displacements less these; empty: from zero
+  // Of steps in real time.
+  double seconds = 0.0;          ///< that a step may have; 0: steps have no real time
+  Eigen::VectorXd held;          ///< nodal forces by which quiet boundaries held the start
+  std::vector<double> dashpots;  ///< QuietBoundary::values
+  Energies energies;             ///< but the kinetic one; works count from their values at the begin
 };
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
@@ -194,7 +217,8 @@ class Solver {
 
   /// Goes on to `time`, in smaller steps where needed. When it fails, the last committed substep stands.
   /// @param released share of the forces held back since the stage began that are let go at the end, here and below
-  StepReport advance(double time, double released = 1.0);
+  /// @param most_iterations that it may take, lost ones too; 0: as many as it needs
+  StepReport advance(double time, double released = 1.0, int most_iterations = 0);
 
   /// Goes on until `measure` has grown by `amount` (not zero), at whatever loading time balances it. Time
   /// tables must be straight over the times passed through.
@@ -210,10 +234,25 @@ class Solver {
   /// displacements given at time 0, come in smoothly over the first advance_explicit.
   /// @throws RunError for a problem with contributions or fields
   StepReport begin_explicit();
+  /// In place of equilibrate, before steps of both methods (automatic.hpp): tries to balance the start in so many iterations. Where
+  /// that fails, forces out of balance come in over the first explicit steps; StepReport::given_up says so.
+  StepReport begin_automatic(int most_iterations, const ExplicitOptions& options = {});
   /// Goes on to `time` in `steps` explicit steps at one rate: central differences with nodal masses that make each step stable.
-  /// The residuals of the report are means over these steps, unbalanced forces of the nodes with their inertia.
+  /// The residuals of the report are means over these steps, unbalanced forces of the nodes with their inertia. Behind a
+  /// step that iterations have balanced, or given up, the nodes start at rest; what is out of balance there comes in over the
+  /// row.
   /// @returns not converged when a step moves too far, or a material fails; steps before it stand
   StepReport advance_explicit(double time, int steps, const ExplicitOptions& options = {});
+
+  /// Explicit steps that a wave of compression needs through the mesh there and back. 0 before the first row of them.
+  [[nodiscard]] int steps_of_wave() const;
+
+  /// In place of equilibrate, before steps in real time: balances the start, then gives the nodes their true masses and lets
+  /// quiet boundaries go (Problem::densities, Problem::quiet).
+  StepReport begin_real_time(const ExplicitOptions& options = {});
+  /// Goes on to `time`, s, in as many explicit steps as are stable. StepReport::energies tells where the energy is.
+  /// @returns as advance_explicit
+  StepReport advance_real_time(double time, const ExplicitOptions& options = {});
 
   /// Of the last attempt of the last step that failed; empty when no step has failed.
   [[nodiscard]] const Trouble& trouble() const;

@@ -11,6 +11,7 @@ namespace polargrain::fem {
 namespace {
 
 constexpr std::size_t kScalars = 5;
+constexpr std::size_t kDynamics = 5;
 
 std::span<const double> values_of(const Eigen::VectorXd& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -32,6 +33,12 @@ void write_state(ArchiveWriter& archive, const SolverState<dim>& state) {
   archive.write("mass", values_of(state.mass));
   archive.write("velocity", values_of(state.velocity));
   archive.write("reactions", values_of(state.reactions));
+  const Energies& energies = state.energies;
+  const std::array<double, kDynamics> dynamics{state.seconds, energies.internal, energies.external,
+                                               energies.damped, energies.absorbed};
+  archive.write("seconds_and_energies", std::span<const double>(dynamics));
+  archive.write("held", values_of(state.held));
+  archive.write("dashpots", std::span<const double>(state.dashpots));
   std::vector<double> strain;
   for (const typename Cosserat<dim>::Vector& point : state.strain)
     strain.insert(strain.end(), point.begin(), point.end());
@@ -60,6 +67,12 @@ SolverState<dim> read_state(ArchiveReader& archive, const FieldPlaces<dim>& plac
   state.mass = vector_of(archive.doubles("mass"));
   state.velocity = vector_of(archive.doubles("velocity"));
   state.reactions = vector_of(archive.doubles("reactions"));
+  const std::vector<double> dynamics = read_lists(archive, "seconds_and_energies", 1, kDynamics);
+  state.seconds = dynamics[0];
+  state.energies = {
+      .internal = dynamics[1], .external = dynamics[2], .damped = dynamics[3], .absorbed = dynamics[4]};
+  state.held = vector_of(archive.doubles("held"));
+  state.dashpots = archive.doubles("dashpots");
   const std::vector<double> strain = read_lists(archive, "strain", points, Cosserat<dim>::components);
   state.strain.resize(points);
   for (std::size_t i = 0; i < points; ++i)

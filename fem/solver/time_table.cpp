@@ -16,8 +16,34 @@ TimeTable::TimeTable(std::vector<Point> points) : points_(std::move(points)) {
   }
 }
 
+TimeTable TimeTable::of_accelerations(const std::vector<Point>& accelerations) {
+  TimeTable table(accelerations);
+  double speed = 0.0;
+  double way = 0.0;
+  for (std::size_t i = 0; i < accelerations.size(); ++i) {
+    const bool last = i + 1 == accelerations.size();
+    const double duration = last ? 1.0 : accelerations[i + 1].time - accelerations[i].time;
+    const double acceleration = last ? 0.0 : accelerations[i].value;
+    const double jerk = last ? 0.0 : (accelerations[i + 1].value - acceleration) / duration;
+    table.points_[i].value = way;
+    table.motions_.push_back({speed, acceleration, jerk});
+    way += duration * (speed + duration * (acceleration / 2.0 + duration * jerk / 6.0));
+    speed += duration * (acceleration + duration * jerk / 2.0);
+  }
+  return table;
+}
+
 double TimeTable::at(double time) const {
   if (time <= points_.front().time) return points_.front().value;
+  if (!motions_.empty()) {
+    const auto after =
+        std::ranges::upper_bound(points_, time, {}, [](const Point& point) { return point.time; });
+    const auto i = static_cast<std::size_t>(after - points_.begin() - 1);
+    const double since = time - points_[i].time;
+    const Motion& motion = motions_[i];
+    return points_[i].value +
+           since * (motion.speed + since * (motion.acceleration / 2.0 + since * motion.jerk / 6.0));
+  }
   if (time >= points_.back().time) return points_.back().value;
   const auto after =
       std::find_if(points_.begin(), points_.end(), [&](const Point& p) { return p.time > time; });
@@ -27,6 +53,14 @@ double TimeTable::at(double time) const {
 }
 
 double TimeTable::slope(double time) const {
+  if (!motions_.empty()) {
+    if (time < points_.front().time) return 0.0;
+    const auto after =
+        std::ranges::upper_bound(points_, time, {}, [](const Point& point) { return point.time; });
+    const auto i = static_cast<std::size_t>(after - points_.begin() - 1);
+    const double since = time - points_[i].time;
+    return motions_[i].speed + since * (motions_[i].acceleration + since * motions_[i].jerk / 2.0);
+  }
   for (std::size_t i = 1; i < points_.size(); ++i) {
     const Point& before = points_[i - 1];
     const Point& after = points_[i];
@@ -44,7 +78,8 @@ double TimeTable::largest_magnitude() const {
 }
 
 bool TimeTable::operator==(const TimeTable& other) const {
-  // Both are straight between their points: equal there is equal everywhere.
+  // Both are straight, or both accelerated, between their points: equal there is equal everywhere.
+  if (motions_.empty() != other.motions_.empty()) return false;
   const double scale = std::max(largest_magnitude(), other.largest_magnitude());
   const auto agree = [&](const Point& p) { return std::abs(at(p.time) - other.at(p.time)) <= 1e-12 * scale; };
   return std::ranges::all_of(points_, agree) && std::ranges::all_of(other.points_, agree);

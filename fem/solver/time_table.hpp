@@ -4,8 +4,8 @@
 
 namespace polargrain::fem {
 
-/// A quantity over the loading time (no physical time: the loading is quasi-static): linear between its
-/// points, constant before the first and after the last.
+/// A quantity over the loading time (no physical time but in dynamics): linear between its points, constant before the
+/// first and after the last; the displacement of a body that is accelerated is cubic between them.
 class TimeTable {
  public:
   struct Point {
@@ -19,6 +19,10 @@ class TimeTable {
   /// From 0 at time 0 to `value` at `end`.
   static TimeTable ramp(double value, double end = 1.0) { return TimeTable({{0.0, 0.0}, {end, value}}); }
 
+  /// The displacement, m, of a body at rest before the first point, by its acceleration, m/s2, which is straight between the
+  /// points and zero outside of them: behind the last point it keeps its speed.
+  static TimeTable of_accelerations(const std::vector<Point>& accelerations);
+
   [[nodiscard]] double at(double time) const;
   /// Change per time just after `time`.
   [[nodiscard]] double slope(double time) const;
@@ -28,7 +32,14 @@ class TimeTable {
   bool operator==(const TimeTable& other) const;
 
  private:
+  /// Of an accelerated body at a point.
+  struct Motion {
+    double speed;
+    double acceleration;
+    double jerk;  ///< from there to the next point
+  };
   std::vector<Point> points_;
+  std::vector<Motion> motions_;  ///< one a point; empty: straight between the points
 };
 
 }  // namespace polargrain::fem

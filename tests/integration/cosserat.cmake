@@ -8,4 +8,10 @@ if(TARGET polargrain)
   target_compile_definitions(explicit_run_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                        POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(explicit_run_test polargrain)
+  foreach(name automatic_run_test dynamics_run_test)
+    polargrain_test(${name} integration integration/${name}.cpp LIBS polargrain_options Threads::Threads nlohmann_json::nlohmann_json)
+    target_compile_definitions(${name} PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                               POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+    add_dependencies(${name} polargrain)
+  endforeach()
 endif()

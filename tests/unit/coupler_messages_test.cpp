@@ -341,6 +341,7 @@ ResidentReply some_answers(std::size_t boxes) {
   last.couple_stress << 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0;
   last.unbalanced_force_ratio = 19.0;
   last.coordination_number = 20.0;
+  last.time_step = 21.0;
   return m;
 }
 

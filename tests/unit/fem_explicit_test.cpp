@@ -11,6 +11,7 @@
 #include "fem/material/local_material.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/explicit_pace.hpp"
+#include "fem/solver/explicit_rate.hpp"
 #include "fem/solver/nodal_masses.hpp"
 #include "fem/solver/quasi_static.hpp"
 #include "fem/solver/solver.hpp"
@@ -75,6 +76,73 @@ TEST(explicit_pace, ramps_go_on_in_the_next_row) {
   const double next = second.time(1) - second.time(0);
   EXPECT_NEAR(next / last, 19.0 / 18.0, 0.1);  // rows end between two steps
   EXPECT_EQ(second.time(second.steps()), 2.0);
+}
+
+// A rate that changes from row to row has no jump between them, and comes to its even speed within the time of a wave.
+TEST(explicit_pace, changes_its_speed_evenly) {
+  constexpr int kMoving = 1 << 20;
+  const ExplicitPace slower(0.0, 1.0, 200, 40, kMoving, 2.0, 50);
+  EXPECT_LT(slower.steps(), 200);  // it is faster at first
+  const double even = slower.time(slower.steps() - 1) - slower.time(slower.steps() - 2);
+  EXPECT_NEAR((slower.time(1) - slower.time(0)) / even, 2.0 - 1.0 / 50.0, 1e-9);
+  EXPECT_NEAR((slower.time(25) - slower.time(24)) / even, 1.5, 1e-9);
+  EXPECT_NEAR((slower.time(60) - slower.time(59)) / even, 1.0, 1e-9);
+  EXPECT_EQ(slower.time(slower.steps()), 1.0);
+}
+
+// By hand: an error of twice its tolerance asks for 0.35 of the speed, and gets half of it; room is taken up by a quarter a wave.
+TEST(explicit_rate, falls_at_once_and_rises_little_by_little) {
+  const ExplicitRate rate{.error = 0.01};
+  StepReport row;
+  row.explicit_steps = 100;
+  row.speed = 1.0;
+  row.quasi_static.reaction_difference = 0.02;
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), 0.5);
+  row.quasi_static.reaction_difference = 0.01;
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), 0.7);
+  row.quasi_static.reaction_difference = 0.007;
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), 1.0);
+  row.quasi_static.reaction_difference = 0.001;
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), 1.25);
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 200), std::sqrt(1.25));
+  row.quasi_static.kinetic_share = 0.2;  // four times its tolerance: twice too fast
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), 0.5);
+  row.speed = rate.slowest;
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), rate.slowest);
+  row.explicit_steps = 0;  // balanced by iterations
+  row.speed = 0.8;
+  EXPECT_DOUBLE_EQ(rate.next_speed(row, 100), 0.8);
+}
+
+// Whoever says what error is allowed gets a rate that keeps it, from any start.
+TEST(explicit_rate, keeps_the_error_that_is_allowed) {
+  for (const double allowed : {0.03, 0.01}) {
+    const ExplicitRate rate{.error = allowed};
+    for (const int start : {10, 160}) {
+      Solver<2> newton(biaxial(), {});
+      ASSERT_TRUE(newton.equilibrate().converged);
+      Solver<2> solver(biaxial(), {});
+      ASSERT_TRUE(solver.begin_explicit().converged);
+      StepReport row;
+      constexpr int kRows = 20;
+      double largest = 0.0;
+      for (int k = 1; k <= kRows; ++k) {
+        const double before = row.speed;
+        const double speed = rate.next_speed(row, solver.steps_of_wave());
+        row = solver.advance_explicit(static_cast<double>(k) / kRows,
+                                      static_cast<int>(std::ceil(start / speed)),
+                                      {.speed_before = before / speed});
+        row.speed = speed;
+        ASSERT_TRUE(newton.advance(static_cast<double>(k) / kRows).converged);
+        if (k > kRows / 2)
+          largest = std::max(largest, std::abs(force_on_top(solver) / force_on_top(newton) - 1.0));
+      }
+      std::cout << "[figure] allowed " << allowed << ", from " << start << " steps a row: speed " << row.speed
+                << ", estimate " << row.quasi_static.error() << ", error " << largest << '\n';
+      EXPECT_LT(largest, allowed);
+      EXPECT_LT(row.quasi_static.error(), 1.5 * allowed);
+    }
+  }
 }
 
 // Every element type: the largest eigenvalue of the whole mesh, supports left out, is at most 4 safety^2, and not far below.

@@ -6,6 +6,7 @@
 #include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
+#include "coupler/cells/automatic_cells.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/resident_material.hpp"
 
@@ -15,10 +16,18 @@ namespace {
 /// Of the critical damping: 0.03, 0.12, 0.24 and 0.5 put stresses 0.2, 0.5, 1 and 2 % off (docs/theory/explicit.md).
 constexpr double kDampingOfResidents = 0.03;
 
+/// Boxes of explicit steps.
+struct Residents {
+  int dem_steps;  ///< of a step
+  double damping;
+};
+
 class CellRecipe : public MaterialRecipe {
  public:
-  CellRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat, int dem_steps)
-      : definition_(std::move(definition)), cosserat_(cosserat), dem_steps_(dem_steps) {}
+  /// @param residents nothing: no steps are explicit
+  CellRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat,
+             const std::optional<Residents>& residents, bool iterates)
+      : definition_(std::move(definition)), cosserat_(cosserat), residents_(residents), iterates_(iterates) {}
   [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return made<2>(*pool); }
   [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
     return made<3>(*pool);
@@ -32,15 +41,21 @@ class CellRecipe : public MaterialRecipe {
     std::optional<CosseratParameters> cosserat;
     std::string note;
     if (cosserat_) cosserat = resolved(*cosserat_, pool, definition_, note);
-    if (dem_steps_ > 0)
-      return std::make_shared<ResidentMaterial<dim>>(pool, pool.define(definition_), cosserat, dem_steps_,
-                                                     std::move(note));
-    return std::make_shared<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, std::move(note));
+    if (!residents_)
+      return std::make_shared<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, std::move(note));
+    CellDefinition moving = definition_;
+    moving.control.damping = residents_->damping;
+    auto boxes = std::make_unique<ResidentMaterial<dim>>(pool, pool.define(std::move(moving)), cosserat,
+                                                         residents_->dem_steps, iterates_ ? "" : note);
+    if (!iterates_) return boxes;
+    auto cells = std::make_unique<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, note);
+    return std::make_shared<AutomaticCells<dim>>(std::move(cells), std::move(boxes));
   }
 
   CellDefinition definition_;
   std::optional<CosseratChoice> cosserat_;
-  int dem_steps_;  // of an explicit step; 0: Newton's method
+  std::optional<Residents> residents_;
+  bool iterates_;
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
@@ -51,10 +66,13 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   check_informed_parameters(section, files.dimension);  // these two checked, and no more: see there
   read_adaptivity_options(section);
   // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
-  if (files.dem_steps > 0 && section.find("damping") == nullptr)
-    definition.control.damping = kDampingOfResidents;
+  std::optional<Residents> residents;
+  if (files.dem_steps > 0)
+    residents = {files.dem_steps,
+                 section.find("damping") == nullptr ? kDampingOfResidents : definition.control.damping};
+  if (residents && !files.iterates) definition.control.damping = residents->damping;
   if (faults.size() != faults_before) return nullptr;
-  return std::make_unique<CellRecipe>(std::move(definition), cosserat, files.dem_steps);
+  return std::make_unique<CellRecipe>(std::move(definition), cosserat, residents, files.iterates);
 }
 
 }  // namespace

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The explicit steps of Solver (docs/theory/explicit.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "fem/solver/explicit_pace.hpp"
+#include "fem/solver/solver_implementation.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+constexpr int kRampIsOver = 1 << 30;  // explicit steps since rest, more than any ramp has
+
+/// A row of explicit steps under way.
+template <int dim>
+class ExplicitRow {
+ public:
+  /// @param solver, options, quiet, report must outlive this object @param quiet null: there is none
+  /// @param seconds of a step; 1 where steps have no real time
+  ExplicitRow(Newton<dim>& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet,
+              double seconds, StepReport& report)
+      : solver_(solver),
+        options_(options),
+        quiet_(quiet),
+        seconds_(seconds),
+        report_(report),
+        damping_(damping_of_steps(solver.problem, solver.constraints, options, seconds)),
+        forces_(solver.constraints.restrict_to_free(solver.unbalanced())) {}
+
+  /// One step. @returns whether it could be taken; the report says why not
+  [[nodiscard]] bool step_to(double time, double released) {
+    SolverState<dim>& state = solver_.state;
+    Step step = next();
+    state.velocity = std::move(step.velocity);
+    state.energies.damped += step.damped;
+    state.energies.absorbed += step.absorbed;
+    const Attempt went = solver_.go_on(time, released, seconds_ * state.velocity, report_);
+    if (!went.converged) {
+      report_.message = went.reason;
+      report_.time = state.time;
+      return false;
+    }
+    ++report_.explicit_steps;
+    forces_ = solver_.constraints.restrict_to_free(solver_.last_unbalanced());
+    return true;
+  }
+
+  /// Lets the nodes come to rest where they are, boundaries held. @returns as step_to
+  [[nodiscard]] bool come_to_rest(double time, Residual& residual) {
+    // Kinetic damping (Cundall 1976): the nodes stop whenever they are fastest, which is where they pass their balance.
+    double before = 0.0;
+    residual = solver_.relative(solver_.last_unbalanced());
+    while (residual.force > options_.rest && report_.rest_steps < options_.most_rest_steps) {
+      if (!step_to(time, solver_.released())) return false;
+      ++report_.rest_steps;
+      residual = solver_.relative(solver_.last_unbalanced());
+      const double energy = kinetic_energy();
+      // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
+      // drive the fastest waves.
+      if (energy < before) solver_.state.velocity = -0.5 * forces_.cwiseQuotient(solver_.state.mass);
+      before = energy < before ? 0.0 : energy;
+    }
+    solver_.state.velocity.setZero();
+    return true;
+  }
+
+  /// With the velocities of half a step ago.
+  [[nodiscard]] double kinetic_energy() const {
+    return 0.5 * solver_.state.velocity.cwiseAbs2().dot(solver_.state.mass);
+  }
+
+  /// At the end of the last step. With the kinetic energy 1/2 v_- M v_+ of the velocities half a step before and behind, and
+  /// work by the trapezoidal rule, the balance of central differences holds without an error of the step.
+  [[nodiscard]] Energies energies() const {
+    const SolverState<dim>& state = solver_.state;
+    const Step step = next();
+    Energies now = state.energies;
+    now.kinetic = 0.5 * state.velocity.cwiseProduct(state.mass).dot(step.velocity);
+    now.internal = state.internal_work - state.energies.internal;
+    now.external = state.external_work - state.energies.external;
+    now.damped += step.damped_first_half;
+    now.absorbed += step.absorbed_first_half;
+    return now;
+  }
+
+ private:
+  /// From half a step before to half a step behind.
+  struct Step {
+    Eigen::VectorXd velocity;
+    double damped = 0.0;               ///< energy over the step in whose middle the nodes are
+    double absorbed = 0.0;             ///< the same through quiet boundaries
+    double damped_first_half = 0.0;    ///< of that, until now
+    double absorbed_first_half = 0.0;  ///< the same
+  };
+
+  [[nodiscard]] Step next() const {
+    const Eigen::VectorXd& velocity = solver_.state.velocity;
+    const Eigen::VectorXd& mass = solver_.state.mass;
+    Step step;
+    step.velocity =
+        ((1.0 - 0.5 * damping_.array()) * velocity.array() + seconds_ * forces_.array() / mass.array()) /
+        (1.0 + 0.5 * damping_.array());
+    if (quiet_ != nullptr) {
+      const auto energy = quiet_->apply(solver_.constraints, velocity,
+                                        mass + 0.5 * damping_.cwiseProduct(mass), seconds_, step.velocity);
+      step.absorbed = energy.over_step;
+      step.absorbed_first_half = energy.first_half;
+    }
+    const Eigen::VectorXd force = 0.5 * damping_.cwiseProduct(mass).cwiseProduct(velocity + step.velocity);
+    step.damped = 0.5 * force.dot(velocity + step.velocity);
+    step.damped_first_half = 0.5 * force.dot(velocity);
+    return step;
+  }
+
+  Newton<dim>& solver_;
+  const ExplicitOptions& options_;
+  const QuietBoundary<dim>* quiet_;
+  double seconds_;
+  StepReport& report_;
+  Eigen::VectorXd damping_;  ///< share of the velocity that a step takes away
+  Eigen::VectorXd forces_;   ///< out of balance, in the order of the equations
+};
+
+}  // namespace
+
+template <int dim>
+StepReport Solver<dim>::begin_explicit() {
+  Implementation& self = *implementation_;
+  self.refuse_explicit();
+  self.materials.expect({.once = true});
+  StepReport report;
+  if (!self.start(report)) return report;
+  self.withhold_imbalance();
+  self.materials.settle();
+  report.converged = true;
+  return report;
+}
+
+template <int dim>
+StepReport Solver<dim>::begin_automatic(int most_iterations, const ExplicitOptions& options) {
+  Implementation& self = *implementation_;
+  self.materials.expect({.once = false});
+  StepReport report;
+  const std::optional<Residual> residual = self.start(report);
+  if (!residual) return report;
+  // Of the tangents at rest: those of later states may be far softer than the next one.
+  self.state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
+  report.converged = self.is_balanced(*residual);
+  if (!report.converged) report = self.let_go(std::move(report), most_iterations);
+  if (report.converged) return report;
+  report.given_up = report.iterations;
+  report.converged = true;
+  return report;
+}
+
+template <int dim>
+bool Solver<dim>::Implementation::start_from_balance(const ExplicitOptions& options) {
+  if (state.reactions.size() > 0) {  // the last row was explicit too
+    if (state.velocity.size() != constraints.unknowns() || state.mass.size() != state.velocity.size())
+      throw RunError("the checkpoint holds explicit steps of another problem");
+    return false;
+  }
+  withhold_imbalance();
+  if (state.mass.size() == 0) state.mass = constraints.restrict_to_free(this->stable_masses(options.safety));
+  state.velocity = Eigen::VectorXd::Zero(constraints.unknowns());
+  state.next_step = 0.0;
+  steps_since_rest = 0;
+  return true;
+}
+
+template <int dim>
+StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitOptions& options) {
+  Implementation& self = *implementation_;
+  self.refuse_explicit();
+  SolverState<dim>& state = self.state;
+  StepReport report;
+  self.materials.expect({.once = true});
+  const bool releases = self.start_from_balance(options);
+  const int wave = self.steps_of_wave();
+  const int ramp = options.ramp > 0 ? options.ramp : wave;
+  const ExplicitPace pace(state.time, time, steps, ramp, self.steps_since_rest, options.speed_before, wave);
+  RowOfForces<dim> forces(self.constraints, pace.steps(), pace.last_times(2 * wave));
+  ExplicitRow<dim> row(self, options, nullptr, 1.0, report);
+  const auto stopped = [&] {
+    self.last_trouble = self.trouble(report.message, report);
+    report.message =
+        fmt::format("explicit step {} of {}: {}", report.explicit_steps + 1, pace.steps(), report.message);
+    return report;
+  };
+  Residual sum;
+  double kinetic = 0.0;
+  for (int step = 1; step <= pace.steps(); ++step) {
+    if (!row.step_to(pace.time(step), releases ? pace.fraction(step) : self.released())) return stopped();
+    const Residual residual = self.relative(self.last_unbalanced());
+    sum.force += residual.force / pace.steps();
+    sum.moment += residual.moment / pace.steps();
+    if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
+      self.observer->iterated({state.time, 0, step, residual.force, residual.moment});
+    kinetic = std::max(kinetic, row.kinetic_energy());
+    forces.add(self.last_supplied());
+  }
+  QuasiStatic& reached = report.quasi_static;
+  if (state.internal_work != 0.0) reached.kinetic_share = kinetic / std::abs(state.internal_work);
+  reached.reaction_difference = forces.difference(external_forces());
+  Eigen::VectorXd reactions = forces.reactions();
+  if (options.rest > 0.0) {
+    if (!row.come_to_rest(time, sum)) return stopped();
+    RowOfForces<dim> at_rest(self.constraints, 1, {});
+    at_rest.add(self.last_supplied());
+    reactions = at_rest.reactions();
+    reached.reaction_difference = at_rest.difference(external_forces());
+  }
+  reached.nodes_unbalanced = sum.force;
+  if (const Unrest unrest = self.materials.unrest(); unrest.points > 0) {
+    reached.grains_unbalanced = unrest.sum / static_cast<double>(unrest.points);
+    reached.hot_points = static_cast<double>(unrest.hot) / static_cast<double>(unrest.points);
+  }
+  // A ramp that is over stays over, even where the next row would have a longer one.
+  self.steps_since_rest = options.rest > 0.0 ? 0
+                          : self.steps_since_rest + pace.steps() >= ramp
+                              ? kRampIsOver
+                              : self.steps_since_rest + pace.steps();
+  state.reactions = reactions;
+  self.materials.settle();
+  report.converged = true;
+  report.substeps = 1;
+  report.time = state.time;
+  report.force_residual = sum.force;
+  report.moment_residual = sum.moment;
+  return report;
+}
+
+template <int dim>
+int Solver<dim>::steps_of_wave() const {
+  return state().mass.size() == 0 ? 0 : implementation_->steps_of_wave();
+}
+
+template <int dim>
+void Solver<dim>::Implementation::release_quiet_boundary() {
+  quiet.emplace(state.dashpots);
+  constraints.release(quiet->entries());
+  quiet->join(constraints);
+  this->loads.hold(state.held);
+}
+
+template <int dim>
+StepReport Solver<dim>::begin_real_time(const ExplicitOptions& options) {
+  Implementation& self = *implementation_;
+  self.refuse_explicit();
+  SolverState<dim>& state = self.state;
+  self.materials.expect({.once = false});
+  StepReport report;
+  const std::optional<Residual> residual = self.start(report);
+  if (!residual) return report;
+  const std::vector<Response<dim>> at_rest = state.responses;
+  report.converged = self.is_balanced(*residual);
+  if (!report.converged) report = self.let_go(std::move(report), self.most_of_start());
+  if (!report.converged) return report;
+  const TrueMasses true_masses = self.real_masses(at_rest, options.safety);
+  const QuietBoundary<dim> quiet(self.problem, self.discretisation, at_rest, self.densities());
+  state.seconds = true_masses.seconds;
+  state.dashpots = quiet.values();
+  state.held = Eigen::VectorXd::Zero(state.displacement.size());
+  const Eigen::VectorXd supplied = internal_forces() - external_forces();
+  for (const std::size_t entry : quiet.entries())
+    if (!self.constraints.is_free(entry))
+      state.held(static_cast<Eigen::Index>(entry)) = supplied(static_cast<Eigen::Index>(entry));
+  self.release_quiet_boundary();
+  state.mass = self.constraints.restrict_to_free(true_masses.masses);
+  state.energies = {.internal = state.internal_work, .external = state.external_work};
+  return report;
+}
+
+template <int dim>
+StepReport Solver<dim>::advance_real_time(double time, const ExplicitOptions& options) {
+  Implementation& self = *implementation_;
+  SolverState<dim>& state = self.state;
+  if (!(state.seconds > 0.0)) throw RunError("steps in real time begin with begin_real_time");
+  constexpr double kWithinRounding = 1.0 - 1e-9;
+  const double start = state.time;
+  const auto steps = static_cast<int>(std::ceil(kWithinRounding * (time - start) / state.seconds));
+  const double seconds = (time - start) / std::max(1, steps);
+  StepReport report;
+  self.materials.expect({.once = true, .seconds = seconds});
+  const bool releases = self.start_from_balance(options);
+  const ExplicitPace pace(start, time, std::max(1, steps), 0, 0);
+  RowOfForces<dim> forces(self.constraints, pace.steps(), {});
+  ExplicitRow<dim> row(self, options, &*self.quiet, seconds, report);
+  for (int step = 1; step <= pace.steps(); ++step) {
+    if (!row.step_to(pace.time(step), releases ? pace.fraction(step) : self.released())) {
+      self.last_trouble = self.trouble(report.message, report);
+      report.message = fmt::format("step {} of {}, at {:.6g} s: {}", report.explicit_steps + 1, pace.steps(),
+                                   pace.time(step), report.message);
+      return report;
+    }
+    if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
+      self.observer->iterated({state.time, 0, step, 0.0, 0.0});
+    forces.add(self.last_supplied());
+  }
+  report.energies = row.energies();
+  if (const Unrest unrest = self.materials.unrest(); unrest.points > 0) {
+    report.quasi_static.grains_unbalanced = unrest.sum / static_cast<double>(unrest.points);
+    report.quasi_static.hot_points = static_cast<double>(unrest.hot) / static_cast<double>(unrest.points);
+  }
+  state.reactions = forces.reactions();
+  self.materials.settle();
+  report.converged = true;
+  report.substeps = 1;
+  report.time = state.time;
+  return report;
+}
+
+double Energies::error() const {
+  const double missing = external - internal - kinetic - damped - absorbed;
+  const double largest = std::max({std::abs(external), std::abs(internal), kinetic, damped, absorbed});
+  return largest > 0.0 ? std::abs(missing) / largest : 0.0;
+}
+
+template void Solver<2>::Implementation::release_quiet_boundary();
+template void Solver<3>::Implementation::release_quiet_boundary();
+template StepReport Solver<2>::begin_real_time(const ExplicitOptions&);
+template StepReport Solver<2>::advance_real_time(double, const ExplicitOptions&);
+template StepReport Solver<3>::begin_real_time(const ExplicitOptions&);
+template StepReport Solver<3>::advance_real_time(double, const ExplicitOptions&);
+template int Solver<2>::steps_of_wave() const;
+template int Solver<3>::steps_of_wave() const;
+template StepReport Solver<2>::begin_explicit();
+template StepReport Solver<2>::begin_automatic(int, const ExplicitOptions&);
+template StepReport Solver<2>::advance_explicit(double, int, const ExplicitOptions&);
+template StepReport Solver<3>::begin_explicit();
+template StepReport Solver<3>::begin_automatic(int, const ExplicitOptions&);
+template StepReport Solver<3>::advance_explicit(double, int, const ExplicitOptions&);
+
+}  // namespace polargrain::fem

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Explicit steps in real time against closed forms of waves (docs/theory/explicit.md).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <iostream>
+#include <numbers>
+
+#include "common/memory_archive.hpp"
+#include "fem/material/elastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/solver.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+constexpr double kDensity = 2000.0;
+/// Of the energy: rows have steps of slightly different duration, at each change of which the balance has an error of their square.
+constexpr double kEnergy = 1e-4;
+const TimeTable kZero = TimeTable::constant(0.0);
+
+ElasticParameters<2> soil(double pressure = 0.0) {
+  ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
+  for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -pressure;
+  return parameters;
+}
+
+double speed_along() {
+  return std::sqrt(elastic_stiffness(soil())(k11, k11) / kDensity);
+}
+double speed_across() {
+  return std::sqrt(40e6 / 2.6 / kDensity);
+}
+
+Problem<2> body(const RectangleSpecification& shape, const std::string& element = "Q8R",
+                Continuum continuum = Continuum::cauchy, double pressure = 0.0) {
+  Problem<2> problem;
+  problem.mesh = rectangle(shape, element);
+  problem.continuum = continuum;
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(soil(pressure)));
+  problem.densities["all"] = kDensity;
+  return problem;
+}
+
+/// A bar, held sideways, whose left end is brought to `speed` within `rise` seconds.
+Problem<2> bar(double speed, double rise, const std::string& element = "Q8R") {
+  Problem<2> problem = body({{10.0, 0.2}, {50, 1}}, element);
+  const TimeTable pushed =
+      TimeTable::of_accelerations({{0.0, 0.0}, {0.5 * rise, 2.0 * speed / rise}, {rise, 0.0}});
+  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
+                        {"top", Dof::u2, kZero, {}},
+                        {"left", Dof::u1, pushed, {}},
+                        {"right", Dof::u1, kZero, {}}};
+  return problem;
+}
+
+/// A column that shears: its sides move alike.
+Problem<2> column(int elements, Continuum continuum = Continuum::cauchy) {
+  Problem<2> problem = body({{1.0, 10.0}, {1, elements}}, "Q8R", continuum);
+  problem.ties = {{"right", "left"}};
+  problem.prescribed = {{"left", Dof::u2, kZero, {}}, {"right", Dof::u2, kZero, {}}};
+  return problem;
+}
+
+/// Where the compression falls to half of `height` in front of the wave, from its points.
+double front_of(const Solver<2>& solver, double height) {
+  std::vector<std::pair<double, double>> strains;
+  for (std::size_t i = 0; i < solver.points(); ++i)
+    strains.emplace_back(solver.position_of_point(i).x(), -solver.state().strain[i](k11));
+  std::ranges::sort(strains);
+  for (std::size_t i = strains.size() - 1; i > 0; --i) {
+    const auto& [x, strain] = strains[i - 1];
+    if (strain < 0.5 * height) continue;
+    const auto& [next_x, next] = strains[i];
+    return x + (next_x - x) * (strain - 0.5 * height) / (strain - next);
+  }
+  return 0.0;
+}
+
+// An accelerated body: by hand, 2 m/s2 for 1 s, then down to nothing within 1 s.
+TEST(time_table, displaces_what_is_accelerated) {
+  const TimeTable table = TimeTable::of_accelerations({{0.0, 2.0}, {1.0, 2.0}, {2.0, 0.0}});
+  EXPECT_EQ(table.at(-1.0), 0.0);
+  EXPECT_NEAR(table.at(1.0), 1.0, 1e-15);
+  EXPECT_NEAR(table.slope(1.0), 2.0, 1e-15);
+  EXPECT_NEAR(table.at(2.0), 1.0 + 2.0 + 1.0 - 1.0 / 3.0, 1e-14);
+  EXPECT_NEAR(table.slope(3.0), 3.0, 1e-14);
+  EXPECT_NEAR(table.at(4.0) - table.at(3.0), 3.0, 1e-14);
+}
+
+// A wave runs at sqrt(M / rho), carries rho c v, and comes back from a wall with twice that.
+TEST(dynamics, a_wave_runs_through_a_bar_at_its_speed) {
+  constexpr double kSpeed = 0.01, kRise = 0.01;
+  for (const char* const element : {"Q4", "Q8R", "Q8"}) {
+    Solver<2> solver(bar(kSpeed, kRise, element), {});
+    ASSERT_TRUE(solver.begin_real_time().converged);
+    const double c = speed_along();
+    ASSERT_TRUE(solver.advance_real_time(0.02).converged);
+    const double first = front_of(solver, kSpeed / c);
+    ASSERT_TRUE(solver.advance_real_time(0.05).converged);
+    const double second = front_of(solver, kSpeed / c);
+    std::cout << "[figure] " << element << ": speed of the wave over that of the modulus "
+              << (second - first) / (0.03 * c) << '\n';
+    EXPECT_NEAR((second - first) / (0.03 * c), 1.0, 0.015) << element;
+    EXPECT_NEAR(first, c * (0.02 - 0.5 * kRise), 0.1) << element;  // half an element
+    // Reflected, and not yet back at the left end.
+    const StepReport report = solver.advance_real_time(10.0 / c + 0.03);
+    ASSERT_TRUE(report.converged);
+    EXPECT_NEAR(-solver.reaction("right")(0), 2.0 * kDensity * c * kSpeed * 0.2, 0.05 * kDensity * c * kSpeed)
+        << element;
+    EXPECT_LT(report.energies.error(), kEnergy);
+  }
+}
+
+// Bent by a force at its top and let go, a column that shears swings with 4 H / c: its top moves at an even speed there and back.
+TEST(dynamics, a_column_swings_with_its_period) {
+  for (const Continuum continuum : {Continuum::cauchy, Continuum::cosserat}) {
+    Problem<2> problem = column(20, continuum);
+    problem.prescribed.push_back({"bottom", Dof::u1, kZero, {}});
+    BoundaryLoad<2> force{.on = "top"};
+    force.traction[0] = TimeTable({{0.0, 1e3}, {1e-6, 0.0}});
+    problem.boundary_loads = {force};
+    Solver<2> solver(problem, {});
+    ASSERT_TRUE(solver.begin_real_time().converged);
+    std::vector<double> crossings;
+    double before = solver.mean_displacement("top")(0);
+    const double first = before;
+    const double period = 4.0 * 10.0 / speed_across();
+    constexpr int kLooks = 400;  // in two and a half periods
+    for (int look = 1; look <= kLooks; ++look) {
+      const double time = 2.5 * period * look / kLooks;
+      ASSERT_TRUE(solver.advance_real_time(time).converged);
+      const double now = solver.mean_displacement("top")(0);
+      if (now * before < 0.0) crossings.push_back(time - 2.5 * period / kLooks * now / (now - before));
+      before = now;
+    }
+    ASSERT_GE(crossings.size(), 4U);
+    std::cout << "[figure] period over 4 H / c: " << (crossings[2] - crossings[0]) / period << '\n';
+    EXPECT_NEAR((crossings[2] - crossings[0]) / period, 1.0, 0.01);
+    EXPECT_NEAR(crossings[0] / (0.25 * period), 1.0, 0.01);
+    EXPECT_NEAR(first, 1e3 * 10.0 / (40e6 / 2.6), 1e-3 * first);
+  }
+}
+
+/// Energy that a pulse leaves behind in a body, over that which it brought in.
+double left_behind(Problem<2> problem, double until) {
+  Solver<2> solver(std::move(problem), {});
+  EXPECT_TRUE(solver.begin_real_time().converged);
+  double most = 0.0;
+  StepReport report;
+  for (int look = 1; look <= 20; ++look) {
+    report = solver.advance_real_time(until * look / 20);
+    EXPECT_TRUE(report.converged) << report.message;
+    most = std::max(most, report.energies.kinetic + report.energies.internal);
+    EXPECT_LT(report.energies.error(), kEnergy);
+  }
+  return (report.energies.kinetic + report.energies.internal) / most;
+}
+
+// Less than 1 % of a wave's height comes back: 1e-4 of its energy. Waves along and across the normal, some 15 elements long
+// and more; kinks of shorter ones are waves of the mesh.
+TEST(dynamics, quiet_boundaries_let_waves_out) {
+  Problem<2> along = bar(0.0, 1.0);
+  along.prescribed.erase(along.prescribed.begin() + 2, along.prescribed.end());
+  BoundaryLoad<2> push{.on = "left", .pressure = TimeTable({{0.0, 0.0}, {0.01, 1e3}, {0.02, 0.0}})};
+  along.boundary_loads = {push};
+  along.prescribed.push_back({"right", Dof::u1, kZero, {}});
+  Problem<2> closed = along;
+  along.quiet = {"right"};
+  const double until = 25.0 / speed_along();
+  const double echo = left_behind(along, until);
+  Problem<2> across = column(50);
+  BoundaryLoad<2> shear{.on = "top"};
+  shear.traction[0] = TimeTable({{0.0, 0.0}, {0.04, 1e3}, {0.08, 0.0}});
+  across.boundary_loads = {shear};
+  across.prescribed.push_back({"bottom", Dof::u1, kZero, {}});
+  across.quiet = {"bottom"};
+  const double shear_echo = left_behind(across, 25.0 / speed_across());
+  std::cout << "[figure] energy left: " << echo << " along, " << shear_echo << " across\n";
+  EXPECT_LT(echo, 1e-4);
+  EXPECT_LT(shear_echo, 1e-4);
+  closed.materials = body({{10.0, 0.2}, {50, 1}}).materials;
+  EXPECT_GT(left_behind(closed, until), 0.9);  // so it is the boundary that does it
+}
+
+// A body under stress rests on a quiet boundary: the forces that held it stay, and nothing moves.
+TEST(dynamics, quiet_boundaries_carry_what_rests_on_them) {
+  constexpr double kPressure = 100e3;
+  Problem<2> problem = body({{10.0, 0.2}, {20, 1}}, "Q8R", Continuum::cosserat, kPressure);
+  problem.prescribed = {
+      {"bottom", Dof::u2, kZero, {}}, {"top", Dof::u2, kZero, {}}, {"right", Dof::u1, kZero, {}}};
+  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(1.5 * kPressure)}};
+  problem.quiet = {"right"};
+  Solver<2> solver(problem, {});
+  ASSERT_TRUE(solver.begin_real_time().converged);
+  const double pushed = solver.mean_displacement("left")(0);
+  EXPECT_GT(pushed, 0.0);
+  ASSERT_TRUE(solver.advance_real_time(0.5).converged);
+  EXPECT_NEAR(solver.mean_displacement("left")(0) / pushed, 1.0, 1e-6);
+  EXPECT_NEAR(solver.mean_displacement("right")(0) / pushed, 0.0, 1e-6);
+}
+
+// A column shaken at its base, damped: amplitude of the top against the base as 1 / |cos k H| with the complex wave number
+// k = sqrt(omega^2 - i omega alpha) / c.
+TEST(dynamics, a_shaken_column_answers_as_its_transfer_function) {
+  constexpr double kDamping = 3.0, kHeight = 10.0;
+  for (const double frequency : {1.2, 2.2, 3.5}) {
+    const double omega = 2.0 * std::numbers::pi * frequency;
+    Problem<2> problem = column(10);
+    std::vector<TimeTable::Point> shaking;
+    const int periods = 12;
+    for (int k = 0; k <= periods * 40; ++k) {
+      const double time = k / (40.0 * frequency);
+      shaking.push_back({time, std::min(1.0, time * frequency / 4.0) * std::sin(omega * time)});
+    }
+    problem.prescribed.push_back({"bottom", Dof::u1, TimeTable::of_accelerations(shaking), {}});
+    Solver<2> solver(problem, {});
+    const ExplicitOptions options{.mass_damping = kDamping};
+    ASSERT_TRUE(solver.begin_real_time(options).converged);
+    // Of the last two periods, less what goes on evenly.
+    std::complex<double> top = 0.0, base = 0.0;
+    constexpr int kLooks = 100;
+    for (int look = 0; look <= 2 * kLooks; ++look) {
+      const double time = (periods - 2) / frequency + look / (kLooks * frequency);
+      const StepReport report = solver.advance_real_time(time, options);
+      ASSERT_TRUE(report.converged);
+      EXPECT_LT(report.energies.error(), kEnergy);
+      if (look == 2 * kLooks) break;
+      const std::complex<double> phase = std::polar(1.0, -omega * time);
+      const double drift = solver.mean_displacement("bottom")(0);
+      base += phase * drift;
+      top += phase * (solver.mean_displacement("top")(0) - drift);
+    }
+    // The base by its acceleration of amplitude 1: its displacements drift.
+    const double unit = kLooks / (omega * omega);  // sum of sin^2 over two periods times the amplitude
+    const std::complex<double> k = std::sqrt(std::complex(omega * omega, -omega * kDamping)) / speed_across();
+    const double expected = std::abs(1.0 / std::cos(k * kHeight) - 1.0);
+    std::cout << "[figure] " << frequency << " Hz: top against base " << std::abs(top) / unit
+              << ", closed form " << expected << '\n';
+    EXPECT_NEAR(std::abs(top) / unit / expected, 1.0, 0.03) << frequency;
+  }
+}
+
+// In one row the balance of small deformation holds but for rounding. Large deformation has errors of its own, which stay small.
+TEST(dynamics, energy_is_accounted_for) {
+  Problem<2> problem = bar(1.0, 0.01);
+  for (const Deformation deformation : {Deformation::small, Deformation::large}) {
+    problem.deformation = deformation;
+    problem.materials = bar(1.0, 0.01).materials;
+    Solver<2> solver(problem, {});
+    const ExplicitOptions options{.mass_damping = 5.0};
+    ASSERT_TRUE(solver.begin_real_time(options).converged);
+    const StepReport report = solver.advance_real_time(0.2, options);
+    ASSERT_TRUE(report.converged) << report.message;
+    std::cout << "[figure] energy error in one row " << report.energies.error() << '\n';
+    EXPECT_LT(report.energies.error(), deformation == Deformation::small ? 1e-10 : 2e-3);
+    EXPECT_GT(report.energies.damped, 0.0);
+  }
+}
+
+TEST(dynamics, goes_on_from_an_archive_to_the_same_bits) {
+  const auto problem = [] {
+    Problem<2> made = bar(0.01, 0.01);
+    made.quiet = {"right"};
+    return made;
+  };
+  Solver<2> through(problem(), {});
+  ASSERT_TRUE(through.begin_real_time().converged);
+  for (const double broken : {0.0, 0.03}) {
+    Solver<2> first(problem(), {});
+    ASSERT_TRUE(first.begin_real_time().converged);
+    if (broken > 0.0) {
+      ASSERT_TRUE(first.advance_real_time(broken).converged);
+    }
+    MemoryArchive archive;
+    first.save(archive);
+    const StepReport expected = first.advance_real_time(0.08);
+    Solver<2> again(problem(), {});
+    again.restore(archive);
+    const StepReport report = again.advance_real_time(0.08);
+    EXPECT_EQ(again.state().displacement, first.state().displacement);
+    EXPECT_EQ(again.state().velocity, first.state().velocity);
+    EXPECT_EQ(report.energies.absorbed, expected.energies.absorbed);
+    EXPECT_EQ(report.energies.external, expected.energies.external);
+  }
+}
+
+}  // namespace
