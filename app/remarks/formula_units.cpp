@@ -127,6 +127,12 @@ Powers powers_of(coupler::Dimension dimension) {
 }
 
 Powers powers_of(const coupler::Monitor& monitor, int dimension) {
+  if (monitor.kind == coupler::Monitor::Kind::structure) {
+    const std::string& value = monitor.value;
+    if (value == "mobilised") return {};
+    if (value == "lever" || value == "slip" || value == "gap") return {0, 1, 0};
+    return dimension == 3 || value == "moment" ? Powers{1, 0, 0} : Powers{1, -1, 0};
+  }
   const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
   if (dimension == 3) return angle ? Powers{1, 1, 0} : Powers{1, 0, 0};

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "coupler/case/structure_values.hpp"
 
 namespace polargrain::app {
 
@@ -29,6 +30,9 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
         break;
       case coupler::Monitor::Kind::displacement:
         value = solver.mean_displacement(monitor.on)[dof];
+        break;
+      case coupler::Monitor::Kind::structure:
+        value = coupler::value_of_structure(solver.problem(), monitor.structure, monitor.value);
         break;
       case coupler::Monitor::Kind::formula:
         value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });

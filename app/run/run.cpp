@@ -359,6 +359,8 @@ class Run {
   }
 
   void log_notes(int step) {
+    for (const auto& contribution : problem().contributions)
+      for (const std::string& note : contribution->take_notes()) log_.warn("  {}", note);
     for (auto& [region, material] : problem().materials) {
       for (const std::string& note : material->take_notes()) {
         if (note.starts_with(kSteppingNote)) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "app/run/structure_files.hpp"
 #include "common/cell.hpp"
 #include "common/error.hpp"
 #include "common/record_table.hpp"
@@ -178,6 +179,7 @@ void RunFiles::write_fields(int step, const fem::Solver<dim>& solver) {
   name_units(fields.cells);
   fem::write_vtu(directory_ / fields_file(step), solver.problem().mesh, fields);
   collection_.add(solver.state().time, fields_file(step));
+  write_structures(directory_ / "fields", step, solver);
   if (!case_.output_points) return;
   fem::PlacedFields at_points = fem::collect_point_fields(solver);
   name_units(at_points.fields);

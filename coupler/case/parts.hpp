@@ -55,6 +55,10 @@ struct CaseParts {
       in(problem.body_loads, 3);
     });
   }
+  /// Interfaces against rigid bodies, by their names, which name the nodes of the bodies too; and rotations of nodes without
+  /// elements, which are zero unless a support gives them.
+  std::vector<std::pair<std::string, const Entry*>> rigid_bodies = {};
+  std::vector<std::pair<std::string, fem::Dof>> own_rotations = {};
 
   /// "a, b, c" of the keys of a map, for messages.
   template <class Map>
@@ -74,6 +78,12 @@ struct CaseParts {
 
 // Each reads one part of a case into parts.result and lists its faults.
 void read_mesh(const Entry& entry, CaseParts& parts);
+/// Behind the mesh and before all that names parts of it. @param interfaces, beams, anchors null where the case has none
+void read_structures(const Entry* interfaces, const Entry* beams, const Entry* anchors, CaseParts& parts);
+/// Checks and completes the supports that they need: to be called when these have been read.
+void finish_structures(CaseParts& parts);
+/// Reads a monitor of an interface, a beam or an anchor. @returns false, with nothing read, when it is one of something else
+bool read_structure_monitor(Section& section, CaseParts& parts, Monitor& monitor);
 void read_boundary(const Entry& entry, CaseParts& parts);
 void read_body_loads(const Entry& entry, CaseParts& parts);
 /// The same lists of a stage. @param name of the stage, for messages

@@ -19,7 +19,7 @@ struct Unit {
   bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 32> kUnits{{
+constexpr std::array<Unit, 44> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -40,7 +40,14 @@ constexpr std::array<Unit, 32> kUnits{{
     {Dimension::force, "N", 1.0},
     {Dimension::force, "kN", 1e3},
     {Dimension::moment, "Nm", 1.0},
+    {Dimension::force, "MN", 1e6, false},
+    {Dimension::force, "Nm/m", 1.0, false},  // of a moment per thickness
+    {Dimension::force, "kNm/m", 1e3, false},
+    {Dimension::force, "MNm/m", 1e6, false},
     {Dimension::moment, "kNm", 1e3},
+    {Dimension::moment, "MNm", 1e6, false},
+    {Dimension::moment, "kNm2/m", 1e3, false},  // of a bending stiffness per thickness
+    {Dimension::moment, "MNm2/m", 1e6, false},
     {Dimension::force_per_length, "N/m", 1.0},
     {Dimension::force_per_length, "kN/m", 1e3},
     {Dimension::force_per_length, "MN/m", 1e6},
@@ -49,6 +56,11 @@ constexpr std::array<Unit, 32> kUnits{{
     {Dimension::unit_weight, "MN/m3", 1e6},
     {Dimension::density, "kg/m3", 1.0},
     {Dimension::density, "t/m3", 1e3},
+    {Dimension::bedding, "Pa/m", 1.0},
+    {Dimension::bedding, "kPa/m", 1e3},
+    {Dimension::bedding, "MPa/m", 1e6},
+    {Dimension::bedding, "GPa/m", 1e9},
+    {Dimension::bedding, "MN/m3", 1e6, false},
     {Dimension::duration, "s", 1.0},
     {Dimension::duration, "min", 60.0},
     {Dimension::duration, "h", 3600.0},
@@ -87,6 +99,8 @@ std::string expectation(Dimension dimension) {
       return "a moment in N m, or with one of the units " + units;
     case Dimension::force_per_length:
       return "a force per thickness in N/m, or with one of the units " + units;
+    case Dimension::bedding:
+      return "a stress per displacement in Pa/m, or with one of the units " + units;
     case Dimension::duration:
       return "a time in s, or with one of the units " + units;
     case Dimension::unit_weight:

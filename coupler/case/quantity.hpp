@@ -18,6 +18,7 @@ enum class Dimension {
   force_per_length,  ///< per thickness
   unit_weight,
   density,
+  bedding,  ///< stress over a displacement, of an interface
   duration
 };
 

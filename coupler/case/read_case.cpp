@@ -41,10 +41,12 @@ class CaseReader {
       problem.continuum = cauchy ? fem::Continuum::cauchy : fem::Continuum::cosserat;
       problem.deformation = large ? fem::Deformation::large : fem::Deformation::small;
     });
+    read_structures(top.find("interfaces"), top.find("beams"), top.find("anchors"), parts_);
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
     if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
     boundary_ = top.require("boundary", "a list of supports and loads");
     if (boundary_ != nullptr) read_boundary(*boundary_, parts_);
+    finish_structures(parts_);
     if (const Entry* entry = top.find("body")) read_body_loads(*entry, parts_);
     if (const Entry* entry = top.find("initial_stress")) {
       read_initial_stress(*entry, parts_);
@@ -225,6 +227,7 @@ class CaseReader {
 
   void read_measurement(const Entry& entry, Monitor& monitor) {
     Section section(entry, fmt::format("monitor '{}'", monitor.name), faults_);
+    if (read_structure_monitor(section, parts_, monitor)) return;
     const std::vector<std::string> on =
         section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;
@@ -349,6 +352,11 @@ class CaseReader {
 
   /// The faults that the finite elements find in the whole.
   void check_whole() {
+    const bool contributes =
+        case_.with_problem([](const auto& problem) { return !problem.contributions.empty(); });
+    if (contributes && case_.is_explicit())
+      faults_.push_back(document_.find("steps")->fault(
+          "steps: explicit steps take no interfaces, beams, anchors or water yet; leave out 'method: explicit'"));
     for (const std::string& message :
          case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
       if (const Entry* const stage = stage_in(document_, message); stage != nullptr) {

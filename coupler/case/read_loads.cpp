@@ -330,7 +330,8 @@ void read_boundary(const Entry& entry, CaseParts& parts) {
   // Where parts come or go, each stage is looked at when all of them are known.
   if (!parts.has_mesh || parts.faults.size() != faults_before || parts.builds) return;
   const std::vector<std::string> motions = parts.result.with_problem([](const auto& problem) {
-    return fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties);
+    return fem::free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties, {},
+                                   fem::joined_nodes(problem));
   });
   for (const std::string& motion : motions) {
     parts.faults.push_back(

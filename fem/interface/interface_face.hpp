@@ -20,7 +20,7 @@ struct InterfacePoint {
 /// Integration points of an interface of zero thickness on one face.
 ///
 /// Lines: at the nodes (Simpson, trapezoid), which leaves pairs of nodes uncoupled: Gauss points let the stress ahead of the
-/// tip of a gap oscillate. Faces with four or eight nodes: Lobatto points, 2 x 2 or 3 x 3, since nodal weights of eight-node
+/// tip of a gap oscillate. Faces with four or eight nodes: 3 x 3 Lobatto points, since nodal weights of eight-node
 /// faces are negative at the corners. Faces with six nodes: six inner points of degree 4.
 /// @param positions of the nodes of side a, a row a node, in the order of `type`; the normal points out of the element of
 /// side a. In the plane the tangent is (n2, -n1).

@@ -2,16 +2,21 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/archive.hpp"
+#include "common/response.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::fem {
 
 template <int dim>
 struct Problem;
+template <int dim>
+class Discretisation;
 
 /// The step that a contribution is asked about: nodal values at its start and their increments, both with the entries of
 /// node_dofs for each node and then those of the fields (FieldPlaces).
@@ -57,6 +62,12 @@ class Contribution {
 
   /// Gives all elements their initial state, whatever they were asked before.
   virtual void allocate() = 0;
+  /// The committed answers of the elements, told before the first evaluation and at the start of each step: for what follows its
+  /// neighbours, such as friction that is a share of theirs.
+  virtual void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed) {
+    (void)discretisation;
+    (void)committed;
+  }
   /// Adds the forces at the end of the step. @returns why it cannot, empty when it can; the step is then cut.
   [[nodiscard]] virtual std::string evaluate(const NodalStep& step, NodalForces& forces) = 0;
   /// Derivative of the internal forces of an element with respect to the values at the end of the step, of the last evaluation.
@@ -70,6 +81,8 @@ class Contribution {
 
   /// Whether its forces depend on how long a step takes: the time can then be no unknown (Solver::advance_measure).
   [[nodiscard]] virtual bool depends_on_duration() const { return false; }
+  /// Pairs of nodes that it holds together in all directions: parts of a body that hang on each other by it.
+  [[nodiscard]] virtual std::vector<std::pair<int, int>> joined_nodes() const { return {}; }
   /// Faults of a problem that the contribution belongs to, one message each; runs nothing.
   [[nodiscard]] virtual std::vector<std::string> faults(const Problem<dim>& problem) const {
     (void)problem;

@@ -15,6 +15,12 @@ std::string prefix_of(std::size_t number) {
 }  // namespace
 
 template <int dim>
+void Contributions<dim>::learn(const Discretisation<dim>& discretisation,
+                               std::span<const Response<dim>> committed) {
+  for (const auto& contribution : all_) contribution->learn(discretisation, committed);
+}
+
+template <int dim>
 std::string Contributions<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   forces.internal = Eigen::VectorXd::Zero(step.start.size());
   forces.parts = forces.internal;

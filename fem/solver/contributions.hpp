@@ -18,6 +18,7 @@ class Contributions {
     for (const auto& contribution : all_) contribution->allocate();
   }
 
+  void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed);
   [[nodiscard]] bool is_empty() const { return all_.empty(); }
   /// Overwrites the forces. @returns why one of them cannot, with its name; empty when all can
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);

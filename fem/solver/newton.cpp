@@ -105,6 +105,7 @@ Attempt Newton<dim>::evaluate_initial_state(StepReport& report) {
   }
   if (!contributions.is_empty()) {
     const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(state.displacement.size());
+    contributions.learn(discretisation, trial_);
     if (std::string message = contribute(state.time, nothing); !message.empty()) {
       materials.revert();
       contributions.revert();
@@ -422,6 +423,7 @@ Newton<dim>::Predictor Newton<dim>::predict(const StepGoal& goal) {
 template <int dim>
 void Newton<dim>::predict_contributions(const Iterate& iterate, Eigen::VectorXd& right_side) {
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(state.displacement.size());
+  contributions.learn(discretisation, state.responses);
   (void)contribute(iterate.time, nothing);  // the first iterate meets again what it cannot answer
   right_side -= contributed_.internal + contributions.linearised_forces(iterate.displacement);
   internal_before_ += state.contributed;

@@ -141,14 +141,24 @@ std::vector<std::string> faults(const Problem<dim>& problem);
 
 /// Rigid motions of the body that prescribed dofs and ties leave free: "translation along 1", "rotation", or "rotation about
 /// (x, y)" when only a rotation about that point is free. In space also "screw motion along ..."
-/// @param there elements of a stage (elements_in_stage)
+/// @param there elements of a stage (elements_in_stage) @param joined pairs of nodes that hang together without an element
 template <int dim>
 std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum continuum,
                                             const std::vector<PrescribedDof<dim>>& prescribed,
                                             const std::vector<Tie>& ties = {},
-                                            const std::vector<char>& there = {});
+                                            const std::vector<char>& there = {},
+                                            const std::vector<std::pair<int, int>>& joined = {});
 /// The same of a stage.
 template <int dim>
 std::vector<std::string> free_rigid_motions(const Problem<dim>& problem, int stage);
+
+/// Pairs of nodes that the contributions of a problem hold together.
+template <int dim>
+std::vector<std::pair<int, int>> joined_nodes(const Problem<dim>& problem) {
+  std::vector<std::pair<int, int>> all;
+  for (const auto& contribution : problem.contributions)
+    for (const auto& pair : contribution->joined_nodes()) all.push_back(pair);
+  return all;
+}
 
 }  // namespace polargrain::fem

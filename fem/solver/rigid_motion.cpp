@@ -12,11 +12,11 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-/// Number of the part of the body that each node belongs to; parts share no node and no tie. Nodes of no element are
-/// -1.
+/// Number of the part of the body that each node belongs to; parts share no node, no tie and no joined pair. Nodes of neither
+/// are -1.
 template <int dim>
-std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, const std::vector<char>& there,
-                                int& parts) {
+std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, const Pairs& joined,
+                                const std::vector<char>& there, int& parts) {
   std::vector<int> root(mesh.nodes.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int node) {
@@ -26,13 +26,17 @@ std::vector<int> parts_of_nodes(const Mesh<dim>& mesh, const Pairs& tied, const 
     }
     return node;
   };
-  const std::vector<char> used = nodes_of_elements(mesh, there);
+  std::vector<char> used = nodes_of_elements(mesh, there);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (!there.empty() && there[e] == 0) continue;
     const std::vector<int>& nodes = mesh.elements[e].nodes;
     for (const int node : nodes) root[static_cast<std::size_t>(find(node))] = find(nodes.front());
   }
   for (const auto& [follower, leader] : tied) root[static_cast<std::size_t>(find(follower))] = find(leader);
+  for (const auto& [one, other] : joined) {
+    root[static_cast<std::size_t>(find(one))] = find(other);
+    used[static_cast<std::size_t>(one)] = used[static_cast<std::size_t>(other)] = 1;
+  }
   std::vector<int> part(mesh.nodes.size(), -1);
   std::vector<int> number(mesh.nodes.size(), -1);
   parts = 0;
@@ -150,14 +154,15 @@ typename Cosserat<dim>::NodeValues row_of(Dof dof, const typename Cosserat<dim>:
 template <int dim>
 std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum continuum,
                                             const std::vector<PrescribedDof<dim>>& prescribed,
-                                            const std::vector<Tie>& ties, const std::vector<char>& there) {
+                                            const std::vector<Tie>& ties, const std::vector<char>& there,
+                                            const Pairs& joined) {
   Pairs tied;
   for (const Tie& tie : ties) {
     const Pairs pairs = tied_nodes<dim>(mesh, tie).pairs;
     tied.insert(tied.end(), pairs.begin(), pairs.end());
   }
   int parts = 0;
-  const std::vector<int> part_of = parts_of_nodes<dim>(mesh, tied, there, parts);
+  const std::vector<int> part_of = parts_of_nodes<dim>(mesh, tied, joined, there, parts);
   std::vector<std::string> messages;
   for (int part = 0; part < parts; ++part) {
     using Place = typename Cosserat<dim>::Place;
@@ -209,17 +214,17 @@ std::vector<std::string> free_rigid_motions(const Problem<dim>& problem, int sta
   for (const PrescribedDof<dim>& item : problem.prescribed)
     if (item.life.holds(stage)) prescribed.push_back(item);
   return free_rigid_motions(problem.mesh, problem.continuum, prescribed, problem.ties,
-                            elements_in_stage(problem, stage));
+                            elements_in_stage(problem, stage), joined_nodes(problem));
 }
 
 template std::vector<std::string> free_rigid_motions<2>(const Mesh<2>& mesh, Continuum continuum,
                                                         const std::vector<PrescribedDof<2>>& prescribed,
                                                         const std::vector<Tie>& ties,
-                                                        const std::vector<char>& there);
+                                                        const std::vector<char>& there, const Pairs& joined);
 template std::vector<std::string> free_rigid_motions<3>(const Mesh<3>& mesh, Continuum continuum,
                                                         const std::vector<PrescribedDof<3>>& prescribed,
                                                         const std::vector<Tie>& ties,
-                                                        const std::vector<char>& there);
+                                                        const std::vector<char>& there, const Pairs& joined);
 template std::vector<std::string> free_rigid_motions<2>(const Problem<2>& problem, int stage);
 template std::vector<std::string> free_rigid_motions<3>(const Problem<3>& problem, int stage);
 

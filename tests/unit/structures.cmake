@@ -1,3 +1,4 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 polargrain_test(mesh_split_test unit unit/mesh_split_test.cpp LIBS polargrain_fem)
 polargrain_test(interface_law_test unit unit/interface_law_test.cpp LIBS polargrain_fem)
+polargrain_test(structures_case_test unit unit/structures_case_test.cpp LIBS polargrain_coupler)

@@ -45,11 +45,19 @@ void open_seams(const Scene& scene, Remarks& remarks) {
     for (const int a : element.nodes)
       for (const int b : element.nodes)
         if (a < b && twice.contains(a) && twice.contains(b)) joined.emplace(a, b);
+  // An interface joins both of its sides, perhaps by a wall between them.
+  std::set<int> held;
+  for (const auto& [a, b] : fem::joined_nodes(scene.problem())) {
+    held.insert(a);
+    held.insert(b);
+  }
   int count = 0;
   const Eigen::Vector2d* first = nullptr;
   for (const auto& [place, nodes] : places)
     for (std::size_t k = 1; k < nodes.size(); ++k) {
-      if (joined.contains({nodes[k - 1], nodes[k]})) continue;
+      if (joined.contains({nodes[k - 1], nodes[k]}) ||
+          (held.contains(nodes[k - 1]) && held.contains(nodes[k])))
+        continue;
       ++count;
       if (first == nullptr) first = &scene.mesh().nodes[static_cast<std::size_t>(nodes[k])];
     }

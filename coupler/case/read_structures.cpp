@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Interfaces, beams and anchors: they change the mesh, so they are read behind it and before what names its parts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/error.hpp"
+#include "coupler/case/parts.hpp"
+#include "fem/beam/anchor.hpp"
+#include "fem/beam/beam.hpp"
+#include "fem/interface/interface.hpp"
+#include "fem/mesh/split.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Reads the structures of a case; the problem is that of the dimension that the case has.
+template <int dim>
+class StructuresReader {
+ public:
+  explicit StructuresReader(CaseParts& parts) : parts_(parts), problem_(parts.result.problem_of<dim>()) {}
+
+  void read(const Entry* interfaces, const Entry* beams, const Entry* anchors) {
+    if (problem_.deformation == fem::Deformation::large) {
+      for (const Entry* const entry : {interfaces, beams, anchors})
+        if (entry != nullptr)
+          parts_.faults.push_back(entry->fault(
+              "interfaces, beams and anchors are of small deformation; set 'deformation: small'"));
+      return;
+    }
+    const std::size_t faults_before = parts_.faults.size();
+    if (beams != nullptr)
+      each(*beams, "beams", [&](Section& section, Curve& curve) { read_beam(section, curve); });
+    if (interfaces != nullptr)
+      each(*interfaces, "interfaces",
+           [&](Section& section, Curve& curve) { read_interface(section, curve); });
+    if (parts_.faults.size() == faults_before && parts_.has_mesh) build();
+    if (anchors != nullptr) read_anchors(*anchors);
+  }
+
+ private:
+  struct InterfaceHere {
+    const Entry* entry;
+    fem::InterfaceSettings settings;
+    bool holds_rotation = false;
+  };
+  struct BeamHere {
+    std::string name;
+    fem::BeamSection section;
+    std::vector<std::string> clamped;
+  };
+  /// A curve of the mesh and what lies along it.
+  struct Curve {
+    std::string on;
+    std::vector<fem::TwoSidedFace<dim>> faces;
+    std::optional<InterfaceHere> interface = {};
+    std::optional<BeamHere> beam = {};
+  };
+
+  template <class Read>
+  void each(const Entry& entry, const std::string& key, Read read) {
+    Section all(entry, key, parts_.faults);
+    for (const Entry::Member& member : entry.members) {
+      all.find(member.key);
+      if (!names_.insert(member.key).second)
+        all.fault(member.key, fmt::format("{}: another interface, beam or anchor has this name", member.key));
+      Section section(member.value, fmt::format("{} '{}'", key.substr(0, key.size() - 1), member.key),
+                      parts_.faults);
+      name_ = member.key;
+      const std::string on =
+          section.text("on", "the name of a curve: a boundary, or a set of nodes of whole sides");
+      Curve unused;
+      Curve* const curve = on.empty() ? nullptr : curve_of(section, on);
+      read(section, curve == nullptr ? unused : *curve);
+      section.finish();
+    }
+    all.finish();
+  }
+
+  Curve* curve_of(Section& section, const std::string& on) {
+    const auto known = std::ranges::find(curves_, on, [](const auto& curve) { return curve->on; });
+    if (known != curves_.end()) return known->get();
+    if (!parts_.has_mesh) return nullptr;
+    const std::size_t faults_before = parts_.faults.size();
+    parts_.check_places(section, "on", {on});
+    if (parts_.faults.size() > faults_before) return nullptr;
+    try {
+      curves_.push_back(std::make_unique<Curve>(Curve{on, fem::faces_along(problem_.mesh, on)}));
+    } catch (const RunError& error) {
+      section.fault("on", fmt::format("on: {}; name a boundary, or a level between two rows of elements",
+                                      error.what()));
+      return nullptr;
+    }
+    return curves_.back().get();
+  }
+
+  void read_interface(Section& section, Curve& curve) {
+    if (curve.interface)
+      section.fault("on", fmt::format("on: the interface '{}' lies there; give a curve one interface",
+                                      curve.interface->settings.name));
+    InterfaceHere here{&section.entry(), {}, false};
+    here.settings.name = name_;
+    fem::InterfaceParameters& law = here.settings.parameters;
+    const bool has_share = section.find("share") != nullptr;
+    if (has_share == (section.find("friction") != nullptr)) {
+      section.fault("friction",
+                    "expected either 'friction', an angle such as 20 deg, or 'share', the part of the "
+                    "mobilised friction beside it, such as 2/3");
+    } else if (has_share) {
+      here.settings.share = read_share(section);
+    } else {
+      law.tan_friction = tangent(section, "friction", 0.0);
+    }
+    law.tan_dilation = tangent(section, "dilation", 0.0);
+    if (!has_share && law.tan_dilation > law.tan_friction)
+      section.fault("dilation", "dilation: must not be larger than the friction");
+    law.cohesion = section.quantity_or("cohesion", Dimension::pressure, Limit::not_negative, 0.0);
+    law.tension = section.quantity_or("tension", Dimension::pressure, Limit::not_negative, 0.0);
+    if (law.tension * law.tan_friction > law.cohesion * (1.0 + 1e-9))
+      section.fault("tension",
+                    "tension: must not be larger than cohesion / tan(friction), where the friction ends");
+    law.normal_stiffness = section.quantity_or("normal_stiffness", Dimension::bedding, Limit::positive, 0.0);
+    law.shear_stiffness = section.quantity_or("shear_stiffness", Dimension::bedding, Limit::positive, 0.0);
+    law.dilation_until = section.quantity_or("dilation_until", Dimension::length, Limit::positive, HUGE_VAL);
+    law.cohesion_lasts = section.choice_or("cohesion_after_opening", {"lost", "kept"}, "lost") == "kept";
+    here.holds_rotation = section.choice_or("rotation", {"free", "held"}, "free") == "held";
+    if (here.holds_rotation && problem_.continuum == fem::Continuum::cauchy)
+      section.fault("rotation",
+                    "rotation: the classical continuum has no micro-rotation to hold; leave it out");
+    curve.interface = std::move(here);
+  }
+
+  /// "2/3", or a number from 0 to 1.
+  double read_share(Section& section) {
+    const Entry& entry = *section.find("share");
+    const auto stroke = entry.text.find('/');
+    if (stroke != std::string::npos) {
+      const auto above = parse_quantity(entry.text.substr(0, stroke), Dimension::number);
+      const auto below = parse_quantity(entry.text.substr(stroke + 1), Dimension::number);
+      if (above && below && *above > 0.0 && *above <= *below) return *above / *below;
+      section.fault("share", "share: expected a part of the friction beside it, such as 2/3, found '" +
+                                 entry.text + "'");
+      return 0.0;
+    }
+    const double share = section.quantity("share", Dimension::number, Limit::not_negative);
+    if (share > 1.0) section.fault("share", "share: at most 1, the whole friction beside the interface");
+    return share;
+  }
+
+  double tangent(Section& section, const std::string& key, double otherwise) {
+    const double angle = section.quantity_or(key, Dimension::angle, Limit::not_negative, otherwise);
+    constexpr double kSteepest = 1.4;  // 80 degrees
+    if (angle < kSteepest) return std::tan(angle);
+    section.fault(key, fmt::format("{}: must be below 80 deg", key));
+    return 0.0;
+  }
+
+  void read_beam(Section& section, Curve& curve) {
+    if (dim == 3) {
+      section.fault("on", "beams are of the plane; in space model the wall by elements");
+      for (const Entry::Member& member : section.entry().members) section.find(member.key);
+      return;
+    }
+    if (curve.beam)
+      section.fault("on",
+                    fmt::format("on: the beam '{}' lies there; give a curve one beam", curve.beam->name));
+    BeamHere here;
+    here.name = name_;
+    here.section.axial_stiffness = section.quantity("EA", Dimension::force_per_length, Limit::positive);
+    here.section.bending_stiffness = section.quantity("EI", Dimension::moment, Limit::positive);
+    here.section.shear_stiffness = section.quantity_or("GA", Dimension::force_per_length, Limit::positive,
+                                                       here.section.axial_stiffness / 3.0);
+    here.section.plastic_moment = section.quantity_or("Mp", Dimension::force, Limit::positive, HUGE_VAL);
+    here.section.plastic_axial_force =
+        section.quantity_or("Np", Dimension::force_per_length, Limit::positive, HUGE_VAL);
+    if (section.find("clamped") != nullptr)
+      here.clamped = section.words("clamped", "names of places on the beam");
+    clamped_sections_.emplace_back(&section.entry(), here.clamped);
+    curve.beam = std::move(here);
+  }
+
+  void build() {
+    // Curves that open, all at once; the beam's nodes are copies where it lies in an interface.
+    std::vector<std::vector<fem::TwoSidedFace<dim>>> opening;
+    std::vector<std::size_t> number(curves_.size(), 0);
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      if (!curves_[c]->interface) continue;
+      number[c] = opening.size();
+      opening.push_back(curves_[c]->faces);
+    }
+    const auto before = opening;
+    fem::split_along(problem_.mesh, opening);
+    struct Own {
+      std::vector<std::vector<int>> beam_faces;
+    };
+    std::vector<Own> own(curves_.size());
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      Curve& curve = *curves_[c];
+      if (!curve.interface) {
+        for (fem::TwoSidedFace<dim>& face : curve.faces) {
+          face.first_nodes = problem_.mesh.side_nodes(face.first);  // another curve may have parted it
+          own[c].beam_faces.push_back(face.first_nodes);
+        }
+        continue;
+      }
+      curve.faces = opening[number[c]];
+      const bool one_sided = !curve.faces.front().second;
+      if (!curve.beam && !one_sided) continue;
+      const fem::OwnNodes<dim> nodes = fem::add_own_nodes(problem_.mesh, before[number[c]]);
+      own[c].beam_faces = nodes.face_nodes;
+      add_node_set(curve.beam ? curve.beam->name : curve.interface->settings.name, nodes.nodes);
+      fix_rotations(curve.beam ? curve.beam->name : curve.interface->settings.name);
+      if (!curve.beam)
+        parts_.rigid_bodies.emplace_back(curve.interface->settings.name, curve.interface->entry);
+    }
+    if constexpr (dim == 2) {
+      for (std::size_t c = 0; c < curves_.size(); ++c)
+        if (curves_[c]->beam) add_rotations(*curves_[c], own[c].beam_faces);
+      for (std::size_t c = 0; c < curves_.size(); ++c)
+        if (curves_[c]->beam) add_beam(*curves_[c], own[c].beam_faces);
+      check_clamped();
+    }
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      if (curves_[c]->interface) add_interfaces(*curves_[c], own[c].beam_faces);
+  }
+
+  void add_node_set(const std::string& name, const std::vector<int>& nodes) {
+    if (problem_.mesh.has_nodes_on(name)) {
+      parts_.faults.push_back(curve_entry(name)->fault(fmt::format(
+          "'{0}': the mesh has a part of this name; choose another, since '{0}' names the nodes of its own",
+          name)));
+      return;
+    }
+    problem_.mesh.node_sets[name] = nodes;
+  }
+
+  const Entry* curve_entry(const std::string& name) const {
+    for (const auto& curve : curves_)
+      if (curve->interface &&
+          (curve->interface->settings.name == name || (curve->beam && curve->beam->name == name)))
+        return curve->interface->entry;
+    return nullptr;
+  }
+
+  /// Holds the micro-rotations of nodes without elements; the rotation of a beam is a field.
+  void fix_rotations(const std::string& name) {
+    for (const fem::Dof dof : fem::node_dofs<dim>())
+      if (fem::is_rotation(dof)) parts_.own_rotations.push_back({name, dof});
+  }
+
+  void add_rotations(const Curve& curve, const std::vector<std::vector<int>>& faces) {
+    if (problem_.fields.empty() || problem_.fields.front().name != fem::kBeamRotation)
+      problem_.fields.insert(problem_.fields.begin(), fem::NodalField{fem::kBeamRotation, "rad", {}});
+    std::vector<int>& nodes = problem_.fields.front().nodes;
+    double low[2] = {HUGE_VAL, HUGE_VAL};
+    double high[2] = {-HUGE_VAL, -HUGE_VAL};
+    std::vector<int> own;
+    for (const std::vector<int>& face : faces)
+      for (const int node : face) {
+        if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+        own.push_back(node);
+        for (int i = 0; i < 2; ++i) {
+          low[i] = std::min(low[i], problem_.mesh.nodes[static_cast<std::size_t>(node)](i));
+          high[i] = std::max(high[i], problem_.mesh.nodes[static_cast<std::size_t>(node)](i));
+        }
+      }
+    // Its ends: the lowest and the highest node, of a flat beam the first and the last from the left.
+    const int axis = high[1] - low[1] >= high[0] - low[0] ? 1 : 0;
+    const auto by_place = [&](int a, int b) {
+      return problem_.mesh.nodes[static_cast<std::size_t>(a)](axis) <
+             problem_.mesh.nodes[static_cast<std::size_t>(b)](axis);
+    };
+    const std::string& name = curve.beam->name;
+    problem_.mesh.node_sets[name + (axis == 1 ? "_bottom" : "_left")] = {
+        *std::ranges::min_element(own, by_place)};
+    problem_.mesh.node_sets[name + (axis == 1 ? "_top" : "_right")] = {
+        *std::ranges::max_element(own, by_place)};
+  }
+
+  void add_beam(const Curve& curve, const std::vector<std::vector<int>>& faces) {
+    const auto places = problem_.places();
+    std::vector<fem::BeamElement> elements;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if constexpr (dim == 2) {
+        fem::BeamElement& element =
+            elements.emplace_back(fem::BeamElement{curve.faces[f].type, faces[f], {}});
+        for (const int node : faces[f]) element.rotations.push_back(places.entry(0, node));
+      }
+    }
+    if constexpr (dim == 2)
+      problem_.contributions.push_back(std::make_shared<fem::Beam>(problem_.mesh, curve.beam->name,
+                                                                   curve.beam->section, std::move(elements)));
+  }
+
+  void check_clamped() {
+    for (const auto& [entry, places] : clamped_sections_) {
+      if (places.empty()) continue;
+      Section section(*entry, "beam", parts_.faults);
+      parts_.check_places(section, "clamped", places);
+      for (const std::string& place : places)
+        problem_.prescribed_fields.push_back(
+            {fem::kBeamRotation, place, fem::TimeTable::constant(0.0), {}, {}});
+    }
+  }
+
+  void add_interfaces(const Curve& curve, const std::vector<std::vector<int>>& own_faces) {
+    const InterfaceHere& here = *curve.interface;
+    std::vector<fem::InterfaceFace<dim>> first;
+    std::vector<fem::InterfaceFace<dim>> second;
+    for (std::size_t f = 0; f < curve.faces.size(); ++f) {
+      const fem::TwoSidedFace<dim>& face = curve.faces[f];
+      const bool has_own = !own_faces.empty();
+      fem::InterfaceFace<dim>& one = first.emplace_back(fem::InterfaceFace<dim>{
+          face.type, face.first_nodes, has_own ? own_faces[f] : face.second_nodes, {face.first.element}, {}});
+      if (here.holds_rotation) one.rotation_b = rotations_of(curve, one.nodes_b);
+      if (!face.second) continue;
+      if (!has_own) {
+        one.neighbours.push_back(face.second->element);
+        continue;
+      }
+      // The wall as the second side sees it: its nodes in the order of that element.
+      const fem::TwoSidedFace<dim> turned = face.seen_from_second(problem_.mesh);
+      fem::InterfaceFace<dim> other{turned.type, turned.first_nodes, {}, {turned.first.element}, {}};
+      for (const int node : turned.second_nodes) {
+        const auto place = std::ranges::find(face.first_nodes, node) - face.first_nodes.begin();
+        other.nodes_b.push_back(own_faces[f][static_cast<std::size_t>(place)]);
+      }
+      if (here.holds_rotation) other.rotation_b = rotations_of(curve, other.nodes_b);
+      second.push_back(std::move(other));
+    }
+    fem::InterfaceSettings settings = here.settings;
+    if (!second.empty()) settings.name = here.settings.name + " " + side_of(first);
+    add_interface(settings, std::move(first));
+    if (second.empty()) return;
+    settings.name = here.settings.name + " " + side_of(second);
+    add_interface(settings, std::move(second));
+  }
+
+  void add_interface(const fem::InterfaceSettings& settings, std::vector<fem::InterfaceFace<dim>> faces) {
+    problem_.contributions.push_back(
+        std::make_shared<fem::Interface<dim>>(problem_.mesh, settings, std::move(faces)));
+  }
+
+  /// Where the ground lies that the faces belong to: left or right of a steep wall, below or above a flat one.
+  std::string side_of(const std::vector<fem::InterfaceFace<dim>>& faces) const {
+    typename Cosserat<dim>::Place towards = Cosserat<dim>::Place::Zero();
+    for (const fem::InterfaceFace<dim>& face : faces) {
+      const typename Cosserat<dim>::Place centre =
+          problem_.mesh.element_positions(face.neighbours.front()).colwise().mean();
+      for (const int node : face.nodes_a)
+        towards += centre - problem_.mesh.nodes[static_cast<std::size_t>(node)];
+    }
+    constexpr int up = dim - 1;
+    if (towards.template head<up>().norm() < std::abs(towards(up)))
+      return towards(up) > 0.0 ? "above" : "below";
+    return towards(0) > 0.0 ? "right" : "left";
+  }
+
+  std::vector<int> rotations_of(const Curve& curve, const std::vector<int>& nodes) const {
+    std::vector<int> entries;
+    const auto places = problem_.places();
+    for (const int node : nodes) {
+      if (curve.beam) {
+        entries.push_back(places.entry(0, node));
+        continue;
+      }
+      for (int k = 0; k < Cosserat<dim>::rotations; ++k)
+        entries.push_back(fem::entry_of<dim>(node) + dim + k);
+    }
+    return entries;
+  }
+
+  void read_anchors(const Entry& entry) {
+    Section all(entry, "anchors", parts_.faults);
+    for (const Entry::Member& member : entry.members) {
+      all.find(member.key);
+      if (!names_.insert(member.key).second)
+        all.fault(member.key, fmt::format("{}: another interface, beam or anchor has this name", member.key));
+      Section section(member.value, fmt::format("anchor '{}'", member.key), parts_.faults);
+      read_anchor(section, member.key);
+      section.finish();
+    }
+    all.finish();
+  }
+
+  /// The one node of a place. @returns -1 and a fault when it has more, or none
+  int node_of(Section& section, const std::string& key) {
+    const std::string name = section.text(key, "the name of a set of one node, or in 'to' a place [x1, x2]");
+    const std::size_t faults_before = parts_.faults.size();
+    parts_.check_places(section, key, {name});
+    if (!parts_.has_mesh || name.empty() || parts_.faults.size() > faults_before) return -1;
+    const std::vector<int> nodes = problem_.mesh.nodes_on(name);
+    if (nodes.size() == 1) return nodes.front();
+    section.fault(
+        key, fmt::format("{}: '{}' has {} nodes; an anchor needs one: a physical point, or the end of a beam",
+                         key, name, nodes.size()));
+    return -1;
+  }
+
+  void read_anchor(Section& section, const std::string& name) {
+    const Dimension force =
+        dim == 2 && section.find("spacing") == nullptr ? Dimension::force_per_length : Dimension::force;
+    const double spacing =
+        dim == 2 ? section.quantity_or("spacing", Dimension::length, Limit::positive, 1.0) : 1.0;
+    fem::AnchorSettings<dim> settings;
+    settings.name = name;
+    const std::size_t faults_before = parts_.faults.size();
+    settings.from = node_of(section, "from");
+    const Entry* const to = section.find("to");
+    if (to != nullptr && to->kind == Entry::Kind::sequence) {
+      const std::vector<double> place = section.quantities("to", dim, Dimension::length, Limit::any);
+      for (int i = 0; i < dim; ++i) settings.fixed(i) = place[static_cast<std::size_t>(i)];
+    } else {
+      settings.to = node_of(section, "to");
+    }
+    settings.axial_stiffness = section.quantity("EA", force, Limit::positive) / spacing;
+    settings.prestress = section.quantity_or("prestress", force, Limit::any, 0.0) / spacing;
+    settings.strength = section.quantity_or("strength", force, Limit::positive, HUGE_VAL) / spacing;
+    settings.compressive_strength =
+        section.quantity_or("compressive_strength", force, Limit::not_negative, HUGE_VAL) / spacing;
+    if (settings.prestress > settings.strength || -settings.prestress > settings.compressive_strength)
+      section.fault("prestress", "prestress: must not be beyond the strength");
+    if (!parts_.has_mesh || parts_.faults.size() > faults_before) return;
+    try {
+      problem_.contributions.push_back(std::make_shared<fem::Anchor<dim>>(problem_.mesh, settings));
+    } catch (const RunError& error) {
+      section.fault("to", fmt::format("to: {}", error.what()));
+    }
+  }
+
+  CaseParts& parts_;
+  fem::Problem<dim>& problem_;
+  std::vector<std::unique_ptr<Curve>> curves_;
+  std::vector<std::pair<const Entry*, std::vector<std::string>>> clamped_sections_;
+  std::set<std::string> names_;
+  std::string name_;  ///< of what is read
+};
+
+template <int dim>
+void finish(CaseParts& parts) {
+  fem::Problem<dim>& problem = parts.result.problem_of<dim>();
+  const auto is_given = [&](const std::string& name, fem::Dof dof) {
+    return std::ranges::any_of(problem.prescribed,
+                               [&](const auto& item) { return item.on == name && item.dof == dof; });
+  };
+  for (const auto& [name, entry] : parts.rigid_bodies) {
+    for (const fem::Dof dof : fem::node_dofs<dim>()) {
+      if (fem::is_rotation(dof) || is_given(name, dof)) continue;
+      parts.faults.push_back(entry->fault(fmt::format(
+          "interface '{0}': the rigid body behind it needs {1}; give it below 'boundary', for example "
+          "{{on: {0}, fix: [{1}]}}",
+          name, fem::name_of<dim>(dof))));
+    }
+  }
+  for (const auto& [name, dof] : parts.own_rotations)
+    if (!is_given(name, dof)) problem.prescribed.push_back({name, dof, fem::TimeTable::constant(0.0), {}});
+}
+
+}  // namespace
+
+void read_structures(const Entry* interfaces, const Entry* beams, const Entry* anchors, CaseParts& parts) {
+  if (parts.result.space)
+    StructuresReader<3>(parts).read(interfaces, beams, anchors);
+  else
+    StructuresReader<2>(parts).read(interfaces, beams, anchors);
+}
+
+void finish_structures(CaseParts& parts) {
+  parts.result.space ? finish<3>(parts) : finish<2>(parts);
+}
+
+}  // namespace polargrain::coupler

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/beam/anchor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/error.hpp"
+#include "fem/element/dofs.hpp"
+#include "fem/solver/problem.hpp"
+
+namespace polargrain::fem {
+
+namespace {
+
+constexpr double kYieldingStiffness =
+    1e-6;  ///< share that the tangent keeps, so that no mechanism makes it singular
+
+}  // namespace
+
+template <int dim>
+Anchor<dim>::Anchor(const Mesh<dim>& mesh, const AnchorSettings<dim>& settings)
+    : settings_(settings), committed_force_(settings.prestress), force_(settings.prestress) {
+  using Place = typename Cosserat<dim>::Place;
+  const Place start = mesh.nodes[static_cast<std::size_t>(settings.from)];
+  const Place end = settings.to ? mesh.nodes[static_cast<std::size_t>(*settings.to)] : settings.fixed;
+  length_ = (end - start).norm();
+  if (!(length_ > 0.0)) throw RunError(fmt::format("{} has no length: its ends are one place", name()));
+  const Place direction = (end - start) / length_;
+  for (int i = 0; i < dim; ++i) entries_.push_back(entry_of<dim>(settings.from, static_cast<Dof>(i)));
+  elongation_of_ = -direction;
+  if (!settings.to) return;
+  for (int i = 0; i < dim; ++i) entries_.push_back(entry_of<dim>(*settings.to, static_cast<Dof>(i)));
+  elongation_of_.conservativeResize(2 * dim);
+  elongation_of_.template tail<dim>() = direction;
+}
+
+template <int dim>
+void Anchor<dim>::allocate() {
+  committed_plastic_ = 0.0;
+  committed_force_ = settings_.prestress;
+  revert();
+}
+
+template <int dim>
+std::string Anchor<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
+  const double elongation = elongation_of_.dot(step.end(entries_));
+  const double stiffness = settings_.axial_stiffness / length_;
+  const double trial = settings_.prestress + stiffness * (elongation - committed_plastic_);
+  force_ = std::clamp(trial, -settings_.compressive_strength, settings_.strength);
+  yields_ = force_ != trial;
+  plastic_ = committed_plastic_ + (trial - force_) / stiffness;
+  const Eigen::VectorXd own = force_ * elongation_of_;
+  forces.internal(entries_) += own;
+  forces.parts(entries_) += own.cwiseAbs();
+  return {};
+}
+
+template <int dim>
+Eigen::MatrixXd Anchor<dim>::tangent(std::size_t) const {
+  const double stiffness = (yields_ ? kYieldingStiffness : 1.0) * settings_.axial_stiffness / length_;
+  return stiffness * elongation_of_ * elongation_of_.transpose();
+}
+
+template <int dim>
+void Anchor<dim>::commit() {
+  committed_plastic_ = plastic_;
+  committed_force_ = force_;
+}
+
+template <int dim>
+void Anchor<dim>::revert() {
+  plastic_ = committed_plastic_;
+  force_ = committed_force_;
+}
+
+template <int dim>
+void Anchor<dim>::save(ArchiveWriter& archive) const {
+  const std::array values{committed_plastic_, committed_force_};
+  archive.write("anchor", std::span<const double>(values));
+}
+
+template <int dim>
+void Anchor<dim>::restore(ArchiveReader& archive) {
+  const std::vector<double> values = archive.doubles("anchor");
+  if (values.size() != 2) throw RunError(fmt::format("{}: the checkpoint is of something else", name()));
+  committed_plastic_ = values[0];
+  committed_force_ = values[1];
+  revert();
+}
+
+template <int dim>
+std::vector<std::pair<int, int>> Anchor<dim>::joined_nodes() const {
+  return {};  // it holds them in one direction alone
+}
+
+template <int dim>
+std::vector<std::string> Anchor<dim>::faults(const Problem<dim>& problem) const {
+  if (problem.deformation == Deformation::large)
+    return {"anchors are of small deformation; set 'deformation: small'"};
+  return {};
+}
+
+template class Anchor<2>;
+template class Anchor<3>;
+
+}  // namespace polargrain::fem

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem/interface/interface_face.hpp"
+#include "fem/interface/interface_law.hpp"
+#include "fem/solver/contribution.hpp"
+
+namespace polargrain::fem {
+
+/// The two sides of an interface on one face. A node may be on both: there the interface ends inside of the body.
+template <int dim>
+struct InterfaceFace {
+  const ElementType<dim - 1>* type;
+  std::vector<int> nodes_a;     ///< of the element whose outward normal is the normal of the interface
+  std::vector<int> nodes_b;     ///< those at the same places
+  std::vector<int> neighbours;  ///< elements on either side, one or two
+  /// Entries of nodal vectors with the rotation of side b, one axis after the other for each node; empty: the interface leaves
+  /// micro-rotations alone.
+  std::vector<int> rotation_b = {};
+};
+
+/// Name, law and friction of an interface.
+struct InterfaceSettings {
+  std::string name;
+  /// Stiffnesses of zero are set to kStiffnessRatio times the stiffness of an element of the stiffer neighbour at rest,
+  /// Eoed / h.
+  InterfaceParameters parameters;
+  /// Friction as a share of the mobilised friction of the neighbours at the start of each step, in the place of tan_friction.
+  std::optional<double> share = {};
+};
+
+inline constexpr double kStiffnessRatio = 30.0;
+
+/// A point of an interface as it was committed.
+template <int dim>
+struct InterfacePointResult {
+  InterfacePoint<dim> geometry;
+  std::size_t face;
+  FaceVector<dim> traction;  ///< Pa
+  FaceVector<dim> jump;      ///< m
+  double gap;                ///< m, 0 where it is closed
+  double slip;               ///< way of sliding so far, m
+  double mobilised;          ///< share of the strength
+  Contact contact;
+};
+
+/// Friction between two sides of a curve (in space a surface): an interface of zero thickness. Small deformation.
+/// An open point keeps kOpenStiffness of its stiffness in the tangent alone, so that a body that only the interface holds
+/// does not make it singular.
+template <int dim>
+class Interface : public Contribution<dim> {
+ public:
+  Interface(const Mesh<dim>& mesh, InterfaceSettings settings, std::vector<InterfaceFace<dim>> faces);
+
+  [[nodiscard]] std::string name() const override { return "the interface '" + settings_.name + "'"; }
+  [[nodiscard]] std::size_t elements() const override { return elements_.size(); }
+  [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return elements_[e].entries; }
+  void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed) override;
+  void allocate() override;
+  [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
+  [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
+  void commit() override;
+  void revert() override;
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+  [[nodiscard]] std::vector<std::pair<int, int>> joined_nodes() const override;
+  [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
+  [[nodiscard]] std::vector<std::string> take_notes() override;
+
+  [[nodiscard]] const InterfaceSettings& settings() const { return settings_; }
+  [[nodiscard]] std::vector<InterfacePointResult<dim>> results() const;
+  /// Force of side a on side b, N (in the plane N/m), along the axes of the mesh.
+  [[nodiscard]] typename Cosserat<dim>::Place force() const;
+  /// Height of the resultant of the normal stress above the lowest point, m; 0 without normal stress.
+  [[nodiscard]] double lever() const;
+
+ private:
+  struct Point {
+    InterfacePoint<dim> geometry;
+    InterfaceParameters parameters;
+    InterfaceState<dim> committed;
+    InterfaceAnswer<dim> answer;  ///< to the last jump
+    InterfaceAnswer<dim> committed_answer;
+    FaceVector<dim> jump;
+    FaceVector<dim> committed_jump;
+  };
+  struct Element {
+    InterfaceFace<dim> face;
+    std::vector<int> entries;  ///< each once
+    std::vector<int> places;   ///< in `entries`: of displacements of a, of b, rotations of a, of b
+    std::vector<Point> points;
+    double size;                      ///< of the face, m
+    double rotation_stiffness = 0.0;  ///< of relative rotation, N/m^2 (per area): kt size^2
+  };
+
+  [[nodiscard]] static std::vector<int> all_entries(const InterfaceFace<dim>& face);
+  [[nodiscard]] Eigen::VectorXd forces_of(const Element& element, const Eigen::VectorXd& values) const;
+  void set_stiffness(Element& element, double stiffness);
+
+  InterfaceSettings settings_;
+  std::vector<Element> elements_;
+  bool knows_stiffness_ = false;
+  bool told_slip_ = false;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Interfaces, beams and anchors in a case: what they make of the mesh, and faults with line and remedy.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/case/structure_values.hpp"
+#include "fem/interface/interface.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Reads a case with a block of 2 m x 2 m and the lines given.
+Case read(const std::string& lines, const std::string& boundary = "") {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / "polargrain_structures_case.yaml";
+  std::ofstream(file)
+      << "title: a block\n"
+         "mesh: {rectangle: {size: [2 m, 2 m], elements: [2, 4], levels: {joint: 1 m, odd: 0.25 m}}}\n"
+         "materials: {ground: {model: elastic, E: 10 MPa, nu: 0.3, Gc: 2 MPa, lc: 10 mm}}\n"
+         "regions: {all: ground}\n"
+         "steps: {count: 1}\n"
+         "boundary:\n  - {on: bottom, fix: [u1, u2]}\n"
+      << boundary << lines;
+  return read_case(file);
+}
+
+std::string faults_of(const std::string& lines, const std::string& boundary = "") {
+  try {
+    (void)read(lines, boundary);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StructuresCase, AnInterfaceInsideDoublesItsNodes) {
+  const Case the_case = read("interfaces: {slip: {on: joint, friction: 20 deg}}\n");
+  EXPECT_EQ(the_case.problem.mesh.nodes_on("joint").size(), 10U);
+  ASSERT_EQ(the_case.problem.contributions.size(), 1U);
+  EXPECT_EQ(the_case.problem.contributions[0]->elements(), 2U);
+  EXPECT_EQ(structures_of(the_case.problem, "interface"), std::vector<std::string>{"slip"});
+}
+
+TEST(StructuresCase, AnInterfaceOnTheOutlineHasARigidBody) {
+  const Case the_case =
+      read("interfaces: {wall: {on: left, share: 2/3}}\n", "  - {on: wall, fix: [u2], move: {u1: -1 mm}}\n");
+  EXPECT_EQ(the_case.problem.mesh.nodes_on("wall").size(), 9U);
+  const auto* const wall = dynamic_cast<const fem::Interface<2>*>(the_case.problem.contributions[0].get());
+  ASSERT_NE(wall, nullptr);
+  EXPECT_EQ(*wall->settings().share, 2.0 / 3.0);
+}
+
+TEST(StructuresCase, AWallOfBeamsHasAnInterfaceOnEachSide) {
+  const Case the_case = read(
+      "interfaces: {skin: {on: joint, friction: 20 deg, rotation: held}}\n"
+      "beams: {plate: {on: joint, EA: 100 MN/m, EI: 1 MNm2/m, Mp: 50 kNm/m, clamped: [plate_left]}}\n"
+      "anchors: {tie: {from: plate_right, to: [3 m, 1 m], EA: 20 MN/m, prestress: 5 kN/m}}\n"
+      "monitors: {M: {beam: plate, value: moment}, F: {anchor: tie}, below: {interface: skin below, value: pressure}}\n",
+      "  - {on: plate_left, fix: [u1, u2]}\n");
+  EXPECT_EQ(structures_of(the_case.problem, "interface"),
+            (std::vector<std::string>{"skin below", "skin above"}));
+  EXPECT_EQ(structures_of(the_case.problem, "beam"), std::vector<std::string>{"plate"});
+  ASSERT_EQ(the_case.problem.fields.size(), 1U);
+  EXPECT_EQ(the_case.problem.fields[0].nodes.size(), 5U);
+  EXPECT_EQ(the_case.problem.mesh.nodes_on("joint").size(), 10U) << "the ground's copies alone";
+}
+
+TEST(StructuresCase, FaultsNamePlaceAndRemedy) {
+  const auto expect = [](const std::string& lines, const std::string& part,
+                         const std::string& boundary = "") {
+    const std::string faults = faults_of(lines, boundary);
+    EXPECT_NE(faults.find(part), std::string::npos) << lines << "\n" << faults;
+    EXPECT_NE(faults.find("yaml:"), std::string::npos) << "a line: " << faults;
+  };
+  expect("interfaces: {a: {on: nowhere, friction: 20 deg}}\n", "no boundary or node set 'nowhere'");
+  expect("interfaces: {a: {on: odd, friction: 20 deg}}\n", "make up no whole side");
+  expect("interfaces: {a: {on: joint}}\n", "expected either 'friction'");
+  expect("interfaces: {a: {on: joint, friction: 20 deg, share: 2/3}}\n", "expected either 'friction'");
+  expect("interfaces: {a: {on: joint, share: 3/2}}\n", "a part of the friction");
+  expect("interfaces: {a: {on: joint, friction: 85 deg}}\n", "below 80 deg");
+  expect("interfaces: {a: {on: joint, friction: 20 deg, dilation: 25 deg}}\n",
+         "not be larger than the friction");
+  expect("interfaces: {a: {on: joint, friction: 20 deg, tension: 1 kPa}}\n", "cohesion / tan(friction)");
+  expect("interfaces: {a: {on: joint, friction: 20 deg}, b: {on: joint, friction: 5 deg}}\n",
+         "one interface");
+  expect("interfaces: {a: {on: left, friction: 20 deg}}\n", "{on: a, fix: [u1]}");
+  expect("interfaces: {left: {on: left, friction: 20 deg}}\n", "a part of this name");
+  expect("beams: {a: {on: left, EA: 1 MN/m}}\n", "EI");
+  expect("beams: {a: {on: left, EA: 1 MN/m, EI: 10 kNm, clamped: [nowhere]}}\n", "'nowhere'");
+  expect("anchors: {a: {from: left, to: [5 m, 5 m], EA: 1 MN/m}}\n", "has 9 nodes");
+  expect("anchors: {a: {from: top_left, to: [0 m, 2 m], EA: 1 MN/m}}\n", "no length");
+  expect("anchors: {a: {from: top_left, to: [5 m, 5 m], EA: 1 MN/m, strength: 1 kN/m, prestress: 2 kN/m}}\n",
+         "beyond the strength");
+  expect("deformation: large\ninterfaces: {a: {on: joint, friction: 20 deg}}\n", "small deformation");
+  expect("interfaces: {a: {on: joint, friction: 20 deg}}\nmonitors: {m: {interface: b, value: gap}}\n",
+         "no interface 'b'");
+  expect("interfaces: {a: {on: joint, friction: 20 deg}}\nmonitors: {m: {interface: a, value: moment}}\n",
+         "pressure");
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
