@@ -7,7 +7,7 @@
 
 namespace polargrain::app {
 
-/// What was done where in a run by `method: automatic`, for summary.json: steps by Newton's method, explicit steps, and
+/// The methods that a run by `method: automatic` has used, for summary.json: steps by Newton's method, explicit steps, and
 /// iterations given up.
 nlohmann::ordered_json automatic_figures(const RunRecord& record);
 

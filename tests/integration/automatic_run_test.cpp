@@ -36,7 +36,7 @@ class AutomaticRun : public ::testing::Test {
               "  - {on: bottom, fix: [u1, u2]}\n"
               "  - {on: top, fix: [u1], move: {u2: -2 mm}}\n"
               "  - {on: [left, right], pressure: 100 kPa}\n"
-              "steps: {count: 10, tolerance: 1e-2, " +
+              "steps: {count: 10, " +
               steps + "}\nmonitors: {top_force: {on: top, reaction: u2}}\n");
   }
   /// One element, its grains shown no mercy: docs/hard_cells.md.
@@ -66,9 +66,9 @@ class AutomaticRun : public ::testing::Test {
 // Without a step that fails it is Newton's method, to the last digit.
 TEST_F(AutomaticRun, IsNewtonsMethodWhereThatBalances) {
   for (const char* const model : {"cell", "informed", "adaptive"}) {
-    write_column("method: newton", model);
+    write_column("tolerance: 1e-2, method: newton", model);
     ASSERT_EQ(run("newton").status, 0) << model;
-    write_column("method: automatic, effort: 400", model);
+    write_column("tolerance: 1e-2, method: automatic, effort: 400", model);
     const Outcome outcome = run("automatic");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_EQ(column("automatic", "top_force"), column("newton", "top_force")) << model;
@@ -81,10 +81,10 @@ TEST_F(AutomaticRun, IsNewtonsMethodWhereThatBalances) {
 
 // An effort that is too small for most steps: explicit steps take their place, and the force stays near that of Newton's method.
 TEST_F(AutomaticRun, GoesThroughStepsThatAreGivenUp) {
-  write_column("method: newton");
+  write_column("tolerance: 1e-2, method: newton");
   ASSERT_EQ(run("newton").status, 0);
   for (const char* const model : {"cell", "adaptive"}) {
-    write_column("method: automatic, effort: 3", model);
+    write_column("tolerance: 1e-4, jumps: 0, method: automatic, effort: 2", model);
     const Outcome outcome = run("automatic");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     const nlohmann::json told = summary("automatic")["automatic"];
@@ -100,7 +100,7 @@ TEST_F(AutomaticRun, GoesThroughStepsThatAreGivenUp) {
 }
 
 TEST_F(AutomaticRun, WorkersKillsAndResumptionsChangeNoByte) {
-  write_column("method: automatic, effort: 4, pace: 4e-4");
+  write_column("tolerance: 1e-4, jumps: 0, method: automatic, effort: 2, pace: 4e-4");
   const std::string options = "--checkpoint-minutes 0";
   ASSERT_EQ(run("one", options + " -w 1").status, 0);
   const std::string expected = results_of(scratch_.path() / "one");

@@ -377,7 +377,7 @@ TEST(Messages, ResidentBoxesGoOn) {
   EXPECT_EQ(back.increments[999].rotation, sent.increments[999].rotation);
   EXPECT_EQ(back.increments[999].curvature, sent.increments[999].curvature);
   const ResidentReply answers = round_trip(some_answers(1000));
-  EXPECT_LT(encode(answers).size(), 1000 * 160 + 100u);
+  EXPECT_LT(encode(answers).size(), 1000 * 168 + 100u);
   EXPECT_EQ(answers.request, 23u);
   EXPECT_EQ(answers.seconds, 0.5);
   ASSERT_EQ(answers.answers.size(), 1000u);
