@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:18: steps: unknown key 'tolerence'; did you mean 'tolerance'?"},
         BadInput{
             "UnknownKeyFarFromAll", "  count: 4", "  count: 4\n  colour: red",
-            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, method, cut, iterations, "
+            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, duration, method, cut, iterations, "
             "tolerance, moment_tolerance, noise, jumps, jump_residual, acceleration, largest_strain, line_search"},
         BadInput{"KeyByItsMeaning", "  count: 4", "  count: 4\n  tol: 1e-3",
                  "case.yaml:18: steps: unknown key 'tol'; did you mean 'tolerance'?"},
@@ -260,8 +260,8 @@ INSTANTIATE_TEST_SUITE_P(
             "case.yaml:13: boundary item 2: fix: expected one of u1, u2, w, found 'u3'; did you mean 'u1'?"},
         BadInput{
             "BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
-            "case.yaml:14: boundary item 3: has no support and no load; give fix, move, pressure, traction, "
-            "node_force or tie"},
+            "case.yaml:14: boundary item 3: has no support and no load; give fix, move, accelerate, pressure, traction, "
+            "node_force, tie or quiet"},
         BadInput{
             "TieToNothing", "on: top, move: {u2: -4 mm}", "on: left, tie: rihgt",
             "case.yaml:14: boundary item 3: tie: the mesh has no boundary or node set 'rihgt'; it has bottom, left, "
@@ -280,11 +280,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"BrokenFormula", "100 kPa)", "100 kPa",
                  "case.yaml:21: monitor 'stress_ratio': expected ')' at character 30 of '-top_force / (0.4 m "
                  "* 100 kPa'"},
-        BadInput{"MonitorOfNothing", "reaction: u2", "strain: u2",
-                 "case.yaml:20: monitor 'top_force': expected either 'reaction' or 'displacement', each one "
-                 "of u1, u2, w, or a formula\n"
-                 "case.yaml:20: monitor 'top_force': unknown key 'strain'; known keys are on, reaction, "
-                 "displacement"},
+        BadInput{
+            "MonitorOfNothing", "reaction: u2", "strain: u2",
+            "case.yaml:20: monitor 'top_force': expected either 'reaction' or 'displacement', each one "
+            "of u1, u2, w, or a formula\n"
+            "case.yaml:20: monitor 'top_force': unknown key 'strain'; known keys are interface, beam, anchor, on, reaction, "
+            "displacement"},
         BadInput{
             "UnknownTableColumn", "table: [stress_ratio]", "table: [stress_ration]",
             "case.yaml:24: output: table: there is no monitor 'stress_ration'; did you mean 'stress_ratio'?"},
