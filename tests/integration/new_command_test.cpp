@@ -174,7 +174,7 @@ TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
   };
   const Refusal refusals[] = {
       {"triangle -o new",
-       "there is no kind 'triangle'; one of biaxial, footing, slope, element, triaxial, mesh"},
+       "there is no kind 'triangle'; one of biaxial, footing, slope, element, triaxial, triaxial3d, footing3d, mesh"},
       {"biaxial -o full", "-o full: the folder has files in it"},
       {"biaxial -o full/mine.txt", "-o full/mine.txt: this is a file"},
       {"biaxial -o new --pressure 100kg", "--pressure 100kg: expected a pressure in Pa"},
