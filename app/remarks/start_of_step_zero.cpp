@@ -63,7 +63,7 @@ double square_of(const Vector7& stress) {
 StartOfStepZero judged(fem::Solver<2>& solver, const Scene& scene) {
   StartOfStepZero start;
   const fem::SolverState<2>& state = solver.state();
-  for (Eigen::Index k = 0; k + 2 < state.displacement.size(); k += 3)
+  for (Eigen::Index k = 0; k < solver.problem().places().mechanics(); k += 3)
     start.largest_displacement =
         std::max(start.largest_displacement, state.displacement.segment<2>(k).norm());
   double change = 0.0;

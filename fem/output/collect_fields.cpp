@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "fem/element/corner_shape.hpp"
 #include "fem/output/smooth.hpp"
 #include "fem/output/stress_measures.hpp"
 #include "fem/output/vtu.hpp"
@@ -87,13 +88,43 @@ Field element_averages(const Solver<dim>& solver, const Field& at_points) {
   return field;
 }
 
+/// NodalFields. Between corners that carry one it is interpolated; 0 where it is not known.
+template <int dim>
+std::vector<Field> scalar_fields(const Solver<dim>& solver) {
+  const Problem<dim>& problem = solver.problem();
+  const FieldPlaces<dim> places = problem.places();
+  std::vector<Field> fields;
+  for (std::size_t k = 0; k < problem.fields.size(); ++k) {
+    std::vector<double> values(problem.mesh.nodes.size(), 0.0);
+    for (const int node : problem.fields[k].nodes)
+      values[static_cast<std::size_t>(node)] = solver.state().displacement(places.entry(k, node));
+    for (const Element<dim>& element : problem.mesh.elements) {
+      const auto corners = element.type->corners;
+      const auto carries = [&](int node) { return places.entry(k, node) >= 0; };
+      if (!std::all_of(element.nodes.begin(), element.nodes.begin() + corners, carries)) continue;
+      for (std::size_t a = 0; a < element.nodes.size(); ++a) {
+        if (carries(element.nodes[a])) continue;
+        const Eigen::VectorXd shape =
+            corner_shape_functions<dim>(*element.type, element.type->node_positions[a]).value;
+        double value = 0.0;
+        for (int c = 0; c < corners; ++c)
+          value += shape(c) * values[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(c)])];
+        values[static_cast<std::size_t>(element.nodes[a])] = value;
+      }
+    }
+    fields.push_back({problem.fields[k].name, 1, std::move(values), problem.fields[k].unit});
+  }
+  return fields;
+}
+
 template <int dim>
 std::vector<Field> nodal_fields(const Solver<dim>& solver) {
   Field displacement{"displacement", 3, {}, "m", kVector};
   Field rotation{"micro_rotation", 1, {}, "rad"};
   Field axis{"micro_rotation_vector", 3, {}, "rad", kVector};
   const Eigen::VectorXd& values = solver.state().displacement;
-  for (Eigen::Index i = 0; i < values.size(); i += Cosserat<dim>::dofs) {
+  const Eigen::Index mechanics = solver.problem().places().mechanics();
+  for (Eigen::Index i = 0; i < mechanics; i += Cosserat<dim>::dofs) {
     if constexpr (dim == 2) {
       displacement.values.insert(displacement.values.end(), {values(i), values(i + 1), 0.0});
       rotation.values.push_back(values(i + 2));
@@ -103,8 +134,11 @@ std::vector<Field> nodal_fields(const Solver<dim>& solver) {
       axis.values.insert(axis.values.end(), {values(i + 3), values(i + 4), values(i + 5)});
     }
   }
-  if constexpr (dim == 3) return {std::move(displacement), std::move(axis)};
-  return {std::move(displacement), std::move(rotation), std::move(axis)};
+  std::vector<Field> fields{std::move(displacement)};
+  if constexpr (dim == 2) fields.push_back(std::move(rotation));
+  fields.push_back(std::move(axis));
+  for (Field& scalar : scalar_fields(solver)) fields.push_back(std::move(scalar));
+  return fields;
 }
 
 /// All names that some material shows, each once, in the order of the points.

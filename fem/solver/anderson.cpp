@@ -6,6 +6,7 @@
 #include "fem/element/dofs.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,8 +24,10 @@ void Anderson::remember(const Correction& position, const Eigen::VectorXd& unbal
 }
 
 Eigen::VectorXd Anderson::weighted(Eigen::VectorXd nodal, double weight_of_rotations) const {
+  const Eigen::Index mechanics = std::min(nodal.size(), mechanics_);
+  nodal.tail(nodal.size() - mechanics).setZero();
   const auto weigh = [&]<int dim>(std::integral_constant<int, dim>) {
-    for (Eigen::Index entry = 0; entry < nodal.size(); ++entry)
+    for (Eigen::Index entry = 0; entry < mechanics; ++entry)
       if (is_rotation(dof_at<dim>(entry))) nodal(entry) *= weight_of_rotations;
   };
   if (dimension_ == 2) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <deque>
 #include <functional>
+#include <limits>
 
 namespace polargrain::fem {
 
@@ -28,8 +29,10 @@ class Anderson {
  public:
   /// @param depth differences kept; 0 switches it off. @param reference_length m, weighs rotations.
   /// @param dimension of the nodal vectors, 2 or 3
-  Anderson(int depth, double reference_length, int dimension = 2)
-      : depth_(depth), length_(reference_length), dimension_(dimension) {}
+  /// @param mechanics entries of displacements and rotations, which come first and alone count in what is made small
+  Anderson(int depth, double reference_length, int dimension = 2,
+           Eigen::Index mechanics = std::numeric_limits<Eigen::Index>::max())
+      : depth_(depth), length_(reference_length), dimension_(dimension), mechanics_(mechanics) {}
 
   [[nodiscard]] bool is_on() const { return depth_ > 0; }
   /// A new step begins.
@@ -56,6 +59,7 @@ class Anderson {
   int depth_;
   double length_;
   int dimension_;
+  Eigen::Index mechanics_;
   std::deque<Place> places_;
 };
 

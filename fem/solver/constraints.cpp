@@ -10,7 +10,9 @@ namespace polargrain::fem {
 
 template <int dim>
 Constraints<dim>::Constraints(const Problem<dim>& problem)
-    : equation_(entry_of<dim>(problem.mesh.nodes.size()), 0), has_ties_(!problem.ties.empty()) {
+    : places_(problem.places()),
+      equation_(static_cast<std::size_t>(places_.size()), 0),
+      has_ties_(!problem.ties.empty() || !problem.equal_dofs.empty()) {
   const Mesh<dim>& mesh = problem.mesh;
   for (const PrescribedDof<dim>* const given : in_precedence(problem)) {
     const PrescribedDof<dim>& item = *given;
@@ -23,8 +25,20 @@ Constraints<dim>::Constraints(const Problem<dim>& problem)
       given_.push_back({entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});
     }
   }
+  for (const PrescribedField<dim>* const item : fields_in_precedence(problem)) {
+    const std::size_t field = number_of_field(problem.fields, item->field);
+    for (const int node : mesh.nodes_on(item->on)) {
+      const int entry = places_.entry(field, node);
+      if (entry < 0 || equation_[static_cast<std::size_t>(entry)] < 0) continue;
+      equation_[static_cast<std::size_t>(entry)] = -1;
+      const typename Cosserat<dim>::Place& place = mesh.nodes[static_cast<std::size_t>(node)];
+      given_.push_back(
+          {static_cast<std::size_t>(entry), item->factor_at(place), &item->value, item->offset_at(place)});
+    }
+  }
+  const auto mechanics = static_cast<std::size_t>(places_.mechanics());
   if (problem.continuum == Continuum::cauchy) {
-    for (std::size_t entry = 0; entry < equation_.size(); ++entry)
+    for (std::size_t entry = 0; entry < mechanics; ++entry)
       if (is_rotation(dof_at<dim>(entry))) equation_[entry] = -1;
   }
   // Of entries that are tied, over any number of ties, the lowest number stands for all.
@@ -34,16 +48,32 @@ Constraints<dim>::Constraints(const Problem<dim>& problem)
     while (root[entry] != entry) entry = root[entry];
     return entry;
   };
+  const auto join = [&](std::size_t one, std::size_t other) {
+    const std::size_t a = find(one);
+    const std::size_t b = find(other);
+    root[std::max(a, b)] = std::min(a, b);
+  };
   for (const Tie& tie : problem.ties) {
     for (const auto& [follower, leader] : tied_nodes<dim>(mesh, tie).pairs) {
-      for (const Dof dof : node_dofs<dim>()) {
-        const std::size_t a = find(entry_of<dim>(static_cast<std::size_t>(follower), dof));
-        const std::size_t b = find(entry_of<dim>(static_cast<std::size_t>(leader), dof));
-        root[std::max(a, b)] = std::min(a, b);
+      for (const Dof dof : node_dofs<dim>())
+        join(entry_of<dim>(static_cast<std::size_t>(follower), dof),
+             entry_of<dim>(static_cast<std::size_t>(leader), dof));
+      for (std::size_t field = 0; field < problem.fields.size(); ++field) {
+        const int one = places_.entry(field, follower);
+        const int other = places_.entry(field, leader);
+        if (problem.fields[field].tied && one >= 0 && other >= 0)
+          join(static_cast<std::size_t>(one), static_cast<std::size_t>(other));
       }
     }
   }
+  for (const EqualDof& equal : problem.equal_dofs) {
+    const std::vector<int> nodes = mesh.nodes_on(equal.on);
+    for (const int node : nodes)
+      join(entry_of<dim>(static_cast<std::size_t>(nodes.front()), equal.dof),
+           entry_of<dim>(static_cast<std::size_t>(node), equal.dof));
+  }
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
+    if (entry == mechanics) mechanical_unknowns_ = unknowns_;
     if (equation_[entry] < 0) continue;
     const std::size_t first = find(entry);
     if (first == entry) {
@@ -53,12 +83,15 @@ Constraints<dim>::Constraints(const Problem<dim>& problem)
       equation_[entry] = equation_[first];
     }
   }
+  if (mechanics == equation_.size()) mechanical_unknowns_ = unknowns_;
 }
 
 template <int dim>
 void Constraints<dim>::apply(double time, Eigen::VectorXd& nodal) const {
   for (const Given& item : given_) {
-    nodal(static_cast<Eigen::Index>(item.entry)) = item.factor * item.value->at(time);
+    double& value = nodal(static_cast<Eigen::Index>(item.entry));
+    value = item.factor * item.value->at(time);
+    if (item.offset != 0.0) value += item.offset;
   }
 }
 

@@ -7,15 +7,18 @@
 
 namespace polargrain::fem {
 
-/// Which entries of a nodal vector (3 a node) are given, which are unknown, and which share an unknown.
+/// Which entries of a nodal vector are given, which are unknown, and which share an unknown.
 template <int dim>
 class Constraints {
  public:
   /// @param problem without faults; must outlive this object.
   explicit Constraints(const Problem<dim>& problem);
 
-  /// Number of unknowns.
+  /// Where nodal vectors keep the fields of the problem.
+  [[nodiscard]] const FieldPlaces<dim>& places() const { return places_; }
+  /// Number of unknowns; the fields come last.
   [[nodiscard]] int unknowns() const { return unknowns_; }
+  [[nodiscard]] int mechanical_unknowns() const { return mechanical_unknowns_; }
   /// Number of the unknown at an entry of a nodal vector; -1 where the entry is given.
   [[nodiscard]] int equation(std::size_t entry) const { return equation_[entry]; }
   [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
@@ -40,12 +43,15 @@ class Constraints {
     std::size_t entry;
     double factor;
     const TimeTable* value;
+    double offset = 0.0;
   };
+  FieldPlaces<dim> places_;
   std::vector<Given> given_;
   std::vector<int> equation_;
   std::vector<std::size_t> first_;  ///< of each equation: the entry where forces are summed
   bool has_ties_;
   int unknowns_ = 0;
+  int mechanical_unknowns_ = 0;
 };
 
 }  // namespace polargrain::fem

@@ -22,10 +22,10 @@ double length_ratio(double volume_ratio) {
 }  // namespace
 
 template <int dim>
-Discretisation<dim>::Discretisation(const Mesh<dim>& mesh, Continuum continuum)
+Discretisation<dim>::Discretisation(const Mesh<dim>& mesh, Continuum continuum, Eigen::Index field_entries)
     : mesh_(mesh),
       continuum_(continuum),
-      nodal_size_(entry_of<dim>(static_cast<Eigen::Index>(mesh.nodes.size()))) {
+      nodal_size_(entry_of<dim>(static_cast<Eigen::Index>(mesh.nodes.size())) + field_entries) {
   first_point_.push_back(0);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const int number = static_cast<int>(e);

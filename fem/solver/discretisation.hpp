@@ -33,8 +33,8 @@ struct Linearisation {
 template <int dim>
 class Discretisation {
  public:
-  /// @param mesh must outlive this object.
-  Discretisation(const Mesh<dim>& mesh, Continuum continuum);
+  /// @param mesh must outlive this object. @param field_entries of nodal vectors, behind those of node_dofs
+  Discretisation(const Mesh<dim>& mesh, Continuum continuum, Eigen::Index field_entries = 0);
 
   /// Moves the nodes to where `nodal` displaces them from the mesh as it was made.
   /// @return a message naming an element that this turns inside out; empty when all is well.

@@ -88,11 +88,26 @@ bool gives_alike(const Problem<dim>& problem, const PrescribedDof<dim>& a, int n
   return a.value == b.value && factor(a, node_a) == factor(b, node_b);
 }
 
+template <int dim>
+bool gives_alike(const Problem<dim>& problem, const PrescribedField<dim>& a, const PrescribedField<dim>& b,
+                 int node) {
+  const typename Cosserat<dim>::Place& x = problem.mesh.nodes[static_cast<std::size_t>(node)];
+  return a.value == b.value && a.factor_at(x) == b.factor_at(x) && a.offset_at(x) == b.offset_at(x);
+}
+
 /// Sets of single nodes are made to say something of those nodes; `all` says what holds where nothing else does.
 template <int dim>
-int precedence(const Mesh<dim>& mesh, const PrescribedDof<dim>& item) {
-  if (item.on == "all") return 2;
-  return mesh.boundaries.contains(item.on) ? 1 : 0;
+int precedence(const Mesh<dim>& mesh, const std::string& on) {
+  if (on == "all") return 2;
+  return mesh.boundaries.contains(on) ? 1 : 0;
+}
+
+template <int dim, class Item>
+std::vector<const Item*> sorted_by_precedence(const Mesh<dim>& mesh, const std::vector<Item>& given) {
+  std::vector<const Item*> items;
+  for (const Item& item : given) items.push_back(&item);
+  std::ranges::stable_sort(items, {}, [&](const Item* item) { return precedence(mesh, item->on); });
+  return items;
 }
 
 /// A set of nodes by which a node can be named: the smallest it is in.
@@ -116,7 +131,7 @@ GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, Messages& me
     for (const int node : problem.mesh.nodes_on(item.on)) {
       const auto [place, added] = first.try_emplace({node, item.dof}, &item);
       const PrescribedDof<dim>& other = *place->second;
-      if (added || told || precedence(problem.mesh, other) != precedence(problem.mesh, item) ||
+      if (added || told || precedence(problem.mesh, other.on) != precedence(problem.mesh, item.on) ||
           gives_alike(problem, other, node, item, node))
         continue;
       const typename Cosserat<dim>::Place& at = problem.mesh.nodes[static_cast<std::size_t>(node)];
@@ -160,15 +175,102 @@ void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, Mess
   }
 }
 
+/// Nodes that share one unknown must not be given it.
+template <int dim>
+void check_equal_dofs(const Problem<dim>& problem, const GivenValues<dim>& given, Messages& messages) {
+  for (const EqualDof& equal : problem.equal_dofs) {
+    if (!problem.mesh.has_nodes_on(equal.on)) {
+      messages.push_back(fmt::format("the mesh has no boundary or node set '{}'; it has {}", equal.on,
+                                     fmt::join(problem.mesh.boundary_and_node_set_names(), ", ")));
+      continue;
+    }
+    for (const int node : problem.mesh.nodes_on(equal.on)) {
+      if (!given.contains({node, equal.dof})) continue;
+      messages.push_back(
+          fmt::format("{} is to be equal on '{}' and is given at the node {} of it: leave out "
+                      "one of the two",
+                      name_of<dim>(equal.dof), equal.on,
+                      place_text<dim>(problem.mesh.nodes[static_cast<std::size_t>(node)])));
+      break;
+    }
+  }
+}
+
+/// The fields as they are declared. @returns whether they can be numbered
+template <int dim>
+bool check_fields(const Problem<dim>& problem, Messages& messages) {
+  const std::size_t before = messages.size();
+  for (std::size_t k = 0; k < problem.fields.size(); ++k) {
+    const NodalField& field = problem.fields[k];
+    if (number_of_field(problem.fields, field.name) != k)
+      messages.push_back(fmt::format("two nodal fields are named '{}'", field.name));
+    std::vector<char> seen(problem.mesh.nodes.size(), 0);
+    for (const int node : field.nodes) {
+      const auto number = static_cast<std::size_t>(node);
+      if (node < 0 || number >= seen.size() || seen[number]++ != 0) {
+        messages.push_back(fmt::format("the field '{}' names node {} twice, or the mesh has no such node",
+                                       field.name, node));
+        break;
+      }
+    }
+    if (!field.initial.empty() && field.initial.size() != field.nodes.size())
+      messages.push_back(fmt::format("the field '{}' has {} nodes and {} values at time 0", field.name,
+                                     field.nodes.size(), field.initial.size()));
+  }
+  return messages.size() == before;
+}
+
+template <int dim>
+void check_prescribed_fields(const Problem<dim>& problem, Messages& messages) {
+  if (!check_fields(problem, messages)) return;
+  const FieldPlaces<dim> places = problem.places();
+  std::map<int, const PrescribedField<dim>*> first;
+  for (const PrescribedField<dim>* const item : fields_in_precedence(problem)) {
+    const std::size_t field = number_of_field(problem.fields, item->field);
+    if (field == problem.fields.size()) {
+      messages.push_back(
+          fmt::format("there is no nodal field '{}' to be given on '{}'", item->field, item->on));
+      continue;
+    }
+    if (!problem.mesh.has_nodes_on(item->on)) {
+      messages.push_back(fmt::format("the mesh has no boundary or node set '{}'; it has {}", item->on,
+                                     fmt::join(problem.mesh.boundary_and_node_set_names(), ", ")));
+      continue;
+    }
+    bool any = false;
+    bool told = false;
+    for (const int node : problem.mesh.nodes_on(item->on)) {
+      const int entry = places.entry(field, node);
+      if (entry < 0) continue;
+      any = true;
+      const auto [place, added] = first.try_emplace(entry, item);
+      const PrescribedField<dim>& other = *place->second;
+      if (added || told || precedence(problem.mesh, other.on) != precedence(problem.mesh, item->on) ||
+          gives_alike(problem, other, *item, node))
+        continue;
+      messages.push_back(fmt::format(
+          "'{}' is given two different values at the node {}, on '{}' and on '{}': give that node an item of "
+          "its own, on {}: a set of nodes goes before boundaries",
+          item->field, place_text<dim>(problem.mesh.nodes[static_cast<std::size_t>(node)]), other.on,
+          item->on, set_of(problem.mesh, node)));
+      told = true;
+    }
+    if (!any)
+      messages.push_back(
+          fmt::format("no node of '{}' carries the field '{}', which is given there", item->on, item->field));
+  }
+}
+
 }  // namespace
 
 template <int dim>
 std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem) {
-  std::vector<const PrescribedDof<dim>*> items;
-  for (const PrescribedDof<dim>& item : problem.prescribed) items.push_back(&item);
-  std::ranges::stable_sort(items, {},
-                           [&](const PrescribedDof<dim>* item) { return precedence(problem.mesh, *item); });
-  return items;
+  return sorted_by_precedence(problem.mesh, problem.prescribed);
+}
+
+template <int dim>
+std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem) {
+  return sorted_by_precedence(problem.mesh, problem.prescribed_fields);
 }
 
 template <int dim>
@@ -177,7 +279,13 @@ Messages faults(const Problem<dim>& problem) {
   if (problem.mesh.elements.empty()) return {"the mesh has no elements"};
   check_names(problem, messages);
   check_materials(problem, messages);
-  check_ties(problem, check_prescribed_once(problem, messages), messages);
+  const GivenValues<dim> given = check_prescribed_once(problem, messages);
+  check_ties(problem, given, messages);
+  check_equal_dofs(problem, given, messages);
+  check_prescribed_fields(problem, messages);
+  for (const auto& contribution : problem.contributions)
+    for (std::string& message : contribution->faults(problem))
+      messages.push_back(contribution->name() + ": " + std::move(message));
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion :
        free_rigid_motions(problem.mesh, problem.continuum, problem.prescribed, problem.ties)) {
@@ -189,6 +297,8 @@ Messages faults(const Problem<dim>& problem) {
 
 template std::vector<const PrescribedDof<2>*> in_precedence<2>(const Problem<2>& problem);
 template std::vector<const PrescribedDof<3>*> in_precedence<3>(const Problem<3>& problem);
+template std::vector<const PrescribedField<2>*> fields_in_precedence<2>(const Problem<2>& problem);
+template std::vector<const PrescribedField<3>*> fields_in_precedence<3>(const Problem<3>& problem);
 template Messages faults<2>(const Problem<2>& problem);
 template Messages faults<3>(const Problem<3>& problem);
 

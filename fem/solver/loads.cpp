@@ -113,7 +113,9 @@ LoadStiffness unit_pressure_stiffness(const Mesh<dim>& mesh, const BoundarySide&
 
 template <int dim>
 Loads<dim>::Loads(const Problem<dim>& problem)
-    : problem_(problem), size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))) {
+    : problem_(problem),
+      size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))),
+      nodal_size_(problem.places().size()) {
   for (const BoundaryLoad<dim>& load : problem.boundary_loads) add_boundary_load(problem, load);
   for (const NodeLoad& load : problem.node_loads) add_node_load(problem, load);
   for (const BodyLoad<dim>& load : problem.body_loads) add_body_load(problem, load);
@@ -197,7 +199,7 @@ std::vector<LoadStiffness> Loads<dim>::stiffness(double time) const {
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::linearised(double time, const Eigen::VectorXd& nodal) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
   for (const LoadStiffness& side : stiffness(time)) {
     forces(side.entries) += side.values * nodal(side.entries);
   }
@@ -206,15 +208,15 @@ Eigen::VectorXd Loads<dim>::linearised(double time, const Eigen::VectorXd& nodal
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::at(double time) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const Part& part : parts_) forces += part.factor->at(time) * part.forces;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  for (const Part& part : parts_) forces.head(size_) += part.factor->at(time) * part.forces;
   return forces;
 }
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::slope(double time) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  for (const Part& part : parts_) forces += part.factor->slope(time) * part.forces;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  for (const Part& part : parts_) forces.head(size_) += part.factor->slope(time) * part.forces;
   return forces;
 }
 

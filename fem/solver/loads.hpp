@@ -49,7 +49,8 @@ class Loads {
   void add_body_load(const Problem<dim>& problem, const BodyLoad<dim>& load);
 
   const Problem<dim>& problem_;
-  Eigen::Index size_;
+  Eigen::Index size_;        ///< of the parts, which know displacements and rotations alone
+  Eigen::Index nodal_size_;  ///< fields included
   std::vector<Part> parts_;
   struct Pressure {
     std::size_t part;

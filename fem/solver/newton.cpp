@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/seconds.hpp"
 #include "fem/material/rotation.hpp"
+#include "fem/solver/equation_scaling.hpp"
 #include "fem/solver/free_rotations.hpp"
 #include "fem/solver/residual_floor.hpp"
 #include "fem/solver/why_singular.hpp"
@@ -40,6 +41,12 @@ Problem<dim> checked(Problem<dim> problem) {
 }
 
 template <int dim>
+Eigen::Index field_entries(const Problem<dim>& problem) {
+  const FieldPlaces<dim> places = problem.places();
+  return places.size() - places.mechanics();
+}
+
+template <int dim>
 double mean_element_size(const Discretisation<dim>& discretisation) {
   double volume = 0.0;
   for (std::size_t i = 0; i < discretisation.points(); ++i) volume += discretisation.point(i).volume;
@@ -53,18 +60,23 @@ template <int dim>
 Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
     : problem(checked(std::move(problem_in))),
       options(options_in),
-      discretisation(problem.mesh, problem.continuum),
+      discretisation(problem.mesh, problem.continuum, field_entries(problem)),
       constraints(problem),
       loads(problem),
       materials(problem, discretisation),
+      contributions(problem),
       reference_length(options.reference_length > 0.0
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
-      tangent_(discretisation, constraints),
-      anderson_(options.acceleration_depth, reference_length, dim),
-      start_(problem.mesh, problem.continuum),
+      tangent_(discretisation, constraints, problem.contributions),
+      anderson_(options.acceleration_depth, reference_length, dim, constraints.places().mechanics()),
+      start_(problem.mesh, problem.continuum, field_entries(problem)),
       trial_(discretisation.points()) {
   state.displacement = Eigen::VectorXd::Zero(discretisation.nodal_size());
+  for (std::size_t k = 0; k < problem.fields.size(); ++k) {
+    const std::vector<double>& initial = problem.fields[k].initial;
+    std::copy(initial.begin(), initial.end(), state.displacement.begin() + constraints.places().start(k));
+  }
   state.strain.assign(discretisation.points(), Cosserat<dim>::Vector::Zero());
   state.responses.resize(discretisation.points());
   if (problem.deformation == Deformation::large && !materials.can_turn())
@@ -90,6 +102,16 @@ Attempt Newton<dim>::evaluate_initial_state(StepReport& report) {
       return {false, std::move(message)};
     }
   }
+  if (!contributions.is_empty()) {
+    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(state.displacement.size());
+    if (std::string message = contribute(state.time, nothing); !message.empty()) {
+      materials.revert();
+      contributions.revert();
+      return {false, "the initial state is not usable: " + message};
+    }
+    contributions.commit();
+    state.contributed = contributed_.internal;
+  }
   // The increments were zero, so the initial state itself is committed.
   materials.commit();
   state.responses = trial_;
@@ -98,7 +120,7 @@ Attempt Newton<dim>::evaluate_initial_state(StepReport& report) {
 
 template <int dim>
 Residual Newton<dim>::initial_residual() {
-  const Eigen::VectorXd unbalanced = loads.at(state.time) - discretisation.internal_forces(state.responses);
+  const Eigen::VectorXd unbalanced = loads.at(state.time) - committed_internal_forces();
   state.reference_force = options.reference_force;
   if (state.reference_force == 0.0) {
     state.reference_force = loads.largest_force() + sum_of_reactions(unbalanced, constraints);
@@ -107,8 +129,35 @@ Residual Newton<dim>::initial_residual() {
 }
 
 template <int dim>
+Eigen::VectorXd Newton<dim>::committed_internal_forces() const {
+  Eigen::VectorXd forces = discretisation.internal_forces(state.responses);
+  if (state.contributed.size() > 0) forces += state.contributed;
+  return forces;
+}
+
+template <int dim>
+std::string Newton<dim>::contribute(double time, const Eigen::VectorXd& increment) {
+  return contributions.evaluate({state.time, time, state.displacement, increment}, contributed_);
+}
+
+template <int dim>
+void Newton<dim>::refuse_explicit() const {
+  if (problem.contributions.empty()) return;
+  throw RunError("explicit steps do not take " + problem.contributions.front()->name() +
+                 " yet; balance the steps by iterations instead");
+}
+
+template <int dim>
+void Newton<dim>::refuse_unknown_time() const {
+  const std::string name = contributions.depends_on_duration();
+  if (name.empty()) return;
+  throw RunError(name +
+                 " needs steps of a given duration: control the time, not a measure of the displacements");
+}
+
+template <int dim>
 void Newton<dim>::withhold_imbalance() {
-  withheld_ = loads.at(state.time) - discretisation.internal_forces(state.responses);
+  withheld_ = loads.at(state.time) - committed_internal_forces();
   released_ = 0.0;
 }
 
@@ -133,7 +182,11 @@ Residual Newton<dim>::relative(const Eigen::VectorXd& forces) const {
 
 template <int dim>
 double Newton<dim>::excess(const Residual& residual) const {
-  return std::max(residual.force / options.force_tolerance, residual.moment / options.moment_tolerance);
+  double excess =
+      std::max(residual.force / options.force_tolerance, residual.moment / options.moment_tolerance);
+  for (std::size_t k = 0; k < residual.fields.size(); ++k)
+    excess = std::max(excess, residual.fields[k] / problem.fields[k].tolerance);
+  return excess;
 }
 
 template <int dim>
@@ -146,6 +199,7 @@ const Response<dim>& Newton<dim>::worst_response() const {
 template <int dim>
 void Newton<dim>::revert() {
   materials.revert();
+  contributions.revert();
   move_to_committed();
 }
 
@@ -160,12 +214,13 @@ void Newton<dim>::move_to_committed() {
 
 template <int dim>
 void Newton<dim>::find_increments(const Eigen::VectorXd& displacement_increment) {
+  refusal_.clear();
   if (problem.deformation == Deformation::small) {
     increments_ = discretisation.increments(displacement_increment);
     return;
   }
-  inverted_ = discretisation.move_to(state.displacement + displacement_increment);
-  if (!inverted_.empty()) return;
+  refusal_ = discretisation.move_to(state.displacement + displacement_increment);
+  if (!refusal_.empty()) return;
   loads.move_to(state.displacement + displacement_increment);
   increments_ = start_.increments_to(discretisation, displacement_increment);
 }
@@ -175,21 +230,29 @@ void Newton<dim>::evaluate(Iterate& iterate, StepReport& report) {
   {
     const Stopwatch watch(report.material_seconds);
     find_increments(iterate.displacement);
-    if (!inverted_.empty()) {
-      trial_.front().quality = Quality::failed;
-      trial_.front().message = inverted_;
-      trial_.front().step_factor = 0.5;
-      iterate.residual = {HUGE_VAL, HUGE_VAL};
-      return;
+    if (refusal_.empty()) {
+      materials.evaluate(increments_, trial_);
+      report.evaluations += static_cast<long>(trial_.size());
     }
-    materials.evaluate(increments_, trial_);
-    report.evaluations += static_cast<long>(trial_.size());
   }
   const Stopwatch watch(report.assembly_seconds);
+  if (refusal_.empty() && !contributions.is_empty())
+    refusal_ = contribute(iterate.time, iterate.displacement);
+  if (!refusal_.empty()) {
+    trial_.front().quality = Quality::failed;
+    trial_.front().message = refusal_;
+    trial_.front().step_factor = 0.5;
+    iterate.residual = {HUGE_VAL, HUGE_VAL};
+    return;
+  }
   iterate.unbalanced =
       loads_at(iterate.time, iterate.released, iterate.jump_let_go) - discretisation.internal_forces(trial_);
+  if (!contributions.is_empty()) iterate.unbalanced -= contributed_.internal;
   if (state.reference_force == 0.0) state.reference_force = sum_of_reactions(iterate.unbalanced, constraints);
   iterate.residual = relative(iterate.unbalanced);
+  if (!problem.fields.empty())
+    iterate.residual.fields =
+        measure_fields(constraints.folded(iterate.unbalanced), contributed_.parts, constraints);
   unbalanced_ = iterate.unbalanced;
 }
 
@@ -201,7 +264,15 @@ bool Newton<dim>::factorise(const std::vector<Response<dim>>& responses, double 
     matrix = &tangent_.assemble(linearised(responses), loads.stiffness(time));
   }
   const Stopwatch watch(report.solve_seconds);
-  return linear_solver_.factorise(*matrix);
+  if (problem.fields.empty()) return linear_solver_.factorise(*matrix);
+  scaling_ = equation_scaling(*matrix, constraints.mechanical_unknowns());
+  return linear_solver_.factorise(scaling_.asDiagonal() * *matrix * scaling_.asDiagonal());
+}
+
+template <int dim>
+Eigen::VectorXd Newton<dim>::solved(const Eigen::VectorXd& forces) const {
+  if (scaling_.size() == 0) return linear_solver_.solve(forces);
+  return scaling_.cwiseProduct(linear_solver_.solve(scaling_.cwiseProduct(forces)));
 }
 
 template <int dim>
@@ -211,14 +282,15 @@ bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
   if (!factorise(responses, iterate.time, report)) return false;
   const Stopwatch watch(report.solve_seconds);
   const auto add_solution = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
-    constraints.add_free(linear_solver_.solve(constraints.restrict_to_free(forces)), nodal);
+    constraints.add_free(solved(constraints.restrict_to_free(forces)), nodal);
   };
   Eigen::VectorXd per_time;
   if (!goal.controls_time()) {
     // Bordered system: the response to a unit of time, times the time that brings the measure to its goal.
     per_time = constraints.slope(iterate.time);
-    const Eigen::VectorXd forces = loads.slope(iterate.time) + loads.linearised(iterate.time, per_time) -
-                                   discretisation.linearised_forces(linearised(responses), per_time);
+    Eigen::VectorXd forces = loads.slope(iterate.time) + loads.linearised(iterate.time, per_time) -
+                             discretisation.linearised_forces(linearised(responses), per_time);
+    if (!contributions.is_empty()) forces -= contributions.linearised_forces(per_time);
     add_solution(forces, per_time);
   }
   const auto respond = [&](const Eigen::VectorXd& forces, double growth) {
@@ -297,6 +369,8 @@ Newton<dim>::Balance Newton<dim>::balance_of(const Iterate& iterate, bool last_c
   if (excess(residual) <= 1.0) return Balance::within_tolerance;
   const auto within = [&](const Eigen::VectorXd& forces, double factor) {
     const Residual floor = relative(forces);
+    for (std::size_t k = 0; k < residual.fields.size(); ++k)
+      if (!(residual.fields[k] <= problem.fields[k].tolerance)) return false;
     return residual.force <= std::max(options.force_tolerance, factor * floor.force) &&
            residual.moment <= std::max(options.moment_tolerance, factor * floor.moment);
   };
@@ -315,6 +389,8 @@ Newton<dim>::Balance Newton<dim>::balance_of(const Iterate& iterate, bool last_c
 template <int dim>
 std::string Newton<dim>::residual_text(const Residual& residual) const {
   std::string text = fmt::format("{:.3g} (force), {:.3g} (moment)", residual.force, residual.moment);
+  for (std::size_t k = 0; k < residual.fields.size(); ++k)
+    text += fmt::format(", {:.3g} ({})", residual.fields[k], problem.fields[k].name);
   const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
   if (noise.size() == 0) return text;
   const Residual floor = relative(noise);
@@ -336,7 +412,17 @@ Newton<dim>::Predictor Newton<dim>::predict(const StepGoal& goal) {
       loads_at(iterate.time, iterate.released, iterate.jump_let_go) - internal_before_ +
       loads.linearised(iterate.time, iterate.displacement) -
       discretisation.linearised_forces(linearised(state.responses), iterate.displacement);
+  if (!contributions.is_empty()) predict_contributions(iterate, right_side);
   return {std::move(iterate), std::move(right_side)};
+}
+
+// Given increments go through the tangent of the contributions at the committed state too.
+template <int dim>
+void Newton<dim>::predict_contributions(const Iterate& iterate, Eigen::VectorXd& right_side) {
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(state.displacement.size());
+  (void)contribute(iterate.time, nothing);  // the first iterate meets again what it cannot answer
+  right_side -= contributed_.internal + contributions.linearised_forces(iterate.displacement);
+  internal_before_ += state.contributed;
 }
 
 template <int dim>
@@ -371,12 +457,13 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
 
     const Response<dim>& worst = worst_response();
     if (worst.quality == Quality::failed) {
-      return {false, (inverted_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
+      return {false, (refusal_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
     }
     const Residual& residual = iterate.residual;
     report.force_residuals.push_back(residual.force);
     report.moment_residuals.push_back(residual.moment);
-    if (observer) observer->iterated({iterate.time, cuts, iteration, residual.force, residual.moment});
+    if (observer)
+      observer->iterated({iterate.time, cuts, iteration, residual.force, residual.moment, residual.fields});
     remember(iterate);
     if (worst.quality == Quality::good && residual.force < best_residual()) best_ = iterate;
     const bool finite = std::isfinite(residual.force + residual.moment);
@@ -414,6 +501,7 @@ template <int dim>
 void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& report) {
   report.force_residual = iterate.residual.force;
   report.moment_residual = iterate.residual.moment;
+  report.field_residuals = iterate.residual.fields;
   report.within_noise += balance == Balance::within_noise ? 1 : 0;
   report.within_rounding += balance == Balance::within_rounding ? 1 : 0;
   if (const auto noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_); noise.size() > 0) {
@@ -423,8 +511,9 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
   }
   const Eigen::VectorXd loads_mean =
       0.5 * (loads_before_ + loads_at(iterate.time, iterate.released, iterate.jump_let_go));
-  const Eigen::VectorXd internal_mean = 0.5 * (internal_before_ + discretisation.internal_forces(trial_));
-  for (Eigen::Index entry = 0; entry < iterate.displacement.size(); ++entry) {
+  Eigen::VectorXd internal_mean = 0.5 * (internal_before_ + discretisation.internal_forces(trial_));
+  if (!contributions.is_empty()) internal_mean += 0.5 * contributed_.internal;
+  for (Eigen::Index entry = 0; entry < constraints.places().mechanics(); ++entry) {
     // At given entries the support supplies what the loads do not: together the internal force.
     const bool free = constraints.is_free(static_cast<std::size_t>(entry));
     state.external_work += (free ? loads_mean(entry) : internal_mean(entry)) * iterate.displacement(entry);
@@ -433,6 +522,10 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
     add_to_strain_and_work(i);
   }
   materials.commit();
+  if (!contributions.is_empty()) {
+    contributions.commit();
+    state.contributed = contributed_.internal;
+  }
   state.responses = trial_;
   state.displacement += iterate.displacement;
   state.last_increment = iterate.displacement;

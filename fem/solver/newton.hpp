@@ -8,6 +8,7 @@
 
 #include "fem/solver/anderson.hpp"
 #include "fem/solver/constraints.hpp"
+#include "fem/solver/contributions.hpp"
 #include "fem/solver/discretisation.hpp"
 #include "fem/solver/linear_solver.hpp"
 #include "fem/solver/loads.hpp"
@@ -88,8 +89,14 @@ class Newton {
   void move_to_committed();
   /// Largest residual over its tolerance: balanced when not above 1.
   [[nodiscard]] double excess(const Residual& residual) const;
-  /// Nodal forces over the references of the run.
+  /// Nodal forces over the references of the run; no fields.
   [[nodiscard]] Residual relative(const Eigen::VectorXd& forces) const;
+  /// Nodal forces of the committed stresses and contributions.
+  [[nodiscard]] Eigen::VectorXd committed_internal_forces() const;
+  /// @throws RunError where explicit steps cannot take what the problem has
+  void refuse_explicit() const;
+  /// @throws RunError where a contribution needs to know how long a step takes
+  void refuse_unknown_time() const;
 
   Problem<dim> problem;
   SolverOptions options;
@@ -97,6 +104,7 @@ class Newton {
   Constraints<dim> constraints;
   Loads<dim> loads;
   PointMaterials<dim> materials;
+  Contributions<dim> contributions;
   double reference_length;
   SolverState<dim> state;
   Observer* observer = nullptr;
@@ -123,7 +131,13 @@ class Newton {
     Eigen::VectorXd right_side;
   };
   [[nodiscard]] Predictor predict(const StepGoal& goal);
+  /// Adds the contributions to the forces that the first correction balances, and to internal_before_.
+  void predict_contributions(const Iterate& iterate, Eigen::VectorXd& right_side);
+  /// solve() of the tangent factorised last, for forces on the unknowns.
+  [[nodiscard]] Eigen::VectorXd solved(const Eigen::VectorXd& forces) const;
   void evaluate(Iterate& iterate, StepReport& report);
+  /// Evaluates the contributions for a step from the committed state. @returns why one of them cannot
+  [[nodiscard]] std::string contribute(double time, const Eigen::VectorXd& increment);
   void find_increments(const Eigen::VectorXd& displacement_increment);
   [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
@@ -151,10 +165,13 @@ class Newton {
 
   TangentMatrix<dim> tangent_;
   LinearSolver linear_solver_;
+  Eigen::VectorXd scaling_;  ///< of the equations (equation_scaling.hpp); empty without fields
+  NodalForces contributed_;  ///< of the evaluation made last
   Anderson anderson_;
-  bool converges_fast_ = false;      ///< the last iteration needs no acceleration
-  Discretisation<dim> start_;        ///< large deformation: at the start of the step
-  std::string inverted_;             ///< names an element the last iterate turns inside out
+  bool converges_fast_ = false;  ///< the last iteration needs no acceleration
+  Discretisation<dim> start_;    ///< large deformation: at the start of the step
+  /// Why the last iterate cannot be: an element that it turns inside out, a contribution that cannot answer.
+  std::string refusal_;
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;
   Eigen::VectorXd withheld_;     ///< forces out of balance at the start; empty when all are in balance

@@ -18,7 +18,7 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
   evaluate(iterate, report);
   ++report.iterations;
   if (const Response<dim>& worst = worst_response(); worst.quality == Quality::failed)
-    return {false, (inverted_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
+    return {false, (refusal_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
   if (!std::isfinite(iterate.residual.force + iterate.residual.moment))
     return {false, "the forces are not finite"};
   commit(iterate, Balance::within_tolerance, report);

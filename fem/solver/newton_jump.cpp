@@ -20,7 +20,7 @@ Attempt Newton<dim>::pass_jump(StepReport& report) {
     report.jump_residual = std::max(report.jump_residual, iterate.residual.force);
     ++report.jumps;
     commit(iterate, Balance::within_tolerance, report);
-    jump_ = loads_at(state.time, released_, 1.0) - discretisation.internal_forces(state.responses);
+    jump_ = loads_at(state.time, released_, 1.0) - committed_internal_forces();
     jump_let_go_ = 0.0;
     return {true, ""};
   }

@@ -16,7 +16,8 @@ constexpr std::size_t kMostPoints = 3;
 /// By node, what is out of balance of its forces.
 template <int dim>
 std::vector<double> unbalanced_by_node(const Eigen::VectorXd& forces, const Constraints<dim>& constraints) {
-  std::vector<double> sums(static_cast<std::size_t>(forces.size() / Cosserat<dim>::dofs), 0.0);
+  const Eigen::Index entries = constraints.places().mechanics();
+  std::vector<double> sums(static_cast<std::size_t>(entries / Cosserat<dim>::dofs), 0.0);
   for (std::size_t node = 0; node < sums.size(); ++node) {
     for (std::size_t i = 0; i < dim; ++i) {
       const std::size_t entry = entry_of<dim>(node) + i;

@@ -13,6 +13,8 @@
 #include "fem/element/kinematics.hpp"
 #include "fem/material/material.hpp"
 #include "fem/mesh/mesh.hpp"
+#include "fem/solver/contribution.hpp"
+#include "fem/solver/nodal_field.hpp"
 #include "fem/solver/ties.hpp"
 #include "fem/solver/time_table.hpp"
 
@@ -26,6 +28,12 @@ struct PrescribedDof {
   TimeTable value;
   /// Factor by position; 1 everywhere when empty.
   std::function<double(const typename Cosserat<dim>::Place&)> profile;
+};
+
+/// Nodes that share one displacement or micro-rotation, whatever it is: a stiff, smooth plate.
+struct EqualDof {
+  std::string on;  ///< boundary or node set
+  Dof dof;
 };
 
 /// So many tables that are zero.
@@ -86,16 +94,26 @@ struct Problem {
   std::map<std::string, std::shared_ptr<Material<dim>>> materials;
   std::vector<PrescribedDof<dim>> prescribed;
   std::vector<Tie> ties = {};
+  std::vector<EqualDof> equal_dofs = {};
   std::vector<BoundaryLoad<dim>> boundary_loads;
   std::vector<NodeLoad> node_loads;
   std::vector<BodyLoad<dim>> body_loads;
   std::vector<InitialStress<dim>> initial_stresses;
+  std::vector<NodalField> fields = {};
+  std::vector<PrescribedField<dim>> prescribed_fields = {};
+  /// The further terms of the balance at the nodes. One solver at a time works with them.
+  std::vector<std::shared_ptr<Contribution<dim>>> contributions = {};
+
+  /// Where nodal vectors keep the fields.
+  [[nodiscard]] FieldPlaces<dim> places() const { return {mesh.nodes.size(), fields}; }
 };
 
 /// The prescribed dofs in the order in which they hold: those on a set of nodes go before those on a boundary, which go
 /// before those on the set `all`; the first that names a node gives its value there.
 template <int dim>
 std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem);
+template <int dim>
+std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem);
 
 /// All faults of a problem, one message each: unknown names, elements with no or two materials, a dof
 /// prescribed twice with different values by items of one precedence, ties whose sides do not match, distorted elements, rigid motions that no support holds. Runs no

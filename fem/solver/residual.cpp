@@ -11,7 +11,7 @@ Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& cons
                  double reference_force, double reference_length) {
   double force = 0.0;
   double moment = 0.0;
-  for (Eigen::Index entry = 0; entry < unbalanced.size(); ++entry) {
+  for (Eigen::Index entry = 0; entry < constraints.places().mechanics(); ++entry) {
     if (!constraints.is_free(static_cast<std::size_t>(entry))) continue;
     (is_rotation(dof_at<dim>(entry)) ? moment : force) += std::abs(unbalanced(entry));
   }
@@ -22,9 +22,26 @@ Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& cons
 }
 
 template <int dim>
+std::vector<double> measure_fields(const Eigen::VectorXd& unbalanced, const Eigen::VectorXd& parts,
+                                   const Constraints<dim>& constraints) {
+  const FieldPlaces<dim>& places = constraints.places();
+  std::vector<double> residuals;
+  for (std::size_t field = 0; field < places.fields(); ++field) {
+    double sum = 0.0;
+    double all = 0.0;
+    for (Eigen::Index entry = places.start(field); entry < places.start(field + 1); ++entry) {
+      all += std::abs(parts(entry));
+      if (constraints.is_free(static_cast<std::size_t>(entry))) sum += std::abs(unbalanced(entry));
+    }
+    residuals.push_back(sum > 0.0 || !std::isfinite(sum) ? sum / all : 0.0);
+  }
+  return residuals;
+}
+
+template <int dim>
 double sum_of_reactions(const Eigen::VectorXd& forces, const Constraints<dim>& constraints) {
   double sum = 0.0;
-  for (Eigen::Index entry = 0; entry < forces.size(); ++entry) {
+  for (Eigen::Index entry = 0; entry < constraints.places().mechanics(); ++entry) {
     if (!is_rotation(dof_at<dim>(entry)) && !constraints.is_free(static_cast<std::size_t>(entry)))
       sum += std::abs(forces(entry));
   }
@@ -42,6 +59,10 @@ template Residual measure<2>(const Eigen::VectorXd& unbalanced, const Constraint
                              double reference_force, double reference_length);
 template Residual measure<3>(const Eigen::VectorXd& unbalanced, const Constraints<3>& constraints,
                              double reference_force, double reference_length);
+template std::vector<double> measure_fields<2>(const Eigen::VectorXd&, const Eigen::VectorXd&,
+                                               const Constraints<2>&);
+template std::vector<double> measure_fields<3>(const Eigen::VectorXd&, const Eigen::VectorXd&,
+                                               const Constraints<3>&);
 template double sum_of_reactions<2>(const Eigen::VectorXd& forces, const Constraints<2>& constraints);
 template double sum_of_reactions<3>(const Eigen::VectorXd& forces, const Constraints<3>& constraints);
 

@@ -11,13 +11,20 @@ namespace polargrain::fem {
 struct Residual {
   double force = 0.0;
   double moment = 0.0;
+  std::vector<double> fields =
+      {};  ///< by nodal field: absolute unbalanced rows over the absolute parts of all rows
 };
 
-/// Sums of absolute values over the free entries of `unbalanced`, relative to the references. Zero
+/// Sums of absolute forces and moments over the free entries of `unbalanced`, relative to the references. Zero
 /// over a reference of zero is zero.
 template <int dim>
 Residual measure(const Eigen::VectorXd& unbalanced, const Constraints<dim>& constraints,
                  double reference_force, double reference_length);
+
+/// Residual::fields. @param parts see NodalForces
+template <int dim>
+std::vector<double> measure_fields(const Eigen::VectorXd& unbalanced, const Eigen::VectorXd& parts,
+                                   const Constraints<dim>& constraints);
 
 /// Sum of the absolute forces (not moments) at the given entries of a nodal vector.
 template <int dim>

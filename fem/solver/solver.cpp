@@ -250,6 +250,7 @@ StepReport Solver<dim>::advance_measure(const DisplacementMeasure& measure, doub
   for (const DisplacementMeasure::Term& term : measure.terms) {
     vector(entry_of<dim>(term.node, term.dof)) += sign * term.weight;
   }
+  implementation_->refuse_unknown_time();
   return implementation_->march({}, [&](double, double share) {
     return StepGoal{.measure = vector, .amount = share * std::abs(amount)};
   });
@@ -260,9 +261,12 @@ StepReport Solver<dim>::advance_arc_length(double length) {
   if (state().last_increment.size() == 0) {
     throw RunError("arc-length control needs a first step under another control, to know its direction");
   }
+  implementation_->refuse_unknown_time();
+  const Eigen::Index mechanics = implementation_->constraints.places().mechanics();
   return implementation_->march({}, [&](double, double share) {
     Eigen::VectorXd weighted = state().last_increment;
-    for (Eigen::Index entry = 0; entry < weighted.size(); ++entry) {
+    weighted.tail(weighted.size() - mechanics).setZero();
+    for (Eigen::Index entry = 0; entry < mechanics; ++entry) {
       if (is_rotation(dof_at<dim>(entry)))
         weighted(entry) *= implementation_->reference_length * implementation_->reference_length;
     }
@@ -274,6 +278,7 @@ StepReport Solver<dim>::advance_arc_length(double length) {
 template <int dim>
 StepReport Solver<dim>::begin_explicit() {
   Implementation& self = *implementation_;
+  self.refuse_explicit();
   StepReport report;
   if (!self.start(report)) return report;
   self.withhold_imbalance();
@@ -285,6 +290,7 @@ StepReport Solver<dim>::begin_explicit() {
 template <int dim>
 StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitOptions& options) {
   Implementation& self = *implementation_;
+  self.refuse_explicit();
   SolverState<dim>& state = self.state;
   StepReport report;
   const bool first = state.velocity.size() == 0;
@@ -395,14 +401,18 @@ void Solver<dim>::save(ArchiveWriter& archive) const {
   archive.write("explicit_steps_since_rest", std::span<const double>(since_rest));
   PrefixedWriter materials(archive, "materials/");
   implementation_->materials.save(materials);
+  PrefixedWriter contributions(archive, "contributions/");
+  implementation_->contributions.save(contributions);
 }
 template <int dim>
 void Solver<dim>::restore(ArchiveReader& archive) {
   Implementation& self = *implementation_;
-  self.state = read_state<dim>(archive, problem().mesh.nodes.size(), points());
+  self.state = read_state<dim>(archive, self.constraints.places(), points(), !self.contributions.is_empty());
   self.steps_since_rest = static_cast<int>(read_lists(archive, "explicit_steps_since_rest", 1, 1)[0]);
   PrefixedReader materials(archive, "materials/");
   self.materials.restore(materials);
+  PrefixedReader contributions(archive, "contributions/");
+  self.contributions.restore(contributions);
   self.move_to_committed();
 }
 
@@ -429,7 +439,7 @@ std::pair<const Material<dim>*, std::size_t> Solver<dim>::material_of_point(std:
 
 template <int dim>
 Eigen::VectorXd Solver<dim>::internal_forces() const {
-  return implementation_->discretisation.internal_forces(state().responses);
+  return implementation_->committed_internal_forces();
 }
 template <int dim>
 Eigen::VectorXd Solver<dim>::external_forces() const {
@@ -458,6 +468,30 @@ typename Cosserat<dim>::NodeValues Solver<dim>::mean_displacement(const std::vec
   for (const int node : nodes)
     sum += state().displacement.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
   return sum / static_cast<double>(nodes.size());
+}
+
+template <int dim>
+double Solver<dim>::mean_field(std::size_t field, const std::vector<std::string>& on) const {
+  double sum = 0.0;
+  int count = 0;
+  for (const int node : problem().mesh.nodes_on(on)) {
+    const int entry = implementation_->constraints.places().entry(field, node);
+    if (entry < 0) continue;
+    sum += state().displacement(entry);
+    ++count;
+  }
+  return sum / count;
+}
+
+template <int dim>
+double Solver<dim>::field_reaction(std::size_t field, const std::vector<std::string>& on) const {
+  double sum = 0.0;
+  for (const int node : problem().mesh.nodes_on(on)) {
+    const int entry = implementation_->constraints.places().entry(field, node);
+    if (entry >= 0 && !implementation_->constraints.is_free(static_cast<std::size_t>(entry)))
+      sum += state().contributed(entry);
+  }
+  return sum;
 }
 
 template <int dim>

@@ -70,11 +70,12 @@ struct ExplicitOptions {
 
 /// After one evaluation of all materials.
 struct IterationReport {
-  double time = 0.0;             ///< that the step is to reach
-  int cuts = 0;                  ///< in a row so far
-  int iteration = 0;             ///< 1 is the predictor
-  double force_residual = 0.0;   ///< relative to the reference force
-  double moment_residual = 0.0;  ///< relative to reference force times reference length
+  double time = 0.0;                         ///< that the step is to reach
+  int cuts = 0;                              ///< in a row so far
+  int iteration = 0;                         ///< 1 is the predictor
+  double force_residual = 0.0;               ///< relative to the reference force
+  double moment_residual = 0.0;              ///< relative to reference force times reference length
+  std::vector<double> field_residuals = {};  ///< of each nodal field (NodalField::tolerance)
 };
 
 /// The outcome of Solver::advance.
@@ -88,7 +89,8 @@ struct StepReport {
   long evaluations = 0;         ///< of material points, lost ones too
   double force_residual = 0.0;  ///< of the last committed substep
   double moment_residual = 0.0;
-  double force_noise = 0.0;  ///< the residual of noise alone, of the last committed substep
+  std::vector<double> field_residuals;  ///< of each nodal field
+  double force_noise = 0.0;             ///< the residual of noise alone, of the last committed substep
   double moment_noise = 0.0;
   int within_noise = 0;     ///< substeps committed with a residual above its tolerance but within the noise
   int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
@@ -136,7 +138,8 @@ class Observer {
 template <int dim>
 struct SolverState {
   double time = 0.0;
-  Eigen::VectorXd displacement;                        ///< the entries of node_dofs for each node
+  Eigen::VectorXd
+      displacement;  ///< the entries of node_dofs for each node, then those of the fields (FieldPlaces)
   std::vector<typename Cosserat<dim>::Vector> strain;  ///< by point, accumulated
   std::vector<Response<dim>> responses;  ///< by point: stress and tangent of the last converged step
   double reference_force = 0.0;          ///< 0: not fixed yet
@@ -149,6 +152,7 @@ struct SolverState {
   Eigen::VectorXd velocity;  ///< nodal values a step
   /// Nodal forces of the supports at the end of the last row of them (RowOfForces); empty where that row was no explicit one.
   Eigen::VectorXd reactions;
+  Eigen::VectorXd contributed;  ///< nodal forces of the contributions; empty without any
 };
 
 /// Quasi-static equilibrium of a Problem: Newton iterations with a consistent predictor (docs/theory.md,
@@ -179,6 +183,7 @@ class Solver {
 
   /// Goes on until `measure` has grown by `amount` (not zero), at whatever loading time balances it. Time
   /// tables must be straight over the times passed through.
+  /// @throws RunError where a contribution depends on the duration of a step
   StepReport advance_measure(const DisplacementMeasure& measure, double amount);
   /// Goes on by `length` (m, positive) along the direction of the last committed substep: sqrt of the sum
   /// over the nodes of u1^2 + u2^2 + (reference length w)^2, projected on that direction (arc-length
@@ -188,6 +193,7 @@ class Solver {
 
   /// In place of equilibrate, before explicit steps: evaluates the initial state. Forces out of balance then, and the
   /// displacements given at time 0, come in smoothly over the first advance_explicit.
+  /// @throws RunError for a problem with contributions or fields
   StepReport begin_explicit();
   /// Goes on to `time` in `steps` explicit steps at one rate: central differences with nodal masses that make each step stable.
   /// The residuals of the report are means over these steps, unbalanced forces of the nodes with their inertia.
@@ -232,6 +238,10 @@ class Solver {
   [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::string& on) const {
     return mean_displacement(std::vector{on});
   }
+  /// Mean value of a nodal field over those nodes of boundaries and node sets that carry it; NaN where none does.
+  [[nodiscard]] double mean_field(std::size_t field, const std::vector<std::string>& on) const;
+  /// Sum of the contributed rows of a field at given values of it there: what its supports take out over the last substep.
+  [[nodiscard]] double field_reaction(std::size_t field, const std::vector<std::string>& on) const;
   /// Mean over the volume of the sum of the normal strains; positive is expansion.
   [[nodiscard]] double volume_strain() const;
   /// The effects that small deformation leaves out of the committed state (left_out.hpp); empty where small, and in large

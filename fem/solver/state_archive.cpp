@@ -36,11 +36,13 @@ void write_state(ArchiveWriter& archive, const SolverState<dim>& state) {
   for (const typename Cosserat<dim>::Vector& point : state.strain)
     strain.insert(strain.end(), point.begin(), point.end());
   archive.write("strain", std::span<const double>(strain));
+  if (state.contributed.size() > 0) archive.write("contributed", values_of(state.contributed));
   write_records(archive, "responses", std::span<const Response<dim>>(state.responses));
 }
 
 template <int dim>
-SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points) {
+SolverState<dim> read_state(ArchiveReader& archive, const FieldPlaces<dim>& places, std::size_t points,
+                            bool has_contributions) {
   SolverState<dim> state;
   const std::vector<double> scalars =
       read_lists(archive, "time_reference_force_next_step_works", 1, kScalars);
@@ -49,10 +51,11 @@ SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size
   state.next_step = scalars[2];
   state.external_work = scalars[3];
   state.internal_work = scalars[4];
-  state.displacement = vector_of(read_lists(archive, "displacement", nodes, Cosserat<dim>::dofs));
+  const auto nodal_size = static_cast<std::size_t>(places.size());
+  state.displacement = vector_of(read_lists(archive, "displacement", nodal_size, 1));
   // Empty before the first step.
   if (const std::vector<double> last = archive.doubles("last_increment"); !last.empty()) {
-    state.last_increment = vector_of(read_lists(archive, "last_increment", nodes, Cosserat<dim>::dofs));
+    state.last_increment = vector_of(read_lists(archive, "last_increment", nodal_size, 1));
   }
   state.mass = vector_of(archive.doubles("mass"));
   state.velocity = vector_of(archive.doubles("velocity"));
@@ -62,12 +65,15 @@ SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size
   for (std::size_t i = 0; i < points; ++i)
     std::copy_n(&strain[Cosserat<dim>::components * i], Cosserat<dim>::components, state.strain[i].data());
   state.responses = read_records<Response<dim>>(archive, "responses", points);
+  if (has_contributions) state.contributed = vector_of(read_lists(archive, "contributed", nodal_size, 1));
   return state;
 }
 
 template void write_state<2>(ArchiveWriter& archive, const SolverState<2>& state);
 template void write_state<3>(ArchiveWriter& archive, const SolverState<3>& state);
-template SolverState<2> read_state<2>(ArchiveReader& archive, std::size_t nodes, std::size_t points);
-template SolverState<3> read_state<3>(ArchiveReader& archive, std::size_t nodes, std::size_t points);
+template SolverState<2> read_state<2>(ArchiveReader& archive, const FieldPlaces<2>& places,
+                                      std::size_t points, bool has_contributions);
+template SolverState<3> read_state<3>(ArchiveReader& archive, const FieldPlaces<3>& places,
+                                      std::size_t points, bool has_contributions);
 
 }  // namespace polargrain::fem

@@ -11,6 +11,7 @@ template <int dim>
 void write_state(ArchiveWriter& archive, const SolverState<dim>& state);
 /// @throws RunError when the archive holds the state of another mesh, or no state
 template <int dim>
-SolverState<dim> read_state(ArchiveReader& archive, std::size_t nodes, std::size_t points);
+SolverState<dim> read_state(ArchiveReader& archive, const FieldPlaces<dim>& places, std::size_t points,
+                            bool has_contributions);
 
 }  // namespace polargrain::fem

@@ -7,16 +7,19 @@ namespace polargrain::fem {
 
 template <int dim>
 TangentMatrix<dim>::TangentMatrix(const Discretisation<dim>& discretisation,
-                                  const Constraints<dim>& constraints)
+                                  const Constraints<dim>& constraints, const ContributionList& contributions)
     : discretisation_(discretisation),
       constraints_(constraints),
+      contributions_(contributions),
       matrix_(constraints.unknowns(), constraints.unknowns()) {
-  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+  const auto add_element = [&](const std::vector<int>& entries) {
     std::vector<int>& equations = equations_.emplace_back();
-    for (const int entry : discretisation.element_dofs(e)) {
+    for (const int entry : entries)
       equations.push_back(constraints.equation(static_cast<std::size_t>(entry)));
-    }
-  }
+  };
+  for (std::size_t e = 0; e < discretisation.elements(); ++e) add_element(discretisation.element_dofs(e));
+  for (const auto& contribution : contributions)
+    for (std::size_t e = 0; e < contribution->elements(); ++e) add_element(contribution->entries(e));
   find_pattern();
   find_places();
 }
@@ -67,22 +70,30 @@ void TangentMatrix<dim>::find_places() {
 }
 
 template <int dim>
+void TangentMatrix<dim>::add(const Eigen::MatrixXd& local, const std::vector<int>& equations,
+                             std::vector<int>::const_iterator& place) {
+  double* values = matrix_.valuePtr();
+  for (std::size_t j = 0; j < equations.size(); ++j) {
+    if (equations[j] < 0) continue;
+    for (std::size_t i = 0; i < equations.size(); ++i) {
+      if (equations[i] < 0) continue;
+      values[*place++] += local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+}
+
+template <int dim>
 const Eigen::SparseMatrix<double>& TangentMatrix<dim>::assemble(const Linearisation<dim>& of,
                                                                 const std::vector<LoadStiffness>& loads) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
-  auto place = places_.begin();
-  for (std::size_t e = 0; e < equations_.size(); ++e) {
-    const Eigen::MatrixXd local = discretisation_.element_tangent(e, of);
-    const std::vector<int>& equations = equations_[e];
-    for (std::size_t j = 0; j < equations.size(); ++j) {
-      if (equations[j] < 0) continue;
-      for (std::size_t i = 0; i < equations.size(); ++i) {
-        if (equations[i] < 0) continue;
-        values[*place++] += local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      }
-    }
-  }
+  auto place = places_.cbegin();
+  auto equations = equations_.cbegin();
+  for (std::size_t e = 0; e < discretisation_.elements(); ++e)
+    add(discretisation_.element_tangent(e, of), *equations++, place);
+  for (const auto& contribution : contributions_)
+    for (std::size_t e = 0; e < contribution->elements(); ++e)
+      add(contribution->tangent(e), *equations++, place);
   // The nodes of an edge belong to one element, so the pattern holds their entries.
   for (const LoadStiffness& edge : loads) {
     for (std::size_t j = 0; j < edge.entries.size(); ++j) {

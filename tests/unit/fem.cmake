@@ -5,6 +5,7 @@ polargrain_test(fem_supports_test unit unit/fem_supports_test.cpp LIBS polargrai
 polargrain_test(fem_linear_solver_test unit unit/fem_linear_solver_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_explicit_test unit unit/fem_explicit_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_solver_test unit unit/fem_solver_test.cpp LIBS polargrain_fem)
+polargrain_test(nodal_field_test unit unit/nodal_field_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_noise_test unit unit/fem_noise_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fem)
 target_compile_definitions(fem_output_test

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "common/archive.hpp"
+#include "fem/material/material.hpp"
+
+namespace polargrain::fem {
+
+template <int dim>
+struct Problem;
+
+/// The step that a contribution is asked about: nodal values at its start and their increments, both with the entries of
+/// node_dofs for each node and then those of the fields (FieldPlaces).
+struct NodalStep {
+  double start_time;
+  double time;                   ///< at the end; may be start_time
+  const Eigen::VectorXd& start;  ///< committed nodal values
+  const Eigen::VectorXd& increment;
+
+  [[nodiscard]] double duration() const { return time - start_time; }
+  /// Values at the end of the step, of the entries of one element.
+  [[nodiscard]] Eigen::VectorXd end(const std::vector<int>& entries) const {
+    return start(entries) + increment(entries);
+  }
+};
+
+/// The sums over all contributions.
+struct NodalForces {
+  /// Internal forces, which loads balance: N and N m; in the plane N/m and N. At the entries of a field: what must vanish.
+  Eigen::VectorXd internal;
+  /// At the entries of fields alone: absolute parts that `internal` is the sum of. A field is balanced when its rows are small
+  /// against the sum of all of them. A part that is itself the rounded difference of larger numbers must not be smaller than a
+  /// millionth of these.
+  Eigen::VectorXd parts;
+};
+
+/// Terms of the balance beside the stresses of the mesh: water in pores, interfaces, beams. Made of elements that couple entries
+/// of nodal vectors. Lives like a Material: evaluate starts from the committed state every time, commit keeps the last
+/// evaluation, revert drops it. Sums run in the order of the elements, so they have the same bits every time.
+///
+/// Order of calls: allocate once, by the solver that is made; evaluate with an increment of zero and commit for the initial state; then per step any number of evaluate,
+/// each perhaps followed by tangent, ended by commit or revert. A step begins with an increment of zero, for its predictor.
+template <int dim>
+class Contribution {
+ public:
+  virtual ~Contribution() = default;
+
+  /// Names it in messages: "pore water", "the interface 'wall'".
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::size_t elements() const = 0;
+  /// Entries of nodal vectors that an element couples, each once; always the same.
+  [[nodiscard]] virtual const std::vector<int>& entries(std::size_t element) const = 0;
+
+  /// Gives all elements their initial state, whatever they were asked before.
+  virtual void allocate() = 0;
+  /// Adds the forces at the end of the step. @returns why it cannot, empty when it can; the step is then cut.
+  [[nodiscard]] virtual std::string evaluate(const NodalStep& step, NodalForces& forces) = 0;
+  /// Derivative of the internal forces of an element with respect to the values at the end of the step, of the last evaluation.
+  [[nodiscard]] virtual Eigen::MatrixXd tangent(std::size_t element) const = 0;
+
+  virtual void commit() = 0;
+  virtual void revert() = 0;
+  /// The committed state, as Material::save and restore keep theirs.
+  virtual void save(ArchiveWriter& archive) const = 0;
+  virtual void restore(ArchiveReader& archive) = 0;
+
+  /// Whether its forces depend on how long a step takes: the time can then be no unknown (Solver::advance_measure).
+  [[nodiscard]] virtual bool depends_on_duration() const { return false; }
+  /// Faults of a problem that the contribution belongs to, one message each; runs nothing.
+  [[nodiscard]] virtual std::vector<std::string> faults(const Problem<dim>& problem) const {
+    (void)problem;
+    return {};
+  }
+  [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
+  /// Events of the last commits that a user should read in the log, a sentence each; then forgotten.
+  [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
+};
+
+}  // namespace polargrain::fem
