@@ -121,6 +121,8 @@ Powers powers_of(coupler::Dimension dimension) {
       return {1, -3, 0};
     case coupler::Dimension::duration:
       return {0, 0, 1};
+    case coupler::Dimension::velocity:
+      return {0, 1, -1};
     default:
       return {};
   }
@@ -129,6 +131,8 @@ Powers powers_of(coupler::Dimension dimension) {
 Powers powers_of(const coupler::Monitor& monitor, int dimension) {
   const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
+  if (monitor.kind == coupler::Monitor::Kind::pore_pressure) return {1, -2, 0};
+  if (monitor.kind == coupler::Monitor::Kind::outflow) return {0, dimension, 0};
   if (dimension == 3) return angle ? Powers{1, 1, 0} : Powers{1, 0, 0};
   return angle ? Powers{1, 0, 0} : Powers{1, -1, 0};  // of a metre of thickness
 }

@@ -23,6 +23,10 @@ std::string unit_of(const Monitor& monitor, const std::map<std::string, std::str
       return turns ? "N" : "N/m";
     case Monitor::Kind::displacement:
       return turns ? "rad" : "m";
+    case Monitor::Kind::pore_pressure:
+      return "Pa";
+    case Monitor::Kind::outflow:
+      return dimension == 3 ? "m^3" : "m^2";
     case Monitor::Kind::formula:
       break;
   }
@@ -36,6 +40,10 @@ std::string kind_of(const Monitor& monitor) {
       return "reaction";
     case Monitor::Kind::displacement:
       return "displacement";
+    case Monitor::Kind::pore_pressure:
+      return "pore_pressure";
+    case Monitor::Kind::outflow:
+      return "outflow";
     case Monitor::Kind::formula:
       break;
   }

@@ -19,11 +19,17 @@ namespace polargrain::coupler {
 
 /// A value that is followed through a run: measured on the mesh, or computed from others by a formula.
 struct Monitor {
-  enum class Kind { reaction, displacement, formula };
+  enum class Kind {
+    reaction,
+    displacement,
+    pore_pressure,  ///< mean over the nodes
+    outflow,        ///< of water through the nodes since the start
+    formula
+  };
   std::string name;
   Kind kind = Kind::formula;
   std::vector<std::string> on;  ///< boundaries and node sets, a node of several counts once; not of a formula
-  fem::Dof dof = fem::Dof::u1;  ///< not of a formula
+  fem::Dof dof = fem::Dof::u1;  ///< of reactions and displacements
   std::optional<Expression> formula;  ///< of names that stand before it, and of built_in_values()
 };
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "coupler/case/case.hpp"
 #include "coupler/case/section.hpp"
+#include "fem/water/pore_water.hpp"
 
 namespace polargrain::coupler {
 
@@ -16,13 +20,23 @@ fem::Dof dof_of(const std::string& name);
 /// Of a prescribed value: a length, or an angle.
 Dimension dimension_of(fem::Dof dof);
 
+/// The section `water` as it was read, while its boundaries are not known yet.
+struct WaterOfCase {
+  const Entry* entry;
+  std::map<std::string, fem::WaterOfRegion> regions;
+  fem::PoreWaterOptions options;
+};
+
 /// The common data of the readers of the parts of a case.
 struct CaseParts {
   std::filesystem::path directory;  ///< of the case file
   Case result;
   bool has_mesh = false;  ///< while it is false, names of boundaries and regions cannot be checked
   Faults& faults;
+  std::optional<WaterOfCase> water = {};
 
+  /// Of the loading time: with water it is physical.
+  [[nodiscard]] Dimension time() const { return water ? Dimension::duration : Dimension::number; }
   /// "a, b, c" of the keys of a map, for messages.
   template <class Map>
   static std::string names_of(const Map& map) {
@@ -44,6 +58,13 @@ void read_mesh(const Entry& entry, CaseParts& parts);
 void read_boundary(const Entry& entry, CaseParts& parts);
 void read_body_loads(const Entry& entry, CaseParts& parts);
 void read_initial_stress(const Entry& entry, CaseParts& parts);
+/// After the regions, before the boundary.
+void read_water(const Entry& entry, CaseParts& parts);
+/// Reads pore_pressure, water_level and flux of an item of `boundary`. @param table reads the value of a key
+void read_water_boundary(Section& item, const std::vector<std::string>& places, CaseParts& parts,
+                         const std::function<fem::TimeTable(const std::string&, Dimension)>& table);
+/// Gives the problem its pore pressures, when all is read.
+void add_water(CaseParts& parts);
 void read_steps(const Entry& entry, CaseParts& parts);
 
 /// DEM steps that an explicit step of the nodes has, unless the case says otherwise.

@@ -19,7 +19,7 @@ struct Unit {
   bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 30> kUnits{{
+constexpr std::array<Unit, 36> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -50,6 +50,12 @@ constexpr std::array<Unit, 30> kUnits{{
     {Dimension::duration, "s", 1.0},
     {Dimension::duration, "min", 60.0},
     {Dimension::duration, "h", 3600.0},
+    {Dimension::duration, "d", 86400.0},
+    {Dimension::velocity, "m/s", 1.0},
+    {Dimension::velocity, "cm/s", 1e-2},
+    {Dimension::velocity, "mm/s", 1e-3},
+    {Dimension::velocity, "m/d", 1.0 / 86400.0},
+    {Dimension::velocity, "m/a", 1.0 / 31557600.0},
 }};
 
 std::string_view trimmed(std::string_view text) {
@@ -89,6 +95,8 @@ std::string expectation(Dimension dimension) {
       return "a time in s, or with one of the units " + units;
     case Dimension::unit_weight:
       return "a force per volume in N/m3, or with one of the units " + units;
+    case Dimension::velocity:
+      return "a flow of water in m/s, or with one of the units " + units;
     case Dimension::number:
       break;
   }

@@ -17,7 +17,8 @@ enum class Dimension {
   moment,
   force_per_length,  ///< per thickness
   unit_weight,
-  duration
+  duration,
+  velocity  ///< of water: a permeability, a flux
 };
 
 /// "a pressure in Pa, or with one of the units Pa, kPa, MPa, GPa": for messages.

@@ -42,8 +42,10 @@ class CaseReader {
     });
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
     if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
+    if (const Entry* entry = top.find("water")) read_water(*entry, parts_);
     boundary_ = top.require("boundary", "a list of supports and loads");
     if (boundary_ != nullptr) read_boundary(*boundary_, parts_);
+    add_water(parts_);
     if (const Entry* entry = top.find("body")) read_body_loads(*entry, parts_);
     if (const Entry* entry = top.find("initial_stress")) {
       read_initial_stress(*entry, parts_);
@@ -210,10 +212,16 @@ class CaseReader {
         section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;
     const bool displacement = section.find("displacement") != nullptr;
-    if (reaction == displacement && entry.kind == Entry::Kind::map) {
-      faults_.push_back(entry.fault(section.name() +
-                                    ": expected either 'reaction' or 'displacement', each one of " +
-                                    listed(dof_names(case_.dimension())) + ", or a formula"));
+    const bool water = section.find("water") != nullptr;
+    if (reaction + displacement + water != 1 && entry.kind == Entry::Kind::map) {
+      faults_.push_back(
+          entry.fault(section.name() + ": expected either 'reaction' or 'displacement', each one of " +
+                      listed(dof_names(case_.dimension())) +
+                      (parts_.water ? ", 'water', one of pressure, outflow" : "") + ", or a formula"));
+    } else if (water) {
+      const std::string what = section.choice("water", {"pressure", "outflow"});
+      monitor.kind = what == "outflow" ? Monitor::Kind::outflow : Monitor::Kind::pore_pressure;
+      if (!parts_.water) section.fault("water", "water: the case has no water");
     } else {
       monitor.kind = reaction ? Monitor::Kind::reaction : Monitor::Kind::displacement;
       const std::string dof =

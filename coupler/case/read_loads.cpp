@@ -18,14 +18,20 @@ enum class Single {
 };
 
 /// A value, or a list of [time, value]: straight between them, constant outside.
-fem::TimeTable time_table(Section& section, const std::string& key, Dimension dimension, Single single) {
+fem::TimeTable time_table(Section& section, const std::string& key, Dimension dimension, Single single,
+                          const CaseParts& parts) {
   const Entry* entry = section.find(key);
   if (entry == nullptr || entry->kind != Entry::Kind::sequence) {
     const double value = section.quantity(key, dimension, Limit::any);
+    if (single == Single::ramp && parts.water && value != 0.0)
+      section.fault(
+          key, key +
+                   ": with water the time is physical: give a list of [time, value], such as [[0 s, 0 mm], "
+                   "[1 h, -5 mm]]");
     return single == Single::ramp ? fem::TimeTable::ramp(value) : fem::TimeTable::constant(value);
   }
   std::vector<fem::TimeTable::Point> points;
-  for (const auto& [time, value] : section.pairs(key, Dimension::number, dimension, Limit::any)) {
+  for (const auto& [time, value] : section.pairs(key, parts.time(), dimension, Limit::any)) {
     points.push_back({time, value});
   }
   return points.empty() ? fem::TimeTable::constant(0.0) : fem::TimeTable(std::move(points));
@@ -41,7 +47,7 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
   for (const std::string& name : dof_names(parts.result.dimension())) {
     if (values.find(name) == nullptr) continue;
     const fem::Dof dof = dof_of(name);
-    take(dof, time_table(values, name, dimension(dof), single));
+    take(dof, time_table(values, name, dimension(dof), single, parts));
   }
   values.finish();
   return true;
@@ -75,7 +81,7 @@ template <int dim>
 bool read_tractions(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
   fem::BoundaryLoad<dim> load;
   const bool pressure = item.find("pressure") != nullptr;
-  if (pressure) load.pressure = time_table(item, "pressure", Dimension::pressure, Single::constant);
+  if (pressure) load.pressure = time_table(item, "pressure", Dimension::pressure, Single::constant, parts);
   const auto dimension = [](fem::Dof dof) {
     return fem::is_rotation(dof) ? Dimension::force_per_length : Dimension::pressure;
   };
@@ -125,6 +131,22 @@ bool read_tie(Section& item, const std::vector<std::string>& places, CaseParts& 
   return true;
 }
 
+/// `{on: top, equal: [u2]}`: a stiff, smooth plate.
+bool read_equal(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
+  if (item.find("equal") == nullptr) return false;
+  const std::vector<std::string>& known = dof_names(parts.result.dimension());
+  for (const std::string& name : item.words("equal", "a list of " + listed(known))) {
+    if (std::ranges::find(known, name) == known.end()) {
+      item.fault("equal", fmt::format("equal: expected one of {}, found '{}'", listed(known), name));
+      continue;
+    }
+    parts.result.with_problem([&](auto& problem) {
+      for (const std::string& place : places) problem.equal_dofs.push_back({place, dof_of(name)});
+    });
+  }
+  return true;
+}
+
 void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
   const std::vector<std::string> places =
@@ -134,9 +156,15 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
       parts.result.space ? read_tractions<3>(item, places, parts) : read_tractions<2>(item, places, parts);
   const bool forces = read_node_forces(item, places, parts);
   const bool tie = read_tie(item, places, parts);
+  const bool equal = read_equal(item, places, parts);
+  read_water_boundary(item, places, parts, [&](const std::string& key, Dimension dimension) {
+    return time_table(item, key, dimension, Single::constant, parts);
+  });
+  const bool water = item.find("pore_pressure") != nullptr || item.find("water_level") != nullptr ||
+                     item.find("flux") != nullptr;
   item.finish();
   if (!tractions) parts.check_places(item, "on", places);
-  if (!supports && !tractions && !forces && !tie && entry.kind == Entry::Kind::map) {
+  if (!supports && !tractions && !forces && !tie && !equal && !water && entry.kind == Entry::Kind::map) {
     parts.faults.push_back(entry.fault(
         name + ": has no support and no load; give fix, move, pressure, traction, node_force or tie"));
   }
@@ -155,7 +183,7 @@ void read_body_item(const Entry& entry, const std::string& name, CaseParts& part
   const std::string region = parts.region(item, "region");
   const fem::TimeTable factor = item.find("factor") == nullptr
                                     ? fem::TimeTable::constant(1.0)
-                                    : time_table(item, "factor", Dimension::number, Single::constant);
+                                    : time_table(item, "factor", Dimension::number, Single::constant, parts);
   const bool weight = item.find("unit_weight") != nullptr;
   const bool force = item.find("force") != nullptr;
   if (weight == force && entry.kind == Entry::Kind::map) {

@@ -14,3 +14,6 @@ polargrain_test(fem_hard_cases_test verification verification/fem_hard_cases_tes
 polargrain_test(fem_many_elements_test long verification/fem_many_elements_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_large_tangent_test verification verification/fem_large_tangent_test.cpp LIBS polargrain_fem)
 polargrain_test(objectivity_test verification verification/objectivity_test.cpp LIBS polargrain_coupler)
+polargrain_test(water_consolidation_test verification verification/water_consolidation_test.cpp LIBS polargrain_fem)
+polargrain_test(water_plane_test verification verification/water_plane_test.cpp LIBS polargrain_fem)
+polargrain_test(water_undrained_test verification verification/water_undrained_test.cpp LIBS polargrain_fem)

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/water/pore_water.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/packed_values.hpp"
+#include "fem/element/corner_shape.hpp"
+#include "fem/element/dofs.hpp"
+
+namespace polargrain::fem {
+namespace {
+
+double porosity(double void_ratio) {
+  return void_ratio / (1.0 + void_ratio);
+}
+
+}  // namespace
+
+template <int dim>
+PoreWater<dim>::PoreWater(const Problem<dim>& problem, std::size_t field,
+                          std::map<std::string, WaterOfRegion> regions, PoreWaterOptions options)
+    : regions_(std::move(regions)), options_(std::move(options)) {
+  const FieldPlaces<dim> places = problem.places();
+  first_entry_ = places.start(field);
+  outflow_ = Eigen::VectorXd::Zero(places.start(field + 1) - first_entry_);
+  trial_outflow_ = outflow_;
+  for (const auto& [region, water] : regions_) {
+    const auto elements = problem.mesh.regions.find(region);
+    if (elements == problem.mesh.regions.end()) continue;  // a fault
+    for (const int e : elements->second) add_element(problem, places, field, e, water);
+  }
+  for (const WaterFlux& flux : options_.fluxes) add_flux(problem, places, field, flux);
+}
+
+template <int dim>
+void PoreWater<dim>::add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places,
+                                 std::size_t field, int number, const WaterOfRegion& water) {
+  const Element<dim>& element = problem.mesh.elements[static_cast<std::size_t>(number)];
+  ElementOfWater& made = elements_.emplace_back();
+  made.number = number;
+  made.water = &water;
+  for (const int node : element.nodes)
+    for (int i = 0; i < dim; ++i) made.moved.push_back(entry_of<dim>(node) + i);
+  for (int a = 0; a < element.type->corners; ++a)
+    made.pressed.push_back(places.entry(field, element.nodes[static_cast<std::size_t>(a)]));
+  made.entries = made.moved;
+  made.entries.insert(made.entries.end(), made.pressed.begin(), made.pressed.end());
+
+  const VectorRows<dim> nodes = problem.mesh.element_positions(number);
+  const auto points = point_geometries<dim>(*element.type, nodes);
+  auto shapes = corner_shapes_in_place<dim>(*element.type, nodes);
+  made.coupling.setZero(dim * element.type->nodes, element.type->corners);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // dN_a / dx_i in the order of the displacements.
+    const Eigen::MatrixXd columns = points[i].gradient.transpose();
+    const Eigen::VectorXd divergence = columns.reshaped();
+    made.coupling += points[i].volume * divergence * shapes[i].value.transpose();
+    made.points.push_back({points[i].volume, 0.0, 0.0, divergence, std::move(shapes[i])});
+  }
+}
+
+template <int dim>
+void PoreWater<dim>::refresh(ElementOfWater& element) const {
+  const auto corners = static_cast<Eigen::Index>(element.pressed.size());
+  element.storage.setZero(corners, corners);
+  element.conduction.setZero(corners, corners);
+  element.weight.setZero(corners);
+  for (const Point& point : element.points) {
+    const Eigen::VectorXd& n = point.shape.value;
+    const double compliance = porosity(point.void_ratio) / element.water->bulk_modulus;
+    element.storage += point.volume * compliance * n * n.transpose();
+    if (element.water->undrained) continue;
+    const double k = element.water->permeability.at(point.void_ratio);
+    const VectorRows<dim>& gradient = point.shape.derivative;
+    element.conduction += (point.volume * k / options_.unit_weight) * gradient * gradient.transpose();
+    if (options_.table) element.weight += (point.volume * k) * gradient.col(dim - 1);
+  }
+}
+
+template <int dim>
+void PoreWater<dim>::add_flux(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field,
+                              const WaterFlux& flux) {
+  const auto boundary = problem.mesh.boundaries.find(flux.on);
+  if (boundary == problem.mesh.boundaries.end()) return;  // a fault
+  std::map<int, double> values;
+  for (const BoundarySide& side : boundary->second) {
+    const ElementType<dim - 1>& type = *problem.mesh.side_of(side).type;
+    const std::vector<int> numbers = problem.mesh.side_nodes(side);
+    for (const QuadraturePoint<dim - 1>& place : type.quadrature) {
+      const ShapeFunctions<dim - 1> geometry = type.shape_functions(place.position);
+      Eigen::Matrix<double, dim, dim - 1> tangents = Eigen::Matrix<double, dim, dim - 1>::Zero();
+      for (std::size_t a = 0; a < numbers.size(); ++a)
+        tangents += problem.mesh.nodes[static_cast<std::size_t>(numbers[a])] *
+                    geometry.derivative.row(static_cast<Eigen::Index>(a));
+      const double area = std::sqrt((tangents.transpose() * tangents).determinant());
+      const Eigen::VectorXd shape = corner_shape_functions<dim - 1>(type, place.position).value;
+      for (Eigen::Index a = 0; a < shape.size(); ++a) {
+        const int entry = places.entry(field, numbers[static_cast<std::size_t>(a)]);
+        if (entry >= 0) values[entry] += place.weight * area * shape(a);
+      }
+    }
+  }
+  UnitFlux& made = fluxes_.emplace_back();
+  made.table = &flux.value;
+  for (const auto& [entry, value] : values) {
+    made.entries.push_back(entry);
+    made.values.push_back(value);
+  }
+}
+
+template <int dim>
+void PoreWater<dim>::allocate() {
+  outflow_.setZero();
+  told_of_suction_ = tells_of_suction_ = false;
+  for (ElementOfWater& element : elements_) {
+    for (Point& point : element.points) point.void_ratio = point.trial_void_ratio = element.water->void_ratio;
+    refresh(element);
+  }
+}
+
+template <int dim>
+std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
+  // Smaller parts are what rounding leaves of moved bodies and of pressures without gradient.
+  constexpr double kRounding = 1e-6;
+  const double theta = options_.theta;
+  const Eigen::VectorXd of_others = forces.internal.segment(first_entry_, outflow_.size());
+  duration_ = step.duration();
+  least_pressure_ = 0.0;
+  for (ElementOfWater& element : elements_) {
+    const Eigen::VectorXd start = step.start(element.pressed);
+    const Eigen::VectorXd change = step.increment(element.pressed);
+    const Eigen::VectorXd moved = step.increment(element.moved);
+    forces.internal(element.moved) -= element.coupling * (start + change);
+
+    const Eigen::VectorXd mean = start + theta * change;
+    const Eigen::VectorXd squeezed = element.coupling.transpose() * moved;
+    const Eigen::VectorXd stored = element.storage * change;
+    const Eigen::VectorXd led = duration_ * (element.conduction * mean);
+    const Eigen::VectorXd sunk = duration_ * element.weight;
+    forces.internal(element.pressed) -= squeezed + stored + led + sunk;
+    forces.parts(element.pressed) +=
+        squeezed.cwiseAbs() + stored.cwiseAbs() + led.cwiseAbs() + sunk.cwiseAbs() +
+        kRounding * (element.coupling.cwiseAbs().transpose() * moved.cwiseAbs() +
+                     duration_ * (element.conduction.cwiseAbs() * mean.cwiseAbs()));
+    for (Point& point : element.points) {
+      const double strain = point.divergence.dot(moved);
+      point.trial_void_ratio = point.void_ratio + (1.0 + point.void_ratio) * strain;
+    }
+    least_pressure_ = std::min(least_pressure_, (start + change).minCoeff());
+  }
+  for (const UnitFlux& flux : fluxes_) {
+    const double brought =
+        duration_ * (theta * flux.table->at(step.time) + (1.0 - theta) * flux.table->at(step.start_time));
+    for (std::size_t k = 0; k < flux.entries.size(); ++k) {
+      forces.internal(flux.entries[k]) += brought * flux.values[k];
+      forces.parts(flux.entries[k]) += std::abs(brought * flux.values[k]);
+    }
+  }
+  // The rows of free pressures vanish.
+  trial_outflow_ = outflow_ + forces.internal.segment(first_entry_, outflow_.size()) - of_others;
+  return {};
+}
+
+template <int dim>
+Eigen::MatrixXd PoreWater<dim>::tangent(std::size_t e) const {
+  const ElementOfWater& element = elements_[e];
+  const Eigen::Index u = element.coupling.rows();
+  const Eigen::Index p = element.coupling.cols();
+  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(u + p, u + p);
+  tangent.topRightCorner(u, p) = -element.coupling;
+  tangent.bottomLeftCorner(p, u) = -element.coupling.transpose();
+  tangent.bottomRightCorner(p, p) = -(element.storage + options_.theta * duration_ * element.conduction);
+  return tangent;
+}
+
+template <int dim>
+void PoreWater<dim>::commit() {
+  for (ElementOfWater& element : elements_) {
+    for (Point& point : element.points) point.void_ratio = point.trial_void_ratio;
+    refresh(element);
+  }
+  outflow_ = trial_outflow_;
+  // Air comes in at less than a metre of suction in sand.
+  if (!told_of_suction_ && options_.table && least_pressure_ < -options_.unit_weight)
+    tells_of_suction_ = told_of_suction_ = true;
+}
+
+template <int dim>
+void PoreWater<dim>::save(ArchiveWriter& archive) const {
+  std::vector<double> void_ratios;
+  for (const ElementOfWater& element : elements_)
+    for (const Point& point : element.points) void_ratios.push_back(point.void_ratio);
+  archive.write("void_ratios", std::span<const double>(void_ratios));
+  archive.write("outflow",
+                std::span<const double>(outflow_.data(), static_cast<std::size_t>(outflow_.size())));
+}
+
+template <int dim>
+void PoreWater<dim>::restore(ArchiveReader& archive) {
+  std::size_t points = 0;
+  for (const ElementOfWater& element : elements_) points += element.points.size();
+  const std::vector<double> void_ratios = read_lists(archive, "void_ratios", points, 1);
+  const std::vector<double> outflow =
+      read_lists(archive, "outflow", static_cast<std::size_t>(outflow_.size()), 1);
+  outflow_ = Eigen::Map<const Eigen::VectorXd>(outflow.data(), outflow_.size());
+  auto next = void_ratios.begin();
+  for (ElementOfWater& element : elements_) {
+    for (Point& point : element.points) point.void_ratio = point.trial_void_ratio = *next++;
+    refresh(element);
+  }
+}
+
+template <int dim>
+double PoreWater<dim>::permeability(std::size_t e) const {
+  const ElementOfWater& element = elements_[e];
+  return element.water->undrained ? 0.0 : element.water->permeability.at(element.points.front().void_ratio);
+}
+
+template <int dim>
+std::vector<std::string> PoreWater<dim>::take_notes() {
+  if (!tells_of_suction_) return {};
+  tells_of_suction_ = false;
+  return {fmt::format(
+      "the pore pressure falls to {:.3g} kPa, a suction of more than 1 m of water: real ground draws in air there, "
+      "this one stays saturated",
+      1e-3 * least_pressure_)};
+}
+
+template <int dim>
+std::vector<std::string> PoreWater<dim>::faults(const Problem<dim>& problem) const {
+  std::vector<std::string> messages;
+  std::set<int> wet;
+  std::set<std::string> unstable;
+  for (const auto& [region, water] : regions_) {
+    const auto elements = problem.mesh.regions.find(region);
+    if (elements == problem.mesh.regions.end()) {
+      messages.push_back(fmt::format("the mesh has no region '{}'", region));
+      continue;
+    }
+    bool twice = false;
+    for (const int e : elements->second) {
+      twice = !wet.insert(e).second || twice;
+      const ElementType<dim>& type = *problem.mesh.elements[static_cast<std::size_t>(e)].type;
+      if (type.nodes == type.corners) unstable.insert(type.name);
+    }
+    if (twice)
+      messages.push_back(fmt::format("elements of '{}' are in another region with water too", region));
+    if (!(water.bulk_modulus > 0.0) || !(water.void_ratio > 0.0))
+      messages.push_back(fmt::format("bulk modulus and void ratio of '{}' must be positive", region));
+  }
+  for (const std::string& type : unstable)
+    messages.push_back(fmt::format(
+        "elements {} have displacements and pressures of one degree, which makes pressures oscillate: take "
+        "elements with middle nodes ({})",
+        type, dim == 2 ? "Q8R, T6" : "H20R, T10"));
+  for (const WaterFlux& flux : options_.fluxes)
+    if (!problem.mesh.boundaries.contains(flux.on))
+      messages.push_back(fmt::format("a flux needs a boundary, '{}' is not a boundary", flux.on));
+  if (problem.deformation == Deformation::large)
+    messages.emplace_back("pore water flows in small deformation only, so far");
+  return messages;
+}
+
+template <int dim>
+std::shared_ptr<PoreWater<dim>> add_pore_water(Problem<dim>& problem,
+                                               std::map<std::string, WaterOfRegion> regions,
+                                               const PoreWaterOptions& options) {
+  std::set<int> corners;
+  for (const auto& [region, water] : regions) {
+    const auto elements = problem.mesh.regions.find(region);
+    if (elements == problem.mesh.regions.end()) continue;
+    for (const int e : elements->second) {
+      const Element<dim>& element = problem.mesh.elements[static_cast<std::size_t>(e)];
+      corners.insert(element.nodes.begin(), element.nodes.begin() + element.type->corners);
+    }
+  }
+  NodalField pressure{kPorePressure, "Pa", {corners.begin(), corners.end()}};
+  pressure.tied = true;
+  if (options.table) {
+    for (const int node : pressure.nodes)
+      pressure.initial.push_back(
+          options.unit_weight *
+          (*options.table - problem.mesh.nodes[static_cast<std::size_t>(node)](dim - 1)));
+  }
+  problem.fields.push_back(std::move(pressure));
+  auto water =
+      std::make_shared<PoreWater<dim>>(problem, problem.fields.size() - 1, std::move(regions), options);
+  problem.contributions.push_back(water);
+  return water;
+}
+
+template class PoreWater<2>;
+template class PoreWater<3>;
+template std::shared_ptr<PoreWater<2>> add_pore_water<2>(Problem<2>&, std::map<std::string, WaterOfRegion>,
+                                                         const PoreWaterOptions&);
+template std::shared_ptr<PoreWater<3>> add_pore_water<3>(Problem<3>&, std::map<std::string, WaterOfRegion>,
+                                                         const PoreWaterOptions&);
+
+}  // namespace polargrain::fem

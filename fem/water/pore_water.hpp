@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fem/element/element_type.hpp"
+#include "fem/solver/contribution.hpp"
+#include "fem/solver/problem.hpp"
+#include "fem/water/permeability.hpp"
+
+namespace polargrain::fem {
+
+/// The water of a region; its pores are full.
+struct WaterOfRegion {
+  Permeability permeability = Permeability::constant(0.0);
+  double void_ratio = 0.7;      ///< e at the start; follows the volume strain from there
+  double bulk_modulus = 2.2e9;  ///< Kw of the water, Pa; infinite: it does not yield
+  bool undrained = false;       ///< no water flows, whatever the permeability
+};
+
+/// Water that is brought in through a boundary.
+struct WaterFlux {
+  std::string on;   ///< boundary
+  TimeTable value;  ///< m/s, into the body
+};
+
+struct PoreWaterOptions {
+  double unit_weight = 9.81e3;  ///< of water, N/m^3
+  /// Weight of the end of a step: 1 damps, 1/2 is of second order in time and rings behind sudden changes.
+  double theta = 1.0;
+  /// Height of the water table at the start, along the last axis, m: p is hydrostatic then, and gravity acts on the water. Empty:
+  /// p is the excess over whatever is hydrostatic, zero at the start.
+  std::optional<double> table = {};
+  std::vector<WaterFlux> fluxes = {};
+};
+
+/// Name of the field of pore pressures (Pa, compression positive).
+inline constexpr const char* kPorePressure = "pore_pressure";
+
+/// Saturated pores that water flows through (Biot): the stress of the mesh is the effective one, the total one less p on the
+/// normal stresses. Displacements are quadratic, p is linear on the same elements (Taylor and Hood); boundaries are closed
+/// where nothing is said. Small deformation. docs/theory/water.md
+template <int dim>
+class PoreWater final : public Contribution<dim> {
+ public:
+  /// @param field number of the field of pore pressures @param regions which the field belongs to
+  PoreWater(const Problem<dim>& problem, std::size_t field, std::map<std::string, WaterOfRegion> regions,
+            PoreWaterOptions options);
+
+  [[nodiscard]] std::string name() const override { return "pore water"; }
+  [[nodiscard]] std::size_t elements() const override { return elements_.size(); }
+  [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return elements_[e].entries; }
+  void allocate() override;
+  [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
+  [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
+  void commit() override;
+  void revert() override {}
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+  [[nodiscard]] bool depends_on_duration() const override { return true; }
+  [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
+  [[nodiscard]] std::vector<std::string> take_notes() override;
+
+  /// Elements of the mesh that hold water, in the order of elements().
+  [[nodiscard]] int mesh_element(std::size_t e) const { return elements_[e].number; }
+  [[nodiscard]] const PoreWaterOptions& options() const { return options_; }
+  /// Volume that has left the ground through a node since the start: m^3, in the plane per m of thickness. Zero where the node
+  /// is closed. @param entry of its pressure in nodal vectors
+  [[nodiscard]] double outflow(int entry) const { return outflow_(entry - first_entry_); }
+  /// k at the first point of an element, m/s; 0 where it is undrained.
+  [[nodiscard]] double permeability(std::size_t e) const;
+
+ private:
+  /// A point of an element.
+  struct Point {
+    double volume;
+    double void_ratio;           ///< committed
+    double trial_void_ratio;     ///< of the last evaluation
+    Eigen::VectorXd divergence;  ///< volume strain = divergence . displacements of the element
+    ShapeFunctions<dim> shape;   ///< of the corners, gradients by position
+  };
+  struct ElementOfWater {
+    int number;  ///< in the mesh
+    const WaterOfRegion* water;
+    std::vector<int> entries;  ///< displacements, then pressures
+    std::vector<int> moved;    ///< entries of the displacements
+    std::vector<int> pressed;  ///< entries of the pressures
+    std::vector<Point> points;
+    Eigen::MatrixXd coupling;    ///< Q: a row a displacement, a column a pressure, m^2
+    Eigen::MatrixXd storage;     ///< S
+    Eigen::MatrixXd conduction;  ///< H
+    Eigen::VectorXd weight;      ///< h_g
+  };
+  /// A flux of 1 m/s on a boundary, at the pressures of its nodes.
+  struct UnitFlux {
+    std::vector<int> entries;
+    std::vector<double> values;
+    const TimeTable* table;
+  };
+  void add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field, int number,
+                   const WaterOfRegion& water);
+  void add_flux(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field,
+                const WaterFlux& flux);
+  /// Storage and conduction of the committed void ratios.
+  void refresh(ElementOfWater& element) const;
+
+  std::map<std::string, WaterOfRegion> regions_;
+  PoreWaterOptions options_;
+  std::vector<ElementOfWater> elements_;
+  std::vector<UnitFlux> fluxes_;
+  Eigen::Index first_entry_;  ///< of the pressures in nodal vectors
+  Eigen::VectorXd outflow_;   ///< by pressure, committed
+  Eigen::VectorXd trial_outflow_;
+  double duration_ = 0.0;        ///< of the last evaluation
+  double least_pressure_ = 0.0;  ///< of the last evaluation
+  bool told_of_suction_ = false;
+  bool tells_of_suction_ = false;
+};
+
+/// Gives a problem its pore pressures: field, contribution, pressures at the start. To be called once, when mesh and regions are
+/// known; prescribed pressures (Problem::prescribed_fields of kPorePressure) come before or after.
+template <int dim>
+std::shared_ptr<PoreWater<dim>> add_pore_water(Problem<dim>& problem,
+                                               std::map<std::string, WaterOfRegion> regions,
+                                               const PoreWaterOptions& options);
+
+}  // namespace polargrain::fem
