@@ -127,6 +127,11 @@ Powers powers_of(coupler::Dimension dimension) {
 }
 
 Powers powers_of(const coupler::Monitor& monitor, int dimension) {
+  if (monitor.kind == coupler::Monitor::Kind::place) {
+    if (monitor.value.unit == "Pa") return {1, -2, 0};
+    if (monitor.value.unit == "N/m") return {1, -1, 0};
+    return monitor.value.unit == "m" ? Powers{0, 1, 0} : Powers{};
+  }
   const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
   if (dimension == 3) return angle ? Powers{1, 1, 0} : Powers{1, 0, 0};

@@ -23,6 +23,8 @@ std::string unit_of(const Monitor& monitor, const std::map<std::string, std::str
       return turns ? "N" : "N/m";
     case Monitor::Kind::displacement:
       return turns ? "rad" : "m";
+    case Monitor::Kind::place:
+      return monitor.value.unit;
     case Monitor::Kind::formula:
       break;
   }
@@ -36,6 +38,8 @@ std::string kind_of(const Monitor& monitor) {
       return "reaction";
     case Monitor::Kind::displacement:
       return "displacement";
+    case Monitor::Kind::place:
+      return monitor.value.is_stress ? "stress" : "displacement";
     case Monitor::Kind::formula:
       break;
   }

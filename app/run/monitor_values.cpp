@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/run/place_values.hpp"
 #include "common/error.hpp"
 
 namespace polargrain::app {
@@ -29,6 +30,9 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
         break;
       case coupler::Monitor::Kind::displacement:
         value = solver.mean_displacement(monitor.on)[dof];
+        break;
+      case coupler::Monitor::Kind::place:
+        value = values_at(solver, monitor.at, {monitor.value}).front();
         break;
       case coupler::Monitor::Kind::formula:
         value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });

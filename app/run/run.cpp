@@ -202,7 +202,27 @@ class Run {
     return true;
   }
 
-  fem::StepReport begin() { return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate(); }
+  fem::StepReport begin() {
+    if (!case_.start_from.empty()) return start_from(case_.start_from);
+    return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate();
+  }
+
+  /// Begins where another run has ended.
+  fem::StepReport start_from(const std::filesystem::path& directory) {
+    const std::filesystem::path file = directory / kCheckpointFile;
+    coupler::Checkpoint end = coupler::read_checkpoint(file);
+    std::vector<std::string> regions;
+    const std::string prefix = "regions.";
+    for (const auto& [key, value] : end.identity.values)
+      if (key.starts_with(prefix)) regions.push_back(key.substr(prefix.size()));
+    log_.info("starting from the end of {}, step {}", directory.string(), end.step);
+    try {
+      PrefixedReader state(end.state, "solver/");
+      return solver_->start_from(state, regions);
+    } catch (const RunError& error) {
+      throw RunError(fmt::format("{} cannot be started from: {}", file.string(), error.what()));
+    }
+  }
 
   fem::StepReport take(const coupler::StepTarget& target) {
     if (const coupler::CaseStage* const stage = case_.stage_of(step_); stage && stage->first_step == step_)
@@ -251,8 +271,8 @@ class Run {
     save(totals, record_.costs, record_.pool);
     PrefixedWriter state(checkpoint->state, "solver/");
     try {
-      // Nothing will follow the last step.
-      if (step < case_.steps()) solver_->save(state);
+      // Of the last step too: another run may start from it.
+      solver_->save(state);
       checkpoints_.keep(std::move(checkpoint));
     } catch (const RunError& error) {
       if (step == 0) warn(fmt::format("this run cannot be interrupted without loss: {}", error.what()));

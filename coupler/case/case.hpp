@@ -11,6 +11,7 @@
 #include "coupler/case/case_identity.hpp"
 #include "coupler/case/expression.hpp"
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/place_values.hpp"
 #include "coupler/pool/patience.hpp"
 #include "fem/solver/problem.hpp"
 #include "fem/solver/solver.hpp"
@@ -19,11 +20,14 @@ namespace polargrain::coupler {
 
 /// A value that is followed through a run: measured on the mesh, or computed from others by a formula.
 struct Monitor {
-  enum class Kind { reaction, displacement, formula };
+  enum class Kind { reaction, displacement, formula, place };
   std::string name;
   Kind kind = Kind::formula;
-  std::vector<std::string> on;  ///< boundaries and node sets, a node of several counts once; not of a formula
-  fem::Dof dof = fem::Dof::u1;  ///< not of a formula
+  std::vector<std::string>
+      on;  ///< boundaries and node sets, a node of several counts once; of reaction and displacement
+  fem::Dof dof = fem::Dof::u1;        ///< of reaction and displacement
+  std::vector<double> at;             ///< of a place: where, m
+  PlaceValue value;                   ///< of a place
   std::optional<Expression> formula;  ///< of names that stand before it, and of built_in_values()
 };
 
@@ -73,6 +77,9 @@ struct Case {
   fem::ExplicitOptions explicit_options;  ///< of rows whose fields are written; others do not come to rest
   double explicit_error = 0.02;           ///< error of the reactions that is allowed in explicit steps
   std::vector<Monitor> monitors;
+  std::vector<Profile> profiles;
+  std::filesystem::path
+      start_from;  ///< result directory of the run whose end this one starts from; empty: none
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
   bool output_points = true;       ///< whether there is one of the integration points beside each

@@ -51,7 +51,9 @@ class CaseReader {
       check_initial_stress(*entry);
     }
     if (const Entry* entry = top.require("steps", "a map with at least 'count'")) read_steps(*entry, parts_);
+    if (top.find("start_from") != nullptr) read_start(top);
     if (const Entry* entry = top.find("monitors")) read_monitors(*entry);
+    if (const Entry* entry = top.find("profiles")) read_profiles(*entry, parts_);
     if (const Entry* entry = top.find("output")) read_output(*entry);
     if (const Entry* entry = top.find("workers")) read_workers(*entry);
     top.finish();
@@ -94,6 +96,24 @@ class CaseReader {
   [[nodiscard]] bool is_classical() const {
     return case_.with_problem(
         [](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
+  }
+
+  /// The end of another run in place of packings and initial stresses.
+  void read_start(Section& top) {
+    const std::string name = top.text("start_from", "the result directory of a run");
+    const std::filesystem::path directory = parts_.directory / name;
+    std::error_code error;
+    if (!std::filesystem::exists(directory / "checkpoint.h5", error)) {
+      top.fault(
+          "start_from",
+          fmt::format("start_from: '{}' holds no checkpoint.h5 beside the case; give the result directory "
+                      "of a run that has come to its end",
+                      name));
+    }
+    if (case_.needs_workers())
+      top.fault("start_from", "start_from: boxes of grains cannot be taken over yet; only laws can");
+    if (case_.is_explicit()) top.fault("start_from", "start_from: begins with a balanced step; use newton");
+    case_.start_from = directory;
   }
 
   static std::vector<std::string> models_in_space() {
@@ -208,6 +228,11 @@ class CaseReader {
 
   void read_measurement(const Entry& entry, Monitor& monitor) {
     Section section(entry, fmt::format("monitor '{}'", monitor.name), faults_);
+    if (section.find("at") != nullptr) {
+      read_place_monitor(section, monitor, parts_);
+      section.finish();
+      return;
+    }
     const std::vector<std::string> on =
         section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;

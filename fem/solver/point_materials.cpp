@@ -128,6 +128,14 @@ void PointMaterials<dim>::restore(ArchiveReader& archive) {
   }
 }
 
+template <int dim>
+std::vector<std::size_t> PointMaterials<dim>::materials_of_points() const {
+  std::vector<std::size_t> numbers(at_.size());
+  for (std::size_t b = 0; b < batches_.size(); ++b)
+    for (const std::size_t point : batches_[b].points) numbers[point] = b;
+  return numbers;
+}
+
 template class PointMaterials<2>;
 template class PointMaterials<3>;
 

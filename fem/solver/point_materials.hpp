@@ -33,6 +33,12 @@ class PointMaterials {
   /// The committed states of all materials, each under a number of its own.
   void save(ArchiveWriter& archive) const;
   void restore(ArchiveReader& archive);
+  /// Number of the material of each point.
+  [[nodiscard]] std::vector<std::size_t> materials_of_points() const;
+  /// Gives a material the states of an archive that it has written itself. @param material as in materials_of_points
+  void restore(std::size_t material, ArchiveReader& archive) {
+    batches_[material].material->restore(archive);
+  }
 
   [[nodiscard]] std::pair<const Material<dim>*, std::size_t> at(std::size_t point) const {
     return at_[point];

@@ -2,6 +2,7 @@
 #include "fem/solver/solver.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include "fem/solver/explicit_pace.hpp"
 #include "fem/solver/jump_watch.hpp"
 #include "fem/solver/left_out.hpp"
+#include "fem/solver/nearest_states.hpp"
 #include "fem/solver/newton.hpp"
 #include "fem/solver/state_archive.hpp"
 #include "fem/solver/substeps.hpp"
@@ -70,6 +72,13 @@ struct Solver<dim>::Implementation : Newton<dim> {
     return [from = this->released(), goal](double end) {
       return end == 1.0 ? goal : from + end * (goal - from);
     };
+  }
+
+  [[nodiscard]] PointsOfRun<dim> points_of_run() const {
+    PointsOfRun<dim> points{{}, this->materials.materials_of_points()};
+    for (std::size_t i = 0; i < this->discretisation.points(); ++i)
+      points.places.push_back(this->discretisation.point(i).position);
+    return points;
   }
 
   /// Holds back the imbalance of the committed state, and the displacements given then, and lets them go in shares.
@@ -245,7 +254,36 @@ StepReport Solver<dim>::redistribute() {
     report.message = begun.reason;
     return report;
   }
+  if (state().reference_force == 0.0) (void)implementation_->initial_residual();
   return implementation_->let_go(std::move(report));
+}
+
+template <int dim>
+StepReport Solver<dim>::start_from(ArchiveReader& end, const std::vector<std::string>& regions_of_end) {
+  Implementation& self = *implementation_;
+  const PointsOfRun<dim> before = read_points<dim>(end);
+  const PointsOfRun<dim> now = self.points_of_run();
+  std::size_t material = 0;
+  for (const auto& [region, unused] : problem().materials) {
+    const auto found = std::ranges::find(regions_of_end, region);
+    if (found == regions_of_end.end())
+      throw RunError(
+          fmt::format("it has no region '{}'; it has {}", region, fmt::join(regions_of_end, ", ")));
+    const auto number = static_cast<std::size_t>(found - regions_of_end.begin());
+    const auto places_in = [](const PointsOfRun<dim>& points, std::size_t of) {
+      std::vector<typename Cosserat<dim>::Place> places;
+      for (std::size_t i = 0; i < points.places.size(); ++i)
+        if (points.materials[i] == of) places.push_back(points.places[i]);
+      return places;
+    };
+    const auto among = places_in(before, number);
+    if (among.empty()) throw RunError(fmt::format("its region '{}' has no points", region));
+    const std::vector<std::size_t> from = nearest_places<dim>(places_in(now, material), among);
+    PrefixedReader own(end, fmt::format("materials/{}/", number));
+    GatheringReader gathering(own, among.size(), from);
+    self.materials.restore(material++, gathering);
+  }
+  return redistribute();
 }
 
 template <int dim>
@@ -436,6 +474,7 @@ void Solver<dim>::save(ArchiveWriter& archive) const {
   const std::array<double, 1> since_rest{static_cast<double>(implementation_->steps_since_rest)};
   archive.write("explicit_steps_since_rest", std::span<const double>(since_rest));
   if (!problem().stages.empty()) implementation_->save_stage(archive);
+  write_points(archive, implementation_->points_of_run());
   PrefixedWriter materials(archive, "materials/");
   implementation_->materials.save(materials);
 }

@@ -185,6 +185,11 @@ class Solver {
   /// After restore, where materials answer otherwise than those that were saved: evaluates them where they are, and lets go
   /// the imbalance in shares as equilibrate does. Not converged where no balance is found.
   StepReport redistribute();
+  /// In place of equilibrate: every point begins with the state that the nearest point of an earlier run had at its end, in the
+  /// region of the same name. Displacements begin at zero; the imbalance is let go as in redistribute.
+  /// @param end as save has written it @param regions_of_end in their order
+  /// @throws RunError where a region of the problem is missing there, or a material cannot take its states over
+  StepReport start_from(ArchiveReader& end, const std::vector<std::string>& regions_of_end);
   /// From now on results show displacements and micro-rotations less those of this moment. Nothing else changes.
   void reset_displacements();
 

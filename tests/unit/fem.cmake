@@ -6,6 +6,7 @@ polargrain_test(fem_linear_solver_test unit unit/fem_linear_solver_test.cpp LIBS
 polargrain_test(fem_explicit_test unit unit/fem_explicit_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_solver_test unit unit/fem_solver_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_noise_test unit unit/fem_noise_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_probe_test unit unit/fem_probe_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fem)
 target_compile_definitions(fem_output_test
                            PRIVATE VTK_READER="${CMAKE_CURRENT_SOURCE_DIR}/unit/fem_output_read.py")
