@@ -3,21 +3,28 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "fem/solver/coarse_space.hpp"
+
 namespace polargrain::fem {
 
-/// Direct solution of sparse systems without symmetry (UMFPACK). The symbolic analysis is made at the first
-/// factorisation and used for all later ones, so every matrix must have the same pattern, or forget_pattern must be called.
+/// Unknowns from which iterations on two levels take the place of a direct solution, where the mesh has a coarse space.
+inline constexpr int kDirectUnknowns = 30'000;
+
+/// Solution of sparse systems without symmetry: directly, or for large systems in space by iterations (TwoLevelSolver). A matrix
+/// whose iterations do not converge is solved directly. Every matrix must have the same pattern until change_pattern.
 class LinearSolver {
  public:
-  LinearSolver();
+  explicit LinearSolver(CoarseSpace space = {});
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
-  void forget_pattern();
+  /// Other unknowns from here on.
+  void change_pattern(CoarseSpace space);
   /// @return false when the matrix is singular or has entries that are not finite.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix);
-  /// Solution with the matrix factorised last, which must still be alive and unchanged.
+  /// Solution with the matrix factorised last, which must still be alive and unchanged. NaN everywhere when iterations do not
+  /// converge and the matrix turns out to be singular only then.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
  private:

@@ -61,6 +61,7 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints),
+      linear_solver_(coarse_space<dim>(problem.mesh, constraints)),
       anderson_(options.acceleration_depth, reference_length, dim),
       start_(problem.mesh, problem.continuum),
       trial_(discretisation.points()) {
