@@ -48,6 +48,7 @@ std::optional<fem::ElasticParameters<2>> elastic_of(const Scene& scene, const Sc
 /// Null where a modulus is not known. A solver wants one of its own.
 std::shared_ptr<fem::Material<2>> elastic_material(const Scene& scene, const std::string& name) {
   const auto region = std::ranges::find(scene.regions(), name, &SceneRegion::name);
+  if (region == scene.regions().end()) return nullptr;  // it comes in a later stage
   const auto elastic = elastic_of(scene, *region);
   if (!elastic || !fem::faults(*elastic).empty()) return nullptr;
   return std::make_shared<fem::LocalMaterial<fem::ElasticLaw<2>>>(fem::ElasticLaw<2>(*elastic));
