@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Interfaces, beams and anchors in a case: what they make of the mesh, and faults with line and remedy.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +17,7 @@ namespace {
 /// Reads a case with a block of 2 m x 2 m and the lines given.
 Case read(const std::string& lines, const std::string& boundary = "") {
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "polargrain_structures_case.yaml";
+      std::filesystem::temp_directory_path() / ("structures_case." + std::to_string(getpid()) + ".yaml");
   std::ofstream(file)
       << "title: a block\n"
          "mesh: {rectangle: {size: [2 m, 2 m], elements: [2, 4], levels: {joint: 1 m, odd: 0.25 m}}}\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Walls that retain ground, through the case language: Rankine's earth pressure of a smooth wall (exact for the cone).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -20,7 +21,7 @@ struct EarthPressure {
 EarthPressure earth_pressure(const std::string& strength, const std::string& way, int steps,
                              double friction = 0.0) {
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "polargrain_retaining_wall.yaml";
+      std::filesystem::temp_directory_path() / ("retaining_wall." + std::to_string(getpid()) + ".yaml");
   std::ofstream(file)
       << "title: a smooth wall\n"
          "mesh: {rectangle: {size: [4 m, 4 m], elements: [2, 4]}}\n"
