@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace polargrain::app {
 
@@ -19,13 +18,12 @@ Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, cons
     std::erase_if(at_start_->node_loads, comes_later);
     std::erase_if(at_start_->body_loads, comes_later);
   }
-  region_of_element_.resize(body_.elements.size(), SIZE_MAX);
+  region_of_element_.resize(body_.elements.size());
   for (const auto& [name, material] : case_.regions) {
     SceneRegion region{name, material};
     region.cell = case_.materials.at(material)->grains();
     const auto life = case_.problem.lifetimes.find(name);
-    const bool comes_later = life != case_.problem.lifetimes.end() && life->second.begin > 0;
-    if (comes_later && region.cell == nullptr) continue;  // nothing at time zero is said of it
+    region.comes_later = life != case_.problem.lifetimes.end() && life->second.begin > 0;
     if (const auto found = packings.find(material); found != packings.end()) region.packing = &found->second;
     region.elements = with_problem([&](const auto& problem) { return problem.mesh.regions.at(name); });
     for (const int element : region.elements)
@@ -83,7 +81,7 @@ double Scene::pressure_of(const SceneRegion& region) {
 
 std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
                                              const Eigen::Vector2d& position) const {
-  if (&region == &not_there_) return {};
+  if (region.comes_later) return {};
   if (region.packing != nullptr) return region.packing->stress;
   Vector7 stress = Vector7::Zero();
   if (region.cell != nullptr) {

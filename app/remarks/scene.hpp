@@ -20,6 +20,7 @@ struct SceneRegion {
   const CellDefinition* cell = nullptr;    ///< null: a law in closed form
   const PackingAtRest* packing = nullptr;  ///< null: no cells, or nobody has asked the engine
   std::vector<int> elements = {};
+  bool comes_later = false;  ///< with a later stage: nothing of it is there at time zero
 };
 
 /// A case as remarks look at it: read, with the text it was read from, and the packings as the engine has found them.
@@ -46,10 +47,10 @@ class Scene {
   [[nodiscard]] double strained_side(fem::Dof movement) const;
   [[nodiscard]] const coupler::Entry& document() const { return document_; }
   [[nodiscard]] const Body& body() const { return body_; }
+  /// All, also those that come with a later stage.
   [[nodiscard]] const std::vector<SceneRegion>& regions() const { return regions_; }
   [[nodiscard]] const SceneRegion& region_of(int element) const {
-    const std::size_t number = region_of_element_[static_cast<std::size_t>(element)];
-    return number < regions_.size() ? regions_[number] : not_there_;
+    return regions_[region_of_element_[static_cast<std::size_t>(element)]];
   }
 
   /// The entry of keys, from the top; null when it is not there.
@@ -64,7 +65,7 @@ class Scene {
   [[nodiscard]] bool has_cells() const;
   /// Pressure of the grains of a region, Pa: as the engine found it, else as the packing records it; 0 without cells.
   [[nodiscard]] static double pressure_of(const SceneRegion& region);
-  /// Stress at time zero; nothing where neither grains nor the case give one.
+  /// Stress at time zero; nothing where neither grains nor the case give one, and where the region comes later.
   [[nodiscard]] std::optional<Vector7> initial_stress(const SceneRegion& region,
                                                       const Eigen::Vector2d& position) const;
   /// Time at which the last step ends; nothing where that is not known before.
@@ -92,7 +93,6 @@ class Scene {
   const coupler::Entry& document_;
   Body body_;
   std::vector<SceneRegion> regions_;
-  SceneRegion not_there_{};  ///< of elements that only a later stage has
   std::vector<std::size_t> region_of_element_;
 };
 

@@ -45,13 +45,18 @@ std::optional<fem::ElasticParameters<2>> elastic_of(const Scene& scene, const Sc
   return elastic;
 }
 
+std::shared_ptr<fem::Material<2>> material_of(const fem::ElasticParameters<2>& elastic) {
+  return std::make_shared<fem::LocalMaterial<fem::ElasticLaw<2>>>(fem::ElasticLaw<2>(elastic));
+}
+
 /// Null where a modulus is not known. A solver wants one of its own.
 std::shared_ptr<fem::Material<2>> elastic_material(const Scene& scene, const std::string& name) {
-  const auto region = std::ranges::find(scene.regions(), name, &SceneRegion::name);
-  if (region == scene.regions().end()) return nullptr;  // it comes in a later stage
-  const auto elastic = elastic_of(scene, *region);
+  const SceneRegion& region = *std::ranges::find(scene.regions(), name, &SceneRegion::name);
+  // No element of it is there, so its stiffness is in no sum.
+  if (region.comes_later) return material_of({.young_modulus = 1.0, .cosserat_shear_modulus = 1.0});
+  const auto elastic = elastic_of(scene, region);
   if (!elastic || !fem::faults(*elastic).empty()) return nullptr;
-  return std::make_shared<fem::LocalMaterial<fem::ElasticLaw<2>>>(fem::ElasticLaw<2>(*elastic));
+  return material_of(*elastic);
 }
 
 /// Norm of the stress in the plane, forces only.
@@ -70,6 +75,7 @@ StartOfStepZero judged(fem::Solver<2>& solver, const Scene& scene) {
   double change = 0.0;
   double initial = 0.0;
   for (std::size_t point = 0; point < solver.points(); ++point) {
+    if (!solver.is_there(point)) continue;
     const double volume = solver.volume_of_point(point);
     const SceneRegion& region = scene.region_of(solver.element_of_point(point));
     const Vector7 before =

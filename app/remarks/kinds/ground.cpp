@@ -34,7 +34,9 @@ void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
   const double depth = *surface - scene.body().least.y();
   const double vertical =
       *weight * std::max(depth, 0.0) + number(item, "surcharge", Dimension::pressure).value_or(0.0);
+  const Entry* const of_region = item.find("region");
   for (const SceneRegion& region : scene.regions()) {
+    if (of_region != nullptr && of_region->text != region.name) continue;
     const Entry* const angle = scene.find({"materials", region.material, "friction_angle"});
     if (region.cell != nullptr || angle == nullptr) continue;
     const auto friction = coupler::parse_quantity(

@@ -78,7 +78,7 @@ void loads_at_start_in_space(const Scene& scene, Remarks& remarks) {
     for (const fem::BoundarySide& face : faces) {
       const SceneRegion& region = scene.region_of(face.element);
       const double pressure = Scene::pressure_of(region);
-      if (region.cell == nullptr || pressure <= 0.0 ||
+      if (region.cell == nullptr || region.comes_later || pressure <= 0.0 ||
           is_held(problem.mesh, problem.mesh.side_nodes(face), held))
         continue;
       const auto found = carried.find({face.element, face.side});

@@ -26,7 +26,8 @@ void weight_at_once(const Scene& scene, Remarks& remarks) {
   const auto reads =
       std::ranges::find(monitors, coupler::Monitor::Kind::displacement, &coupler::Monitor::kind);
   for (const SceneRegion& region : scene.regions()) {
-    if (region.cell != nullptr || region.elements.empty() || !is_strong(scene, region)) continue;
+    if (region.cell != nullptr || region.comes_later || region.elements.empty() || !is_strong(scene, region))
+      continue;
     const double weight = weight_on(scene, region);
     const int node = scene.mesh().elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
     if (weight <= 0.0 ||

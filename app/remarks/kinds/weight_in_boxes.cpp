@@ -29,7 +29,7 @@ double height_of(const Scene& scene, const SceneRegion& region) {
 void weight_in_boxes(const Scene& scene, Remarks& remarks) {
   for (const SceneRegion& region : scene.regions()) {
     const double pressure = Scene::pressure_of(region);
-    if (region.cell == nullptr || pressure <= 0.0) continue;
+    if (region.cell == nullptr || region.comes_later || pressure <= 0.0) continue;
     double weight = 0.0;
     for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
       if (load.region.empty() || load.region == region.name)
