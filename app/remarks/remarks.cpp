@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "app/remarks/kinds.hpp"
@@ -12,61 +13,60 @@
 namespace polargrain::app {
 namespace {
 
+/// The bodies that a kind of remarks knows.
+enum class Bodies { plane, space, both };
+
+struct Kind {
+  RemarkKind look;
+  Bodies bodies;
+};
+
 /// The kinds that look at loads and stresses at time zero, one by one.
-constexpr RemarkKind kAtTimeZero[] = {loads_at_start, weight_in_boxes, load_on_held,
-                                      plain_loads,    tension,         ground_stress,
-                                      weight,         free_sides,      stiffness_of_laws};
+constexpr Kind kAtTimeZero[] = {{loads_at_start, Bodies::plane},  {loads_at_start_in_space, Bodies::space},
+                                {weight_in_boxes, Bodies::plane}, {load_on_held, Bodies::plane},
+                                {plain_loads, Bodies::plane},     {tension, Bodies::plane},
+                                {ground_stress, Bodies::plane},   {weight, Bodies::plane},
+                                {free_sides, Bodies::plane},      {stiffness_of_laws, Bodies::plane}};
 
-constexpr RemarkKind kOthers[] = {movement,
-                                  times_of_loads,
-                                  idle_steps,
-                                  missed_turns,
-                                  open_seams,
-                                  steps_of_strain,
-                                  internal_length,
-                                  plastic_length,
-                                  few_grains,
-                                  softness,
-                                  size_of_grains,
-                                  unread_properties,
-                                  contact_numbers,
-                                  neighbours,
-                                  tolerances,
-                                  softening_cauchy,
-                                  strength_of_laws,
-                                  monitors,
-                                  measures,
-                                  formulas,
-                                  output,
-                                  cost,
-                                  moduli,
-                                  node_forces,
-                                  weight_at_once,
-                                  pulled_apart,
-                                  carried_along,
-                                  held_sides,
-                                  shape_of_elements,
-                                  places_of_monitors};
+/// All loads and stresses at time zero together: told where the kinds above have no remark.
+constexpr Kind kBalance[] = {{balance_at_start, Bodies::plane}};
 
-/// The kinds that know bodies in space.
-constexpr RemarkKind kInSpace[] = {loads_at_start_in_space,
-                                   movement,
-                                   times_of_loads,
-                                   missed_turns,
-                                   idle_steps,
-                                   steps_of_strain,
-                                   internal_length,
-                                   plastic_length,
-                                   few_grains,
-                                   softness,
-                                   size_of_grains,
-                                   unread_properties,
-                                   contact_numbers,
-                                   neighbours,
-                                   softening_cauchy,
-                                   output,
-                                   cost,
-                                   moduli};
+constexpr Kind kOthers[] = {{movement, Bodies::both},
+                            {times_of_loads, Bodies::both},
+                            {idle_steps, Bodies::both},
+                            {missed_turns, Bodies::both},
+                            {open_seams, Bodies::plane},
+                            {steps_of_strain, Bodies::both},
+                            {internal_length, Bodies::both},
+                            {plastic_length, Bodies::both},
+                            {few_grains, Bodies::both},
+                            {softness, Bodies::both},
+                            {size_of_grains, Bodies::both},
+                            {unread_properties, Bodies::both},
+                            {contact_numbers, Bodies::both},
+                            {neighbours, Bodies::both},
+                            {tolerances, Bodies::plane},
+                            {softening_cauchy, Bodies::both},
+                            {strength_of_laws, Bodies::plane},
+                            {monitors, Bodies::plane},
+                            {measures, Bodies::plane},
+                            {formulas, Bodies::plane},
+                            {output, Bodies::both},
+                            {cost, Bodies::both},
+                            {moduli, Bodies::both},
+                            {node_forces, Bodies::plane},
+                            {weight_at_once, Bodies::plane},
+                            {pulled_apart, Bodies::plane},
+                            {carried_along, Bodies::plane},
+                            {held_sides, Bodies::plane},
+                            {shape_of_elements, Bodies::plane},
+                            {places_of_monitors, Bodies::plane}};
+
+void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
+  const Bodies here = scene.dimension() == 3 ? Bodies::space : Bodies::plane;
+  for (const Kind& kind : kinds)
+    if (kind.bodies == here || kind.bodies == Bodies::both) kind.look(scene, remarks);
+}
 
 std::string with_number(std::size_t count) {
   return fmt::format("{} remark{}", count, count == 1 ? "" : "s");
@@ -76,13 +76,9 @@ std::string with_number(std::size_t count) {
 
 Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
-  if (scene.dimension() == 3) {
-    for (const RemarkKind look : kInSpace) look(scene, remarks);
-  } else {
-    for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
-    if (remarks.empty()) balance_at_start(scene, remarks);
-    for (const RemarkKind look : kOthers) look(scene, remarks);
-  }
+  look_by(kAtTimeZero, scene, remarks);
+  if (remarks.empty()) look_by(kBalance, scene, remarks);
+  look_by(kOthers, scene, remarks);
   std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.weight > b.weight;
   });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "coupler/cells/cosserat_part.hpp"
 #include "fem/output/material_values.hpp"
 
 namespace polargrain::app {
@@ -60,18 +61,11 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh<dim>& mesh) {
                      fmt::join(nodes, "; "));
 }
 
-/// Pressure in the plane, in space the mean pressure, Pa.
-double pressure_of(const Vector7& stress) {
-  return -0.5 * (stress(k11) + stress(k22));
-}
-double pressure_of(const Vector18& stress) {
-  return -(stress(0) + stress(4) + stress(8)) / 3.0;
-}
-
 /// The values of a cell or a law at a point, in the words of the fields of the result.
 template <int dim>
 std::string words_of(const fem::Solver<dim>& solver, fem::MaterialValues<dim>& values, std::size_t point) {
-  Lines words{fmt::format("p {:.3g} kPa", 1e-3 * pressure_of(solver.state().responses[point].stress))};
+  Lines words{
+      fmt::format("p {:.3g} kPa", 1e-3 * coupler::pressure_of<dim>(solver.state().responses[point].stress))};
   for (const char* const name : {"sliding_fraction", "coordination_number", "rattlers", "source",
                                  "error_estimate", "stress_mismatch", "plastic_shear"})
     if (const std::optional<double> value = values.at(point, name))
@@ -113,7 +107,7 @@ constexpr double kNothing = 1.0;  // Pa
 template <int dim>
 std::string without_stress(const fem::Solver<dim>& solver) {
   const auto pressure = [&](std::size_t point) {
-    return pressure_of(solver.state().responses[point].stress);
+    return coupler::pressure_of<dim>(solver.state().responses[point].stress);
   };
   fem::MaterialValues<dim> values(solver);
   double mean = 0.0;

@@ -22,8 +22,8 @@ namespace {
 /// Of a cell with free rotations only the symmetric part of stress and tangent is meant.
 template <int dim>
 void keep_symmetric(Response<dim>& response) {
-  response.stress = symmetric_part(response.stress);
-  response.tangent = symmetric_tangent(response.tangent);
+  response.stress = symmetric_part<dim>(response.stress);
+  response.tangent = symmetric_tangent<dim>(response.tangent);
 }
 
 /// Norm of the stiffness of normal strains, Pa.
@@ -335,7 +335,7 @@ Response<dim> AdaptiveMaterial<dim>::answer_to(std::size_t point, CosseratPart<d
   response.stress = stress_of_cells(point);
   if (cosserat_)
     return part.follow(increments_[point], response, *cosserat_, packing_.kept(answer.diagnostics));
-  part.pressures = pressures_of(response.stress);
+  part.pressures = pressures_of<dim>(response.stress);
   return response;
 }
 

@@ -17,7 +17,7 @@ constexpr double kVolume = 0.35;
 template <int dim>
 typename GrainMeasure<dim>::Vector GrainMeasure<dim>::strain(const Increment<dim>& increment) const {
   Vector strain = fem::stretch_and_turn(increment).stretch.strain();
-  if (!controlled()) return symmetric_part(strain);
+  if (!controlled()) return symmetric_part<dim>(strain);
   strain.template tail<Cosserat<dim>::couples>() *= diameter_;
   return strain;
 }
@@ -52,7 +52,7 @@ double GrainMeasure<2>::stress(const Vector7& stress) const {
 
 template <>
 double GrainMeasure<3>::stress(const Vector18& stress) const {
-  double squared = symmetric_part(stress).squaredNorm();
+  double squared = symmetric_part<3>(stress).squaredNorm();
   if (controlled())
     squared += 0.5 * skew_stress_of<3>(stress).squaredNorm() +
                stress.tail<9>().squaredNorm() / (diameter_ * diameter_);

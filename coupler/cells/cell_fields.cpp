@@ -12,7 +12,7 @@ LimitsReached limits_reached(const typename Cosserat<dim>::Vector& stress,
                              const std::optional<CosseratParameters>& cosserat, const CosseratPart<dim>& part,
                              const PackingAtStart<dim>& packing) {
   if (cosserat) return part.reached(*cosserat, packing.least_pressure());
-  return {.parted = pressure_of(stress) <= packing.least_pressure()};
+  return {.parted = pressure_of<dim>(stress) <= packing.least_pressure()};
 }
 
 std::vector<std::string> names_of_cell_fields(bool has_part) {

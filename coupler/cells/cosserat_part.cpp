@@ -62,7 +62,7 @@ template <int dim>
 void limit_couple(Response<dim>& response, double length, double modulus) {
   constexpr int stresses = Cosserat<dim>::stresses;
   constexpr int couples = Cosserat<dim>::couples;
-  const Pressures<dim> pressures = pressures_of(response.stress);
+  const Pressures<dim> pressures = pressures_of<dim>(response.stress);
   const Couples<dim> couple_stress = response.stress.template tail<couples>();
   const double pressure = pressure_about_couples<dim>(pressures, couple_stress);
   const double limit = length * std::max(0.0, pressure);
@@ -102,17 +102,18 @@ void reduce(Stress& stress, double limit) {
 
 }  // namespace
 
-Pressures<2> pressures_of(const Vector7& stress) {
-  return Pressures<2>(pressure_in_plane(stress));
-}
-
-Pressures<3> pressures_of(const Vector18& stress) {
-  Eigen::Matrix3d symmetric;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      symmetric(i, j) =
-          0.5 * (stress(Cosserat<3>::stress_place(i, j)) + stress(Cosserat<3>::stress_place(j, i)));
-  return -0.5 * (symmetric.trace() * Eigen::Matrix3d::Identity() - symmetric);
+template <int dim>
+Pressures<dim> pressures_of(const typename Cosserat<dim>::Vector& stress) {
+  if constexpr (dim == 2) {
+    return Pressures<2>(pressure_of<2>(stress));
+  } else {
+    Eigen::Matrix3d symmetric;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        symmetric(i, j) =
+            0.5 * (stress(Cosserat<3>::stress_place(i, j)) + stress(Cosserat<3>::stress_place(j, i)));
+    return -0.5 * (symmetric.trace() * Eigen::Matrix3d::Identity() - symmetric);
+  }
 }
 
 template <int dim>
@@ -140,27 +141,19 @@ double pressure_about_couples(const Pressures<dim>& pressures,
   }
 }
 
-Vector7 symmetric_part(const Vector7& components) {
-  Vector7 part = components;
-  part[k12] = part[k21] = 0.5 * (components[k12] + components[k21]);
-  part.tail<2>().setZero();
-  return part;
-}
-
-Vector18 symmetric_part(const Vector18& components) {
-  Vector18 part = components;
-  for (int k = 0; k < 3; ++k) {
-    const Pair at = pair_of<3>(k);
+template <int dim>
+typename Cosserat<dim>::Vector symmetric_part(const typename Cosserat<dim>::Vector& components) {
+  typename Cosserat<dim>::Vector part = components;
+  for (int k = 0; k < Cosserat<dim>::rotations; ++k) {
+    const Pair at = pair_of<dim>(k);
     part(at.ij) = part(at.ji) = 0.5 * (components(at.ij) + components(at.ji));
   }
-  part.tail<9>().setZero();
+  part.template tail<Cosserat<dim>::couples>().setZero();
   return part;
 }
 
-namespace {
-
 template <int dim>
-typename Cosserat<dim>::Matrix symmetric_tangent_of(const typename Cosserat<dim>::Matrix& cell) {
+typename Cosserat<dim>::Matrix symmetric_tangent(const typename Cosserat<dim>::Matrix& cell) {
   constexpr int stresses = Cosserat<dim>::stresses;
   using Matrix = typename Cosserat<dim>::Matrix;
   using Vector = typename Cosserat<dim>::Vector;
@@ -174,15 +167,6 @@ typename Cosserat<dim>::Matrix symmetric_tangent_of(const typename Cosserat<dim>
     tangent.col(at.ij) = tangent.col(at.ji) = column;
   }
   return tangent;
-}
-
-}  // namespace
-
-Matrix7 symmetric_tangent(const Matrix7& cell) {
-  return symmetric_tangent_of<2>(cell);
-}
-Matrix18 symmetric_tangent(const Matrix18& cell) {
-  return symmetric_tangent_of<3>(cell);
 }
 
 double share_held(double trial, double limit) {
@@ -203,7 +187,7 @@ typename Cosserat<dim>::Rotation skew_stress_of(const typename Cosserat<dim>::Ve
 template <int dim>
 bool limit_skew(Response<dim>& response, double skew_limit, double modulus) {
   constexpr int rotations = Cosserat<dim>::rotations;
-  const Pressures<dim> pressures = pressures_of(response.stress);
+  const Pressures<dim> pressures = pressures_of<dim>(response.stress);
   const Skew<dim> trial = skew_stress_of<dim>(response.stress);
   const double pressure = pressure_about<dim>(pressures, trial);
   const double limit = skew_limit * std::max(0.0, pressure);
@@ -279,7 +263,7 @@ Response<dim> CosseratPart<dim>::follow(const Increment<dim>& increment, const R
   if (response.quality == Quality::failed) return response;
   if (cosserat.skew_limit) limit_skew<dim>(response, *cosserat.skew_limit, cosserat.cosserat_shear_modulus);
   if (cosserat.plastic_length) limit_couple<dim>(response, *cosserat.plastic_length, couple_modulus);
-  keep_within(cosserat, pressures_of(response.stress));
+  keep_within(cosserat, pressures_of<dim>(response.stress));
   contacts_kept = kept;
   return response;
 }
@@ -300,9 +284,9 @@ Response<dim> CosseratPart<dim>::joined_to(const Response<dim>& cell,
                                            const CosseratParameters& cosserat) const {
   Response<dim> response = cell;
   if (response.quality == Quality::failed) return response;
-  response.stress = symmetric_part(response.stress);
+  response.stress = symmetric_part<dim>(response.stress);
   response.stress.template tail<Dimension::couples>() = couple_stress;
-  response.tangent = symmetric_tangent(response.tangent);
+  response.tangent = symmetric_tangent<dim>(response.tangent);
   const double skew_modulus = std::max(contacts_kept, kHold) * cosserat.cosserat_shear_modulus;
   for (int k = 0; k < Dimension::rotations; ++k) {
     const Pair at = pair_of<dim>(k);
@@ -332,6 +316,12 @@ double CosseratPart<dim>::couple_mobilisation(const CosseratParameters& cosserat
 
 template struct CosseratPart<2>;
 template struct CosseratPart<3>;
+template Pressures<2> pressures_of<2>(const Vector7&);
+template Pressures<3> pressures_of<3>(const Vector18&);
+template Vector7 symmetric_part<2>(const Vector7&);
+template Vector18 symmetric_part<3>(const Vector18&);
+template Matrix7 symmetric_tangent<2>(const Matrix7&);
+template Matrix18 symmetric_tangent<3>(const Matrix18&);
 template double pressure_about<2>(const Pressures<2>&, const Skew<2>&);
 template double pressure_about<3>(const Pressures<3>&, const Skew<3>&);
 template double pressure_about_couples<2>(const Pressures<2>&, const Couples<2>&);

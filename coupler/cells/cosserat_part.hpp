@@ -38,23 +38,15 @@ struct LimitsReached {
 /// -(s11 + s22) / 2. The mean of its diagonal is the pressure of the dimension: in space the mean pressure.
 template <int dim>
 using Pressures = Eigen::Matrix<double, Cosserat<dim>::rotations, Cosserat<dim>::rotations>;
-Pressures<2> pressures_of(const Vector7& stress);
-Pressures<3> pressures_of(const Vector18& stress);
+template <int dim>
+Pressures<dim> pressures_of(const typename Cosserat<dim>::Vector& stress);
 
-/// Mean pressure in the plane, Pa.
-inline double pressure_in_plane(const Vector7& stress) {
-  return -0.5 * (stress[k11] + stress[k22]);
-}
-/// Mean pressure in space, Pa.
-inline double mean_pressure(const Vector18& stress) {
-  return -(stress(0) + stress(4) + stress(8)) / 3.0;
-}
-/// The pressure of the dimension.
-inline double pressure_of(const Vector7& stress) {
-  return pressure_in_plane(stress);
-}
-inline double pressure_of(const Vector18& stress) {
-  return mean_pressure(stress);
+/// The pressure of the dimension, Pa: in the plane -(s11 + s22) / 2, in space the mean pressure.
+template <int dim>
+double pressure_of(const typename Cosserat<dim>::Vector& stress) {
+  double sum = 0.0;
+  for (int i = 0; i < dim; ++i) sum += stress(Cosserat<dim>::stress_place(i, i));
+  return -sum / dim;
 }
 
 /// Skew stress and couple stresses of a point: elastic and perfectly plastic, with limits that go with the pressures of the
@@ -144,13 +136,13 @@ bool limit_skew(Response<dim>& response, double skew_limit, double modulus);
 
 /// The symmetric part of a stress or a strain, without couples or curvatures: the answer and the strain of a cell with free
 /// rotations.
-Vector7 symmetric_part(const Vector7& components);
-Vector18 symmetric_part(const Vector18& components);
+template <int dim>
+typename Cosserat<dim>::Vector symmetric_part(const typename Cosserat<dim>::Vector& components);
 
 /// The tangent of the symmetric stress with respect to the Cosserat strain: means of the rows of each two shear stresses, and,
 /// because a cell with free rotations feels eps_ij and eps_ji through their sum alone, means of their
 /// columns. Nothing in the rows and columns of the curvatures.
-Matrix7 symmetric_tangent(const Matrix7& cell);
-Matrix18 symmetric_tangent(const Matrix18& cell);
+template <int dim>
+typename Cosserat<dim>::Matrix symmetric_tangent(const typename Cosserat<dim>::Matrix& cell);
 
 }  // namespace polargrain::coupler

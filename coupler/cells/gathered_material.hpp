@@ -15,7 +15,7 @@ template <int dim>
 class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
  public:
   /// @param material not null, shows grains (GrainsOfPoints) @param steps that are taken together, at least 1
-  /// @throws RunError when there are none, or the material shows no grains
+  /// @throws RunError without points, or when the material shows no grains
   GatheredMaterial(std::shared_ptr<fem::Material<dim>> material, int steps);
 
   void allocate(std::size_t points) override;

@@ -62,7 +62,7 @@ double mean_stress(const Vector7& stress) {
   return stress.head<3>().sum() / 3.0;
 }
 double mean_stress(const Vector18& stress) {
-  return -mean_pressure(stress);
+  return -pressure_of<3>(stress);
 }
 
 /// Square of the symmetric stress, in the plane without s33.
@@ -71,7 +71,7 @@ double symmetric_square(const Vector7& s) {
   return s(k11) * s(k11) + s(k22) * s(k22) + shear;
 }
 double symmetric_square(const Vector18& s) {
-  return symmetric_part(s).squaredNorm();
+  return symmetric_part<3>(s).squaredNorm();
 }
 
 /// The limits of skew and couple stress are those of the plane, of spheres too.
@@ -368,7 +368,7 @@ CosseratPart<dim> InformedMaterial<dim>::cosserat_part_of(const PointState& poin
   CosseratPart<dim> part;
   part.skew_stress = skew_stress_of<dim>(stress);
   part.couple_stress = stress.template tail<Cosserat<dim>::couples>();
-  part.pressures = pressures_of(stress);
+  part.pressures = pressures_of<dim>(stress);
   return part;
 }
 
@@ -377,7 +377,7 @@ LimitsReached InformedMaterial<dim>::reached(const PointState& point) const {
   const double least = own_rules_.packing.least_pressure();
   LimitsReached reached;
   if (!controlled()) reached = cosserat_part_of(point).reached(own_rules_.cosserat, least);
-  reached.parted = pressure_of(point.cell.response.stress) <= least;
+  reached.parted = pressure_of<dim>(point.cell.response.stress) <= least;
   return reached;
 }
 
@@ -503,7 +503,7 @@ void InformedMaterial<dim>::take(const PointReply<dim>& reply, const Increment<d
 
 template <int dim>
 fem::ScaledVector<double, dim> InformedMaterial<dim>::scaled_strain(const Increment<dim>& stretch) const {
-  if (!controlled()) return symmetric_part(stretch.strain());
+  if (!controlled()) return symmetric_part<dim>(stretch.strain());
   Vector strain = stretch.strain();
   strain.template tail<Cosserat<dim>::couples>() *= frame_.length;
   return strain;
@@ -512,9 +512,9 @@ fem::ScaledVector<double, dim> InformedMaterial<dim>::scaled_strain(const Increm
 template <int dim>
 fem::ScaledVector<double, dim> InformedMaterial<dim>::complete_cell_stress(
     const Vector& cell, const fem::ScaledVector<double, dim>& law) const {
-  fem::ScaledVector<double, dim> scaled = controlled() ? cell : symmetric_part(cell);
+  fem::ScaledVector<double, dim> scaled = controlled() ? cell : symmetric_part<dim>(cell);
   if (controlled()) scaled.template tail<Cosserat<dim>::couples>() /= frame_.length;
-  return with_lent_stress(scaled, law);
+  return with_lent_stress<dim>(scaled, law);
 }
 
 template <int dim>

@@ -13,7 +13,8 @@ namespace polargrain::coupler {
 // In the plane the stress normal to it is the intermediate one, which discs have not. All Pa, tension positive.
 
 /// @param cell its stress; of controlled rotations with skew stress, which stays @param law its stress
-Vector7 with_lent_stress(const Vector7& cell, const Vector7& law);
-Vector18 with_lent_stress(const Vector18& cell, const Vector18& law);
+template <int dim>
+typename Cosserat<dim>::Vector with_lent_stress(const typename Cosserat<dim>::Vector& cell,
+                                                const typename Cosserat<dim>::Vector& law);
 
 }  // namespace polargrain::coupler

@@ -10,7 +10,7 @@ namespace polargrain::coupler {
 
 class Pool;
 
-/// Isotropic Cosserat moduli of a packing at rest: those of its contact network, condensed onto its own equilibrium
+/// Isotropic Cosserat moduli of a packing at rest: of its contact network, condensed onto its own equilibrium
 /// with no contact sliding (docs/theory/grains.md, C.7).
 struct NetworkModuli {
   double shear = 0.0;           ///< G, Pa: mean over all directions in the plane

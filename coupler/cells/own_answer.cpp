@@ -25,7 +25,7 @@ OwnAnswer<dim> left_law(const OwnAnswerRules<dim>& rules,
     own.cosserat.skew_stress = skew_stress_of<dim>(law);
     own.cosserat.couple_stress = law.template tail<Cosserat<dim>::couples>();
     own.cosserat.contacts_kept = rules.packing.kept(reply.diagnostics);
-    own.cosserat.keep_within(rules.cosserat, pressures_of(cell.stress));
+    own.cosserat.keep_within(rules.cosserat, pressures_of<dim>(cell.stress));
   }
   own.carried = law - (rules.controlled ? cell : own.cosserat.joined_to(cell, rules.cosserat)).stress;
   return own;
@@ -45,7 +45,7 @@ Response<dim> own_answer(const OwnAnswerRules<dim>& rules, const OwnAnswer<dim>&
   }
   Vector scale = Vector::Ones();
   scale.template tail<Cosserat<dim>::couples>().setConstant(rules.length);
-  strain = rules.controlled ? Vector(strain.cwiseProduct(scale)) : symmetric_part(strain);
+  strain = rules.controlled ? Vector(strain.cwiseProduct(scale)) : symmetric_part<dim>(strain);
   const double size = strain.norm();
   end.strained += size;
 

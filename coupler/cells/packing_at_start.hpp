@@ -19,7 +19,7 @@ struct PackingAtStart {
   PackingAtStart() = default;
   explicit PackingAtStart(const PointReply<dim>& packing)
       : contacts(static_cast<double>(packing.diagnostics.contacts)),
-        pressures(pressures_of(packing.response.stress)) {}
+        pressures(pressures_of<dim>(packing.response.stress)) {}
 
   /// Contacts of a cell over those of the packing; 1 where the packing has no contacts.
   [[nodiscard]] double kept(const CellDiagnostics& cell) const {

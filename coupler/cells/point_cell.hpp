@@ -21,7 +21,7 @@ struct PointRequest {
 template <int dim>
 struct PointReply {
   Response<dim> response;  ///< the cell's own stress and tangent
-  /// Whether the cell has a stress along e_3. Discs have none: the s33 of the response is zero then, and the material
+  /// Whether the cell has a stress along e_3. Discs have no such stress: the s33 of the response is zero then, and the material
   /// that asks puts its own there.
   bool knows_s33 = true;
   CellDiagnostics diagnostics;

@@ -118,7 +118,7 @@ void ResidentMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
           rest ? point.cosserat.joined_to(response, *cosserat_)
                : point.cosserat.follow(increments[p], response, *cosserat_, packing_.kept(point.diagnostics));
     }
-    response.noise = noise_of(point.stress, point.diagnostics, mean_radius_);
+    response.noise = noise_of<dim>(point.stress, point.diagnostics, mean_radius_);
   }
 }
 

@@ -26,7 +26,7 @@ class ResidentRecord {
     int dem_steps = 0;
     std::size_t boxes = 0;
     std::vector<std::size_t> places;  ///< components kept, counted as they lie in memory
-    std::vector<double> values;       ///< those of each box, box after box
+    std::vector<double> values;       ///< of each box, box after box
   };
   std::vector<Step> steps_;
   std::size_t bytes_ = 0;

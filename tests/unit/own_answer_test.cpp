@@ -38,7 +38,7 @@ Response<2> cell_after(const Increment<2>& increment, bool controlled) {
   Response<2> cell;
   cell.stress << -100e3, -180e3, -120e3, 20e3, 20e3, 0.0, 0.0;
   if (controlled) cell.stress.tail<2>() << 25.0, 10.0;
-  cell.stress += stiffness() * (controlled ? increment.strain() : symmetric_part(increment.strain()));
+  cell.stress += stiffness() * (controlled ? increment.strain() : symmetric_part<2>(increment.strain()));
   cell.tangent = stiffness();
   return cell;
 }
@@ -80,7 +80,7 @@ TEST(OwnAnswer, BeginsInBalanceAndEndsAtTheCell) {
       EXPECT_EQ(there.stress, cell.stress);
       EXPECT_EQ(there.tangent, cell.tangent);
     } else {
-      EXPECT_LT((symmetric_part(there.stress) - symmetric_part(cell.stress)).norm(), 1e-9);
+      EXPECT_LT((symmetric_part<2>(there.stress) - symmetric_part<2>(cell.stress)).norm(), 1e-9);
       // Skew and couple stress are the case's, and go on from those of the law (A.4).
       const Vector7 strain = increment.strain();
       EXPECT_NEAR(there.stress(k21) - there.stress(k12),

@@ -197,12 +197,12 @@ TEST(SpaceCells, LentStressIsThePlanesAndTurnsWithTheBody) {
     made(kPlanePlaces) = plane;
     return made;
   };
-  const Vector18 lent = with_lent_stress(embedded(cell), embedded(law));
-  EXPECT_LT((lent - embedded(with_lent_stress(cell, law))).norm(), 1e-12 * lent.norm());
-  EXPECT_DOUBLE_EQ(with_lent_stress(cell, law)(k33), -190e3 / 390e3 * 400e3);
+  const Vector18 lent = with_lent_stress<3>(embedded(cell), embedded(law));
+  EXPECT_LT((lent - embedded(with_lent_stress<2>(cell, law))).norm(), 1e-12 * lent.norm());
+  EXPECT_DOUBLE_EQ(with_lent_stress<2>(cell, law)(k33), -190e3 / 390e3 * 400e3);
   const Eigen::Matrix3d turn = fem::rotation_by(Eigen::Vector3d(0.4, -0.7, 0.3));
   const Vector18 turned =
-      with_lent_stress(fem::rotated(embedded(cell), turn), fem::rotated(embedded(law), turn));
+      with_lent_stress<3>(fem::rotated(embedded(cell), turn), fem::rotated(embedded(law), turn));
   EXPECT_LT((turned - fem::rotated(lent, turn)).norm(), 1e-12 * lent.norm());
 }
 

@@ -91,7 +91,7 @@ TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
       skew(k, 3 * j + i) = 1.0;
       skew(k, 3 * i + j) = -1.0;
     }
-    const Pressures<3> pressures = pressures_of(here.stress);
+    const Pressures<3> pressures = pressures_of<3>(here.stress);
     const Vector18 strain = increment.strain();
     const Eigen::Vector3d turning = 1e7 * skew * strain.head<9>();
     double pressure = std::max(0.0, pressure_about<3>(pressures, turning));
