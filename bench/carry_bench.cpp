@@ -79,8 +79,8 @@ std::string volume() {
                      missed(cell, 1e-3 * kShear));
 }
 
-/// The same of packings given, at rest and behind increments of axial strain, offsets of the size of an increment: what is
-/// missed, what the estimate's second term says of it, and the weight of a volume change that follows where errors grow with the square of an offset
+/// The same of packings given, at rest and behind increments of axial strain, offsets of the size of an increment: the
+/// error, the estimate's second term for it, and the weight of a volume change that follows where errors grow with the square of an offset
 /// (GrainMeasure<2>::size). An increment is the shear strain whose elastic stress is a fifth of the pressure.
 std::string volume_of(const std::string& script, const std::vector<std::string>& packings) {
   constexpr double kElasticStress = 0.2;

@@ -211,7 +211,7 @@ std::string softening(const std::vector<CellDefinition>& definitions) {
   return table;
 }
 
-/// Evaluations of a single step: what is left is restoring, setting up, reading out and saving.
+/// Evaluations of a single step: they restore, set up, read out and save.
 std::string besides(const CellDefinition& definition) {
   Settings one = settings(1e3, 0.12, 1e6);
   one.control.least_steps = 1;

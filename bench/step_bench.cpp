@@ -75,7 +75,7 @@ CellDefinition cell_of(const std::string& style, CellLoop loop) {
   definition.control.least_steps = kSteps;
   definition.control.inertial_number = 1.0;  // no more steps than these, and
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio =
-      1e9;  // none at rest
+      1e9;  // no steps at rest
   return definition;
 }
 

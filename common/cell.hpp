@@ -188,7 +188,7 @@ class CellService {
   /// that its grains cannot follow).
   virtual CellReply evaluate(const CellRequest& request) = 0;
 
-  /// Boxes of these grains that stay where they are and go on (common/resident_boxes.hpp); none at first. The service must
+  /// Boxes of these grains that stay where they are and go on (common/resident_boxes.hpp); no boxes at first. The service must
   /// outlive them. @throws RunError when only the engine's own loop can step these grains
   virtual std::unique_ptr<ResidentBoxes> residents();
 

@@ -50,7 +50,7 @@ struct Packing {
   StatePointer state;
 
   [[nodiscard]] double volume() const { return box.determinant() * thickness; }
-  /// The base vectors in space as columns, m: those of the plane, and the third along e_3 by the thickness, leaning.
+  /// The base vectors in space as columns, m: both vectors of the plane, and the third along e_3 by the thickness, leaning.
   [[nodiscard]] Eigen::Matrix3d base_vectors() const;
   /// Sum of the volumes of the grains, m^3: of spheres in space, of discs as high as the box in a plane packing.
   [[nodiscard]] double grain_volume() const;

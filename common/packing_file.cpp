@@ -43,7 +43,7 @@ struct Content {
   std::vector<double> grains;    // x, y, radius, mass, moment of inertia of each
   std::vector<double> reached;   // in the order of the description of PackingReached
   std::vector<std::uint8_t> state;
-  std::vector<double> heights;  // of the grains; none in a plane packing, nor in its file
+  std::vector<double> heights;  // of the grains; absent in a plane packing and in its file
   int version = kPlane;
 
   /// Visits name and array of each part; one list for writing, reading and hashing.

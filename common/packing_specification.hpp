@@ -35,7 +35,7 @@ struct SizeLaw {
 
 /// Grains that fall under gravity, along -x2, instead of being compressed from all sides.
 struct Deposition {
-  /// By which the packing is turned about x3 in the end, rad, counter-clockwise: that of the bedding planes against x1.
+  /// By which the packing is turned about x3 in the end, rad, counter-clockwise: the angle of the bedding planes against x1.
   double bedding_angle = 0.0;
   /// The box keeps its width and is compressed along the direction of the fall alone until that carries its stress, so that
   /// the lateral stresses are those at rest (K0). Else all stresses are brought about afterwards.

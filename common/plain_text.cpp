@@ -8,7 +8,7 @@
 namespace polargrain {
 namespace {
 
-/// Bytes of the printable character beyond ASCII that begins here; 0 when there is none: no UTF-8, or one of
+/// Bytes of the printable character beyond ASCII that begins here; 0 when nothing printable begins: no UTF-8, or one of
 /// the control characters from U+0080 to U+009F.
 std::size_t length_beyond_ascii(std::string_view text) {
   const auto byte = [&](std::size_t place) { return static_cast<std::uint8_t>(text[place]); };

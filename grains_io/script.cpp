@@ -137,7 +137,7 @@ bool any_varies(const std::vector<Word>& words, std::size_t count) {
                      [](const Word& word) { return word.varies(); });
 }
 
-/// Looks at one command. @returns what is wrong with it, or nothing
+/// Looks at one command. @returns its fault; nothing when it has no fault
 class Judge {
  public:
   explicit Judge(const ScriptRules& rules) : rules_(rules) {}

@@ -20,11 +20,11 @@ struct BenchOptions {
   std::vector<std::string> settings;  ///< of --set, for every run
   std::vector<std::string> vary;      ///< KEY=A,B,C: further values to try, one at a time
   std::vector<std::string> packings;  ///< further packings, compared with the reference
-  std::filesystem::path pack;  ///< specification of packings that bench makes itself; empty: it makes none
-  std::vector<int> grains;     ///< their numbers of grains; empty: as the specification says
+  std::filesystem::path pack;       ///< specification of packings that bench makes itself; empty: no packings
+  std::vector<int> grains;          ///< their numbers of grains; empty: as the specification says
   std::vector<int> seeds{1, 2, 3};  ///< a packing of each size for each seed
   /// Axial strains (of x) between which shear bands are looked for, as `polargrain band` does: first and
-  /// last, or empty for none.
+  /// last; empty: no band.
   std::vector<double> band;
   std::string x;               ///< monitor along the curve; empty: the first of the case's table
   std::vector<std::string> y;  ///< monitors whose error counts; empty: the others of the case's table

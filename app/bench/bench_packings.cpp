@@ -31,7 +31,7 @@ std::vector<std::string> settings_of(int grains, int seed) {
   return {fmt::format("grains={}", grains), fmt::format("seed={}", seed)};
 }
 
-/// Whether a material and a specification name libraries of contact laws with the same content, or none.
+/// Whether a material and a specification name libraries of contact laws with the same content, or no library.
 bool same_library(const std::string& named, const std::filesystem::path& directory,
                   const ContactLibraryFile& library) {
   if (named.empty() || library.path.empty()) return named.empty() && library.path.empty();

@@ -14,7 +14,7 @@ struct BenchSetting {
   std::string group;                   ///< the quantity varied: "reference", "as given", "equilibrium", ...
   std::string label;                   ///< its value, for people
   std::vector<std::string> overrides;  ///< as --set takes them
-  int grains = 0;                      ///< of the packing that bench makes for this run; 0: it makes none
+  int grains = 0;  ///< of the packing that bench makes for this run; 0: it makes no packing
 };
 
 /// A material of the first case that has boxes of grains.
@@ -22,7 +22,7 @@ struct MaterialWithCells {
   std::string name;
   std::string model;
   std::string script;           ///< as the case names it
-  std::string contact_library;  ///< the same; empty: none
+  std::string contact_library;  ///< the same; empty: no library
 };
 
 /// @throws InputError when the case cannot be read

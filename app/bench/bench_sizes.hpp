@@ -15,7 +15,7 @@ struct Spread {
 };
 Spread spread_of(const std::vector<double>& values);
 
-/// The completed runs with packings of one size: what they have in common and how far they are
+/// The completed runs with packings of one size: their mean, and how far they are
 /// apart, one of each for each y.
 struct SizeScatter {
   int grains = 0;

@@ -186,7 +186,7 @@ int band(const BandCommandOptions& options) {
   if (!of_fields && options.places.size() > 1)
     throw InputError({options.places.back().string(), 0,
                       "one result directory was expected, or one or two CSV files of displacements"});
-  // A name that ends otherwise is meant as a directory, and there is none.
+  // A name that ends otherwise is meant as a directory, which does not exist.
   const bool is_csv = of_fields && options.places.front().extension() == ".csv";
   const BandMeasurement measured = is_csv ? measure_band_of_fields(options) : measure_band(options);
   constexpr const char* kPlaces[] = {"integration points", "grains", "places of the images"};

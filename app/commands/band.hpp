@@ -22,7 +22,7 @@ struct BandCommandOptions {
   bool current = false;                        ///< positions at the start of the increment, not of the test
   polargrain::band::FieldUnits units = {};     ///< of fields of image correlation
   double neighbourhood = 0.0;         ///< radius that strains are taken from, m; 0: 2.5 mean distances
-  std::filesystem::path fields = {};  ///< CSV of the samples of the increment; empty: none
+  std::filesystem::path fields = {};  ///< CSV of the samples of the increment; empty: not written
 };
 
 /// The measures of a band.

@@ -26,7 +26,7 @@ struct Command {
 
 // ---- options shared by several commands
 
-/// A case or specification as named, or, where there is none, the one of that name that the program brings along
+/// A case or specification as named; where that file does not exist, the program's own example of that name
 /// (cases/): the examples of --help work in any folder.
 std::string brought_along(const std::string& name);
 /// CASE, which must be given.
@@ -35,7 +35,7 @@ void add_case(CLI::App& command, std::filesystem::path& file);
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
 /// --strict
 void add_strict(CLI::App& command, bool& strict);
-/// --trust-scripts. @param rules of the command, which get what the engine understands too
+/// --trust-scripts. @param rules of the command, which also get the words that the engine understands
 void add_trust(CLI::App& command, ScriptRules& rules, const Grains& grains);
 /// For options that are numbers, beside their bounds: nan lies within any bounds, and nothing can be done infinitely.
 CLI::Validator finite_number();

@@ -50,7 +50,7 @@ void CsvFile::write() {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       const int reason = errno;
-      // Half a row is worse than none. Where even this fails nothing more can be done.
+      // Half a row is worse than a row that is missing. Where even this fails nothing more can be done.
       if (ftruncate(descriptor_, static_cast<off_t>(written_)) != 0) {
       }
       throw RunError(fmt::format("{} cannot be written: {}", file_.string(), std::strerror(reason)));

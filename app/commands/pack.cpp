@@ -51,7 +51,7 @@ bool make_in_child(const PackingWork& make, const std::filesystem::path& output,
   return run_in_child(log, work, !quiet);
 }
 
-/// The line of a log that says which loop has stepped the grains; empty where there is none.
+/// The line of a log that says which loop has stepped the grains; empty where no such line is there.
 std::string stepping_of(const std::filesystem::path& log) {
   std::ifstream stream(log);
   std::string found;

@@ -18,7 +18,7 @@ Command add_safety(CLI::App& program, const Grains& grains) {
       ->type_name("NAME");
   command
       .add_option("--resolution", options->resolution,
-                  "Distance of the factors that stands and fails are told for [0.01]")
+                  "Largest distance between the factor that holds and the factor that fails [0.01]")
       ->type_name("NUMBER")
       ->check(CLI::Range(1e-6, 1.0))
       ->check(finite_number());

@@ -69,7 +69,7 @@ int work(const WorkerOptions& options, const WorkerEngine& engine) {
     };
     serve(options.url, make_service, serve_options);
   } catch (const InputError& error) {
-    throw;  // what the user gave is wrong; told like everywhere else
+    throw;  // the user's input is wrong; told like everywhere else
   } catch (const std::exception& error) {
     tell(stderr, "ERROR: {}\n", error.what());
     return 1;

@@ -30,8 +30,8 @@ std::unique_ptr<CellService> make_checked_service(const CellDefinition& definiti
 
 struct WorkerOptions {
   std::string url;  ///< of the coordinator
-  std::string log;  ///< file for all output; empty: none
-  std::string key;  ///< file of the key, for tcp://; empty: none
+  std::string log;  ///< file for all output; empty: the terminal
+  std::string key;  ///< file of the key, for tcp://; empty: no key
   double patience_seconds = coupler::ServeOptions{}.patience_seconds;  ///< without a coordinator
   ScriptRules scripts = {};  ///< which scripts it runs, whatever its coordinator says
 };

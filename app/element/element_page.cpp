@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kMeanColour = "text";
 
-/// A chart of two columns. @param factors turn values into what is shown
+/// A chart of two columns. @param factors turn values into the numbers shown
 struct Picture {
   std::string title;
   std::string x;

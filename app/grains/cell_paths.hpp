@@ -79,7 +79,7 @@ class CellPaths {
   std::filesystem::path folder_;
   std::set<int> steps_;
   std::vector<CellDefinition> cells_;
-  std::vector<std::int64_t> cell_of_point_;  ///< -1: none
+  std::vector<std::int64_t> cell_of_point_;  ///< -1: a point without a cell
   std::vector<std::int64_t> element_of_point_;
 };
 

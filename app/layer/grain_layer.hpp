@@ -16,7 +16,7 @@ struct LayerScript {
   double modulus = 0.0;  ///< of the contacts, Pa: contactModulus or youngsModulus
 };
 
-/// @param script of a cell, with what it includes @param file its name, for messages
+/// @param script of a cell, with its included files @param file its name, for messages
 /// @throws InputError where it has no modulus that can be read, or is of grains in space
 LayerScript layer_script(const std::string& script, const std::string& file);
 

@@ -79,7 +79,7 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
     if (count == 0) first = one;
     sum += std::log(one);
     const double turned = rotation_in(band, heights, to.rotations - from.rotations);
-    if (std::isfinite(turned)) {  // a band between two rows of places holds none
+    if (std::isfinite(turned)) {  // a band between two rows of places holds no place
       turning += turned * band.thickness / (to.displacement - from.displacement);
       ++turned_count;
     }

@@ -20,7 +20,7 @@ struct MadePackings {
   std::string lowered;  ///< variable of its script that is lowered to make grains denser: their friction
   double void_ratio = 0.0;
   double tolerance = 0.0;           ///< of the void ratio
-  double pressure = 0.0;            ///< that of the test, which they are brought to afterwards, Pa
+  double pressure = 0.0;            ///< of the test, which they are brought to afterwards, Pa
   coupler::CellScript script = {};  ///< of the test, under which they are
 };
 

@@ -13,7 +13,7 @@ std::string escaped(const std::string& text);
 /// One axis of a chart.
 struct ChartAxis {
   std::string title;
-  std::string unit = {};  ///< shown behind the title; empty: none
+  std::string unit = {};  ///< shown behind the title; empty: no unit
   bool logarithmic = false;
   bool percent = false;  ///< values are shares, shown as per cent
 };

@@ -15,7 +15,7 @@ namespace polargrain::app {
 struct Body {
   Eigen::Vector2d least, largest;  ///< corners of the box around it; in space along x1 and x2
   std::vector<double> elements;    ///< square root of the area of each, cube root of the volume in space
-  double mean_element = 0.0;       ///< that of the mean area or volume
+  double mean_element = 0.0;       ///< side of an element of the mean area or volume, m
   std::vector<double> sides;       ///< of the box around it, along each axis
 
   [[nodiscard]] Eigen::Vector2d size() const { return largest - least; }

@@ -11,7 +11,7 @@ namespace polargrain::app {
 /// its line in remarks.cpp.
 using RemarkKind = void (*)(const Scene& scene, Remarks& remarks);
 
-/// All remarks on a scene, worst first; those of one rank by their weight. Runs no cell.
+/// All remarks on a scene, worst first; remarks of one rank by their weight. Runs no cell.
 Remarks remarks_on(const Scene& scene);
 
 /// The same from the file of a case. @param settings of --set

@@ -4,7 +4,7 @@
 
 namespace polargrain::app {
 
-/// The largest stress that loads, weight and the stress of laws at time zero bring, Pa; 0 where none of them is there.
+/// The largest stress that loads, weight and the stress of laws at time zero bring, Pa; 0 without them.
 double stress_scale(const Scene& scene);
 
 }  // namespace polargrain::app

@@ -133,7 +133,7 @@ std::map<int, double> times_of(const RunResult& result) {
   return times;
 }
 
-/// The first @p dim components of the displacements; zero where the file has none.
+/// The first @p dim components of the displacements; zero where the file has no displacements.
 template <int dim>
 std::vector<double> movements_of(const fem::Fields& fields, std::size_t nodes) {
   std::vector<double> moved(dim * nodes, 0.0);

@@ -247,7 +247,7 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
       of_summary("/quasi_static/kinetic_share/largest"));
   add("share of the boxes that do not come to rest", of_summary("/quasi_static/hot_points/largest"));
   begin_group("Cost");
-  // A run without cells has none of these.
+  // A run without cells has no such numbers.
   const auto of_cells = [&](const char* pointer) {
     return [&results, pointer](std::size_t k) {
       const std::string text = figure(results[k].summary, pointer);
@@ -300,7 +300,7 @@ std::string for_latex(const std::string& text) {
   return out;
 }
 
-/// A row with tabulators between its cells, and in none of them.
+/// A row with tabulators between its cells, and not in one of them.
 std::string tab_row(const KeyRow& row) {
   std::vector<std::string> cells;
   for (const std::string& cell : row) cells.push_back(plain_text(cell));
@@ -395,7 +395,7 @@ std::string status(const RunResult& result) {
                      message.empty() ? "" : "; " + message);
 }
 
-/// The stages of construction of a run; empty where it has none.
+/// The stages of construction of a run; empty where it has no stages.
 std::string stages(const RunResult& result) {
   if (!result.summary.is_object() || !result.summary.contains("stages")) return "";
   std::vector<TableRow> rows;

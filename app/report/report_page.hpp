@@ -11,7 +11,7 @@ namespace polargrain::app {
 struct ReportContent {
   std::string x;  ///< value along the curves; empty: a monitor with "strain" in its name, or the time
   std::vector<std::string> fields;  ///< to be shown on the mesh; empty: the usual ones that are there
-  /// HTML that shows grains of a result; empty: none are shown.
+  /// HTML that shows grains of a result; empty: no grains are shown.
   std::function<std::string(const RunResult&)> grains = {};
   int refresh_seconds = 0;  ///< the page is loaded anew so often; 0: never
 };

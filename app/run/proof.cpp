@@ -33,7 +33,7 @@ std::string name_of_text(const std::string& text) {
   return name_of(std::as_bytes(std::span(text))).text();
 }
 
-/// One name for all files of a folder: that of the list of their names and contents.
+/// One name for all files of a folder: the name of the list of their names and contents.
 std::string name_of_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;

@@ -131,7 +131,7 @@ class Run {
       if (case_.check_share > 0.0 && options.workers == 1 && !options.listening)
         options.tell("workers: check: with one worker no evaluation can be checked by another one");
       pool_.emplace(options);
-      note_interrupts();  // what the messages are sent with may have changed what signals do
+      note_interrupts();  // the library that sends messages may have changed the handling of signals
       pool_->on_answers([this](auto requests, auto replies) {
         sample_.take(requests, replies);
         cell_paths_.take(requests, replies);
@@ -379,7 +379,7 @@ class Run {
     return !text.empty();
   }
 
-  /// @returns what to tell the user of it
+  /// @returns a sentence for the user
   std::string write_replay_of(const coupler::CellFailure& failure) {
     const std::filesystem::path replay = directory_ / "replay";
     try {
@@ -439,7 +439,7 @@ class Run {
     }
   }
 
-  /// @param grains null: the material has none
+  /// @param grains null: the material has no cells
   void note_limits(const std::string& region, const coupler::GrainsOfPoints* grains) {
     const std::string limits = grains == nullptr ? "" : grains->at_limits();
     if (limits.empty()) return;

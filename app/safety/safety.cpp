@@ -148,7 +148,7 @@ int safety(const SafetyOptions& options) {
     tell(stdout, "{:>10.4f}  {:>7}  {:>16.4e}  {:>10}\n", trial.factor, trial.stands ? "yes" : "no",
          trial.displacement, trial.iterations);
   if (found.fails > 0.0) {
-    tell(stdout, "factor of safety between {:.4f} (a balance was found) and {:.4f} (none was found)\n",
+    tell(stdout, "factor of safety between {:.4f} (a balance was found) and {:.4f} (no balance was found)\n",
          found.stands, found.fails);
   } else {
     tell(stdout, "factor of safety above {:.4f}: a balance was found at the largest factor that was tried\n",

@@ -16,7 +16,7 @@ struct SafetyOptions {
   std::string stage;         ///< at the end of which strength is reduced; empty: at the end of the case
   double resolution = 0.01;  ///< largest distance of the factors between which the body fails
   double largest = 10.0;     ///< factor beyond which nothing is tried
-  std::filesystem::path file = {};  ///< a table of the trials; empty: none is written
+  std::filesystem::path file = {};  ///< a table of the trials; empty: no table is written
 };
 
 /// One trial: the strength of all materials divided by a factor, from the end of the stage.

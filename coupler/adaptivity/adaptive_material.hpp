@@ -239,7 +239,7 @@ class AdaptiveMaterial : public fem::Material<dim>, public GrainsOfPoints {
   struct Costs {
     std::int64_t runs = 0;          ///< of cells, audits not counted
     std::int64_t steps = 0;         ///< DEM steps of these
-    std::int64_t unused_runs = 0;   ///< those of them that no point used in the end,
+    std::int64_t unused_runs = 0;   ///< runs that no point used in the end,
     std::int64_t unused_steps = 0;  ///< and their DEM steps
     std::int64_t audits = 0;        ///< runs of cells that follow points
     std::int64_t audit_steps = 0;   ///< DEM steps of these

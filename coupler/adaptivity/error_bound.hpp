@@ -5,7 +5,7 @@
 
 namespace polargrain::coupler {
 
-/// The upper bound, with 95 % confidence, of the mean of `population` errors, none negative, when `sample` of them, drawn
+/// The upper bound, with 95 % confidence, of the mean of `population` errors, all zero or positive, when `sample` of them, drawn
 /// by chance, have been measured. The measured ones are known; the rest is taken to scatter like exponentially distributed
 /// errors (standard deviation equal to the mean), of which 2 n mean / (true mean) is distributed like chi-square with 2n
 /// degrees of freedom (Epstein and Sobel 1953). One sample of many bounds the mean by

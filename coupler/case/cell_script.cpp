@@ -36,7 +36,7 @@ bool is_at_home(const fs::path& file, const fs::path& case_directory) {
                      [&](const fs::path& place) { return lies_in(file, place / "liggghts_inputs"); });
 }
 
-/// The file that a line includes; empty when it includes none. A word with a variable is no path that is known.
+/// The file that a line includes; empty when it includes no file. A word with a variable is no path that is known.
 fs::path included(const std::string& line, const fs::path& from) {
   std::istringstream words(line);
   std::string command;

@@ -26,7 +26,7 @@ constexpr std::size_t kMostEntries = 100000;
 constexpr std::size_t kDeepest = 20;
 constexpr std::uintmax_t kLargestFile = 10'000'000;
 
-/// The first control character that no value may hold; empty: none. A text may have several lines, and tabs. Names
+/// The first control character that no value may hold; empty: all are allowed. A text may have several lines, and tabs. Names
 /// end up on terminals, in logs, in tables and as names of files, and each of these has characters that steer it.
 std::string forbidden_in(const std::string& text) {
   std::string lines = text;

@@ -38,7 +38,7 @@ class MaterialRecipe {
   }
   /// tan(friction angle) and cohesion divided by `factor`; the dilatancy is at most the friction. @param factor at least 1
   [[nodiscard]] virtual Weakened weakened(double factor) const;
-  /// A sentence on the material that a user should read before a run; empty: there is none.
+  /// A sentence on the material that a user should read before a run; empty: nothing to tell.
   [[nodiscard]] virtual std::string note() const { return {}; }
   /// The cells that the material asks; null when it has no cells.
   [[nodiscard]] virtual const CellDefinition* grains() const { return nullptr; }

@@ -78,7 +78,7 @@ struct CaseParts {
 
 // Each reads one part of a case into parts.result and lists its faults.
 void read_mesh(const Entry& entry, CaseParts& parts);
-/// Behind the mesh and before all that names parts of it. @param interfaces, beams, anchors null where the case has none
+/// Behind the mesh and before all that names parts of it. @param interfaces, beams, anchors null where the case lacks them
 void read_structures(const Entry* interfaces, const Entry* beams, const Entry* anchors, CaseParts& parts);
 /// Checks and completes the supports that they need: to be called when these have been read.
 void finish_structures(CaseParts& parts);
@@ -97,7 +97,7 @@ void read_stages(const Entry& entry, CaseParts& parts);
 int step_count(Section& section, std::size_t before);
 /// Whether parts come or go in some stage; known before the steps are read.
 bool builds_in_stages(const Entry& document);
-/// The entry of the stage that a message of fem::faults begins with; null where it begins with none.
+/// The entry of the stage that a message of fem::faults begins with; null where it begins without a stage.
 const Entry* stage_in(const Entry& document, const std::string& message);
 
 /// DEM steps that an explicit step of the nodes has, unless the case says otherwise.

@@ -15,7 +15,7 @@ struct PlaceValue {
 
 /// All that can be read: the unknowns of a node, then stresses and couple stresses.
 const std::vector<PlaceValue>& place_values(int dimension);
-/// @returns null where there is none of that name
+/// @returns null where no value has that name
 const PlaceValue* place_value(const std::string& name, int dimension);
 /// Their names, for messages.
 std::vector<std::string> names_of_place_values(int dimension);

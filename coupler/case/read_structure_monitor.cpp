@@ -26,7 +26,7 @@ bool read_structure_monitor(Section& section, CaseParts& parts, Monitor& monitor
   const std::string guess = nearest(monitor.structure, known);
   section.fault(kind, fmt::format("{0}: there is no {0} '{1}'; {2}", kind, monitor.structure,
                                   !guess.empty()  ? "did you mean '" + guess + "'?"
-                                  : known.empty() ? "the case has none; give it below '" + kind + "s'"
+                                  : known.empty() ? "give it below '" + kind + "s'"
                                                   : "there are " + listed(known)));
   return true;
 }

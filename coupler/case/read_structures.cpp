@@ -385,7 +385,7 @@ class StructuresReader {
     all.finish();
   }
 
-  /// The one node of a place. @returns -1 and a fault when it has more, or none
+  /// The one node of a place. @returns -1 and a fault when it has more nodes, or no node
   int node_of(Section& section, const std::string& key) {
     const std::string name = section.text(key, "the name of a set of one node, or in 'to' a place [x1, x2]");
     const std::size_t faults_before = parts_.faults.size();

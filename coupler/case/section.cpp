@@ -368,7 +368,7 @@ std::string Section::choice_of(const Entry& entry, const std::string& key,
 std::string Section::choice(const std::string& key, const std::vector<std::string>& words) {
   const Entry* entry = require(key, "one of " + listed(words));
   std::string chosen = entry == nullptr ? std::string() : choice_of(*entry, key, words);
-  // The choice decides which keys there are; without it none can be called unknown.
+  // The choice decides which keys there are; without it no key can be called unknown.
   if (chosen.empty())
     for (const Entry::Member& member : entry_.members) asked_.push_back(member.key);
   return chosen;

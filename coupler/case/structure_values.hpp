@@ -17,7 +17,7 @@ const std::vector<std::string>& values_of_structure(const std::string& kind);
 template <int dim>
 std::vector<std::string> structures_of(const fem::Problem<dim>& problem, const std::string& kind);
 
-/// A committed value, in SI units. @throws RunError when there is none
+/// A committed value, in SI units. @throws RunError when it has no such value
 template <int dim>
 double value_of_structure(const fem::Problem<dim>& problem, const std::string& structure,
                           const std::string& value);

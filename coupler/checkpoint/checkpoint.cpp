@@ -228,7 +228,7 @@ std::string advice(const std::filesystem::path& file) {
         "the checkpoint before it, {}, is of step {} and can be read: to go on from there, "
         "'mv {} {}' and run with --resume again",
         before.string(), read_whole(before).step, before.string(), file.string());
-  } catch (const RunError&) {  // there is none, or it is no better
+  } catch (const RunError&) {  // it is missing, or it is no better
     return "run without --resume";
   }
 }

@@ -25,7 +25,7 @@ struct Candidate {
   std::uint64_t worker = 0;
   std::string party;
   std::string name =
-      {};  ///< Member::name: that of a process of our own stays with the one that takes its place
+      {};  ///< Member::name: the name of a process of our own stays with the one that takes its place
 };
 
 /// The failed attempts at a task, and their verdict: that the task is at fault only when
@@ -42,7 +42,7 @@ class Attempts {
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] const std::vector<Attempt>& list() const { return list_; }
 
-  /// How much a worker would tell by trying: 3 it is one of our own and none of these has tried, 2 nobody of its party
+  /// How much a worker would tell by trying: 3 it is one of our own and no process of ours has tried, 2 nobody of its party
   /// has, 1 another one of its party has, 0 it has tried itself. A failure of guests alone proves nothing while
   /// one of our own is there.
   [[nodiscard]] int news_of(const Candidate& worker) const;

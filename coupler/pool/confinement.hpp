@@ -28,7 +28,8 @@ class Confinement {
   void keep_to_folder();
 
   bool may_use_network_;
-  std::optional<PrivateDirectory> own_ = {};  ///< of a guest; those of local workers lie in the coordinator's
+  std::optional<PrivateDirectory> own_ =
+      {};  ///< of a guest; directories of local workers lie in the coordinator's
   std::filesystem::path folder_ = {};
   std::vector<std::string> missing_;
 };

@@ -97,7 +97,7 @@ class Crew {
   /// @throws RunError when all of them fail to: a program that cannot start
   void start();
   /// Waits for something to happen, not longer than `timeout`, and handles it.
-  /// @throws RunError when no worker is left and none can come; exceptions of CrewOptions::heed
+  /// @throws RunError when no worker is left and no other can come; exceptions of CrewOptions::heed
   void listen(std::chrono::milliseconds timeout);
   /// A member that cannot be reached is lost at the next listen.
   void send(Member& member, const Message& message);

@@ -28,7 +28,7 @@ class Foreman final : private CrewEvents {
   std::uint32_t define(CellDefinition definition);
   [[nodiscard]] const CellDefinition& definition(std::uint32_t number) const;
 
-  /// Returns when every task is done, with its reply; those of `fetch` and `again` have a state and no more.
+  /// Returns when every task is done, with its reply; replies to `fetch` and `again` have a state and no more.
   /// @throws RunError when no worker is left, or nobody can do a task other than an evaluation; ResidentsLost when a
   /// worker is gone that a task is for: this alone ends nothing, the other tasks are dropped
   void work(std::vector<Task>& tasks);

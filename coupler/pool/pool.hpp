@@ -130,7 +130,7 @@ class Pool {
   /// The first request of the last evaluate whose reply is Quality::failed.
   [[nodiscard]] const std::optional<CellFailure>& last_failure() const;
 
-  /// Called after each reply of an evaluate, and twice a second while there is none, with the cells done and
+  /// Called after each reply of an evaluate, and twice a second while no reply comes, with the cells done and
   /// the cells asked for.
   void on_progress(std::function<void(std::size_t done, std::size_t total)> call);
   /// Called behind each evaluate with its requests, their states with bytes, and its replies.

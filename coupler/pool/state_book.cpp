@@ -29,7 +29,7 @@ StatePointer StateBook::enter(const StatePointer& state, std::uint64_t worker, c
   Entry& entry = pages_->entries[state->name()];
   if (StatePointer known = entry.state.lock()) {
     if (state->is_here()) return known->is_here() ? known : arrived(state, worker);
-    // Made twice: one who keeps it is enough, none when it is here.
+    // Made twice: one worker that keeps it is enough, and no worker need keep it when it is here.
     if (known->is_here()) {
       pages_->release(state->name(), worker);
       if (entry.home == worker) entry.home = 0;

@@ -51,7 +51,7 @@ class Desk {
        std::function<void(std::uint64_t)> heartbeat)
       : make_service_(make_service), heartbeat_(std::move(heartbeat)), cache_(cache_bytes) {}
 
-  /// @returns the bytes to send back; none when the message asks for no answer.
+  /// @returns the bytes to send back; empty when the message asks for no answer.
   std::optional<std::string> answer(const Message& message, std::uint64_t session) {
     if (const auto* define = std::get_if<Define>(&message)) {
       if (definitions_.contains(define->definition)) return {};  // sent twice: numbers are never used again

@@ -30,7 +30,7 @@ double grain_size(double radius) {
 // Bounds of the numbers in a state. Numbers that no evaluation leaves behind would make lists without end, not
 // answers.
 
-/// The fault of the box of a state; empty when it is sound. @param grain_sizes sum of those of all grains, m^2 or m^3
+/// The fault of the box of a state; empty when it is sound. @param grain_sizes sum over all grains, m^2 or m^3
 std::string box_fault(const Box<2>& box, double grain_sizes);
 std::string box_fault(const Box<3>& box, double grain_sizes);
 

@@ -31,7 +31,7 @@ class CellTangents {
     const Increment<dim>& increment;
     double size = 0.0;  ///< QuasiStatic::size
   };
-  /// Of the recorded contacts, in the laboratory. @param weights of the grains in their mean rotation; empty where none
+  /// Of the recorded contacts, in the laboratory. @param weights of the grains in their mean rotation; empty where no grain
   /// could be turned @param volume of the box, m^3 @param way null: at rest
   Matrix of(const GrainBox<dim>& box, std::span<const double> weights, double volume,
             const Way* way = nullptr);

@@ -36,7 +36,7 @@ template <typename Number>
 bool eliminate(const FrontMatrixOf<Number>& front, InstructionSet set);
 
 /// Solves the rows of a front that eliminate() has treated for its pivots, given the other unknowns.
-/// @param factors the first rows of the front, those of the pivots; the right-hand sides in them are replaced
+/// @param factors the first rows of the front, which the pivots have; the right-hand sides in them are replaced
 /// by the solution
 /// @param known values of the unknowns that are not pivots, one row each, as many columns as right-hand sides
 /// @param known_stride of rows, at least the right-hand sides, rounded up to a multiple of kRowSlackOf

@@ -14,7 +14,7 @@ namespace polargrain::dem {
 namespace {
 
 /// First bytes of every state; plain numbers, so that another process of the same machine type reads it. Rotations may
-/// follow the values: of all grains or of none.
+/// follow the values: of all grains or of no grain.
 template <int dim>
 struct Header {
   std::uint64_t magic = 0;

@@ -40,7 +40,7 @@ struct Equilibrium {
   double rattlers = 0.0;             ///< grains without a contact / grains
 };
 
-/// @param least_force see unbalanced @param box size of the box @param grain_sizes sum of those of the grains: m^2 in the
+/// @param least_force see unbalanced @param box size of the box @param grain_sizes sum over the grains: m^2 in the
 /// plane, m^3 in space
 Equilibrium equilibrium_of(std::span<const Contact> contacts, const Imbalance& imbalance, double mean_radius,
                            double least_force, double box, double grain_sizes);

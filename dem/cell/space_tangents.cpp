@@ -20,18 +20,18 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& n) {
 /// A spring in some directions that may have given way.
 struct SlippedSpring {
   double stiffness = 0.0;
-  Eigen::Vector3d value;  // what it carries
-  double limit = 0.0;     // of |value|; 0 when there is none
+  Eigen::Vector3d value;  // the force it carries
+  double limit = 0.0;     // of |value|; 0: no limit
   double slip = 0.0;
   bool at_limit = false;
 };
 
-/// To first order: what it answers to a motion in its directions, and over the normal stiffness to an opening along n.
+/// To first order: its answer to a motion in its directions, and over the normal stiffness to an opening along n.
 struct LinearSpring {
   Eigen::Matrix3d of_motion;
   Eigen::Matrix3d of_opening;
 };
-/// @param directions projects on those of the spring
+/// @param directions projects on the directions of the spring
 LinearSpring linear(const SlippedSpring& spring, const Eigen::Matrix3d& directions, double normal_force,
                     const Eigen::Vector3d& n) {
   LinearSpring made{spring.stiffness * directions, Eigen::Matrix3d::Zero()};

@@ -50,7 +50,7 @@ struct StiffestContact {
   double viscous_time = 0.0;          ///< s
 
   void see(std::span<const Contact> contacts);
-  /// A frequency that no mode exceeds, on the whole, whatever comes to touch next: that of the lightest grain
+  /// A frequency that no mode exceeds, on the whole, whatever comes to touch next: the frequency of the lightest grain
   /// among `neighbours` of the stiffest contacts on all sides, doubled as in frequency_bound, rad/s.
   [[nodiscard]] double crowded_frequency(const Inertia& inertia, double neighbours) const;
 };

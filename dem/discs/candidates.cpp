@@ -26,7 +26,7 @@ struct Place {
   LatticeVector copy;
 };
 
-/// Bins of a periodic box that is divided evenly along its base vectors, none narrower than it must be where
+/// Bins of a periodic box that is divided evenly along its base vectors, each as wide as it must be where
 /// the box allows.
 class Bins {
  public:

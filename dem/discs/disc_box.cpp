@@ -283,7 +283,7 @@ struct Ending {
   }
 };
 
-/// First half of a step of one disc: what the box adds to the velocities, half a kick, drift.
+/// First half of a step of one disc: velocities that the box adds, half a kick, drift.
 struct Beginning {
   double step, half;                                  ///< s
   double change_xx, change_xy, change_yx, change_yy;  ///< of the affine velocity gradient, 1/s

@@ -6,7 +6,7 @@
 namespace polargrain::dem {
 
 /// The record of a contact once its laws have spoken.
-/// @param dx, dy from the centre of the second disc to that of the first, m @param fx, fy force on the first, N
+/// @param dx, dy from the centre of the second disc to the centre of the first, m @param fx, fy force on the first, N
 inline Contact take_down(int first, int second, double dx, double dy, const Touch& touch,
                          const PairParameters& p, const NormalAnswer& normal, double fx, double fy,
                          const RollingAnswer& rolling) {

@@ -22,7 +22,7 @@ namespace {
 /// Makes a process that srun or mpirun has started forget it: every process of ours that runs engines is an MPI world
 /// of its own, or its engine would try to share its grains with the others. Open MPI would start a daemon beside each
 /// such world (0.15 s, 20 MB, no start at all where there is no ssh, and an engine that ends in a forked child would
-/// wait for ever for the daemon's word); a world that never spawns others needs none. Nor does it need the folder that
+/// wait for ever for the daemon's word); a world that never spawns others needs no daemon. Nor does it need the folder that
 /// Open MPI makes below /tmp: such worlds share its name, and one that starts while another removes it fails.
 void forget_launcher() {
   std::vector<std::string> names;

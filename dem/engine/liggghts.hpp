@@ -2,7 +2,7 @@
 #pragma once
 // The engine's headers in the one order that compiles (global_properties.h and fix_insert_stream.h must come
 // before granular_styles.h). Only dem/ may include this file. The engine is the distribution's own library;
-// none of its optional shape models is compiled in there, so none of their macros may be defined here.
+// its optional shape models are not compiled in there, so their macros must not be defined here.
 // clang-format off
 #include <mpi.h>
 

@@ -74,7 +74,7 @@ class PressedBox {
   [[nodiscard]] double unrest() const;  ///< FixGravity::unrest
 
  protected:
-  FixGravity* gravity_ = nullptr;  // none unless the box was made with Fall::yes
+  FixGravity* gravity_ = nullptr;  // null unless the box was made with Fall::yes
 };
 
 /// Whether the grains of a box fall under gravity.

@@ -46,7 +46,7 @@ class FixTimeStep : public LAMMPS_NS::Fix {
   ContactRecorder& recorder_;
   int every_ = 2000;
   std::optional<ScriptTimeStep> step_;
-  double own_ = 0.0;      ///< s, in use while the script has none
+  double own_ = 0.0;      ///< s, in use while the script gives no time step
   bool settled_ = false;  ///< whether contacts have been looked at
 };
 

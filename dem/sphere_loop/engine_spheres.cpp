@@ -15,7 +15,7 @@ namespace {
 using Place = Eigen::Map<const Eigen::Vector3d>;
 
 /// Which of the engine's values of a contact a spring of the loop is, in the order in which the models ask for them:
-/// sliding, rolling, then a rolling displacement, then a torsion. -1: the engine has none.
+/// sliding, rolling, then a rolling displacement, then a torsion. -1: the engine has no such place.
 std::array<int, kSphereSprings> history_places(const DiscCombination& laws) {
   std::array<int, kSphereSprings> places{};
   places.fill(-1);

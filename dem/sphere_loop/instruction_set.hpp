@@ -4,7 +4,7 @@
 
 namespace polargrain::dem {
 
-/// The instruction sets that kernels are compiled for: that of every processor (SSE2), AVX2, and AVX-512 with F, DQ and VL.
+/// The instruction sets that kernels are compiled for: the set of every processor (SSE2), AVX2, and AVX-512 with F, DQ and VL.
 enum class InstructionSet { baseline, avx2, avx512 };
 
 /// Whether this processor can run kernels of that instruction set.

@@ -13,7 +13,7 @@ namespace polargrain::dem {
 
 namespace {
 
-/// The spheres of a periodic box in bins that divide it evenly along its base vectors, none narrower than the reach
+/// The spheres of a periodic box in bins that divide it evenly along its base vectors, as wide as the reach or wider
 /// where the box allows, with copies of those near its faces all around: neighbours stand in bins side by side.
 class Bins {
  public:

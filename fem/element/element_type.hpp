@@ -57,7 +57,7 @@ struct ElementType {
 };
 
 /// @param name one of element_names(), for example "Q8R".
-/// @throws RunError naming the known elements when there is none of that name.
+/// @throws RunError naming the known elements when no element has that name.
 template <int dim>
 const ElementType<dim>& element_type(std::string_view name);
 

@@ -49,7 +49,7 @@ FrozenCone triaxial_cone(const MohrCoulomb& strength, double side) {
           6.0 * strength.cohesion * cos_phi / (3.0 - side * sin_phi)};
 }
 
-/// Dn of B.3: what friction and cohesion share.
+/// Dn of B.3: the denominator that friction and cohesion share.
 double plane_strain_denominator(double sin_phi, double dilatancy) {
   return std::sqrt(1.0 - dilatancy * dilatancy / 9.0) + sin_phi * dilatancy * kRoot3 / 9.0;
 }

@@ -45,7 +45,7 @@ class Material {
   virtual void set_initial_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) {
     (void)point;
     (void)stress;
-    throw RunError("this material brings its own initial stress and takes none by position");
+    throw RunError("this material brings its own initial stress and takes no other by position");
   }
 
   /// Whether it can take increments of large deformation, whose rotation turns the stress that is kept

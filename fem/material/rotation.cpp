@@ -31,7 +31,7 @@ Matrix7 rotation_of_components(double angle) {
   return turn;
 }
 
-/// 9 x 9: what R t R^T does to the components t_11, t_12 .. t_33.
+/// 9 x 9: the effect of R t R^T on the components t_11, t_12 .. t_33.
 Eigen::Matrix<double, 9, 9> rotation_of_tensor(const Eigen::Matrix3d& r) {
   Eigen::Matrix<double, 9, 9> turn;
   for (int i = 0; i < 3; ++i)

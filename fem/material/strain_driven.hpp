@@ -5,7 +5,7 @@
 namespace polargrain::fem {
 
 /// The ability of laws that answer in place beyond plane strain: they take a strain along e_3 too. For tests of one point
-/// (coupler/points); finite elements of the plane have none.
+/// (coupler/points); finite elements of the plane do not.
 class StrainDriven {
  public:
   virtual ~StrainDriven() = default;

@@ -45,7 +45,7 @@ struct InvariantWeights {
   double a3 = 0.5;
 };
 
-/// The ratios of the couple moduli in space, L = gamma (1 + transpose + trace); the plane has none (ElasticParameters).
+/// The ratios of the couple moduli in space, L = gamma (1 + transpose + trace); the plane does not have them (ElasticParameters).
 struct CoupleShape {
   double trace = 0.0;      ///< alpha over gamma
   double transpose = 0.0;  ///< beta over gamma

@@ -77,7 +77,7 @@ GmshReaderFunction reader_function(const std::filesystem::path& mesh_file,
     }
     if (void* handle = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
       if (void* function = dlsym(handle, kGmshReaderName)) {
-        return reinterpret_cast<GmshReaderFunction>(function);  // NOLINT: what dlsym is for
+        return reinterpret_cast<GmshReaderFunction>(function);  // NOLINT: dlsym gives no other type
       }
     }
     failures.emplace_back(dlerror());
@@ -302,7 +302,7 @@ class Reader {
   std::map<std::vector<int>, BoundarySide> side_of_corners_;
 };
 
-/// Whether Gmsh takes the file for a mesh by its content too: what begins in another way it runs as a script, whatever
+/// Whether Gmsh takes the file for a mesh by its content too: a file that begins in another way it runs as a script, whatever
 /// its name.
 bool begins_as_a_mesh(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -49,7 +49,7 @@ std::vector<std::string> couple_names() {
   return tensor_names<3>();
 }
 
-/// Of what materials show: what is a quantity in space, so that it can be smoothed. The others count things, or say
+/// The values of materials that are quantities in space, so that they can be smoothed. The others count things, or say
 /// what an integration point is or does.
 const std::vector<std::string> kSmoothed{"void_ratio",    "coordination_number", "sliding_fraction",
                                          "mean_rotation", "plastic_shear",       "friction",

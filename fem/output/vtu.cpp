@@ -29,7 +29,7 @@ std::span<const std::byte> bytes_of(const std::vector<Value>& values) {
   return std::as_bytes(std::span(values));
 }
 
-/// VTK's form of compressed data in one block: number of blocks, their size, that of a last smaller one (none), that of the
+/// VTK's form of compressed data in one block: number of blocks, their size, the size of a last smaller one (absent), the size of the
 /// compressed block; then the block.
 std::string deflated(std::span<const std::byte> bytes) {
   uLongf size = compressBound(bytes.size());

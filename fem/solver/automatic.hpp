@@ -16,8 +16,8 @@ struct AutomaticOptions {
 };
 
 /// Whether a step behind these is to be tried by Newton's method. It is, behind a step that it has balanced. Where it was
-/// given up, it is tried again after 1, 2, 4, 8 and 16 steps, and every 16th behind that: what it cannot balance may last.
-/// @param steps all reports so far, that of the start first; of each, given_up and explicit_steps count
+/// given up, it is tried again after 1, 2, 4, 8 and 16 steps, and every 16th behind that: a hindrance may last.
+/// @param steps all reports so far, the report of the start first; of each, given_up and explicit_steps count
 [[nodiscard]] bool iterations_are_due(std::span<const StepReport> steps);
 
 /// Goes on to `time` by the method that is due; a step that is given up by the other one, from where it stands. Explicit steps

@@ -35,7 +35,7 @@ struct NodalStep {
 
 /// The sums over all contributions.
 struct NodalForces {
-  /// Internal forces, which loads balance: N and N m; in the plane N/m and N. At the entries of a field: what must vanish.
+  /// Internal forces, which loads balance: N and N m; in the plane N/m and N. At the entries of a field: the sum that must vanish.
   Eigen::VectorXd internal;
   /// At the entries of fields alone: absolute parts that `internal` is the sum of. A field is balanced when its rows are small
   /// against the sum of all of them. A part that is itself the rounded difference of larger numbers must not be smaller than a

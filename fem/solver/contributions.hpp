@@ -29,7 +29,7 @@ class Contributions {
   /// Each under a number of its own.
   void save(ArchiveWriter& archive) const;
   void restore(ArchiveReader& archive);
-  /// The first whose forces depend on the duration of a step; empty: there is none.
+  /// The first whose forces depend on the duration of a step; empty: no contribution depends on it.
   [[nodiscard]] std::string depends_on_duration() const;
 
  private:

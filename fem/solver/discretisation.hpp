@@ -34,7 +34,7 @@ struct Linearisation {
 template <int dim>
 class Discretisation {
  public:
-  /// @param mesh must outlive this object. @param field_entries of nodal vectors, behind those of node_dofs
+  /// @param mesh must outlive this object. @param field_entries of nodal vectors, behind the entries of node_dofs
   Discretisation(const Mesh<dim>& mesh, Continuum continuum, Eigen::Index field_entries = 0);
 
   /// From now on elements that are not there have increments of zero and no forces. @param there as elements_in_stage has it

@@ -33,7 +33,7 @@ class ExplicitPace {
   [[nodiscard]] double time(int step) const {
     return step >= steps_ ? end_ : start_ + fraction(step) * (end_ - start_);
   }
-  /// Of the last `count` steps; of none where there are fewer.
+  /// Of the last `count` steps; empty where there are fewer.
   [[nodiscard]] std::vector<double> last_times(int count) const {
     std::vector<double> last;
     if (count > steps_) return last;

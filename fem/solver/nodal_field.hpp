@@ -56,7 +56,7 @@ class FieldPlaces {
   [[nodiscard]] std::size_t fields() const { return entries_.size(); }
   /// Entries of a field: start(field) ... start(field + 1) - 1, in the order of NodalField::nodes.
   [[nodiscard]] Eigen::Index start(std::size_t field) const { return starts_[field]; }
-  /// Where the value of a field at a node is; -1 where the node has none.
+  /// Where the value of a field at a node is; -1 where the node lacks the field.
   [[nodiscard]] int entry(std::size_t field, int node) const {
     return entries_[field][static_cast<std::size_t>(node)];
   }
@@ -66,7 +66,7 @@ class FieldPlaces {
   std::vector<std::vector<int>> entries_;  ///< by field and node of the mesh
 };
 
-/// Number of a field among others. @returns as many as there are when there is none of that name
+/// Number of a field among others. @returns the number of fields when no field has that name
 std::size_t number_of_field(const std::vector<NodalField>& fields, const std::string& name);
 
 }  // namespace polargrain::fem

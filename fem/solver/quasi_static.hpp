@@ -11,7 +11,7 @@ namespace polargrain::fem {
 /// How far a row of explicit steps was from equilibrium (docs/theory/explicit.md). Shares; all are zero at rest.
 struct QuasiStatic {
   /// Root mean square over the steps of the forces that supports and loads leave unbalanced, over those that go through the
-  /// mesh, in the worse direction: what reactions of a moved and of a held boundary differ by.
+  /// mesh, in the worse direction: reactions of a moved and of a held boundary differ by so much.
   double reaction_difference = 0.0;
   /// Largest kinetic energy over the internal work so far. It is that of the chosen masses (nodal_masses), not of true ones.
   double kinetic_share = 0.0;

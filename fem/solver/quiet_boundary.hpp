@@ -39,7 +39,7 @@ class QuietBoundary {
   /// Entries of nodal vectors: displacements of its nodes.
   [[nodiscard]] std::vector<std::size_t> entries() const;
 
-  /// The velocities half a step on, at the nodes of the boundary; those of all others stay as they are.
+  /// The velocities half a step on, at the nodes of the boundary; other nodes keep their velocities.
   /// @param velocity before, and @param next the same after a step without dashpots, in the order of the equations
   /// @param masses in that order @param seconds of a step
   Absorbed apply(const Constraints<dim>& constraints, const Eigen::VectorXd& velocity,

@@ -239,7 +239,7 @@ class Solver {
   StepReport begin_automatic(int most_iterations, const ExplicitOptions& options = {});
   /// Goes on to `time` in `steps` explicit steps at one rate: central differences with nodal masses that make each step stable.
   /// The residuals of the report are means over these steps, unbalanced forces of the nodes with their inertia. Behind a
-  /// step that iterations have balanced, or given up, the nodes start at rest; what is out of balance there comes in over the
+  /// step that iterations have balanced, or given up, the nodes start at rest; forces out of balance there come in over the
   /// row.
   /// @returns not converged when a step moves too far, or a material fails; steps before it stand
   StepReport advance_explicit(double time, int steps, const ExplicitOptions& options = {});
@@ -297,9 +297,9 @@ class Solver {
   [[nodiscard]] typename Cosserat<dim>::NodeValues mean_displacement(const std::string& on) const {
     return mean_displacement(std::vector{on});
   }
-  /// Mean value of a nodal field over those nodes of boundaries and node sets that carry it; NaN where none does.
+  /// Mean value of a nodal field over those nodes of boundaries and node sets that carry it; NaN where no node does.
   [[nodiscard]] double mean_field(std::size_t field, const std::vector<std::string>& on) const;
-  /// Sum of the contributed rows of a field at given values of it there: what its supports take out over the last substep.
+  /// Sum of the contributed rows of a field at given values of it there: its supports take out so much over the last substep.
   [[nodiscard]] double field_reaction(std::size_t field, const std::vector<std::string>& on) const;
   /// Mean over the volume of the sum of the normal strains; positive is expansion.
   [[nodiscard]] double volume_strain() const;

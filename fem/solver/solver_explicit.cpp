@@ -18,7 +18,7 @@ constexpr int kRampIsOver = 1 << 30;  // explicit steps since rest, more than an
 template <int dim>
 class ExplicitRow {
  public:
-  /// @param solver, options, quiet, report must outlive this object @param quiet null: there is none
+  /// @param solver, options, quiet, report must outlive this object @param quiet null: no quiet boundary
   /// @param seconds of a step; 1 where steps have no real time
   ExplicitRow(Newton<dim>& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet,
               double seconds, StepReport& report)
@@ -146,7 +146,7 @@ StepReport Solver<dim>::begin_automatic(int most_iterations, const ExplicitOptio
   StepReport report;
   const std::optional<Residual> residual = self.start(report);
   if (!residual) return report;
-  // Of the tangents at rest: those of later states may be far softer than the next one.
+  // Of the tangents at rest: tangents of later states may be far softer than the next one.
   self.state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
   report.converged = self.is_balanced(*residual);
   if (!report.converged) report = self.let_go(std::move(report), most_iterations);

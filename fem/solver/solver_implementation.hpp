@@ -74,12 +74,12 @@ struct Solver<dim>::Implementation : Newton<dim> {
   /// The outcome of a jump.
   struct Passing {
     bool passed = false;  ///< else nothing was committed
-    bool stuck = false;   ///< what was committed cannot be balanced
+    bool stuck = false;   ///< the state committed cannot be balanced
     std::string reason;   ///< why it is stuck
   };
   /// Passes the jump that the last attempt has met, when it may and the jump is not larger than `largest`, and lets go
-  /// at the place reached what is out of balance then; further jumps on the way too.
-  /// @param goal what was aimed at
+  /// of the forces out of balance at the place reached; further jumps on the way too.
+  /// @param goal the aim of the step
   Passing pass(StepGoal goal, double largest, StepReport& report);
 };
 

@@ -7,7 +7,7 @@ import re
 from .program import data_file
 
 
-_PLAIN = re.compile(r"[\w./+@-]*")  # what no reader of YAML takes for anything but a text
+_PLAIN = re.compile(r"[\w./+@-]*")  # every reader of YAML takes it for a text
 
 
 def yaml_of(value):

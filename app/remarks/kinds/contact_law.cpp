@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The script of the grains: properties that no model reads, numbers that none of the kind can have, and the neighbours.
+// The script of the grains: properties that no model reads, numbers that no contact can have, and the neighbours.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -22,7 +22,7 @@ bool is_innocent(double value) {
   return false;
 }
 
-/// How many times a pressure is off the nearest one of the case; 1 where none is known.
+/// How many times a pressure is off the nearest one of the case; 1 where no pressure is known.
 double off_pressures(const Scene& scene, double value) {
   double nearest = 1e300;
   const auto compare = [&](double other) {

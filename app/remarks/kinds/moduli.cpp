@@ -33,7 +33,7 @@ void moduli(const Scene& scene, Remarks& remarks) {
     if (region.cell != nullptr) {
       if (region.packing == nullptr) continue;
       const double shear = region.packing->moduli.shear;
-      look_at(scene, region, "G", shear, "that of the packing at rest", remarks);
+      look_at(scene, region, "G", shear, "the modulus of the packing at rest", remarks);
       look_at(scene, region, "Gc", shear, "the shear modulus of the packing at rest", remarks);
       continue;
     }

@@ -15,7 +15,7 @@
 namespace polargrain::coupler {
 namespace {
 
-/// The path of the packing; empty, with a fault, when there is none.
+/// The path of the packing; empty, with a fault, when no file is there.
 std::filesystem::path packing_file(Section& section, const std::filesystem::path& directory) {
   const std::string name = section.text("packing", "the path of a packing (CSV or HDF5)");
   if (name.empty()) return {};

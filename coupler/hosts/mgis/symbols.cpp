@@ -25,7 +25,7 @@ int type_of_state() {
 extern "C" {
 
 const char* PolargrainCell_mfront_ept = "PolargrainCell";
-const char* PolargrainCell_tfel_version = "";  // none made it
+const char* PolargrainCell_tfel_version = "";  // not made by TFEL
 const char* PolargrainCell_unit_system = "SI";
 const char* PolargrainCell_src = "polargrain: a periodic box of grains";
 const char* PolargrainCell_author = "polargrain developers";
@@ -34,20 +34,20 @@ const char* PolargrainCell_validator = "";
 const char* PolargrainCell_build_id = "polargrain " POLARGRAIN_VERSION;
 const char* PolargrainCell_mfront_interface = "Generic";
 
-// One line a number: what the behaviour is, and how many there are of what.
+// One line a number: the kind of the behaviour, and how many variables of each kind it has.
 #define POLARGRAIN_NUMBER(name, value) unsigned short PolargrainCell_##name = value;
 
 POLARGRAIN_NUMBER(mfront_mkt, 1)  // a behaviour
 POLARGRAIN_NUMBER(api_version, 1)
 POLARGRAIN_NUMBER(BehaviourType, 0)       // general
-POLARGRAIN_NUMBER(BehaviourKinematic, 0)  // none of the usual ones
+POLARGRAIN_NUMBER(BehaviourKinematic, 0)  // not one of the usual kinds
 POLARGRAIN_NUMBER(SymmetryType, 0)        // no axes that the host must turn to
 POLARGRAIN_NUMBER(ElasticSymmetryType, 0)
 POLARGRAIN_NUMBER(requiresStiffnessTensor, 0)
 POLARGRAIN_NUMBER(requiresThermalExpansionCoefficientTensor, 0)
 POLARGRAIN_NUMBER(ComputesInternalEnergy, 0)
 POLARGRAIN_NUMBER(ComputesDissipatedEnergy, 0)
-POLARGRAIN_NUMBER(TemperatureRemovedFromExternalStateVariables, 0)  // there is none
+POLARGRAIN_NUMBER(TemperatureRemovedFromExternalStateVariables, 0)  // it has no temperature
 POLARGRAIN_NUMBER(nMaterialProperties, 0)
 POLARGRAIN_NUMBER(nExternalStateVariables, 0)
 POLARGRAIN_NUMBER(nParameters, 0)
