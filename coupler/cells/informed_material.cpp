@@ -407,11 +407,6 @@ void InformedMaterial<dim>::watch_mismatch() {
   if (told_of_mismatch_ && !may_change()) return;
   std::string left = left_cells(trial_);
   if (left.empty()) return;
-  if (parameters_.beyond_mismatch == BeyondMismatch::stop)
-    throw RunError(
-        left +
-        "; 'beyond_mismatch: tell' goes on, 'beyond_mismatch: cell' takes the cell's stress there, smaller steps or "
-        "'update: fixed_point' may bring them together");
   if (may_change()) left += "; such points go by the stress of their cells from the next step on";
   if (!told_of_mismatch_) notes_.push_back(left);
   told_of_mismatch_ = true;

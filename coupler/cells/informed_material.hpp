@@ -26,7 +26,6 @@ enum class InformedUpdate {
 /// The consequence where law and cell disagree by more than the limit.
 enum class BeyondMismatch {
   tell,  ///< the run goes on with the law, and says so
-  stop,  ///< the run ends before the step is committed
   cell   ///< from the next step on the point's stress and tangent are those of its cell, for good
 };
 

@@ -26,9 +26,9 @@ class InformedCaseTest : public ::testing::Test {
           "    lc: 20 mm\n"
           "    nu: 0.25\n"
           "    update: frozen\n"
-          "    window: 4\n"
-          "    dilatancy_limits: [-0.3, 0.8]\n"
-          "    initial_friction: 10 deg\n"
+          "    mismatch_limit: 40 %\n"
+          "    beyond_mismatch: tell\n"
+          "    drift_shear: 0.02\n"
           "    cohesion: 50 Pa\n"
           "regions: {all: sand}\n"
           "boundary:\n"
@@ -59,9 +59,9 @@ TEST_F(InformedCaseTest, EveryFaultOfItsKeysHasItsLine) {
   for (const auto& [good, bad] :
        std::vector<std::pair<std::string, std::string>>{{"nu: 0.25", "nu: 0.5"},
                                                         {"update: frozen", "update: froze"},
-                                                        {"window: 4", "window: 0"},
-                                                        {"[-0.3, 0.8]", "[0.8, -0.3]"},
-                                                        {"10 deg", "90 deg"},
+                                                        {"mismatch_limit: 40 %", "window: 4"},
+                                                        {"beyond_mismatch: tell", "beyond_mismatch: stop"},
+                                                        {"drift_shear: 0.02", "initial_friction: 5 deg"},
                                                         {"50 Pa", "0 Pa"}}) {
     text.replace(text.find(good), good.size(), bad);
   }
@@ -69,14 +69,15 @@ TEST_F(InformedCaseTest, EveryFaultOfItsKeysHasItsLine) {
   for (const char* model : {"informed", "cell"}) {
     const Outcome outcome = polargrain(std::string("check case.yaml --set materials.sand.model=") + model);
     EXPECT_EQ(outcome.status, 2);
-    for (const char* fault :
-         {"case.yaml:11: material 'sand': nu: must be above -1 and below 0.5",
-          "case.yaml:12: material 'sand': update: expected one of frozen, fixed_point, found 'froze'; did "
-          "you mean 'frozen'?",
-          "case.yaml:13: material 'sand': window: ",
-          "case.yaml:14: material 'sand': dilatancy_limits: expected the least and the most M_psi",
-          "case.yaml:15: material 'sand': initial_friction: must be an angle below 90 degrees",
-          "case.yaml:16: material 'sand': cohesion: "}) {
+    for (
+        const char* fault :
+        {"case.yaml:11: material 'sand': nu: must be above -1 and below 0.5",
+         "case.yaml:12: material 'sand': update: expected one of frozen, fixed_point, found 'froze'; did "
+         "you mean 'frozen'?",
+         "case.yaml:13: material 'sand': window: is no key any more, its value is always 5 increments; leave it out",
+         "case.yaml:14: material 'sand': beyond_mismatch: 'stop' is no choice any more; write tell",
+         "case.yaml:15: material 'sand': initial_friction: is no key any more, its value is always 5 deg; leave it out",
+         "case.yaml:16: material 'sand': cohesion: "}) {
       EXPECT_NE(outcome.errors.find(fault), std::string::npos) << fault << "\n" << outcome.errors;
     }
   }
@@ -105,7 +106,7 @@ TEST_F(InformedCaseTest, PointsThatGoByTheirCellsWriteTheSameWithAnyNumberOfWork
     const std::string options =
         std::string("--set materials.sand.update=") + update +
         // A law that does not yield, and softer than it is ever taken to be (unloading.hpp).
-        " --set materials.sand.initial_friction='60 deg' --set materials.sand.G='4 MPa'"
+        " --set materials.sand.cohesion='1 MPa' --set materials.sand.G='4 MPa'"
         " --set materials.sand.beyond_mismatch=cell --set materials.sand.mismatch_limit='1 %'";
     const Outcome one = polargrain("run case.yaml -o one -w 1 " + options);
     ASSERT_EQ(one.status, 0) << one.errors;

@@ -266,7 +266,7 @@ const std::string kMaterial = "model: cell, script: cell.in, packing: grains.h5,
 std::string all_keys_of_schemes(const std::string& model) {
   return "model: " + model +
          ", script: cell.in, packing: grains.h5, lc: 8 mm, tolerance: 2 %, audit: 0, seed: 2, nu: 0.25, update: frozen, "
-         "window: 4, drift_shear: 0.02, initial_friction: 5 deg, cohesion: 50 Pa";
+         "drift_shear: 0.02, mismatch_limit: 20 %, cohesion: 50 Pa";
 }
 
 INSTANTIATE_TEST_SUITE_P(

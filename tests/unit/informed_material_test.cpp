@@ -185,7 +185,7 @@ TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
 /// Drives a point under lateral stress in a few steps, which the law follows one step late.
 class LateLaw {
  public:
-  explicit LateLaw(double limit, bool stops) : sand_(grains_.calls_to_it(), late(limit, stops)) {
+  explicit LateLaw(double limit) : sand_(grains_.calls_to_it(), late(limit)) {
     compress(sand_, kSteps, 1e-10);
   }
   InformedMaterial<2>& sand() { return sand_; }
@@ -198,10 +198,9 @@ class LateLaw {
 
  private:
   static constexpr int kSteps = 20;
-  static InformedParameters<2> late(double limit, bool stops) {
+  static InformedParameters<2> late(double limit) {
     InformedParameters<2> given = parameters(InformedUpdate::frozen);
     given.mismatch_limit = limit;
-    given.beyond_mismatch = stops ? BeyondMismatch::stop : BeyondMismatch::tell;
     return given;
   }
   KnownCells grains_{false};
@@ -209,24 +208,14 @@ class LateLaw {
 };
 
 TEST(InformedMaterial, SaysOnceAndAtTheEndThatItHasLeftItsCell) {
-  const double mismatch = LateLaw(1.0, false).mismatch();
+  const double mismatch = LateLaw(1.0).mismatch();
   ASSERT_GT(mismatch, 0.0);
-  LateLaw within(1.01 * mismatch, false);
+  LateLaw within(1.01 * mismatch);
   EXPECT_EQ(within.sand().doubt(), "");
-  LateLaw beyond(0.99 * mismatch, false);
+  LateLaw beyond(0.99 * mismatch);
   EXPECT_EQ(beyond.sand().take_notes().size(), 1U);
   EXPECT_NE(beyond.sand().doubt().find("the law has left its cell at 1 of 1 points"), std::string::npos)
       << beyond.sand().doubt();
-}
-
-TEST(InformedMaterial, MayNotLeaveItsCellWhereToldSo) {
-  EXPECT_NO_THROW(LateLaw(1.0, true));
-  try {
-    const LateLaw late(1e-6, true);
-    FAIL() << "nothing was said of a mismatch of " << late.mismatch();
-  } catch (const RunError& error) {
-    EXPECT_NE(std::string(error.what()).find("beyond_mismatch: tell"), std::string::npos) << error.what();
-  }
 }
 
 /// A point that leaves its law in the step where they differ by more than `limit`, and its cell alone on the same path.

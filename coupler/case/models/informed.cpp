@@ -79,7 +79,7 @@ void refuse_asking_each_step(Section& section, const InformedParameters<dim>& pa
   if (parameters.beyond_mismatch == BeyondMismatch::cell)
     section.fault(
         "beyond_mismatch",
-        "beyond_mismatch: in explicit steps a law cannot go over to its cell; write tell or stop, or use `model: cell`");
+        "beyond_mismatch: in explicit steps a law cannot go over to its cell; write tell, or use `model: cell`");
 }
 
 template <int dim>

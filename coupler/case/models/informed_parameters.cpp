@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/case/models/informed_parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
 #include "coupler/case/models/cone_match.hpp"
 
 namespace polargrain::coupler {
+namespace {
+
+/// Of the cone before the first reading, rad.
+constexpr double kInitialFriction = 5.0 * std::numbers::pi / 180.0;
+
+/// Older files may have this key; its value is now the only one.
+void refuse_former(Section& section, const char* key, const char* value) {
+  if (section.find(key) != nullptr)
+    section.fault(key,
+                  fmt::format("{}: is no key any more, its value is always {}; leave it out", key, value));
+}
+
+}  // namespace
 
 template <int dim>
 InformedParameters<dim> read_informed_parameters(Section& section) {
@@ -19,28 +34,18 @@ InformedParameters<dim> read_informed_parameters(Section& section) {
                           : InformedUpdate::frozen;
   parameters.mismatch_limit =
       section.quantity_or("mismatch_limit", Dimension::number, Limit::positive, parameters.mismatch_limit);
-  const std::string beyond = section.choice_or("beyond_mismatch", {"tell", "stop", "cell"}, "tell");
-  parameters.beyond_mismatch = beyond == "stop"   ? BeyondMismatch::stop
-                               : beyond == "cell" ? BeyondMismatch::cell
-                                                  : BeyondMismatch::tell;
+  if (const Entry* const beyond = section.find("beyond_mismatch");
+      beyond != nullptr && beyond->text == "stop")
+    section.fault(
+        "beyond_mismatch",
+        "beyond_mismatch: 'stop' is no choice any more; write tell, and look at stress_mismatch in summary.json");
+  else if (section.choice_or("beyond_mismatch", {"tell", "cell"}, "tell") == "cell")
+    parameters.beyond_mismatch = BeyondMismatch::cell;
+  refuse_former(section, "window", "5 increments");
+  refuse_former(section, "dilatancy_limits", "[-0.5, 1]");
+  refuse_former(section, "initial_friction", "5 deg");
   fem::MobilisationOptions& reading = parameters.mobilisation;
-  reading.window = section.whole_or("window", 1, reading.window);
-  if (section.find("dilatancy_limits") != nullptr) {
-    const std::vector<double> ends = section.quantities("dilatancy_limits", 2, Dimension::number, Limit::any);
-    reading.limits = {ends[0], ends[1]};
-    constexpr double kGreatest = 1.5;  // of M_psi, where sin(psi) of B.3 reaches one
-    if (!(ends[0] < ends[1]) || ends[0] < -kGreatest || ends[1] > kGreatest) {
-      section.fault("dilatancy_limits",
-                    "dilatancy_limits: expected the least and the most M_psi, rising, between -1.5 and 1.5");
-      reading.limits = {};
-    }
-  }
-  const double angle = section.quantity_or("initial_friction", Dimension::angle, Limit::not_negative,
-                                           5.0 * std::numbers::pi / 180.0);
-  if (angle >= 0.5 * std::numbers::pi) {
-    section.fault("initial_friction", "initial_friction: must be an angle below 90 degrees");
-  }
-  reading.initial_friction = angle;
+  reading.initial_friction = kInitialFriction;
   if constexpr (dim == 3) reading.match = read_match(section, dim);
   reading.drift_shear =
       section.quantity_or("drift_shear", Dimension::number, Limit::not_negative, reading.drift_shear);

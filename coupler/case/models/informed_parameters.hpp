@@ -6,8 +6,8 @@
 
 namespace polargrain::coupler {
 
-/// Reads the options of `informed` beside its cells and G, Gc, lc: nu, update, window, dilatancy_limits,
-/// initial_friction, match, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
+/// Reads the options of `informed` beside its cells and G, Gc, lc: nu, update, mismatch_limit,
+/// beyond_mismatch, drift_shear, match, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
 /// them, so that a case changes from one to the other by one word. The moduli are left open.
 template <int dim>
 InformedParameters<dim> read_informed_parameters(Section& section);
