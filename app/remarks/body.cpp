@@ -112,6 +112,13 @@ std::vector<std::array<bool, 2>> held_nodes(const fem::Problem<2>& problem) {
   return held;
 }
 
+std::vector<std::array<bool, 2>> carried_nodes(const fem::Problem<2>& problem) {
+  std::vector<std::array<bool, 2>> carried = held_nodes(problem);
+  for (const auto& [one, other] : fem::joined_nodes(problem))
+    carried[static_cast<std::size_t>(one)] = carried[static_cast<std::size_t>(other)] = {true, true};
+  return carried;
+}
+
 std::vector<std::optional<double>> given_at(const fem::Problem<2>& problem, fem::Dof dof, double time) {
   std::vector<std::optional<double>> given(problem.mesh.nodes.size());
   for (const fem::PrescribedDof<2>* const item : fem::in_precedence(problem)) {

@@ -40,6 +40,9 @@ std::vector<OutlineEdge> edges_of(const fem::Mesh<2>& mesh, const std::string& b
 /// By node: whether u1 and u2 are prescribed there, by a support or a movement.
 std::vector<std::array<bool, 2>> held_nodes(const fem::Problem<2>& problem);
 
+/// The same, and both where an interface, a beam or an anchor takes hold: it carries forces that no support shows.
+std::vector<std::array<bool, 2>> carried_nodes(const fem::Problem<2>& problem);
+
 /// By node: the displacement that the case gives it at a time, m.
 std::vector<std::optional<double>> given_at(const fem::Problem<2>& problem, fem::Dof dof, double time);
 

@@ -25,7 +25,7 @@ struct Kind {
 constexpr Kind kAtTimeZero[] = {{loads_at_start, Bodies::plane},  {loads_at_start_in_space, Bodies::space},
                                 {weight_in_boxes, Bodies::plane}, {load_on_held, Bodies::plane},
                                 {plain_loads, Bodies::plane},     {tension, Bodies::plane},
-                                {ground_stress, Bodies::plane},   {weight, Bodies::plane},
+                                {ground_stress, Bodies::plane},   {weight, Bodies::both},
                                 {free_sides, Bodies::plane},      {stiffness_of_laws, Bodies::plane}};
 
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
@@ -47,7 +47,7 @@ constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {neighbours, Bodies::both},
                             {tolerances, Bodies::plane},
                             {softening_cauchy, Bodies::both},
-                            {strength_of_laws, Bodies::plane},
+                            {strength_of_laws, Bodies::both},
                             {monitors, Bodies::plane},
                             {measures, Bodies::plane},
                             {formulas, Bodies::plane},
@@ -60,7 +60,12 @@ constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {carried_along, Bodies::plane},
                             {held_sides, Bodies::plane},
                             {shape_of_elements, Bodies::plane},
-                            {places_of_monitors, Bodies::plane}};
+                            {places_of_monitors, Bodies::plane},
+                            {structures, Bodies::plane},
+                            {weight_of_parts, Bodies::plane},
+                            {loads_of_stages, Bodies::both},
+                            {densities, Bodies::both},
+                            {motions, Bodies::both}};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
   const Bodies here = scene.dimension() == 3 ? Bodies::space : Bodies::plane;

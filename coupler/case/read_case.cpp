@@ -356,7 +356,7 @@ class CaseReader {
         case_.with_problem([](const auto& problem) { return !problem.contributions.empty(); });
     if (contributes && case_.is_explicit())
       faults_.push_back(document_.find("steps")->fault(
-          "steps: explicit steps take no interfaces, beams, anchors or water yet; leave out 'method: explicit'"));
+          "steps: explicit steps take no interfaces, beams, anchors or water yet; leave out 'method'"));
     for (const std::string& message :
          case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
       if (const Entry* const stage = stage_in(document_, message); stage != nullptr) {

@@ -245,7 +245,9 @@ void read_body_item(const Entry& entry, const std::string& name, CaseParts& part
   if (weight == force && entry.kind == Entry::Kind::map) {
     parts.faults.push_back(entry.fault(
         name +
-        ": expected either 'unit_weight', for example 18 kN/m3, or 'force', a list of its two components"));
+        fmt::format(
+            ": expected either 'unit_weight', for example 18 kN/m3, or 'force', a list of its {} components",
+            dim)));
   } else if (weight) {
     const double value = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
     parts.result.problem_of<dim>().body_loads.push_back(fem::gravity<dim>(value, factor, region));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground: its stress at time zero, its weight, its sides.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,36 +138,50 @@ void ground_stress(const Scene& scene, Remarks& remarks) {
   }
 }
 
-void weight(const Scene& scene, Remarks& remarks) {
-  constexpr double kLight = 1e3;    // N/m^3
+namespace {
+
+template <int dim>
+void look_at_weight(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
+  constexpr double kLight = 2.5e3;  // N/m^3: a density written without its unit has 1400 to 2400
   constexpr double kHeavy = 2.5e6;  // a hundred times gravity in a centrifuge
-  const auto& loads = scene.problem().body_loads;
   const Entry* const list = scene.find({"body"});
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    const Eigen::Vector2d of = weight_of(scene, loads[k]);
+  for (std::size_t k = 0; k < problem.body_loads.size(); ++k) {
+    const fem::BodyLoad<dim>& load = problem.body_loads[k];
+    const Eigen::Matrix<double, dim, 1> force =
+        load.factor.largest_magnitude() * load.density(problem.mesh.nodes.front()).template head<dim>();
     const Entry& place = list != nullptr && k < list->items.size() ? list->items[k] : scene.place({"body"});
-    if (of.y() < 0.0 || (of.y() == 0.0 && of.x() != 0.0 && loads.size() == 1))
+    const double up = force(dim - 1);
+    if (up > 0.0 || (up == 0.0 && force.norm() > 0.0 && problem.body_loads.size() == 1)) {
+      std::vector<std::string> along;
+      for (int i = 0; i < dim; ++i)
+        along.push_back(fmt::format("{:.3g} kN/m3 along {}", 1e-3 * force(i), i + 1));
       remarks.push_back(
           {Rank::wrong, 100.0,
-           place.fault(fmt::format(
-               "body: the force is {:.3g} kN/m3 along 1 and {:.3g} kN/m3 along 2, and 2 points up: {}",
-               1e-3 * of.x(), -1e-3 * of.y(),
-               of.y() < 0.0 ? "it lifts the body" : "nothing pulls the body down")),
-           "write unit_weight: 18 kN/m3, or force: [0, -18 kN/m3]"});
-    const double size = of.norm();
-    if (size > 0.0 && (size < kLight || size > kHeavy))
+           place.fault(fmt::format("body: the force is {}, and {} points up: {}", fmt::join(along, " and "),
+                                   dim, up > 0.0 ? "it lifts the body" : "nothing pulls the body down")),
+           fmt::format("write unit_weight: 18 kN/m3, or force: [{}-18 kN/m3]", dim == 2 ? "0, " : "0, 0, ")});
+    }
+    const double size = force.norm();
+    const bool is_light = up < 0.0 && -up < kLight;  // a force along the ground may be small
+    if (is_light || size > kHeavy)
       remarks.push_back(
-          {Rank::wrong, size < kLight ? kLight / size : size / kHeavy,
+          {Rank::wrong, is_light ? kLight / -up : size / kHeavy,
            place.fault(fmt::format("body: a weight of {:.3g} kN/m3 (ground 10 to 25)", 1e-3 * size)),
            "check the unit: unit_weight is a force per volume, 18 kN/m3; a density of 1800 kg/m3 weighs 17.7 kN/m3"});
   }
+}
+
+}  // namespace
+
+void weight(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at_weight(scene, problem, remarks); });
 }
 
 void free_sides(const Scene& scene, Remarks& remarks) {
   double down = 0.0;
   for (const fem::BodyLoad<2>& load : scene.problem().body_loads) down += weight_of(scene, load).y();
   if (down <= 0.0) return;
-  const auto held = held_nodes(scene.problem());
+  const auto held = carried_nodes(scene.problem());
   const Body& body = scene.body();
   // Vertical parts of the outline at the left and right end of the mesh: held, loaded, or free.
   struct Side {

@@ -175,7 +175,7 @@ void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
 }  // namespace
 
 void loads_at_start(const Scene& scene, Remarks& remarks) {
-  const auto held = held_nodes(scene.problem());
+  const auto held = carried_nodes(scene.problem());
   const Edges all(scene.problem());
   for (const auto& [name, edges] : scene.mesh().boundaries) look_at(scene, name, all, held, remarks);
   look_at(scene, "", all, held, remarks);

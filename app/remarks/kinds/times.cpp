@@ -113,7 +113,8 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
 
 void idle_steps(const Scene& scene, Remarks& remarks) {
   const auto end = scene.end_time();
-  if (!end || scene.problem().stages.size() > 1) return;  // where parts come or go, that is what changes
+  // Where parts come or go they are the change; in real time a body goes on by itself.
+  if (!end || scene.problem().stages.size() > 1 || scene.the_case().real_time) return;
   // Step by step: whole cycles of a load end where they began. A pause before a further change is meant.
   double from = 0.0;
   int idle = 0;  // since the last change

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Stages of construction: parts that come without the weight of the others, loads whose times are over.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using coupler::Entry;
+
+/// Weight of a region at its full value, N/m^3, downwards positive, in whatever stage.
+double weight_on(const Scene& scene, const SceneRegion& region) {
+  double weight = 0.0;
+  for (const fem::BodyLoad<2>& load : scene.the_case().problem.body_loads)
+    if (load.region.empty() || load.region == region.name)
+      weight -= load.factor.largest_magnitude() * load.density(scene.body().least).y();
+  return weight;
+}
+
+/// Where a case of stages writes down that a region comes.
+const Entry& place_of(const Scene& scene, const std::string& region) {
+  const Entry* const stages = scene.find({"steps", "stages"});
+  if (stages != nullptr)
+    for (const Entry& stage : stages->items) {
+      const Entry* const placed = stage.find("place");
+      if (placed == nullptr) continue;
+      const auto is_region = [&](const Entry& word) { return word.text == region; };
+      if (is_region(*placed) || std::ranges::any_of(placed->items, is_region)) return *placed;
+    }
+  return scene.place({"steps", "stages"});
+}
+
+/// The last time of a table [[time, value], ...] below an entry; nothing where no table is there.
+std::optional<double> last_time_of(const Entry& entry) {
+  std::optional<double> last;
+  for (const Entry& item : entry.items) {
+    if (entry.kind == Entry::Kind::sequence && item.kind == Entry::Kind::sequence && item.items.size() == 2)
+      if (const auto time = coupler::parse_quantity(item.items[0].text, coupler::Dimension::number)) {
+        last = std::max(last.value_or(*time), *time);
+        continue;
+      }
+    if (const auto below = last_time_of(item)) last = std::max(last.value_or(*below), *below);
+  }
+  for (const Entry::Member& member : entry.members)
+    if (const auto below = last_time_of(member.value)) last = std::max(last.value_or(*below), *below);
+  return last;
+}
+
+/// Time at which each stage begins, in their order; empty where the time is found.
+std::vector<double> begins_of(const Scene& scene) {
+  std::vector<double> begins;
+  if (!scene.end_time()) return begins;
+  for (const coupler::CaseStage& stage : scene.the_case().stages)
+    begins.push_back(stage.first_step < 2
+                         ? 0.0
+                         : scene.the_case().plan[static_cast<std::size_t>(stage.first_step) - 2].amount);
+  return begins;
+}
+
+}  // namespace
+
+void weight_of_parts(const Scene& scene, Remarks& remarks) {
+  double largest = 0.0;
+  for (const SceneRegion& region : scene.regions()) largest = std::max(largest, weight_on(scene, region));
+  if (largest <= 0.0) return;
+  for (const SceneRegion& region : scene.regions()) {
+    if (!region.comes_later || weight_on(scene, region) > 0.0) continue;
+    remarks.push_back(
+        {Rank::wrong, 3.0,
+         place_of(scene, region.name)
+             .fault(
+                 fmt::format("steps: region '{}' comes without a weight, and other ground has {:.3g} kN/m3",
+                             region.name, 1e-3 * largest)),
+         fmt::format("body: [..., {{unit_weight: {:.3g} kN/m3, region: {}}}], or leave the region out there",
+                     1e-3 * largest, region.name)});
+  }
+}
+
+void loads_of_stages(const Scene& scene, Remarks& remarks) {
+  const Entry* const stages = scene.find({"steps", "stages"});
+  const std::vector<double> begins = begins_of(scene);
+  if (stages == nullptr || begins.size() != stages->items.size()) return;
+  for (std::size_t k = 0; k < begins.size(); ++k)
+    for (const char* const key : {"boundary", "body"}) {
+      const Entry* const list = stages->items[k].find(key);
+      if (list == nullptr || begins[k] <= 0.0) continue;
+      for (const Entry& item : list->items) {
+        const auto last = last_time_of(item);
+        if (!last || *last > begins[k]) continue;
+        remarks.push_back(
+            {Rank::wrong, 2.0,
+             item.fault(fmt::format(
+                 "{}: the table ends at time {:g}, and stage '{}' begins at time {:g}: its last value acts all the time",
+                 key, *last, scene.the_case().stages[k].name, begins[k])),
+             fmt::format(
+                 "times count from the start of the case: [[{:g}, FIRST], [{:g}, LAST]]; a single value comes "
+                 "evenly along the stage",
+                 begins[k], begins[k] + 1.0)});
+      }
+    }
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Interfaces, beams and anchors against the ground beside them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/remarks/in_units.hpp"
+#include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using coupler::Dimension;
+using coupler::Entry;
+
+/// Of the confined modulus of the element beside it over its size. Below, two bodies sink into each other by as much as the
+/// element is compressed.
+constexpr double kSoftInterface = 1.0;
+/// Beyond it a gap of a millionth of the element decides whether the interface carries.
+constexpr double kHardInterface = 1e6;
+constexpr double kThickBeam = 5.0;    // m
+constexpr double kThinBeam = 0.5e-3;  // m
+
+/// Confined modulus of a region, Pa; nothing where it is not known.
+std::optional<double> confined_modulus(const Scene& scene, const SceneRegion& region) {
+  double shear = 0.0;
+  double poisson = 0.0;
+  if (region.cell == nullptr) {
+    const auto young = scene.quantity({"materials", region.material, "E"}, Dimension::pressure);
+    const auto ratio = scene.quantity({"materials", region.material, "nu"}, Dimension::number);
+    if (!young || !ratio) return {};
+    poisson = *ratio;
+    shear = 0.5 * *young / (1.0 + poisson);
+  } else if (region.packing != nullptr) {
+    shear = region.packing->moduli.shear;
+    poisson = region.packing->moduli.poisson;
+  }
+  if (!(shear > 0.0) || !(poisson < 0.5)) return {};
+  return 2.0 * shear * (1.0 - poisson) / (1.0 - 2.0 * poisson);
+}
+
+/// The ground beside a curve.
+struct Beside {
+  double stiffness = 0.0;  ///< largest confined modulus over the size of its element, Pa/m
+  double friction = 0.0;   ///< largest friction angle, rad; 0: not known
+  std::string material = {};
+};
+
+Beside beside(const Scene& scene, const std::string& on) {
+  std::vector<int> nodes = scene.mesh().nodes_on(on);
+  std::ranges::sort(nodes);
+  Beside found;
+  for (std::size_t e = 0; e < scene.mesh().elements.size(); ++e) {
+    const auto shared = std::ranges::count_if(
+        scene.mesh().elements[e].nodes, [&](int node) { return std::ranges::binary_search(nodes, node); });
+    if (shared < 2) continue;  // a side has two nodes and more
+    const SceneRegion& region = scene.region_of(static_cast<int>(e));
+    if (const auto modulus = confined_modulus(scene, region))
+      found.stiffness = std::max(found.stiffness, *modulus / scene.body().elements[e]);
+    const Entry* const angle = scene.find({"materials", region.material, "friction_angle"});
+    if (angle == nullptr || angle->kind != Entry::Kind::scalar) continue;
+    const auto friction = coupler::parse_quantity(angle->text, Dimension::angle);
+    if (friction && *friction > found.friction) {
+      found.friction = *friction;
+      found.material = region.material;
+    }
+  }
+  return found;
+}
+
+std::string stiffness_text(double value) {
+  return value < 1e9 ? fmt::format("{:.3g} MPa/m", 1e-6 * value) : fmt::format("{:.3g} GPa/m", 1e-9 * value);
+}
+
+void look_at_interface(const Scene& scene, const std::string& name, const Beside& ground, Remarks& remarks) {
+  for (const char* const key : {"normal_stiffness", "shear_stiffness"}) {
+    const auto stiffness = scene.quantity({"interfaces", name, key}, Dimension::bedding);
+    if (!stiffness || ground.stiffness <= 0.0) continue;
+    const double ratio = *stiffness / ground.stiffness;
+    if (ratio >= kSoftInterface && ratio <= kHardInterface) continue;
+    remarks.push_back(
+        {ratio < 0.1 * kSoftInterface ? Rank::wrong : Rank::doubtful,
+         std::max(kSoftInterface / ratio, ratio / kHardInterface),
+         scene.place({"interfaces", name, key})
+             .fault(fmt::format("interfaces: '{}': {} of {} is {:.2g} of Eoed/h of the element beside it: {}",
+                                name, key, stiffness_text(*stiffness), ratio,
+                                ratio < 1.0 ? "the interface gives way more than the ground"
+                                            : "rounding decides whether it carries")),
+         fmt::format("leave it out: the default is {}, 30 times Eoed/h",
+                     stiffness_text(30.0 * ground.stiffness))});
+  }
+  const auto friction = scene.quantity({"interfaces", name, "friction"}, Dimension::angle);
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  if (friction && ground.friction > 0.0 && *friction > ground.friction * (1.0 + 1e-9))
+    remarks.push_back(
+        {Rank::doubtful, *friction / ground.friction,
+         scene.place({"interfaces", name, "friction"})
+             .fault(fmt::format(
+                 "interfaces: '{}': its friction of {:.3g} deg is above the {:.3g} deg of material '{}' beside it: the "
+                 "ground yields first, and the interface never slides",
+                 name, kDegrees * *friction, kDegrees * ground.friction, ground.material)),
+         "a wall has 1/3 to all of the friction of the ground: friction, or share: 2/3"});
+}
+
+/// The thickness of a plate that has both stiffnesses: EA = E t, EI = E t^3 / 12.
+void look_at_beam(const Scene& scene, const std::string& name, Remarks& remarks) {
+  const auto axial = scene.quantity({"beams", name, "EA"}, Dimension::force_per_length);
+  const auto bending = scene.quantity({"beams", name, "EI"}, Dimension::moment);
+  if (!axial || !bending || *axial <= 0.0) return;
+  const double thickness = std::sqrt(12.0 * *bending / *axial);
+  const double most = std::min(kThickBeam, scene.body().smaller_side());
+  if (thickness >= kThinBeam && thickness <= most) return;
+  remarks.push_back(
+      {Rank::wrong, std::max(thickness / most, kThinBeam / thickness),
+       scene.place({"beams", name, "EI"})
+           .fault(fmt::format("beams: '{}': EA and EI belong to a plate {} thick, sqrt(12 EI / EA)", name,
+                              metres(thickness))),
+       "check the units: EA in MN/m, EI in MNm2/m, both of a metre of thickness"});
+}
+
+bool holds(const fem::Mesh<2>& mesh, const fem::Element<2>& element, const Eigen::Vector2d& place) {
+  const auto corner = [&](int k) -> const Eigen::Vector2d& {
+    return mesh
+        .nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(k % element.type->corners)])];
+  };
+  for (int k = 0; k < element.type->corners; ++k) {
+    const Eigen::Vector2d side = corner(k + 1) - corner(k);
+    const Eigen::Vector2d way = place - corner(k);
+    if (side.x() * way.y() - side.y() * way.x() <= 1e-9 * side.squaredNorm()) return false;
+  }
+  return true;
+}
+
+/// A far end that nothing moves, in the midst of ground that does.
+void look_at_anchor(const Scene& scene, const std::string& name, Remarks& remarks) {
+  const Entry* const to = scene.find({"anchors", name, "to"});
+  if (to == nullptr || to->items.size() != 2) return;
+  Eigen::Vector2d place;
+  for (int i = 0; i < 2; ++i) {
+    const auto value =
+        coupler::parse_quantity(to->items[static_cast<std::size_t>(i)].text, Dimension::length);
+    if (!value) return;
+    place(i) = *value;
+  }
+  for (std::size_t e = 0; e < scene.mesh().elements.size(); ++e) {
+    if (!holds(scene.mesh(), scene.mesh().elements[e], place)) continue;
+    remarks.push_back(
+        {Rank::doubtful, 2.0,
+         to->fault(fmt::format(
+             "anchors: '{}': its far end ({:.4g}, {:.4g}) m lies within region '{}' and is fixed there: it does not move "
+             "with the ground",
+             name, place.x(), place.y(), scene.region_of(static_cast<int>(e)).name)),
+         "name a node of the ground, to: NAME; or put the end beyond the mesh"});
+    return;
+  }
+}
+
+}  // namespace
+
+void structures(const Scene& scene, Remarks& remarks) {
+  const auto visit = [&](const char* key, auto look) {
+    if (const Entry* const list = scene.find({key}))
+      for (const Entry::Member& member : list->members) look(member);
+  };
+  visit("interfaces", [&](const Entry::Member& member) {
+    const Entry* const on = member.value.find("on");
+    if (on != nullptr && on->kind == Entry::Kind::scalar && scene.mesh().has_nodes_on(on->text))
+      look_at_interface(scene, member.key, beside(scene, on->text), remarks);
+  });
+  visit("beams", [&](const Entry::Member& member) { look_at_beam(scene, member.key, remarks); });
+  visit("anchors", [&](const Entry::Member& member) { look_at_anchor(scene, member.key, remarks); });
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scenes with one thing wrong each, and odd ones that are right: interfaces, beams, anchors, stages, bodies in space, real time.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/support/careless_scenes.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+using app::Rank;
+
+/// A rough wall that yields: Eoed of the sand is 24 MPa, its elements are 1 m wide.
+const std::string kWall = R"(title: A rough wall is drawn away from sand
+continuum: cauchy
+mesh: {rectangle: {size: [8 m, 4 m], elements: [8, 4]}}
+materials:
+  sand: {model: elastoplastic, E: 20 MPa, nu: 0.25, friction_angle: 30 deg, dilatancy_angle: 10 deg, cohesion: 0.1 kPa}
+regions: {all: sand}
+interfaces:
+  wall: {on: left, friction: 20 deg, normal_stiffness: 1 GPa/m, shear_stiffness: 100 MPa/m}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: right, fix: [u1]}
+  - {on: wall, fix: [u2], move: {u1: -20 mm}}
+  - {on: top, pressure: 10 kPa}
+body: [{unit_weight: 18 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}]
+steps: {count: 20, tolerance: 1e-5}
+monitors: {pressure: {interface: wall, value: pressure}}
+output: {table: [pressure]}
+)";
+
+const std::string kSheet = R"(title: A sheet pile, held by an anchor
+continuum: cauchy
+mesh: {rectangle: {size: [8 m, 4 m], elements: [8, 4]}}
+materials: {sand: {model: elastic, E: 20 MPa, nu: 0.25}}
+regions: {all: sand}
+interfaces: {skin: {on: left, friction: 20 deg}}
+beams: {sheet: {on: left, EA: 3000 MN/m, EI: 20 MNm2/m, Mp: 300 kNm/m}}
+anchors: {rod: {from: sheet_top, to: [-10 m, 4 m], EA: 100 MN, spacing: 2 m}}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: right, fix: [u1]}
+  - {on: sheet_bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0, 10 kPa], [1, 40 kPa]]}
+body: [{unit_weight: 18 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}]
+steps: {count: 5, tolerance: 1e-6}
+monitors: {rod: {anchor: rod}}
+output: {table: [rod]}
+)";
+
+const std::string kBank = R"(title: A bank comes, then traffic on it
+continuum: cauchy
+mesh:
+  rectangle:
+    size: [20 m, 12 m]
+    elements: [10, 6]
+    regions: {bank: [10 m, 10 m, 20 m, 12 m], void: [0, 10 m, 10 m, 12 m]}
+materials:
+  soil: {model: elastic, E: 40 MPa, nu: 0.3}
+regions: {bank: soil, rest: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: [left, right], fix: [u1]}
+body: [{unit_weight: 18 kN/m3}]
+initial_stress: [{surface: 10 m, unit_weight: 18 kN/m3, K0: 0.5, region: rest}]
+steps:
+  stages:
+    - {name: start, count: 1}
+    - {name: bank, place: bank, count: 2}
+    - {name: traffic, count: 2, boundary: [{on: top, pressure: 10 kPa}]}
+monitors: {base: {on: bottom, reaction: u2}}
+output: {table: [base]}
+)";
+
+const std::string kColumn = R"(title: A column shaken at its base
+continuum: cauchy
+mesh: {rectangle: {size: [1 m, 10 m], elements: [1, 20]}}
+materials:
+  soil: {model: elastic, E: 40 MPa, nu: 0.3, density: 2000 kg/m3}
+regions: {all: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}
+  - {on: [left, right], fix: [u2]}
+  - {on: left, tie: right}
+steps: {method: explicit, time: real, duration: 2 s, count: 200, mass_damping: 3}
+monitors:
+  top: {on: top, displacement: u1}
+output: {every: 50, table: [top]}
+)";
+
+const std::string kBlock = R"(title: A block of ground under its weight and a load
+continuum: cauchy
+mesh: {box: {size: [4 m, 4 m, 2 m], elements: [2, 2, 1]}}
+materials:
+  soil: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 15 kPa}
+regions: {all: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2, u3]}
+  - {on: [left, right], fix: [u1]}
+  - {on: [front, back], fix: [u2]}
+  - {on: top, pressure: [[0, 0], [1, 30 kPa]]}
+body:
+  - {force: [0, 0, -18 kN/m3], factor: [[0, 0], [1, 1]]}
+steps: {count: 5, tolerance: 1e-5}
+monitors: {base: {on: bottom, reaction: u3}}
+output: {table: [base]}
+)";
+
+bool is_told(const app::Remarks& remarks, const std::string& message, Rank rank) {
+  return std::ranges::any_of(remarks, [&](const app::Remark& remark) {
+    return remark.rank == rank && remark.at.line > 0 && !remark.remedy.empty() &&
+           remark.at.message.find(message) != std::string::npos;
+  });
+}
+
+class CarelessFeatures : public ::testing::TestWithParam<Careless> {};
+
+TEST_P(CarelessFeatures, IsTold) {
+  const app::Remarks remarks = remarks_of(GetParam());
+  EXPECT_TRUE(is_told(remarks, GetParam().message, GetParam().rank)) << app::text_of(remarks, true);
+}
+
+/// One more thing that is wrong would be told too: there is just one remark.
+TEST_P(CarelessFeatures, IsTheOnlyRemark) {
+  const app::Remarks remarks = remarks_of(GetParam());
+  EXPECT_EQ(remarks.size(), 1U) << app::text_of(remarks, true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Structures, CarelessFeatures,
+    ::testing::Values(
+        Careless{"SoftInterface", kWall, "normal_stiffness: 1 GPa/m", "normal_stiffness: 10 MPa/m",
+                 "normal_stiffness of 10 MPa/m is 0.42 of Eoed/h", Rank::doubtful},
+        Careless{"InterfaceInKilopascals", kWall, "shear_stiffness: 100 MPa/m", "shear_stiffness: 100 kPa/m",
+                 "shear_stiffness of 0.1 MPa/m is 0.0042 of Eoed/h"},
+        Careless{"InterfaceStrongerThanGround", kWall, "friction: 20 deg", "friction: 45 deg",
+                 "its friction of 45 deg is above the 30 deg of material 'sand' beside it", Rank::doubtful},
+        Careless{"BeamAsThickAsAHouse", kSheet, "EI: 20 MNm2/m", "EI: 20000 MNm2/m",
+                 "EA and EI belong to a plate 8.94 m thick"},
+        Careless{"BeamOfFoil", kSheet, "EI: 20 MNm2/m, Mp: 300 kNm/m", "EI: 0.02 kNm2/m",
+                 "EA and EI belong to a plate 0.283 mm thick"},
+        Careless{"AnchorFixedInTheGround", kSheet, "to: [-10 m, 4 m]", "to: [5.5 m, 2.5 m]",
+                 "its far end (5.5, 2.5) m lies within region 'all' and is fixed there", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Stages, CarelessFeatures,
+    ::testing::Values(Careless{"BankWithoutWeight", kBank, "body: [{unit_weight: 18 kN/m3}]",
+                               "body: [{unit_weight: 18 kN/m3, region: rest}]",
+                               "region 'bank' comes without a weight, and other ground has 18 kN/m3"},
+                      Careless{"TableThatIsOver", kBank, "pressure: 10 kPa",
+                               "pressure: [[0, 0], [1, 10 kPa]]",
+                               "the table ends at time 1, and stage 'traffic' begins at time 2"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    SpaceAndTime, CarelessFeatures,
+    ::testing::Values(Careless{"WeightAlongTheSecondAxis", kBlock, "[0, 0, -18 kN/m3]", "[0, -18 kN/m3, 0]",
+                               "and 3 points up: nothing pulls the body down"},
+                      Careless{"WeightOfADensity", kBlock, "-18 kN/m3]", "-1800]", "a weight of 1.8 kN/m3"},
+                      Careless{"PoissonInSpace", kBlock, "nu: 0.3", "nu: 0.03", "nu is 0.03", Rank::doubtful},
+                      Careless{"DensityInTons", kColumn, "density: 2000 kg/m3", "density: 2.0",
+                               "a density of 2 kg/m3"}),
+    [](const auto& info) { return info.param.name; });
+
+class OddFeatures : public ::testing::TestWithParam<Careless> {};
+
+TEST_P(OddFeatures, StayWithoutARemark) {
+  const app::Remarks remarks = remarks_of(GetParam());
+  EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OddFeatures,
+    ::testing::Values(
+        Careless{"Wall", kWall, "", ""}, Careless{"Sheet", kSheet, "", ""}, Careless{"Bank", kBank, "", ""},
+        Careless{"Block", kBlock, "", ""}, Careless{"FreeVibration", kColumn, "", ""},
+        Careless{"SmoothInterface", kWall,
+                 "friction: 20 deg, normal_stiffness: 1 GPa/m, shear_stiffness: 100 MPa/m", "friction: 0"},
+        Careless{"InterfaceAsRoughAsTheGround", kWall, "friction: 20 deg", "friction: 30 deg"},
+        Careless{"ARopeToAnEndBeyondTheMesh", kSheet, "spacing: 2 m",
+                 "spacing: 2 m, compressive_strength: 0, prestress: 10 kN"},
+        Careless{"AThinSheet", kSheet, "EA: 3000 MN/m, EI: 20 MNm2/m, Mp: 300 kNm/m",
+                 "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
+        Careless{"TrafficThatGoesAgain", kBank, "pressure: 10 kPa",
+                 "pressure: [[2, 0], [2.5, 10 kPa], [3, 0]]"},
+        Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
+    [](const auto& info) { return info.param.name; });
+
+/// A motion of `rows` rows 0.01 s apart, of this amplitude in m/s2. @returns the remarks on 2 s of it
+app::Remarks remarks_on_motion(int rows, double amplitude) {
+  const Scratch scratch("careless_motion");
+  std::string table = "time,acceleration\n";
+  for (int row = 0; row < rows; ++row)
+    table += fmt::format("{},{}\n", 0.01 * row, amplitude * std::sin(0.12 * row));
+  write(scratch.path() / "quake.csv", table);
+  write(scratch.path() / "case.yaml",
+        replaced(replaced(kColumn, "  - {on: bottom, fix: [u1, u2]}\n",
+                          "  - {on: bottom, fix: [u2], accelerate: {u1: quake.csv}}\n"),
+                 "  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}\n", ""));
+  return app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
+}
+
+TEST(Motions, ThatGoOnBehindTheRunAreTold) {
+  const app::Remarks remarks = remarks_on_motion(501, 1.0);
+  EXPECT_TRUE(is_told(remarks, "the motion of 'quake.csv' lasts 5 s, and the run ends at 2 s", Rank::wrong))
+      << app::text_of(remarks, true);
+}
+
+TEST(Motions, InCentimetresAreTold) {
+  const app::Remarks remarks = remarks_on_motion(201, 100.0);
+  EXPECT_TRUE(is_told(remarks, "m/s2, 10 times gravity", Rank::wrong)) << app::text_of(remarks, true);
+}
+
+TEST(Motions, AsLongAsTheRunAreRight) {
+  const app::Remarks remarks = remarks_on_motion(201, 1.0);
+  EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
+}
+
+}  // namespace
+}  // namespace polargrain::testing
