@@ -14,4 +14,7 @@ if(POLARGRAIN_SANITIZE)
   target_compile_options(polargrain_options INTERFACE -fsanitize=${POLARGRAIN_SANITIZE} -fno-sanitize-recover=all
                                                      -fno-omit-frame-pointer)
   target_link_options(polargrain_options INTERFACE -fsanitize=${POLARGRAIN_SANITIZE})
+  if(POLARGRAIN_SANITIZE_WITHOUT)
+    target_compile_options(polargrain_options INTERFACE -fno-sanitize=${POLARGRAIN_SANITIZE_WITHOUT})
+  endif()
 endif()

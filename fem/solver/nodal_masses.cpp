@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/nodal_masses.hpp"
+#include "common/symmetric_modes.hpp"
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/symmetric_modes.hpp"
 #include "fem/element/dofs.hpp"
 
 namespace polargrain::fem {
@@ -28,9 +29,7 @@ Eigen::VectorXd shares_of_nodes(const Discretisation<dim>& discretisation, std::
 }
 
 double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return symmetric_eigenvalues(symmetric).maxCoeff();
 }
 
 /// M^(-1/2) K M^(-1/2).

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numeric>
 
+#include "common/symmetric_modes.hpp"
 #include "fem/solver/problem.hpp"
 
 namespace polargrain::fem {
@@ -64,27 +64,30 @@ std::string describe(const Eigen::Vector3d& motion, const Eigen::Vector2d& centr
                      rounded(centre(1) + motion(0) / rotation));
 }
 
-/// Free motions of one part, given what the supports forbid (a row a given dof, in the scaled motions).
+/// How many of the eigenvalues of what supports hold, ascending, belong to motions that are free. They are squares: a support
+/// that holds a motion by less than 1e-5 of its best does not hold it.
+int free_modes(const Eigen::VectorXd& values) {
+  const double threshold = 1e-10 * values(values.size() - 1);
+  return static_cast<int>((values.array() <= threshold).count());
+}
+
+/// Free motions of one part. @param normal_matrix of the motions that supports forbid (a row a given dof, in the scaled motions)
 std::vector<std::string> free_motions(const Eigen::Matrix3d& normal_matrix, const Eigen::Vector2d& centre,
                                       double length) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(normal_matrix, Eigen::ComputeFullV);
-  const Eigen::Vector3d values = svd.singularValues();
-  // Squared small numbers: a support that holds a motion by less than 1e-5 of its best does not hold it.
-  const double threshold = 1e-10 * values(0);
-  int free = 0;
-  for (int i = 0; i < 3; ++i) free += values(i) <= threshold ? 1 : 0;
+  const SymmetricModes modes = symmetric_modes(normal_matrix);
+  const int free = free_modes(modes.values);
   if (free == 3) return {"translation along 1", "translation along 2", "rotation"};
   std::vector<std::string> motions;
   if (free == 2) {
     // A basis with as little rotation as possible reads better: one pure translation, one that rotates.
-    Eigen::Vector3d a = svd.matrixV().col(1);
-    Eigen::Vector3d b = svd.matrixV().col(2);
+    Eigen::Vector3d a = modes.vectors.col(0);
+    Eigen::Vector3d b = modes.vectors.col(1);
     if (std::abs(a(2)) > std::abs(b(2))) a.swap(b);
     if (std::abs(b(2)) > 0.0) a -= a(2) / b(2) * b;
     b -= b.dot(a) / a.squaredNorm() * a;
     return {describe(a.normalized(), centre, length), describe(b.normalized(), centre, length)};
   }
-  if (free == 1) motions.push_back(describe(svd.matrixV().col(2), centre, length));
+  if (free == 1) motions.push_back(describe(Eigen::Vector3d(modes.vectors.col(0)), centre, length));
   return motions;
 }
 
@@ -100,7 +103,7 @@ std::string direction_text(const Eigen::Vector3d& direction) {
 /// A motion of space in words. @param motion translations, then rotations about `centre` times `length`.
 std::string describe(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& centre,
                      double length) {
-  constexpr double kSmall = 1e-8;
+  constexpr double kSmall = 1e-7;  // a translation comes from squares, to the root of rounding
   const Eigen::Vector3d shift = motion.head<3>();
   const Eigen::Vector3d spin = motion.tail<3>() / length;
   if (motion.tail<3>().norm() < kSmall) return "translation along " + direction_text(shift);
@@ -116,24 +119,19 @@ std::string describe(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vec
 std::vector<std::string> free_motions(const Eigen::Matrix<double, 6, 6>& normal_matrix,
                                       const Eigen::Vector3d& centre, double length) {
   using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(normal_matrix, Eigen::ComputeFullV);
-  const double threshold = 1e-10 * svd.singularValues()(0);  // as in the plane
-  int free = 0;
-  for (int i = 0; i < 6; ++i) free += svd.singularValues()(i) <= threshold ? 1 : 0;
+  const SymmetricModes modes = symmetric_modes(normal_matrix);
+  const int free = free_modes(modes.values);
   std::vector<std::string> texts;
   if (free == 0) return texts;
   if (free == 6)
     return {"translation along 1", "translation along 2", "translation along 3",
             "rotation about 1",    "rotation about 2",    "rotation about 3"};
-  const Motions motions = svd.matrixV().rightCols(free);
-  // The rotations that are free, and for each of them the motion with the least translation.
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 3, Eigen::Dynamic>> spins(motions.bottomRows<3>(),
-                                                                         Eigen::ComputeFullV);
-  constexpr double kRotates = 1e-6;
-  const auto rotating = static_cast<int>((spins.singularValues().array() > kRotates).count());
-  const Motions ordered = motions * spins.matrixV();
-  for (int i = rotating; i < free; ++i) texts.push_back(describe(ordered.col(i), centre, length));
-  for (int i = 0; i < rotating; ++i) texts.push_back(describe(ordered.col(i), centre, length));
+  const Motions motions = modes.vectors.leftCols(free);
+  // The rotations that are free, and for each of them the motion with the least translation: first those that turn least.
+  const Eigen::MatrixXd spins = motions.bottomRows<3>();
+  const Motions ordered = motions * symmetric_modes(spins.transpose() * spins).vectors;
+  for (int i = 0; i < free; ++i)
+    texts.push_back(describe(Eigen::Matrix<double, 6, 1>(ordered.col(i)), centre, length));
   return texts;
 }
 
