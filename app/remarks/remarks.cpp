@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -84,6 +85,9 @@ Remarks remarks_on(const Scene& scene) {
   look_by(kAtTimeZero, scene, remarks);
   if (remarks.empty()) look_by(kBalance, scene, remarks);
   look_by(kOthers, scene, remarks);
+  // Regions of one material have its remarks alike.
+  std::set<std::string> told;
+  std::erase_if(remarks, [&](const Remark& remark) { return !told.insert(remark.at.text()).second; });
   std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.weight > b.weight;
   });

@@ -84,10 +84,10 @@ TEST(StagesAtTimeZero, StressOfABankThatComesLaterIsNotCounted) {
 }
 
 TEST(StagesAtTimeZero, CheckTellsTheSettlement) {
-  const app::Remarks remarks =
-      remarks_of({"Settles", kStages, "    - {name: bank, place: bank, count: 2}", kStart});
+  const app::Remarks remarks = remarks_of({"Settles", staged("E: 1 MPa", "E: 5 MPa"),
+                                           "fill: {model: elastic, E: 2", "fill: {model: elastic, E: 20"});
   EXPECT_TRUE(std::ranges::any_of(remarks, [](const app::Remark& remark) {
-    return remark.at.message.find("moves the body by 900 mm") != std::string::npos;
+    return remark.at.message.find("moves the body by 180 mm") != std::string::npos;
   })) << app::text_of(remarks, true);
 }
 
@@ -100,6 +100,19 @@ TEST(StagesAtTimeZero, MaterialsOfLaterPartsAreLookedAt) {
     return remark.rank == app::Rank::wrong &&
            remark.at.message.find("material 'fill': E is 2 kPa") != std::string::npos;
   })) << app::text_of(remarks, true);
+}
+
+/// `pit` and `rest` are of one material.
+TEST(StagesAtTimeZero, AMaterialOfTwoRegionsIsToldOfOnce) {
+  const app::Remarks remarks =
+      remarks_of({"TwoRegions", staged("E: 1 MPa", "E: 40 MPa"), "nu: 0}\n  fill", "nu: 0.03}\n  fill"});
+  EXPECT_EQ(std::ranges::count_if(remarks,
+                                  [](const app::Remark& remark) {
+                                    return remark.at.message.find("material 'soil': nu is 0.03") !=
+                                           std::string::npos;
+                                  }),
+            1)
+      << app::text_of(remarks, true);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ constexpr double kNothing = 1e-7;
 template <int dim>
 void look_at(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
-    if (fem::is_rotation(item.dof)) continue;
+    // A body that is shaken is carried along.
+    if (fem::is_rotation(item.dof) || scene.boundary_value(item.on, "accelerate") != nullptr) continue;
     const double movement = scene.reached(item.value);
     if (movement == 0.0) continue;
     const double side = scene.strained_side(item.dof);
