@@ -31,8 +31,14 @@ struct StepGoal {
   bool releases_displacements = false;  ///< the given displacements too, not only the forces
   double jump_let_go =
       1.0;  ///< share of the imbalance left behind by a jump (Newton::pass_jump) let go at the end
+  /// That the whole step may take, lost ones too (StepReport::iterations); 0: no bound but that of an attempt.
+  int most_iterations = 0;
 
   [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
+  /// Whether so many iterations leave no further one.
+  [[nodiscard]] bool is_spent(int iterations) const {
+    return most_iterations > 0 && iterations >= most_iterations;
+  }
 };
 
 /// The outcome of one attempt at a step.

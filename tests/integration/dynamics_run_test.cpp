@@ -75,25 +75,30 @@ double arrival(const std::vector<double>& times, const std::vector<double>& way,
 }
 
 // The speed over that of the modulus, which Newton's method finds on the same bar at the same strain, and the height of the wave.
+// Grains come to rest before: what a packing at rest by the usual tolerance still gives way moves the bar by up to 4 % of this
+// wave, and the arrival with it (2 %). For the same reason the modulus is that of the second step, and not of the first.
 TEST_F(DynamicsRun, AWaveRunsThroughBoxesAtItsSpeed) {
-  const std::string boxes = "model: cell, script: cells/";
+  const auto boxes = [](const std::string& script, const std::string& packing) {
+    return "model: cell, script: cells/" + script + ", packing: " + packing +
+           ", unbalanced_force_ratio: 1e-5";
+  };
+  for (const char* const packing : {"dense100_seed2.h5", "dense100_seed3.h5"})
+    std::filesystem::copy(kSource / "cases/studies" / packing, scratch_.path());
   for (const auto& [name, material] :
        {std::pair<std::string, std::string>{"law",
                                             "model: elastic, E: 100 MPa, nu: 0.25, Gc: 40 MPa, lc: 5 mm"},
-        {"discs", boxes + "hooke_radii.in, packing: packing100.h5"},
-        {"spheres", boxes + "spheres_hooke_radii.in, packing: packing1000.csv"}}) {
-    const std::string pressed = name == "law" ? "" : "  - {on: right, pressure: 100 kPa}\n";
-    // With the stress that the packing has along the bar: so nothing moves before the wave.
-    write_bar("still.yaml", material, "  - {on: [left, right], fix: [u1]}\n", "count: 1, tolerance: 1e-3");
-    ASSERT_EQ(run("still").status, 0);
+        {"discs", boxes("hooke_radii.in", "packing100.h5")},
+        {"discs, seed 2", boxes("hooke_radii.in", "dense100_seed2.h5")},
+        {"discs, seed 3", boxes("hooke_radii.in", "dense100_seed3.h5")},
+        {"spheres", boxes("spheres_hooke_radii.in", "packing1000.csv")}}) {
     write_bar("slow.yaml", material,
               "  - {on: right, fix: [u1]}\n  - {on: left, move: {u1: " +
-                  std::to_string(1e3 * kStrain * kLength) + " mm}}\n",
-              "count: 1, tolerance: 1e-4");
+                  std::to_string(2.0 * 1e3 * kStrain * kLength) + " mm}}\n",
+              "count: 2, tolerance: 1e-5");
     const Outcome slow = run("slow");
     ASSERT_EQ(slow.status, 0) << slow.errors;
     const std::vector<double> forces = column("slow", "left_force");
-    const double modulus = (forces[1] - forces[0]) / (kWidth * kStrain);
+    const double modulus = (forces[2] - forces[1]) / (kWidth * kStrain);
     const Outcome checked =
         run_in(scratch_.path(), POLARGRAIN " check slow.yaml --set materials.sand.density=\"2000 kg/m3\"");
     ASSERT_EQ(checked.status, 0) << checked.errors;
@@ -120,12 +125,10 @@ TEST_F(DynamicsRun, AWaveRunsThroughBoxesAtItsSpeed) {
     const double error = *std::ranges::max_element(errors);
     std::cout << "[figure] " << name << ": speed " << ratio << " of that of the modulus (" << speed
               << " m/s), height at the free end " << height << ", energy error " << error << '\n';
-    // Boxes: one packing each, and the arrival of a ramp by its half.
-    EXPECT_NEAR(ratio, 1.0, name == "law" ? 0.015 : 0.025) << name;
-    EXPECT_NEAR(height, 1.0, name == "law" ? 0.02 : 0.06) << name;
+    EXPECT_NEAR(ratio, 1.0, 0.015) << name;
+    EXPECT_NEAR(height, 1.0, 0.02) << name;
     EXPECT_LT(error, 2e-3) << name;
-    for (const char* const result : {"still", "slow", "wave"})
-      std::filesystem::remove_all(scratch_.path() / result);
+    for (const char* const result : {"slow", "wave"}) std::filesystem::remove_all(scratch_.path() / result);
   }
 }
 
