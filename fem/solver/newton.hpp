@@ -88,6 +88,9 @@ class Newton {
   [[nodiscard]] Eigen::VectorXd last_supplied() const;
   /// Steps that a wave of compression needs through the mesh there and back, with the masses of the state.
   [[nodiscard]] int steps_of_wave() const;
+  /// A stable step over the one that was stable at first: 1 until an element is squeezed so much that the reserve of
+  /// ExplicitOptions::safety is half used up.
+  [[nodiscard]] double stable_share();
   /// nodal_masses of the committed state.
   [[nodiscard]] Eigen::VectorXd stable_masses(double safety);
   /// true_masses by these answers, on the mesh of the committed state.

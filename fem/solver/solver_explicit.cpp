@@ -19,7 +19,7 @@ template <int dim>
 class ExplicitRow {
  public:
   /// @param solver, options, quiet, report must outlive this object @param quiet null: there is none
-  /// @param seconds of a step; 1 where steps have no real time
+  /// @param seconds of a step; 1 where steps have no real time and elements the shape for which the masses were chosen
   ExplicitRow(Newton<dim>& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet,
               double seconds, StepReport& report)
       : solver_(solver),
@@ -71,7 +71,8 @@ class ExplicitRow {
       const double energy = kinetic_energy();
       // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
       // drive the fastest waves.
-      if (energy < before) solver_.state.velocity = -0.5 * forces_.cwiseQuotient(solver_.state.mass);
+      if (energy < before)
+        solver_.state.velocity = -0.5 * seconds_ * forces_.cwiseQuotient(solver_.state.mass);
       before = energy < before ? 0.0 : energy;
     }
     solver_.state.velocity.setZero();
@@ -225,11 +226,14 @@ StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitO
   StepReport report;
   self.materials.expect({.once = true});
   const bool releases = self.start_from_balance(options);
-  const int wave = self.steps_of_wave();
+  const double share = self.stable_share();
+  const auto shorter = [share](int count) { return static_cast<int>(std::ceil(count / share)); };
+  const int wave = shorter(self.steps_of_wave());
   const int ramp = options.ramp > 0 ? options.ramp : wave;
-  const ExplicitPace pace(state.time, time, steps, ramp, self.steps_since_rest, options.speed_before, wave);
+  const ExplicitPace pace(state.time, time, shorter(steps), ramp, self.steps_since_rest, options.speed_before,
+                          wave);
   RowOfForces<dim> forces(self.constraints, pace.steps(), pace.last_times(2 * wave));
-  ExplicitRow<dim> row(self, options, nullptr, 1.0, report);
+  ExplicitRow<dim> row(self, options, nullptr, share, report);
   const auto stopped = [&] {
     return self.stopped(report,
                         fmt::format("explicit step {} of {}", report.explicit_steps + 1, pace.steps()));
@@ -308,7 +312,8 @@ StepReport Solver<dim>::advance_real_time(double time, const ExplicitOptions& op
   if (!(state.seconds > 0.0)) throw RunError("steps in real time begin with begin_real_time");
   constexpr double kWithinRounding = 1.0 - 1e-9;
   const double start = state.time;
-  const auto steps = static_cast<int>(std::ceil(kWithinRounding * (time - start) / state.seconds));
+  const double stable = self.stable_share() * state.seconds;
+  const auto steps = static_cast<int>(std::ceil(kWithinRounding * (time - start) / stable));
   const double seconds = (time - start) / std::max(1, steps);
   StepReport report;
   self.materials.expect({.once = true, .seconds = seconds});
