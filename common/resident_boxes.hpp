@@ -28,7 +28,6 @@ struct ResidentAnswer {
   Eigen::Matrix3d couple_stress = Eigen::Matrix3d::Zero();  ///< N/m; zero where rotations are free
   double unbalanced_force_ratio = 0.0;                      ///< see CellDiagnostics
   double coordination_number = 0.0;                         ///< 2 contacts / grains
-  double time_step = 0.0;                                   ///< s, of the packing at rest
 };
 
 /// A resident box with everything about it, as it is when results are written.
@@ -56,6 +55,8 @@ class ResidentBoxes {
   /// boxes go on to the same bits as ones that are moved in with it.
   virtual std::vector<ResidentReadOut> read_out(std::size_t first, std::size_t count) = 0;
   [[nodiscard]] virtual std::size_t count() const = 0;
+  /// Duration of a DEM step of the packing at rest, s; 0: these boxes know of no time.
+  [[nodiscard]] virtual double time_step() const = 0;
 };
 
 }  // namespace polargrain

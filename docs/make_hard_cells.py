@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs the hard cases with boxes of grains (docs/hard_cells.md) and prints a table of them.
 
-usage: docs/make_hard_cells.py POLARGRAIN [DIRECTORY]      from the root of the project; some minutes
+usage: docs/make_hard_cells.py POLARGRAIN [DIRECTORY [METHOD]]      from the root of the project; some minutes
 
-One element (4 points, 100 discs each), model adaptive. Packings are made first, into DIRECTORY.
+One element (4 points, 100 discs each), model adaptive. Packings are made first, into DIRECTORY. METHOD: newton or automatic.
 """
 import csv
 import json
@@ -15,6 +15,7 @@ import sys
 
 PROGRAM = os.path.abspath(sys.argv[1])
 PLACE = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else "hard_cells")
+METHOD = sys.argv[3] if len(sys.argv) > 3 else "newton"
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 PACKINGS = {
@@ -30,7 +31,7 @@ materials:
 regions: {{all: sand}}
 boundary:
 {boundary}
-steps: {{count: {count}, cut: 6, iterations: 20, jumps: 0, {balance}}}
+steps: {{count: {count}, cut: 6, iterations: 20, jumps: 0, {balance}, method: {method}}}
 monitors:
   top_force: {{on: top, reaction: u2}}
   top_shear: {{on: top, reaction: u1}}
@@ -76,6 +77,11 @@ CASES = [
 ]
 
 
+def balance_of(settings, boundary):
+    """Explicit steps find their pace by the boundary that moves; where none does, their number is to be given."""
+    return settings["balance"] + (", explicit_steps: 8000" if METHOD == "automatic" and boundary is UNLOADING else "")
+
+
 def packing(name):
     made = PACKINGS[name]
     if isinstance(made, str):
@@ -100,12 +106,13 @@ def axial_stress(boundary, last):
 
 def main():
     os.makedirs(PLACE, exist_ok=True)
-    print("| case | steps committed | iterations | cuts | cell runs | axial stress, kPa | shear stress, kPa | what happened |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("| case | steps committed | of these explicit | iterations | cuts | cell runs | axial stress, kPa | shear stress, kPa | what happened |")
+    print("|---|---|---|---|---|---|---|---|---|")
     for number, (title, grains, count, boundary, settings) in enumerate(CASES):
         file = os.path.join(PLACE, f"case{number}.yaml")
         with open(file, "w", encoding="utf-8") as out:
-            out.write(CASE.format(title=title, packing=packing(grains), boundary=boundary, count=count, **settings))
+            out.write(CASE.format(title=title, packing=packing(grains), boundary=boundary, count=count, method=METHOD,
+                                  **{**settings, "balance": balance_of(settings, boundary)}))
         results = os.path.join(PLACE, f"results{number}")
         subprocess.run([PROGRAM, "run", file, "-o", results, "--quiet"], cwd=ROOT, stderr=subprocess.DEVNULL)
         with open(os.path.join(results, "summary.json"), encoding="utf-8") as text:
@@ -114,7 +121,7 @@ def main():
             last = list(csv.DictReader(text))[-1]
         figures = next(iter(summary["materials"].values()))
         end = "to the end" if summary["status"] == "done" else "stopped, " + summary["message"].splitlines()[0] + "; a checkpoint of the step before is there"
-        print(f"| {title} | {summary['steps_committed']} of {count} | {summary['iterations']} | {summary['cuts']} "
+        print(f"| {title} | {summary['steps_committed']} of {count} | {summary.get('automatic', {}).get('steps_explicit', 0)} | {summary['iterations']} | {summary['cuts']} "
               f"| {figures['cell_runs']:.0f} | {axial_stress(boundary, last)} | {float(last['shear']) / 1e3:.4g} | {end} |",
               flush=True)
 

@@ -98,14 +98,7 @@ Json stage_figures(const coupler::Case& the_case) {
 }  // namespace
 
 void RunRecord::add(CommittedStep step) {
-  iterations += step.report.iterations;
-  cuts += step.report.cuts;
-  evaluations += step.report.evaluations;
-  within_noise += step.report.within_noise;
-  within_rounding += step.report.within_rounding;
-  limited += step.report.limited;
-  jumps += step.report.jumps;
-  jump_residual = std::max(jump_residual, step.report.jump_residual);
+  work += step.report;
   if (!step.values.empty()) steps.push_back(std::move(step));
 }
 
@@ -121,14 +114,14 @@ void write_summary(const std::filesystem::path& file, const coupler::Case& the_c
                {"at_limits", record.limits},
                {"steps_asked", the_case.steps()},
                {"steps_committed", record.steps.empty() ? 0 : record.steps.back().step},
-               {"iterations", record.iterations},
-               {"cuts", record.cuts},
-               {"substeps_within_noise", record.within_noise},
-               {"substeps_within_rounding", record.within_rounding},
-               {"corrections_limited", record.limited},
-               {"jumps_passed", record.jumps},
-               {"largest_jump_residual", record.jump_residual},
-               {"point_evaluations", record.evaluations},
+               {"iterations", record.work.iterations},
+               {"cuts", record.work.cuts},
+               {"substeps_within_noise", record.work.within_noise},
+               {"substeps_within_rounding", record.work.within_rounding},
+               {"corrections_limited", record.work.limited},
+               {"jumps_passed", record.work.jumps},
+               {"largest_jump_residual", record.work.jump_residual},
+               {"point_evaluations", record.work.evaluations},
                {"workers", record.workers},
                {"values", last_values(record)},
                {"monitors", monitor_notes(the_case)},
@@ -184,23 +177,23 @@ std::string table_text(const coupler::Case& the_case, const RunRecord& record) {
           100.0 * (the_case.real_time ? step.report.energies.error() : step.report.quasi_static.error()));
     text += stage_text(the_case, step.step) + '\n';
   }
-  if (record.within_noise > 0) {
+  if (record.work.within_noise > 0) {
     text += fmt::format("{} substeps were accepted above the tolerance, within the noise of the stresses\n",
-                        record.within_noise);
+                        record.work.within_noise);
   }
-  if (record.within_rounding > 0) {
+  if (record.work.within_rounding > 0) {
     text += fmt::format("{} substeps were accepted above the tolerance, where only rounding is left\n",
-                        record.within_rounding);
+                        record.work.within_rounding);
   }
-  if (record.limited > 0) {
+  if (record.work.limited > 0) {
     text += fmt::format("{} corrections asked for too large a strain and were shortened or replaced\n",
-                        record.limited);
+                        record.work.limited);
   }
-  if (record.jumps > 0) {
+  if (record.work.jumps > 0) {
     text += fmt::format(
         "{} jumps of the stresses were passed; the largest left {:.3g} of the forces out of balance, let go "
         "by the end of its step\n",
-        record.jumps, record.jump_residual);
+        record.work.jumps, record.work.jump_residual);
   }
   if (the_case.real_time) text += energy_text(record);
   text += automatic_text(the_case, record) + quasi_static_text(the_case, record);

@@ -24,14 +24,7 @@ struct RunRecord {
   std::string message;             ///< why it failed
   int workers = 0;                 ///< 0: no material needed any
   std::vector<CommittedStep> steps;
-  long evaluations = 0;
-  int iterations = 0;
-  int cuts = 0;
-  int within_noise = 0;  ///< this and the next four: see fem::StepReport
-  int within_rounding = 0;
-  int limited = 0;
-  int jumps = 0;
-  double jump_residual = 0.0;
+  fem::StepWork work;  ///< of all steps, that of a step that was not reached included
   coupler::PoolCounts pool;
   Costs costs;
   /// The cost and error that materials report, by region; only of materials that report them.

@@ -68,4 +68,8 @@ std::vector<ResidentReadOut> ResidentCells::read_out() {
   return boxes;
 }
 
+double ResidentCells::time_step() {
+  return with_all_there([&] { return team_.time_step(); });
+}
+
 }  // namespace polargrain::coupler

@@ -31,6 +31,8 @@ class ResidentCells {
   std::vector<ResidentAnswer> go_on(int dem_steps, std::span<const CellIncrement> increments);
   /// See ResidentBoxes::read_out: all boxes, with the bytes of their states. A replay begins here from now on.
   std::vector<ResidentReadOut> read_out();
+  /// See ResidentBoxes::time_step; the boxes move in for it.
+  double time_step();
 
  private:
   /// Calls with all boxes in their place: moved in, and led as far as they were.

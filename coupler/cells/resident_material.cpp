@@ -52,10 +52,7 @@ void ResidentMaterial<dim>::expect(const fem::Asking& asking) {
   if (!is_settled_) throw RunError("resident boxes change their DEM steps where they are read out (settle)");
   if (dem_seconds_ == 0.0) {
     // Of the packing, not of the present: so a run that was broken off takes the same steps.
-    cells_.start(std::vector<ResidentStart>(1));
-    const std::vector<CellIncrement> none(1);
-    dem_seconds_ = cells_.go_on(1, none).front().time_step;
-    start();
+    dem_seconds_ = cells_.time_step();
     if (!(dem_seconds_ > 0.0)) throw RunError("the workers do not tell how long a DEM step is");
   }
   constexpr int kLeast = 2;  // one is unstable (docs/theory/explicit.md)

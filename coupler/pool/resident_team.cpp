@@ -43,6 +43,7 @@ void ResidentTeam::move_in(std::span<const ResidentStart> starts) {
     }
   }
   serve(works);
+  if (!works.empty()) time_step_ = works.front().reply.time_step;
 }
 
 std::vector<ResidentAnswer> ResidentTeam::go_on(int dem_steps, std::span<const CellIncrement> increments) {

@@ -32,6 +32,8 @@ class ResidentTeam {
   std::vector<ResidentReadOut> read_out();
   /// Whether there are workers now that boxes could have moved to as well.
   [[nodiscard]] bool could_spread() const;
+  /// Duration of a DEM step of the packing at rest, s, as the workers have told it (ResidentBoxes::time_step).
+  [[nodiscard]] double time_step() const { return time_step_; }
   /// Boxes that have moved in.
   [[nodiscard]] std::size_t count() const;
 
@@ -51,6 +53,7 @@ class ResidentTeam {
   std::uint32_t definition_;
   std::vector<Share> shares_;
   std::size_t workers_ = 0;  ///< there were when the boxes moved in
+  double time_step_ = 0.0;
 };
 
 }  // namespace polargrain::coupler

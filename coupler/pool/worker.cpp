@@ -139,7 +139,7 @@ class Desk {
     if (request.first == 0) all.clear();
     require_count(all, request.first);
     all.move_in(request.starts);
-    return ResidentReply{request.request, seconds_since(start), {}, {}};
+    return ResidentReply{request.request, seconds_since(start), all.time_step(), {}, {}};
   }
 
   Message gone_on(const GoOn& request) {
@@ -148,7 +148,7 @@ class Desk {
       const Clock::time_point start = Clock::now();
       ResidentBoxes& all = boxes(request.definition);
       require_count(all, count);
-      ResidentReply reply{request.request, 0.0, all.go_on(request.dem_steps, request.increments), {}};
+      ResidentReply reply{request.request, 0.0, 0.0, all.go_on(request.dem_steps, request.increments), {}};
       reply.seconds = seconds_since(start);
       for (std::uint32_t k = 0; k < count; ++k)
         if (!is_finite(reply.answers[k])) return not_finite(request.request, k);
@@ -161,7 +161,7 @@ class Desk {
   Message read(const ReadOut& request) {
     const Clock::time_point start = Clock::now();
     ResidentReply reply{
-        request.request, 0.0, {}, boxes(request.definition).read_out(request.first, request.count)};
+        request.request, 0.0, 0.0, {}, boxes(request.definition).read_out(request.first, request.count)};
     reply.seconds = seconds_since(start);
     for (std::uint32_t k = 0; k < request.count; ++k) {
       const ResidentReadOut& box = reply.read_outs[k];

@@ -80,7 +80,7 @@ void write(ArrayWriter& writer, const ReadOut& m) {
   writer.whole(m.request).whole(m.definition).whole(m.settled).whole(m.first).whole(m.count);
 }
 void write(ArrayWriter& writer, const ResidentReply& m) {
-  writer.whole(m.request).numbers({&m.seconds, 1});
+  writer.whole(m.request).numbers({&m.seconds, 1}).numbers({&m.time_step, 1});
   write(writer, std::span(m.answers));
   ArrayWriter boxes = writer.part();
   for (const ResidentReadOut& box : m.read_outs) write(boxes.part(), box);
@@ -221,6 +221,7 @@ ResidentReply read_resident_reply(ArrayReader& reader) {
   ResidentReply m;
   m.request = reader.whole();
   m.seconds = read_seconds(reader);
+  m.time_step = read_seconds(reader);
   m.answers = read_answers(reader);
   m.read_outs = read_list<ResidentReadOut>(reader.part(), "a list of boxes",
                                            [](ArrayReader& boxes) { return read_read_out(boxes.part()); });

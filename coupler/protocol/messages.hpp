@@ -13,7 +13,7 @@
 namespace polargrain::coupler {
 
 /// Raised with every change of the messages; peers of different versions refuse each other.
-inline constexpr std::uint32_t kProtocolVersion = 11;
+inline constexpr std::uint32_t kProtocolVersion = 12;
 
 /// A request asks for no more cells or states.
 inline constexpr std::size_t kMostInRequest = 64;
@@ -155,11 +155,12 @@ struct ReadOut {
   std::uint32_t count = 0;  ///< 1 to kMostStatesOfBoxes
 };
 
-/// Worker to coordinator: the answer to a MoveIn (without answers or read-outs), GoOn (answers) or ReadOut (read-outs,
-/// whose states come with their bytes).
+/// Worker to coordinator: the answer to a MoveIn (the time step), GoOn (answers) or ReadOut (read-outs, whose states come with
+/// their bytes).
 struct ResidentReply {
   std::uint64_t request = 0;
-  double seconds = 0.0;  ///< of wall time, inside the engine
+  double seconds = 0.0;    ///< of wall time, inside the engine
+  double time_step = 0.0;  ///< s, see ResidentBoxes::time_step; 0 but behind a MoveIn
   std::vector<ResidentAnswer> answers;
   std::vector<ResidentReadOut> read_outs;
 };

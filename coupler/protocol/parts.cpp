@@ -165,7 +165,7 @@ std::vector<CellIncrement> read_increments(ArrayReader& reader) {
 std::vector<ResidentAnswer> read_answers(ArrayReader& reader) {
   std::vector<ResidentAnswer> answers = read_numbers<ResidentAnswer>(reader, "a list of answers of boxes");
   for (const ResidentAnswer& answer : answers)
-    if (answer.coordination_number < 0.0 || answer.unbalanced_force_ratio < 0.0 || answer.time_step < 0.0)
+    if (answer.coordination_number < 0.0 || answer.unbalanced_force_ratio < 0.0)
       throw FalseMessage("the answer of a box holds an impossible number");
   return answers;
 }

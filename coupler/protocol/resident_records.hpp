@@ -22,7 +22,6 @@ void describe(Record& answer, Visit&& visit) {
         answer.couple_stress);
   visit(FieldNotes{"unbalanced_force_ratio", "1", "see CellDiagnostics"}, answer.unbalanced_force_ratio);
   visit(FieldNotes{"coordination_number", "1", "2 contacts / grains"}, answer.coordination_number);
-  visit(FieldNotes{"time_step", "s", "DEM step of the packing at rest"}, answer.time_step);
 }
 
 }  // namespace polargrain

@@ -304,9 +304,9 @@ struct Cell<dim>::ResidentKind {
     const CellResponse response = cell.respond(box, Tangent::Zero());
     return {response.stress, response.couple_stress,
             quick_force_ratio(box.imbalance(), box.contacts(), cell.protocol_.least_force()),
-            2.0 * static_cast<double>(box.contacts().size()) / cell.driver_.grains(),
-            cell.driver_.strain().time_step()};
+            2.0 * static_cast<double>(box.contacts().size()) / cell.driver_.grains()};
   }
+  [[nodiscard]] double time_step() const { return cell.time_step_; }
   [[nodiscard]] ResidentReadOut read(Grains& box) const {
     ResidentReadOut all;
     all.reply.response = cell.respond(box, Tangent::Zero());

@@ -28,6 +28,7 @@ inline double quick_force_ratio(const Imbalance& imbalance, std::span<const Cont
 ///   put(box, state, motion)          state (null: the packing) and motion in place of what was there, forces set up
 ///   go_on(box, steps, increment)     see ResidentBoxes
 ///   alive()                          tells whoever waits that there is work going on
+///   time_step()                      see ResidentBoxes
 ///   answer(box), read(box)           after a step; `read` gives the state too, with the motion that belongs to it
 template <class Kind>
 class ResidentBoxesOf final : public ResidentBoxes {
@@ -72,6 +73,7 @@ class ResidentBoxesOf final : public ResidentBoxes {
   }
 
   [[nodiscard]] std::size_t count() const override { return boxes_.size(); }
+  [[nodiscard]] double time_step() const override { return kind_.time_step(); }
 
  private:
   Kind kind_;

@@ -9,23 +9,6 @@ namespace {
 
 constexpr int kLongestWait = 16;  // steps between two tries
 
-/// The costs of iterations that were given up belong to the step too.
-void add_costs(const StepReport& given_up, StepReport& report) {
-  report.given_up = given_up.iterations;
-  report.cuts += given_up.cuts;
-  report.iterations += given_up.iterations;
-  report.evaluations += given_up.evaluations;
-  report.substeps += given_up.substeps;
-  report.within_noise += given_up.within_noise;
-  report.within_rounding += given_up.within_rounding;
-  report.limited += given_up.limited;
-  report.jumps += given_up.jumps;
-  report.jump_residual = std::max(report.jump_residual, given_up.jump_residual);
-  report.material_seconds += given_up.material_seconds;
-  report.assembly_seconds += given_up.assembly_seconds;
-  report.solve_seconds += given_up.solve_seconds;
-}
-
 bool was_explicit(const StepReport& step) {
   return step.explicit_steps > 0 || step.given_up > 0;
 }
@@ -66,7 +49,8 @@ StepReport advance_automatic(Solver<dim>& solver, double time, std::span<const S
   const double left = (time - solver.state().time) / (time - start);
   const int steps = std::max(1, static_cast<int>(std::ceil(options.explicit_steps * left)));
   report = solver.advance_explicit(time, steps, explicit_options);
-  add_costs(iterated, report);
+  report += iterated;
+  report.given_up = iterated.iterations;
   return report;
 }
 

@@ -440,7 +440,10 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
   StagnationWatch watch(options.stagnation_window);
   // Where a jump may be passed at once, further iterations from the same state find other samples of the jumps, and nothing better.
   StagnationWatch jump_watch((options.stagnation_window + 1) / 2);
-  for (int iteration = 1; iteration <= options.most_iterations; ++iteration) {
+  const int most = goal.most_iterations > 0
+                       ? std::min(options.most_iterations, goal.most_iterations - report.iterations)
+                       : options.most_iterations;
+  for (int iteration = 1; iteration <= most; ++iteration) {
     const bool predictor = iteration == 1;
     const std::vector<Response<dim>>& known = predictor ? state.responses : trial_;
     if (!correction(goal, iterate, known, right_side, change, report))
@@ -475,7 +478,7 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
     const bool stands_still = watch.stagnates(excess(residual));
     const bool samples_jumps = jump_watch.stagnates(excess(residual));
     const bool stagnates = stands_still || (samples_jumps && passable);
-    const bool last_chance = !finite || stagnates || iteration == options.most_iterations;
+    const bool last_chance = !finite || stagnates || iteration == most;
     if (const Balance balance = balance_of(iterate, last_chance); balance != Balance::none) {
       if (worst.quality != Quality::good) {
         return {false, "a material's answer is unreliable: " + worst.message, worst.step_factor};
@@ -497,7 +500,7 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
     if (!finite) return {false, "the residual is not finite"};
     if (stagnates) return {false, "the residual stagnates at " + residual_text(residual)};
   }
-  return {false, fmt::format("no balance after {} iterations, the residual is {}", options.most_iterations,
+  return {false, fmt::format("no balance after {} iterations, the residual is {}", most,
                              residual_text(iterate.residual))};
 }
 

@@ -31,8 +31,14 @@ struct StepGoal {
   bool releases_displacements = false;  ///< the given displacements too, not only the forces
   double jump_let_go =
       1.0;  ///< share of the imbalance left behind by a jump (Newton::pass_jump) let go at the end
+  /// That the whole step may take, lost ones too (StepReport::iterations); 0: no bound but that of an attempt.
+  int most_iterations = 0;
 
   [[nodiscard]] bool controls_time() const { return measure.size() == 0; }
+  /// Whether so many iterations leave no further one.
+  [[nodiscard]] bool is_spent(int iterations) const {
+    return most_iterations > 0 && iterations >= most_iterations;
+  }
 };
 
 /// The outcome of one attempt at a step.
@@ -82,6 +88,9 @@ class Newton {
   [[nodiscard]] Eigen::VectorXd last_supplied() const;
   /// Steps that a wave of compression needs through the mesh there and back, with the masses of the state.
   [[nodiscard]] int steps_of_wave() const;
+  /// A stable step over the one that was stable at first: 1 until an element is squeezed so much that the reserve of
+  /// ExplicitOptions::safety is half used up.
+  [[nodiscard]] double stable_share();
   /// nodal_masses of the committed state.
   [[nodiscard]] Eigen::VectorXd stable_masses(double safety);
   /// true_masses by these answers, on the mesh of the committed state.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A step that goes where it is told: the explicit steps of Solver.
+#include <algorithm>
+#include <cmath>
+
 #include "common/error.hpp"
 #include "fem/solver/newton.hpp"
 
@@ -67,6 +70,20 @@ int Newton<dim>::steps_of_wave() const {
 }
 
 template <int dim>
+double Newton<dim>::stable_share() {
+  constexpr double kReserve = 1.25;  // 0.6 of the critical step come to 0.75
+  if (problem.deformation == Deformation::small) return 1.0;
+  (void)start_.move_to(Eigen::VectorXd::Zero(state.displacement.size()));
+  const std::vector<double> before = swings_of_shapes(start_);
+  move_to_committed();
+  const std::vector<double> now = swings_of_shapes(discretisation);
+  double faster = 1.0;
+  for (std::size_t e = 0; e < now.size(); ++e)
+    if (before[e] > 0.0) faster = std::max(faster, std::sqrt(now[e] / before[e]));
+  return faster > kReserve ? 1.0 / faster : 1.0;
+}
+
+template <int dim>
 Eigen::VectorXd Newton<dim>::stable_masses(double safety) {
   move_to_committed();
   return nodal_masses(discretisation, linearised(state.responses), safety);
@@ -97,6 +114,8 @@ template std::vector<double> Newton<3>::densities() const;
 template TrueMasses Newton<3>::real_masses(const std::vector<Response<3>>&, double);
 template Attempt Newton<2>::go_on(double, double, const Eigen::VectorXd&, StepReport&);
 template Eigen::VectorXd Newton<2>::unbalanced() const;
+template double Newton<2>::stable_share();
+template double Newton<3>::stable_share();
 template Eigen::VectorXd Newton<2>::stable_masses(double);
 template Eigen::VectorXd Newton<2>::last_supplied() const;
 template int Newton<2>::steps_of_wave() const;

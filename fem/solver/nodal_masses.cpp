@@ -106,6 +106,20 @@ double largest_of(const OfElement& element, const std::vector<Eigen::Index>& ent
 }  // namespace
 
 template <int dim>
+std::vector<double> swings_of_shapes(const Discretisation<dim>& discretisation) {
+  Response<dim> unit;
+  unit.tangent.setIdentity();
+  const std::vector<Response<dim>> answers(discretisation.points(), unit);
+  std::vector<double> swings(discretisation.elements(), 0.0);
+  for (std::size_t e = 0; e < swings.size(); ++e) {
+    if (!discretisation.is_there(e)) continue;
+    const OfElement element = of_element(discretisation, Linearisation<dim>{answers}, e);
+    swings[e] = largest_of(element, element.displacements, element.weights);
+  }
+  return swings;
+}
+
+template <int dim>
 TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
                        const std::vector<double>& densities, double safety) {
   // Rotations this much slower than the step allows: coupled with displacements they hardly shorten it.
@@ -134,6 +148,8 @@ TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearis
   return all;
 }
 
+template std::vector<double> swings_of_shapes<2>(const Discretisation<2>&);
+template std::vector<double> swings_of_shapes<3>(const Discretisation<3>&);
 template TrueMasses true_masses<2>(const Discretisation<2>&, const Linearisation<2>&,
                                    const std::vector<double>&, double);
 template TrueMasses true_masses<3>(const Discretisation<3>&, const Linearisation<3>&,

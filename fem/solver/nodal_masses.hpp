@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "fem/solver/discretisation.hpp"
 
@@ -23,6 +24,11 @@ struct TrueMasses {
   Eigen::VectorXd masses;  ///< nodal vector: kg, kg m^2; in the plane per m of thickness
   double seconds = 0.0;    ///< safety times the critical step
 };
+
+/// Square of how fast each element would swing if it were made of one and the same material, in the shape that it has now: what
+/// the shape does to a stable time step. 0 for elements that are not there.
+template <int dim>
+std::vector<double> swings_of_shapes(const Discretisation<dim>& discretisation);
 
 /// Lumped as above. Rotations get the inertia that makes them no faster than the displacements: true ones would be far faster,
 /// and turn with the waves all the same.

@@ -71,6 +71,11 @@ Solver<dim>::Implementation::Passing Solver<dim>::Implementation::pass(StepGoal 
   Substeps letting_go(2.0);
   Passing result{true, false, ""};
   while (!letting_go.arrived()) {
+    if (goal.is_spent(report.iterations)) {
+      result.stuck = true;
+      result.reason = fmt::format("{} iterations are the bound of the step", report.iterations);
+      break;
+    }
     goal.jump_let_go = letting_go.end();
     const Attempt attempted = attempt(goal, letting_go.cuts_in_a_row(), report);
     if (attempted.converged) {
@@ -111,10 +116,11 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
     return report;
   };
   while (!way.arrived()) {
-    if (most_iterations > 0 && report.iterations >= most_iterations)
+    StepGoal goal = goal_at(way.end(), way.share());
+    goal.most_iterations = most_iterations;
+    if (goal.is_spent(report.iterations))
       return given_up(fmt::format("{} iterations have brought it {:.0f} % of its way, and that is its bound",
                                   report.iterations, 100.0 * way.done()));
-    const StepGoal goal = goal_at(way.end(), way.share());
     const Attempt result = attempt(goal, way.cuts_in_a_row(), report);
     bool committed = result.converged;
     if (!committed) {
@@ -124,6 +130,10 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
         jumps.failed(way.share(), first.force, excess(first));
       }
       last_trouble.jumps = jumps.seen();
+      if (goal.is_spent(report.iterations)) {  // a jump that is passed now could not be let go
+        revert();
+        continue;
+      }
       const Passing passing = pass(goal, jumps.seen() ? HUGE_VAL : options.jump_residual, report);
       committed = passing.passed;
       if (passing.stuck)
@@ -219,10 +229,7 @@ StepReport Solver<dim>::advance(double time, double released, int most_iteration
   implementation_->materials.expect({.once = false});
   const double start = state().time;
   const auto released_at = implementation_->releasing(released);
-  int& of_attempt = implementation_->options.most_iterations;
-  const int usual = of_attempt;
-  if (most_iterations > 0) of_attempt = std::min(usual, most_iterations);
-  StepReport report = implementation_->march(
+  return implementation_->march(
       {},
       [&](double end, double) {
         return StepGoal{.time = end == 1.0 ? time : start + end * (time - start),
@@ -230,8 +237,6 @@ StepReport Solver<dim>::advance(double time, double released, int most_iteration
                         .released = released_at(end)};
       },
       most_iterations);
-  of_attempt = usual;
-  return report;
 }
 
 template <int dim>

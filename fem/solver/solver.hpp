@@ -9,6 +9,7 @@
 #include "common/response.hpp"
 #include "fem/solver/problem.hpp"
 #include "fem/solver/quasi_static.hpp"
+#include "fem/solver/step_work.hpp"
 #include "fem/solver/trouble.hpp"
 
 namespace polargrain::fem {
@@ -94,35 +95,23 @@ struct IterationReport {
 };
 
 /// The outcome of Solver::advance.
-struct StepReport {
+struct StepReport : StepWork {
   bool converged = false;
-  std::string message;  ///< why it has not converged; empty when it has
-  double time = 0.0;    ///< reached and committed
-  int substeps = 0;     ///< committed on the way; 1 when nothing was cut
-  int cuts = 0;
-  int iterations = 0;           ///< all of them, lost ones too
-  long evaluations = 0;         ///< of material points, lost ones too
+  std::string message;          ///< why it has not converged; empty when it has
+  double time = 0.0;            ///< reached and committed
   double force_residual = 0.0;  ///< of the last committed substep
   double moment_residual = 0.0;
   std::vector<double> field_residuals;  ///< of each nodal field
   double force_noise = 0.0;             ///< the residual of noise alone, of the last committed substep
   double moment_noise = 0.0;
-  int within_noise = 0;     ///< substeps committed with a residual above its tolerance but within the noise
-  int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
-  int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
-  int jumps = 0;            ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
-  int explicit_steps = 0;   ///< that it took; 0 where it was balanced by iterations
-  int given_up = 0;         ///< iterations that did not balance it (automatic.hpp): explicit steps went on
-  int rest_steps = 0;       ///< of them: after the last movement, see ExplicitOptions::rest
-  Energies energies;        ///< of steps in real time
-  QuasiStatic quasi_static;    ///< of explicit steps
-  double speed = 1.0;          ///< of explicit steps whose rate follows what they reach (explicit_rate.hpp)
-  double jump_residual = 0.0;  ///< the largest force residual that one of them left, let go since
+  int explicit_steps = 0;    ///< that it took; 0 where it was balanced by iterations
+  int given_up = 0;          ///< iterations that did not balance it (automatic.hpp): explicit steps went on
+  int rest_steps = 0;        ///< of them: after the last movement, see ExplicitOptions::rest
+  Energies energies;         ///< of steps in real time
+  QuasiStatic quasi_static;  ///< of explicit steps
+  double speed = 1.0;        ///< of explicit steps whose rate follows what they reach (explicit_rate.hpp)
   std::vector<double> force_residuals;  ///< by iteration, of the last attempt
   std::vector<double> moment_residuals;
-  double material_seconds = 0.0;
-  double assembly_seconds = 0.0;
-  double solve_seconds = 0.0;
 };
 
 /// A linear measure of deformation whose growth is prescribed in place of the loading time, for instance the

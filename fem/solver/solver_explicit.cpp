@@ -19,7 +19,7 @@ template <int dim>
 class ExplicitRow {
  public:
   /// @param solver, options, quiet, report must outlive this object @param quiet null: no quiet boundary
-  /// @param seconds of a step; 1 where steps have no real time
+  /// @param seconds of a step; 1 where steps have no real time and elements the shape for which the masses were chosen
   ExplicitRow(Newton<dim>& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet,
               double seconds, StepReport& report)
       : solver_(solver),
@@ -48,6 +48,17 @@ class ExplicitRow {
     return true;
   }
 
+  /// Takes the steps of a pace. @param releases whether forces held back are let go over the row
+  /// @param behind called with the number of each step behind it @returns as step_to
+  template <class Behind>
+  [[nodiscard]] bool follow(const ExplicitPace& pace, bool releases, const Behind& behind) {
+    for (int step = 1; step <= pace.steps(); ++step) {
+      if (!step_to(pace.time(step), releases ? pace.fraction(step) : solver_.released())) return false;
+      behind(step);
+    }
+    return true;
+  }
+
   /// Lets the nodes come to rest where they are, boundaries held. @returns as step_to
   [[nodiscard]] bool come_to_rest(double time, Residual& residual) {
     // Kinetic damping (Cundall 1976): the nodes stop whenever they are fastest, which is where they pass their balance.
@@ -60,7 +71,8 @@ class ExplicitRow {
       const double energy = kinetic_energy();
       // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
       // drive the fastest waves.
-      if (energy < before) solver_.state.velocity = -0.5 * forces_.cwiseQuotient(solver_.state.mass);
+      if (energy < before)
+        solver_.state.velocity = -0.5 * seconds_ * forces_.cwiseQuotient(solver_.state.mass);
       before = energy < before ? 0.0 : energy;
     }
     solver_.state.velocity.setZero();
@@ -172,6 +184,41 @@ bool Solver<dim>::Implementation::start_from_balance(const ExplicitOptions& opti
 }
 
 template <int dim>
+void Solver<dim>::Implementation::tell_quarters(int step, int steps, const Residual& residual) const {
+  if (observer && step % std::max(1, steps / 4) == 0)
+    observer->iterated({state.time, 0, step, residual.force, residual.moment});
+}
+
+template <int dim>
+void Solver<dim>::Implementation::count_ramp(int steps, int ramp, bool comes_to_rest) {
+  // A ramp that is over stays over, even where the next row would have a longer one.
+  const int since_rest = steps_since_rest + steps;
+  steps_since_rest = comes_to_rest ? 0 : since_rest >= ramp ? kRampIsOver : since_rest;
+}
+
+template <int dim>
+StepReport Solver<dim>::Implementation::end_row(StepReport report, const Eigen::VectorXd& reactions) {
+  if (const Unrest unrest = this->materials.unrest(); unrest.points > 0) {
+    const auto points = static_cast<double>(unrest.points);
+    report.quasi_static.grains_unbalanced = unrest.sum / points;
+    report.quasi_static.hot_points = static_cast<double>(unrest.hot) / points;
+  }
+  state.reactions = reactions;
+  this->materials.settle();
+  report.converged = true;
+  report.substeps = 1;
+  report.time = state.time;
+  return report;
+}
+
+template <int dim>
+StepReport Solver<dim>::Implementation::stopped(StepReport report, const std::string& where) {
+  last_trouble = trouble(report.message, report);
+  report.message = fmt::format("{}: {}", where, report.message);
+  return report;
+}
+
+template <int dim>
 StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitOptions& options) {
   Implementation& self = *implementation_;
   self.refuse_explicit();
@@ -179,58 +226,42 @@ StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitO
   StepReport report;
   self.materials.expect({.once = true});
   const bool releases = self.start_from_balance(options);
-  const int wave = self.steps_of_wave();
+  const double share = self.stable_share();
+  const auto shorter = [share](int count) { return static_cast<int>(std::ceil(count / share)); };
+  const int wave = shorter(self.steps_of_wave());
   const int ramp = options.ramp > 0 ? options.ramp : wave;
-  const ExplicitPace pace(state.time, time, steps, ramp, self.steps_since_rest, options.speed_before, wave);
+  const ExplicitPace pace(state.time, time, shorter(steps), ramp, self.steps_since_rest, options.speed_before,
+                          wave);
   RowOfForces<dim> forces(self.constraints, pace.steps(), pace.last_times(2 * wave));
-  ExplicitRow<dim> row(self, options, nullptr, 1.0, report);
+  ExplicitRow<dim> row(self, options, nullptr, share, report);
   const auto stopped = [&] {
-    self.last_trouble = self.trouble(report.message, report);
-    report.message =
-        fmt::format("explicit step {} of {}: {}", report.explicit_steps + 1, pace.steps(), report.message);
-    return report;
+    return self.stopped(report,
+                        fmt::format("explicit step {} of {}", report.explicit_steps + 1, pace.steps()));
   };
-  Residual sum;
+  Residual mean;
   double kinetic = 0.0;
-  for (int step = 1; step <= pace.steps(); ++step) {
-    if (!row.step_to(pace.time(step), releases ? pace.fraction(step) : self.released())) return stopped();
+  const bool went = row.follow(pace, releases, [&](int step) {
     const Residual residual = self.relative(self.last_unbalanced());
-    sum.force += residual.force / pace.steps();
-    sum.moment += residual.moment / pace.steps();
-    if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
-      self.observer->iterated({state.time, 0, step, residual.force, residual.moment});
+    mean.force += residual.force / pace.steps();
+    mean.moment += residual.moment / pace.steps();
+    self.tell_quarters(step, pace.steps(), residual);
     kinetic = std::max(kinetic, row.kinetic_energy());
     forces.add(self.last_supplied());
-  }
+  });
+  if (!went) return stopped();
   QuasiStatic& reached = report.quasi_static;
   if (state.internal_work != 0.0) reached.kinetic_share = kinetic / std::abs(state.internal_work);
-  reached.reaction_difference = forces.difference(external_forces());
-  Eigen::VectorXd reactions = forces.reactions();
-  if (options.rest > 0.0) {
-    if (!row.come_to_rest(time, sum)) return stopped();
-    RowOfForces<dim> at_rest(self.constraints, 1, {});
-    at_rest.add(self.last_supplied());
-    reactions = at_rest.reactions();
-    reached.reaction_difference = at_rest.difference(external_forces());
-  }
-  reached.nodes_unbalanced = sum.force;
-  if (const Unrest unrest = self.materials.unrest(); unrest.points > 0) {
-    reached.grains_unbalanced = unrest.sum / static_cast<double>(unrest.points);
-    reached.hot_points = static_cast<double>(unrest.hot) / static_cast<double>(unrest.points);
-  }
-  // A ramp that is over stays over, even where the next row would have a longer one.
-  self.steps_since_rest = options.rest > 0.0 ? 0
-                          : self.steps_since_rest + pace.steps() >= ramp
-                              ? kRampIsOver
-                              : self.steps_since_rest + pace.steps();
-  state.reactions = reactions;
-  self.materials.settle();
-  report.converged = true;
-  report.substeps = 1;
-  report.time = state.time;
-  report.force_residual = sum.force;
-  report.moment_residual = sum.moment;
-  return report;
+  const bool comes_to_rest = options.rest > 0.0;
+  if (comes_to_rest && !row.come_to_rest(time, mean)) return stopped();
+  RowOfForces<dim> at_rest(self.constraints, 1, {});
+  at_rest.add(self.last_supplied());
+  const RowOfForces<dim>& last = comes_to_rest ? at_rest : forces;
+  reached.reaction_difference = last.difference(external_forces());
+  reached.nodes_unbalanced = mean.force;
+  report.force_residual = mean.force;
+  report.moment_residual = mean.moment;
+  self.count_ramp(pace.steps(), ramp, comes_to_rest);
+  return self.end_row(std::move(report), last.reactions());
 }
 
 template <int dim>
@@ -281,7 +312,8 @@ StepReport Solver<dim>::advance_real_time(double time, const ExplicitOptions& op
   if (!(state.seconds > 0.0)) throw RunError("steps in real time begin with begin_real_time");
   constexpr double kWithinRounding = 1.0 - 1e-9;
   const double start = state.time;
-  const auto steps = static_cast<int>(std::ceil(kWithinRounding * (time - start) / state.seconds));
+  const double stable = self.stable_share() * state.seconds;
+  const auto steps = static_cast<int>(std::ceil(kWithinRounding * (time - start) / stable));
   const double seconds = (time - start) / std::max(1, steps);
   StepReport report;
   self.materials.expect({.once = true, .seconds = seconds});
@@ -289,28 +321,17 @@ StepReport Solver<dim>::advance_real_time(double time, const ExplicitOptions& op
   const ExplicitPace pace(start, time, std::max(1, steps), 0, 0);
   RowOfForces<dim> forces(self.constraints, pace.steps(), {});
   ExplicitRow<dim> row(self, options, &*self.quiet, seconds, report);
-  for (int step = 1; step <= pace.steps(); ++step) {
-    if (!row.step_to(pace.time(step), releases ? pace.fraction(step) : self.released())) {
-      self.last_trouble = self.trouble(report.message, report);
-      report.message = fmt::format("step {} of {}, at {:.6g} s: {}", report.explicit_steps + 1, pace.steps(),
-                                   pace.time(step), report.message);
-      return report;
-    }
-    if (self.observer && (step % std::max(1, pace.steps() / 4) == 0))
-      self.observer->iterated({state.time, 0, step, 0.0, 0.0});
+  const bool went = row.follow(pace, releases, [&](int step) {
+    self.tell_quarters(step, pace.steps(), {});
     forces.add(self.last_supplied());
+  });
+  if (!went) {
+    const int at = report.explicit_steps + 1;
+    return self.stopped(std::move(report),
+                        fmt::format("step {} of {}, at {:.6g} s", at, pace.steps(), pace.time(at)));
   }
   report.energies = row.energies();
-  if (const Unrest unrest = self.materials.unrest(); unrest.points > 0) {
-    report.quasi_static.grains_unbalanced = unrest.sum / static_cast<double>(unrest.points);
-    report.quasi_static.hot_points = static_cast<double>(unrest.hot) / static_cast<double>(unrest.points);
-  }
-  state.reactions = forces.reactions();
-  self.materials.settle();
-  report.converged = true;
-  report.substeps = 1;
-  report.time = state.time;
-  return report;
+  return self.end_row(std::move(report), forces.reactions());
 }
 
 double Energies::error() const {

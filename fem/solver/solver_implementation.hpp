@@ -64,6 +64,15 @@ struct Solver<dim>::Implementation : Newton<dim> {
   /// back. @returns whether they are, for this row to let them go. @throws RunError when the state is of another problem
   bool start_from_balance(const ExplicitOptions& options);
 
+  /// Four times a row of explicit steps the observer is told where it stands. @param step of so many `steps`
+  void tell_quarters(int step, int steps, const Residual& residual) const;
+  /// Behind a row of `steps`: how much of a ramp of so many steps is behind. @param comes_to_rest a new ramp follows
+  void count_ramp(int steps, int ramp, bool comes_to_rest);
+  /// The end of a row of explicit steps: boxes are read out, and the report says that it was reached.
+  StepReport end_row(StepReport report, const Eigen::VectorXd& reactions);
+  /// A row that could not go on, for the reason in the report. @param where the step of it
+  StepReport stopped(StepReport report, const std::string& where);
+
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
   void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
 

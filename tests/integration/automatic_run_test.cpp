@@ -1,43 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `method: automatic` by the whole program: Newton's bytes where it balances, no stop where it does not, and the same bytes
 // whoever has the boxes and wherever the run is broken off.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <iostream>
-#include <nlohmann/json.hpp>
-
-#include "common/csv_table.hpp"
-#include "tests/faults/checkpoint_runs.hpp"
-#include "tests/integration/command.hpp"
+#include "tests/integration/column_run.hpp"
 
 namespace polargrain::testing {
 namespace {
 
-const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
-
-class AutomaticRun : public ::testing::Test {
+class AutomaticRun : public ColumnRun {
  protected:
-  AutomaticRun() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::copy(kSource / "cases/footing_cells/packing100.h5", scratch_.path());
-  }
-
-  /// A column between rough plates, compressed by 1 %.
-  void write_column(const std::string& steps, const std::string& model = "cell",
-                    const std::string& material = "lc: 50 mm") const {
-    write(scratch_.path() / "case.yaml",
-          "title: A column by both methods\n"
-          "mesh: {rectangle: {size: [0.1 m, 0.2 m], elements: [2, 4]}}\n"
-          "materials:\n  sand: {model: " +
-              model + ", script: cells/hooke_li_chu.in, packing: packing100.h5, " + material +
-              "}\n"
-              "regions: {all: sand}\n"
-              "boundary:\n"
-              "  - {on: bottom, fix: [u1, u2]}\n"
-              "  - {on: top, fix: [u1], move: {u2: -2 mm}}\n"
-              "  - {on: [left, right], pressure: 100 kPa}\n"
-              "steps: {count: 10, " +
-              steps + "}\nmonitors: {top_force: {on: top, reaction: u2}}\n");
+  void write_small(const std::string& steps, const std::string& model = "cell") const {
+    write_column({.steps = steps, .model = model, .deformation = "small"});
   }
   /// One element, its grains shown no mercy: docs/hard_cells.md.
   void write_hard(const std::string& grains, const std::string& steps, const std::string& boundary) const {
@@ -50,25 +22,14 @@ class AutomaticRun : public ::testing::Test {
             grains + "}\nregions: {all: sand}\nboundary:\n" + boundary + "steps: {" + steps +
             "}\nmonitors:\n  top_force: {on: top, reaction: u2}\n  pressure: -top_force / 0.1 m\n");
   }
-  [[nodiscard]] Outcome run(const std::string& name, const std::string& options = "") const {
-    return run_in(scratch_.path(), POLARGRAIN " run case.yaml --quiet -o " + name + " " + options);
-  }
-  [[nodiscard]] std::vector<double> column(const std::string& name, const std::string& of) const {
-    return CsvTable(scratch_.path() / name / "history.csv").numbers(of);
-  }
-  [[nodiscard]] nlohmann::json summary(const std::string& name) const {
-    return nlohmann::json::parse(content(scratch_.path() / name / "summary.json"));
-  }
-
-  Scratch scratch_;
 };
 
 // Without a step that fails it is Newton's method, to the last digit.
 TEST_F(AutomaticRun, IsNewtonsMethodWhereThatBalances) {
   for (const char* const model : {"cell", "informed", "adaptive"}) {
-    write_column("tolerance: 1e-2, method: newton", model);
+    write_small("tolerance: 1e-2, method: newton", model);
     ASSERT_EQ(run("newton").status, 0) << model;
-    write_column("tolerance: 1e-2, method: automatic, effort: 400", model);
+    write_small("tolerance: 1e-2, method: automatic, effort: 400", model);
     const Outcome outcome = run("automatic");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_EQ(column("automatic", "top_force"), column("newton", "top_force")) << model;
@@ -81,16 +42,17 @@ TEST_F(AutomaticRun, IsNewtonsMethodWhereThatBalances) {
 
 // An effort that is too small for most steps: explicit steps take their place, and the force stays near that of Newton's method.
 TEST_F(AutomaticRun, GoesThroughStepsThatAreGivenUp) {
-  write_column("tolerance: 1e-2, method: newton");
+  write_small("tolerance: 1e-2, method: newton");
   ASSERT_EQ(run("newton").status, 0);
   for (const char* const model : {"cell", "adaptive"}) {
-    write_column("tolerance: 1e-4, jumps: 0, method: automatic, effort: 2", model);
+    write_small("tolerance: 1e-4, method: automatic, effort: 2", model);
     const Outcome outcome = run("automatic");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     const nlohmann::json told = summary("automatic")["automatic"];
     std::cout << "[figure] " << model << ": " << told << '\n';
     EXPECT_GT(told["steps_explicit"], 0);
     EXPECT_GT(told["iterations_given_up"], 0);
+    for (const double iterations : column("automatic", "given_up")) EXPECT_LE(iterations, 2.0) << model;
     EXPECT_NE(content(scratch_.path() / "automatic/run.log").find("explicit steps go on from here"),
               std::string::npos);
     const double expected = column("newton", "top_force").back();
@@ -100,21 +62,15 @@ TEST_F(AutomaticRun, GoesThroughStepsThatAreGivenUp) {
 }
 
 TEST_F(AutomaticRun, WorkersKillsAndResumptionsChangeNoByte) {
-  write_column("tolerance: 1e-4, jumps: 0, method: automatic, effort: 2, pace: 4e-4");
-  const std::string options = "--checkpoint-minutes 0";
+  write_small("tolerance: 1e-4, method: automatic, effort: 2, pace: 4e-4");
+  const std::string options = "--quiet --checkpoint-minutes 0";
   ASSERT_EQ(run("one", options + " -w 1").status, 0);
   const std::string expected = results_of(scratch_.path() / "one");
   const nlohmann::json told = summary("one")["automatic"];
   EXPECT_GT(told["steps_explicit"], 0) << told;
   ASSERT_EQ(run("three", options + " -w 3").status, 0);
   EXPECT_TRUE(results_of(scratch_.path() / "three") == expected);
-  const auto check = [&](int status, const std::filesystem::path& result) {
-    EXPECT_EQ(status, 0) << content(scratch_.path() / "program.out");
-    EXPECT_TRUE(results_of(result) == expected);
-    std::filesystem::remove_all(result);
-  };
-  const Kills done = kill_again_and_again(scratch_.path(), "run case.yaml --quiet", 3, 20261201, check);
-  std::cout << "[figure] " << told << ", " << done.kills << " runs killed, " << done.resumed << " resumed\n";
+  expect_the_same_behind_kills(expected, 3, 20261201, told.dump());
 }
 
 // Two hard cases that end by Newton's method, of docs/hard_cells.md: none stops, and the pressures are those that are given.

@@ -24,7 +24,6 @@ class DynamicsRun : public ::testing::Test {
  protected:
   DynamicsRun() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
     std::filesystem::copy(kSource / "cases/footing_cells/packing100.h5", scratch_.path());
-    std::filesystem::copy(kSource / "cases/spheres/packing1000.csv", scratch_.path());
   }
 
   /// A bar of 20 boxes along, held sideways.
@@ -75,56 +74,72 @@ double arrival(const std::vector<double>& times, const std::vector<double>& way,
 }
 
 // The speed over that of the modulus, which Newton's method finds on the same bar at the same strain, and the height of the wave.
+// A packing at rest by the usual tolerance still gives way, by up to 4 % of the movement in this wave; left in, that moves the
+// arrival by 2 %. So the movement without a push is taken off, and the modulus is that of the second step, of rested grains.
 TEST_F(DynamicsRun, AWaveRunsThroughBoxesAtItsSpeed) {
-  const std::string boxes = "model: cell, script: cells/";
+  const auto boxes = [](const std::string& script, const std::string& packing) {
+    return "model: cell, script: cells/" + script + ", packing: " + packing +
+           ", unbalanced_force_ratio: 1e-5";
+  };
+  write(
+      scratch_.path() / "spheres.yaml",
+      "title: 200 spheres\ngrains: 200\ndimension: 3\nscript: cells/spheres_hooke_radii.in\n"
+      "sizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\npressure: 100 kPa\nfriction: 0\nseed: 1\n");
+  ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " pack spheres.yaml -o spheres.h5 --quiet").status, 0);
+  for (const char* const packing : {"dense100_seed2.h5", "dense100_seed3.h5"})
+    std::filesystem::copy(kSource / "cases/studies" / packing, scratch_.path());
   for (const auto& [name, material] :
        {std::pair<std::string, std::string>{"law",
                                             "model: elastic, E: 100 MPa, nu: 0.25, Gc: 40 MPa, lc: 5 mm"},
-        {"discs", boxes + "hooke_radii.in, packing: packing100.h5"},
-        {"spheres", boxes + "spheres_hooke_radii.in, packing: packing1000.csv"}}) {
-    const std::string pressed = name == "law" ? "" : "  - {on: right, pressure: 100 kPa}\n";
-    // With the stress that the packing has along the bar: so nothing moves before the wave.
-    write_bar("still.yaml", material, "  - {on: [left, right], fix: [u1]}\n", "count: 1, tolerance: 1e-3");
-    ASSERT_EQ(run("still").status, 0);
+        {"discs", boxes("hooke_radii.in", "packing100.h5")},
+        {"discs, seed 2", boxes("hooke_radii.in", "dense100_seed2.h5")},
+        {"discs, seed 3", boxes("hooke_radii.in", "dense100_seed3.h5")},
+        {"spheres", boxes("spheres_hooke_radii.in", "spheres.h5")}}) {
     write_bar("slow.yaml", material,
               "  - {on: right, fix: [u1]}\n  - {on: left, move: {u1: " +
-                  std::to_string(1e3 * kStrain * kLength) + " mm}}\n",
-              "count: 1, tolerance: 1e-4");
+                  std::to_string(2.0 * 1e3 * kStrain * kLength) + " mm}}\n",
+              "count: 2, tolerance: 1e-5");
     const Outcome slow = run("slow");
     ASSERT_EQ(slow.status, 0) << slow.errors;
     const std::vector<double> forces = column("slow", "left_force");
-    const double modulus = (forces[1] - forces[0]) / (kWidth * kStrain);
+    const double modulus = (forces[2] - forces[1]) / (kWidth * kStrain);
     const Outcome checked =
         run_in(scratch_.path(), POLARGRAIN " check slow.yaml --set materials.sand.density=\"2000 kg/m3\"");
     ASSERT_EQ(checked.status, 0) << checked.errors;
     constexpr double kDensity = 2000.0;
     const double speed = std::sqrt(modulus / kDensity);
-    write_push(kStrain * speed);
     const double duration = 2.6 * kLength / speed;
-    write_bar(
-        "wave.yaml", material + ", density: 2000 kg/m3",
-        "  - {on: left, accelerate: {u1: push.csv}}\n" +
-            (name == "law" ? std::string()
-                           : "  - {on: right, pressure: " + std::to_string(forces[0] / kWidth) + " Pa}\n"),
-        "method: explicit, time: real, tolerance: 1e-4, count: 200, duration: " + std::to_string(duration) +
-            " s");
-    const Outcome outcome = run("wave");
-    ASSERT_EQ(outcome.status, 0) << outcome.errors;
-    const std::vector<double> times = column("wave", "time");
-    const std::vector<double> way = column("wave", "end");
+    const auto way_behind = [&](double push, const std::string& result) {
+      write_push(push);
+      write_bar(
+          "wave.yaml", material + ", density: 2000 kg/m3",
+          "  - {on: left, accelerate: {u1: push.csv}}\n" +
+              (name == "law" ? std::string()
+                             : "  - {on: right, pressure: " + std::to_string(forces[0] / kWidth) + " Pa}\n"),
+          "method: explicit, time: real, tolerance: 1e-4, count: 200, duration: " + std::to_string(duration) +
+              " s");
+      const Outcome outcome = run("wave");
+      EXPECT_EQ(outcome.status, 0) << outcome.errors;
+      std::filesystem::rename(scratch_.path() / "wave", scratch_.path() / result);
+      return column(result, "end");
+    };
+    std::vector<double> way = way_behind(kStrain * speed, "pushed");
+    const std::vector<double> without = way_behind(0.0, "without");
+    ASSERT_EQ(way.size(), without.size());
+    for (std::size_t k = 0; k < way.size(); ++k) way[k] -= without[k];
+    const std::vector<double> times = column("pushed", "time");
     const double came = arrival(times, way, 1.3 * kLength / speed + kRise, 2.5 * kLength / speed);
     const double ratio = kLength / (came - 0.5 * kRise) / speed;
     const double height = (way.back() - way[way.size() * 3 / 4]) /
                           (times.back() - times[times.size() * 3 / 4]) / (2.0 * kStrain * speed);
-    const std::vector<double> errors = column("wave", "energy_error");
+    const std::vector<double> errors = column("pushed", "energy_error");
     const double error = *std::ranges::max_element(errors);
     std::cout << "[figure] " << name << ": speed " << ratio << " of that of the modulus (" << speed
               << " m/s), height at the free end " << height << ", energy error " << error << '\n';
-    // Boxes: one packing each, and the arrival of a ramp by its half.
-    EXPECT_NEAR(ratio, 1.0, name == "law" ? 0.015 : 0.025) << name;
-    EXPECT_NEAR(height, 1.0, name == "law" ? 0.02 : 0.06) << name;
+    EXPECT_NEAR(ratio, 1.0, 0.015) << name;
+    EXPECT_NEAR(height, 1.0, 0.02) << name;
     EXPECT_LT(error, 2e-3) << name;
-    for (const char* const result : {"still", "slow", "wave"})
+    for (const char* const result : {"slow", "pushed", "without"})
       std::filesystem::remove_all(scratch_.path() / result);
   }
 }
@@ -178,9 +193,11 @@ TEST_F(DynamicsRun, ADeadLoadPastThePeakGoesOn) {
   std::cout << "[figure] fell to a strain of " << strain.back()
             << ", largest energy error to 25 %: " << at_quarter << '\n'
             << outcome.errors;
-  // Behind that the load is thrown back; the run may end there, and says so.
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_GE(at_quarter, 0.0);
   EXPECT_LT(at_quarter, 2e-3);
+  // On and on to where it comes to rest, at nearly half of the height; steps follow the squeezed elements.
+  EXPECT_LT(*std::ranges::max_element(error), 2e-3);
 }
 
 // A mistake in the file is found before anything runs.

@@ -1,63 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Explicit steps with resident boxes by the whole program: near Newton's method, and the same bytes whoever has the boxes,
 // whoever dies, and wherever the run is broken off.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <string_view>
 #include <utility>
 
-#include "common/csv_table.hpp"
-#include "tests/faults/checkpoint_runs.hpp"
-#include "tests/integration/command.hpp"
+#include "tests/integration/column_run.hpp"
 
 namespace polargrain::testing {
 namespace {
 
-const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
-
-class ExplicitRunTest : public ::testing::Test {
+class ExplicitRunTest : public ColumnRun {
  protected:
-  ExplicitRunTest() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::copy(kSource / "cases/footing_cells/packing100.h5", scratch_.path());
-  }
-
-  /// A column between rough plates, compressed by 1 % in ten rows of explicit steps.
-  void write_case(const std::string& steps, const std::string& material = "lc: 50 mm",
-                  const std::string& model = "cell") const {
-    write(scratch_.path() / "case.yaml",
-          "title: A column in explicit steps\n"
-          "mesh: {rectangle: {size: [0.1 m, 0.2 m], elements: [2, 4]}}\n"
-          "deformation: large\n"
-          "materials:\n  sand: {model: " +
-              model + ", script: cells/hooke_li_chu.in, packing: packing100.h5, " + material +
-              "}\n"
-              "regions: {all: sand}\n"
-              "boundary:\n"
-              "  - {on: bottom, fix: [u1, u2]}\n"
-              "  - {on: top, fix: [u1], move: {u2: -2 mm}}\n"
-              "  - {on: [left, right], pressure: 100 kPa}\n"
-              "steps: {count: 10, " +
-              steps +
-              "}\n"
-              "monitors:\n"
-              "  top_force: {on: top, reaction: u2}\n"
-              "  bottom_force: {on: bottom, reaction: u2}\n");
-  }
   [[nodiscard]] std::vector<double> forces_of(const std::string& name) const {
-    const CsvTable history(scratch_.path() / name / "history.csv");
-    std::vector<double> mean = history.numbers("top_force");
+    std::vector<double> mean = column(name, "top_force");
     const std::size_t stride = (mean.size() - 1) / 10;
-    const std::vector<double> below = history.numbers("bottom_force");
+    const std::vector<double> below = column(name, "bottom_force");
     for (std::size_t row = 0; row < mean.size(); ++row) mean[row] = 0.5 * (mean[row] - below[row]);
     std::vector<double> tenths;
     for (std::size_t row = 0; row < mean.size(); row += stride) tenths.push_back(mean[row]);
     return tenths;
   }
-
-  Scratch scratch_;
 };
 
 // Root mean square over the rows, of the last force.
@@ -74,13 +38,11 @@ double difference(const std::vector<double>& found, const std::vector<double>& e
 TEST_F(ExplicitRunTest, StaysNearNewtonsMethod) {
   for (const char* const model : {"cell", "informed", "adaptive"}) {
     const bool informed = std::string_view(model) == "informed";
-    write_case("tolerance: 1e-2", "lc: 50 mm", model);
-    const Outcome newton =
-        run_in(scratch_.path(), std::string(POLARGRAIN " run case.yaml --quiet -w 2 -o newton") +
-                                    (informed ? " --set steps.count=40" : ""));
+    write_column({.steps = "tolerance: 1e-2", .model = model});
+    const Outcome newton = run("newton", informed ? "--quiet -w 2 --set steps.count=40" : "--quiet -w 2");
     ASSERT_EQ(newton.status, 0) << newton.errors;
-    write_case(informed ? "method: explicit, pace: 3e-5" : "method: explicit", "lc: 50 mm", model);
-    const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " run case.yaml --quiet -w 2 -o explicit");
+    write_column({.steps = informed ? "method: explicit, pace: 3e-5" : "method: explicit", .model = model});
+    const Outcome outcome = run("explicit", "--quiet -w 2");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     const std::vector<double> expected = forces_of("newton");
     const std::vector<double> found = forces_of("explicit");
@@ -96,29 +58,23 @@ TEST_F(ExplicitRunTest, StaysNearNewtonsMethod) {
 
 TEST_F(ExplicitRunTest, WorkersKillsAndResumptionsChangeNoByte) {
   for (const char* const material : {"lc: 50 mm", "rotations: controlled"}) {
-    write_case("method: explicit, pace: 4e-4", material);
-    const std::string run = "run case.yaml --quiet --checkpoint-minutes 0";
-    ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " " + run + " -w 1 -o one").status, 0) << material;
+    write_column({.steps = "method: explicit, pace: 4e-4", .material = material});
+    const std::string options = "--quiet --checkpoint-minutes 0";
+    ASSERT_EQ(run("one", options + " -w 1").status, 0) << material;
     const std::string expected = results_of(scratch_.path() / "one");
-    RunningProgram disturbed(scratch_.path(), run + " -w 3 -o three");
+    RunningProgram disturbed(scratch_.path(), "run case.yaml " + options + " -w 3 -o three");
     const int kills = kill_workers(disturbed, scratch_.path() / "three" / "history.csv", 3, 1.0, 20261124);
     EXPECT_EQ(disturbed.wait(), 0) << content(scratch_.path() / "program.out");
     EXPECT_TRUE(results_of(scratch_.path() / "three") == expected) << material;
-    const auto check = [&](int status, const std::filesystem::path& result) {
-      EXPECT_EQ(status, 0) << content(scratch_.path() / "program.out");
-      EXPECT_TRUE(results_of(result) == expected) << material;
-      std::filesystem::remove_all(result);
-    };
-    const Kills done = kill_again_and_again(scratch_.path(), "run case.yaml --quiet", 3, 20261125, check);
-    std::cout << "[figure] " << material << ": " << kills << " workers killed, " << done.kills
-              << " runs killed, " << done.resumed << " resumed\n";
+    std::cout << "[figure] " << material << ": " << kills << " workers killed\n";
+    expect_the_same_behind_kills(expected, 3, 20261125, material);
     for (const char* const result : {"one", "three"}) std::filesystem::remove_all(scratch_.path() / result);
   }
 }
 
 // Cells and a law that cells inform in one mesh, brought to rest at every fifth step.
 TEST_F(ExplicitRunTest, MaterialsAreMixed) {
-  write_case("method: explicit, pace: 4e-4, rest_at_output: yes");
+  write_column({.steps = "method: explicit, pace: 4e-4, rest_at_output: yes"});
   const std::string file = (scratch_.path() / "case.yaml").string();
   std::string text = content(file);
   const auto replace = [&](const std::string& part, const std::string& by) {
@@ -132,33 +88,26 @@ TEST_F(ExplicitRunTest, MaterialsAreMixed) {
           "output: {every: 5}");
   replace("elements: [2, 4]", "elements: [2, 4], patch: [0.1 m, 0.1 m]");
   write(file, text);
-  const std::string run = "run case.yaml --quiet --checkpoint-minutes 0";
-  const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " " + run + " -w 1 -o one");
+  const std::string options = "--quiet --checkpoint-minutes 0";
+  const Outcome outcome = run("one", options + " -w 1");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const CsvTable history(scratch_.path() / "one" / "history.csv");
-  EXPECT_EQ(history.numbers("rest_steps")[4], 0.0);
-  EXPECT_GT(history.numbers("rest_steps")[5], 0.0);
-  EXPECT_LE(history.numbers("nodes_unbalanced")[5], 1e-3);
-  EXPECT_GT(history.numbers("nodes_unbalanced")[4], 1e-3);
+  EXPECT_EQ(column("one", "rest_steps")[4], 0.0);
+  EXPECT_GT(column("one", "rest_steps")[5], 0.0);
+  EXPECT_LE(column("one", "nodes_unbalanced")[5], 1e-3);
+  EXPECT_GT(column("one", "nodes_unbalanced")[4], 1e-3);
   // The plates carry the same where nothing moves any more.
-  const double top = history.numbers("top_force")[5];
-  EXPECT_NEAR(history.numbers("bottom_force")[5] / top, -1.0, 3e-3);
-  EXPECT_GT(history.numbers("grains_unbalanced")[5], 0.0);
+  EXPECT_NEAR(column("one", "bottom_force")[5] / column("one", "top_force")[5], -1.0, 3e-3);
+  EXPECT_GT(column("one", "grains_unbalanced")[5], 0.0);
   const std::string expected = results_of(scratch_.path() / "one");
-  ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " " + run + " -w 3 -o three").status, 0);
+  ASSERT_EQ(run("three", options + " -w 3").status, 0);
   EXPECT_TRUE(results_of(scratch_.path() / "three") == expected);
-  const auto check = [&](int status, const std::filesystem::path& result) {
-    EXPECT_EQ(status, 0) << content(scratch_.path() / "program.out");
-    EXPECT_TRUE(results_of(result) == expected);
-    std::filesystem::remove_all(result);
-  };
-  kill_again_and_again(scratch_.path(), "run case.yaml --quiet", 2, 20261126, check);
+  expect_the_same_behind_kills(expected, 2, 20261126, "cells and a law");
 }
 
 // Fast steps are told, in the table, the summary and the log; slow ones are not.
 TEST_F(ExplicitRunTest, SayHowFarTheyWereFromEquilibrium) {
-  write_case("method: explicit, pace: 2e-3");
-  const Outcome fast = run_in(scratch_.path(), POLARGRAIN " run case.yaml -w 1 -o fast");
+  write_column({.steps = "method: explicit, pace: 2e-3"});
+  const Outcome fast = run("fast", "-w 1");
   ASSERT_EQ(fast.status, 0) << fast.errors;
   EXPECT_NE(fast.out.find("estimated error of the reactions"), std::string::npos) << fast.out;
   EXPECT_NE(fast.out.find("  beyond"), std::string::npos) << fast.out;
@@ -166,13 +115,13 @@ TEST_F(ExplicitRunTest, SayHowFarTheyWereFromEquilibrium) {
   const std::string log = content(scratch_.path() / "fast" / "run.log");
   EXPECT_NE(log.find("kinetic energy of the chosen masses"), std::string::npos) << log;
   EXPECT_NE(content(scratch_.path() / "fast" / "summary.json").find("\"error_estimate\""), std::string::npos);
-  write_case("method: explicit, pace: 5e-5, error: 20 %");
-  const Outcome slow = run_in(scratch_.path(), POLARGRAIN " run case.yaml -w 1 -o slow");
+  write_column({.steps = "method: explicit, pace: 5e-5, error: 20 %"});
+  const Outcome slow = run("slow", "-w 1");
   ASSERT_EQ(slow.status, 0) << slow.errors;
   EXPECT_EQ(slow.errors.find("explicit steps: estimated"), std::string::npos) << slow.errors;
   EXPECT_EQ(slow.errors.find("do not come to rest"), std::string::npos) << slow.errors;
   const auto median_of = [&](const std::string& name) {
-    std::vector<double> rows = CsvTable(scratch_.path() / name / "history.csv").numbers("error_estimate");
+    std::vector<double> rows = column(name, "error_estimate");
     std::ranges::sort(rows);
     return rows[rows.size() / 2];
   };
@@ -181,8 +130,9 @@ TEST_F(ExplicitRunTest, SayHowFarTheyWereFromEquilibrium) {
 
 // Stiff spheres, steps of many of their elastic strains: the remark names the way out. In explicit steps there is no such remark.
 TEST_F(ExplicitRunTest, IsProposedForSpheres) {
-  std::filesystem::copy(kSource / "cases/spheres/packing1000.csv", scratch_.path());
-  write_case("tolerance: 1e-2");
+  std::filesystem::copy(std::filesystem::path(POLARGRAIN_SOURCE_DIRECTORY) / "cases/spheres/packing1000.csv",
+                        scratch_.path());
+  write_column({.steps = "tolerance: 1e-2"});
   const std::filesystem::path file = scratch_.path() / "case.yaml";
   std::string text = content(file);
   for (const auto& [part, by] :
@@ -204,7 +154,7 @@ TEST_F(ExplicitRunTest, IsProposedForSpheres) {
 TEST_F(ExplicitRunTest, MistakesAreFaults) {
   const auto errors_of = [&](const std::string& steps, const std::string& material = "lc: 50 mm",
                              const std::string& model = "cell") {
-    write_case(steps, material, model);
+    write_column({.steps = steps, .model = model, .material = material});
     const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " check case.yaml");
     EXPECT_EQ(outcome.status, 2) << steps;
     return outcome.errors;

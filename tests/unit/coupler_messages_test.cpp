@@ -335,19 +335,18 @@ GoOn some_go_on(std::size_t boxes) {
 }
 
 ResidentReply some_answers(std::size_t boxes) {
-  ResidentReply m{23, 0.5, std::vector<ResidentAnswer>(boxes), {}};
+  ResidentReply m{23, 0.5, 2e-6, std::vector<ResidentAnswer>(boxes), {}};
   ResidentAnswer& last = m.answers.back();
   last.stress << -1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0;
   last.couple_stress << 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0;
   last.unbalanced_force_ratio = 19.0;
   last.coordination_number = 20.0;
-  last.time_step = 21.0;
   return m;
 }
 
 ResidentReply some_read_outs() {
   const CellReply reply = some_reply().cells[0];
-  return {24, 0.25, {}, {{reply, {}}, {reply, some_motion()}}};
+  return {24, 0.25, 0.0, {}, {{reply, {}}, {reply, some_motion()}}};
 }
 
 TEST(Messages, ResidentBoxesMoveIn) {
@@ -377,9 +376,10 @@ TEST(Messages, ResidentBoxesGoOn) {
   EXPECT_EQ(back.increments[999].rotation, sent.increments[999].rotation);
   EXPECT_EQ(back.increments[999].curvature, sent.increments[999].curvature);
   const ResidentReply answers = round_trip(some_answers(1000));
-  EXPECT_LT(encode(answers).size(), 1000 * 168 + 100u);
+  EXPECT_LT(encode(answers).size(), 1000 * 160 + 100u);
   EXPECT_EQ(answers.request, 23u);
   EXPECT_EQ(answers.seconds, 0.5);
+  EXPECT_EQ(answers.time_step, 2e-6);
   ASSERT_EQ(answers.answers.size(), 1000u);
   EXPECT_EQ(answers.answers[999].stress, some_answers(1).answers[0].stress);
   EXPECT_EQ(answers.answers[999].couple_stress, some_answers(1).answers[0].couple_stress);

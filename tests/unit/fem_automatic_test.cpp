@@ -149,6 +149,30 @@ TEST(automatic, goes_explicitly_through_what_cannot_be_balanced_and_back) {
   EXPECT_NEAR(solver.state().time, 1.0, 1e-12);
 }
 
+// The effort is a bound, whatever the step needs: cuts, jumps that are passed, or both.
+TEST(automatic, takes_no_more_iterations_than_its_effort) {
+  SolverOptions jumping = kCoarse;
+  jumping.most_jumps = 50;
+  int passed = 0;
+  for (const double jump_residual : {0.0, 10.0}) {
+    jumping.jump_residual = jump_residual;
+    for (const int effort : {1, 2, 3, 5, 8, 13, 40}) {
+      Solver<2> solver(biaxial(std::make_shared<Jumping>(1.0 * kPressure, 3.0 * kPressure)), jumping);
+      AutomaticOptions options = kOptions;
+      options.effort = effort;
+      std::vector<StepReport> reports{solver.begin_automatic(effort)};
+      for (int step = 1; step <= kSteps; ++step) {
+        reports.push_back(advance_automatic(solver, static_cast<double>(step) / kSteps, reports, options));
+        ASSERT_TRUE(reports.back().converged) << reports.back().message;
+        const bool explicitly = reports.back().explicit_steps > 0;
+        EXPECT_LE(explicitly ? reports.back().given_up : reports.back().iterations, effort) << step;
+        passed += reports.back().jumps;
+      }
+    }
+  }
+  EXPECT_GT(passed, 0);
+}
+
 // A start that iterations do not balance: what is out of balance comes in over the first explicit steps.
 TEST(automatic, begins_where_iterations_cannot) {
   // Half of the pressure at the sides is missing; points answer with jumps from the start on.

@@ -100,6 +100,19 @@ TEST_F(ResidentMaterialTest, AStepCannotBeTakenBack) {
   EXPECT_THROW(ResidentMaterial<2>(pool, 0, kCosserat, 0), RunError);
 }
 
+// In real time a step has as many DEM steps as last as long, and two at least.
+TEST_F(ResidentMaterialTest, DemStepsLastAsLongAsTheStep) {
+  Pool pool(options(2));
+  ResidentMaterial<2> sand = material(pool);
+  for (const auto& [seconds, dem_steps] : {std::pair{9.7e-6, 4}, {testing::kTimeStep, 2}}) {
+    sand.expect({.once = true, .seconds = seconds});
+    const std::int64_t before = pool.counts().dem_steps;
+    step(sand, 0);
+    EXPECT_EQ(pool.counts().dem_steps - before, static_cast<std::int64_t>(kPoints) * dem_steps);
+    sand.settle();
+  }
+}
+
 TEST_F(ResidentMaterialTest, AReadOutBringsDiagnosticsAndGrains) {
   Pool pool(options(2));
   ResidentMaterial<2> sand = material(pool);

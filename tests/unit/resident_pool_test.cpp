@@ -130,7 +130,8 @@ TEST_F(ResidentTest, AStepTakesOneMessageAWorker) {
   std::cout << "[figure] bytes a box and step: " << static_cast<double>(sent) / kBoxes << " sent, "
             << static_cast<double>(received) / kBoxes << " received\n";
   EXPECT_LT(sent, static_cast<std::int64_t>(kBoxes * 168 + 2 * 100));
-  EXPECT_LT(received, static_cast<std::int64_t>(kBoxes * 168 + 2 * 100));
+  EXPECT_LT(received, static_cast<std::int64_t>(kBoxes * 160 + 2 * 100));
+  EXPECT_EQ(team.time_step(), testing::kTimeStep);
 }
 
 TEST_F(ResidentTest, TwoDefinitionsKeepTheirBoxesApart) {

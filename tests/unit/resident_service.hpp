@@ -24,6 +24,7 @@ namespace polargrain::testing {
 inline constexpr double kRestStress = -100e3;  // Pa
 inline constexpr double kRestCoordination = 4.0;
 inline constexpr int kResidentGrains = 50;
+inline constexpr double kTimeStep = 2.5e-6;  ///< s, of their DEM
 
 /// Resident boxes with the arithmetic of a mass on a damped line: every DEM step, its order and every bit count. A
 /// read-out rounds the place to single precision. Behaves as its script says, words and values:
@@ -127,6 +128,7 @@ class LineBoxes final : public ResidentBoxes {
   }
 
   [[nodiscard]] std::size_t count() const override { return boxes_.size(); }
+  [[nodiscard]] double time_step() const override { return kTimeStep; }
 
  private:
   struct Box {
