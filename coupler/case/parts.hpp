@@ -91,6 +91,11 @@ void read_boundary_of_stage(const Entry& entry, const std::string& name, CasePar
 void read_body_of_stage(const Entry& entry, const std::string& name, CaseParts& parts);
 void read_initial_stress(const Entry& entry, CaseParts& parts);
 void read_steps(const Entry& entry, CaseParts& parts);
+/// The key start_from: checks the run there. To be called when materials, regions and steps are read.
+void read_start(Section& top, CaseParts& parts);
+void read_profiles(const Entry& entry, CaseParts& parts);
+/// A monitor with the key `at`: a place inside of the body.
+void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts);
 /// The list below steps.stages: adds to the plan, and to the problem what begins in its stages.
 void read_stages(const Entry& entry, CaseParts& parts);
 /// The count of a section, at most as many as a case may have in all. @param before steps of the plan so far

@@ -63,6 +63,8 @@ class Newton {
   /// The stage and the forces held back in it, for checkpoints.
   void save_stage(ArchiveWriter& archive) const;
   void restore_stage(ArchiveReader& archive);
+  /// From now on given displacements count from where the nodes are.
+  void count_supports_from_here();
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
   /// Largest force residual that the best iterate of the last attempt has; infinite without an iterate to commit.

@@ -74,6 +74,14 @@ void Newton<dim>::restore_stage(ArchiveReader& archive) {
   state.offsets = read("stage_offsets");
   state.shown_from = read("stage_shown_from");
   withheld_ = read("stage_withheld");
+  if (!problem.stages.empty() || state.offsets.size() > 0) enter_stage();
+}
+
+template <int dim>
+void Newton<dim>::count_supports_from_here() {
+  Eigen::VectorXd given = state.displacement;
+  constraints.apply(state.time, given);
+  state.offsets = state.displacement - given;
   enter_stage();
 }
 
@@ -81,9 +89,11 @@ template void Newton<2>::enter_stage();
 template void Newton<2>::begin_stage(int);
 template void Newton<2>::save_stage(ArchiveWriter&) const;
 template void Newton<2>::restore_stage(ArchiveReader&);
+template void Newton<2>::count_supports_from_here();
 template void Newton<3>::enter_stage();
 template void Newton<3>::begin_stage(int);
 template void Newton<3>::save_stage(ArchiveWriter&) const;
 template void Newton<3>::restore_stage(ArchiveReader&);
+template void Newton<3>::count_supports_from_here();
 
 }  // namespace polargrain::fem
