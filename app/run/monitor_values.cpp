@@ -36,7 +36,9 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
         value = coupler::value_of_structure(solver.problem(), monitor.structure, monitor.value);
         break;
       case coupler::Monitor::Kind::place:
-        value = values_at(solver, monitor.at, {monitor.component}).front();
+        value =
+            values_at(solver, fem::PlaceFinder<dim>(solver.problem().mesh), monitor.at, {monitor.component})
+                .front();
         break;
       case coupler::Monitor::Kind::formula:
         value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });

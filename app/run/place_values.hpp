@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "coupler/case/place_values.hpp"
+#include "fem/mesh/find_place.hpp"
 #include "fem/solver/solver.hpp"
 
 namespace polargrain::app {
 
-/// Values at a place of the body, in the order asked for; NaN outside of what is there. @param at m, on the mesh as it was made
+/// Values at a place of the body, in the order asked for; NaN outside of what is there. @param finder of its mesh @param at m, on the mesh as it was made
 template <int dim>
-std::vector<double> values_at(const fem::Solver<dim>& solver, const std::vector<double>& at,
-                              const std::vector<coupler::PlaceValue>& values);
+std::vector<double> values_at(const fem::Solver<dim>& solver, const fem::PlaceFinder<dim>& finder,
+                              const std::vector<double>& at, const std::vector<coupler::PlaceValue>& values);
 
 /// Writes a profile of the committed state as a table: distance, place and values, a row a point.
 /// @throws RunError when it cannot be written

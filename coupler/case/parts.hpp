@@ -60,6 +60,14 @@ struct CaseParts {
   std::vector<std::pair<std::string, const Entry*>> rigid_bodies = {};
   std::vector<std::pair<std::string, fem::Dof>> own_rotations = {};
 
+  /// What an interface, a beam or an anchor is made of, by its name: stages place and remove it.
+  struct Structure {
+    enum class Kind { interface, beam, anchor } kind;
+    std::vector<std::size_t> contributions = {};  ///< numbers in the problem
+    std::string along = {};  ///< of an interface: the beam that it lies along, with which it comes
+  };
+  std::map<std::string, Structure> structures = {};
+
   /// "a, b, c" of the keys of a map, for messages.
   template <class Map>
   static std::string names_of(const Map& map) {

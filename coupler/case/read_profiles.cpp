@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "coupler/case/parts.hpp"
 #include "fem/mesh/find_place.hpp"
@@ -17,13 +18,25 @@ std::vector<double> read_place(Section& section, const std::string& key, CasePar
                             Limit::any);
 }
 
-/// Whether some element has the place; true as long as there is no mesh to look at.
-bool is_inside(const std::vector<double>& at, const CaseParts& parts) {
-  if (!parts.has_mesh) return true;
-  if (parts.result.space)
-    return !fem::find_place<3>(parts.result.space->mesh, {at[0], at[1], at[2]}).elements.empty();
-  return !fem::find_place<2>(parts.result.problem.mesh, {at[0], at[1]}).elements.empty();
-}
+/// Tells whether some element has a place; yes as long as there is no mesh to look at.
+class Body {
+ public:
+  explicit Body(const CaseParts& parts) {
+    if (!parts.has_mesh) return;
+    if (parts.result.space)
+      space_.emplace(parts.result.space->mesh);
+    else
+      plane_.emplace(parts.result.problem.mesh);
+  }
+  [[nodiscard]] bool has(const std::vector<double>& at) const {
+    if (space_) return !space_->find({at[0], at[1], at[2]}).elements.empty();
+    return !plane_ || !plane_->find({at[0], at[1]}).elements.empty();
+  }
+
+ private:
+  std::optional<fem::PlaceFinder<2>> plane_;
+  std::optional<fem::PlaceFinder<3>> space_;
+};
 
 /// Evenly along a straight line, both ends included.
 std::vector<std::vector<double>> places_between(Section& section, CaseParts& parts) {
@@ -78,19 +91,20 @@ void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts) {
   const bool displacement = section.find("displacement") != nullptr;
   if (section.find("on") != nullptr) section.fault("on", "on: 'at' says where; keep one of them");
   if (stress == displacement) {
-    section.fault("at",
-                  section.name() + ": at: give 'displacement' or 'stress' with it, for example stress: s22");
+    section.fault("at", "at: give 'displacement' or 'stress' with it, for example stress: s22");
     return;
   }
   const std::string key = stress ? "stress" : "displacement";
   monitor.component = value_of(section, key, section.text(key, "the name of a component"), parts);
   if (!monitor.component.name.empty() && monitor.component.is_stress != stress)
     section.fault(key, fmt::format("{}: '{}' is no {}", key, monitor.component.name, key));
-  if (!is_inside(monitor.at, parts)) section.fault("at", "at: this place is outside of the body");
+  if (!Body(parts).has(monitor.at))
+    section.fault("at", "at: this place is outside of the body; give one inside, on the mesh as it is made");
 }
 
 void read_profiles(const Entry& entry, CaseParts& parts) {
   Section profiles(entry, "profiles", parts.faults);
+  const Body body(parts);
   for (const Entry::Member& member : entry.members) {
     profiles.find(member.key);
     Section section(member.value, fmt::format("profile '{}'", member.key), parts.faults);
@@ -109,8 +123,11 @@ void read_profiles(const Entry& entry, CaseParts& parts) {
     for (const std::string& name : section.words("values", "a list of components, for example [s22, u2]"))
       profile.values.push_back(value_of(section, "values", name, parts));
     section.finish();
-    if (std::ranges::none_of(profile.places, [&](const auto& place) { return is_inside(place, parts); }))
-      section.fault("from", section.name() + ": no point of this line lies in the body");
+    if (!profile.places.empty() &&
+        std::ranges::none_of(profile.places, [&](const auto& place) { return body.has(place); }))
+      section.fault("from", section.name() +
+                                ": no point of this line lies in the body; give 'from' and 'to' on the "
+                                "mesh as it is made");
     parts.result.profiles.push_back(profile);
   }
   profiles.finish();

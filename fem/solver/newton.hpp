@@ -149,6 +149,8 @@ class Newton {
   void evaluate(Iterate& iterate, StepReport& report);
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();
+  /// Lets the contributions of a stage come and go, from the state of the stage before.
+  void begin_contributions(int stage);
   /// Evaluates the contributions for a step from the committed state. @returns why one of them cannot
   [[nodiscard]] std::string contribute(double time, const Eigen::VectorXd& increment);
   void find_increments(const Eigen::VectorXd& displacement_increment);
