@@ -125,9 +125,9 @@ void read_profiles(const Entry& entry, CaseParts& parts) {
     section.finish();
     if (!profile.places.empty() &&
         std::ranges::none_of(profile.places, [&](const auto& place) { return body.has(place); }))
-      section.fault("from", section.name() +
-                                ": no point of this line lies in the body; give 'from' and 'to' on the "
-                                "mesh as it is made");
+      section.fault("from",
+                    "no point of this line lies in the body; give 'from' and 'to' on the "
+                    "mesh as it is made");
     parts.result.profiles.push_back(profile);
   }
   profiles.finish();
