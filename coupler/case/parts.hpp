@@ -60,7 +60,7 @@ struct CaseParts {
   std::vector<std::pair<std::string, const Entry*>> rigid_bodies = {};
   std::vector<std::pair<std::string, fem::Dof>> own_rotations = {};
 
-  /// What an interface, a beam or an anchor is made of, by its name: stages place and remove it.
+  /// The contributions of an interface, a beam or an anchor, by its name: stages place and remove it.
   struct Structure {
     enum class Kind { interface, beam, anchor } kind;
     std::vector<std::size_t> contributions = {};  ///< numbers in the problem

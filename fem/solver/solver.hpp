@@ -227,7 +227,7 @@ class Solver {
   StepReport redistribute();
   /// In place of equilibrate: begins with the state that an earlier run had at its end, also on another mesh. Displacements and
   /// micro-rotations come by the shape functions of the old elements, states by Material::take_over. Supports count from where
-  /// nodes are. What is out of balance then is let go as in redistribute; the report tells how far that moves.
+  /// nodes are. The imbalance is let go as in redistribute; the report tells how far that moves.
   /// @param end as save has written it @param regions_of_end names, in their order
   /// @throws RunError where a region of the problem is missing there, or a material cannot take its states over
   StartReport start_from(ArchiveReader& end, const std::vector<std::string>& regions_of_end);
