@@ -43,6 +43,10 @@ constexpr const char* kSlopeHead =
     "# of slope.geo: gmsh -2 slope.geo. Its physical groups are the names under regions and boundary.\n"
     "# SI units unless a unit is written. All keys: docs/user_guide.md\n";
 
+constexpr const char* kExcavationHead =
+    "# A pit behind an anchored sheet pile. Names of regions and lines are those of the mesh; each stage names its changes.\n"
+    "# SI units unless a unit is written. All keys: docs/user_guide.md\n";
+
 const std::vector<NewKind>& new_kinds() {
   static const std::vector<NewKind> kinds = [] {
     NewCase sparing;
@@ -69,6 +73,9 @@ const std::vector<NewKind>& new_kinds() {
         {"biaxial", "compression of grains between rough plates", with({"--size", "--elements", "--scheme"})},
         {"footing", "a strip footing pushed into ground of grains", with({"--scheme"}), sparing},
         {"slope", "a slope of an elastoplastic law, no grains: its weight, then a load on its crest", {}},
+        {"excavation",
+         "a pit behind an anchored sheet pile, dug in stages, in ground of a law, no grains",
+         {}},
         {"element", "a laboratory test of one box of grains, for polargrain element", with({})},
         {"triaxial", "a triaxial test of one box of spheres, for polargrain element", with({}), in_space},
         {"triaxial3d", "compression of a square column of spheres between rough plates, in space",
@@ -80,6 +87,11 @@ const std::vector<NewKind>& new_kinds() {
     };
   }();
   return kinds;
+}
+
+/// Whether it is a ready case of a law, without a packing.
+bool is_of_law(const NewKind& kind) {
+  return kind.name == "slope" || kind.name == "excavation";
 }
 
 /// Whether it is a test of one box of grains and no case.
@@ -107,6 +119,8 @@ void refuse_other_options(const NewKind& kind, const CLI::App& command) {
              "new {}: {} is not for this kind{}", kind.name, name,
              kind.name == "slope"
                  ? "; a slope begins without stress, boxes of grains under the pressure of their packing"
+             : is_of_law(kind)
+                 ? "; its ground begins with the stress of its depth, boxes of grains under one pressure"
                  : fmt::format("; it takes {}", fmt::join(kind.options, ", ")))});
   }
 }
@@ -175,6 +189,8 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
     files.front().text = kSlopeHead + files.front().text;
     return files;
   }
+  if (kind.name == "excavation")
+    return {{"case.yaml", kExcavationHead + brought_file("cases/excavation/case.yaml")}};
   std::vector<NewFile> files;
   if (kind.name == "biaxial") files.push_back({"case.yaml", biaxial_text(what)});
   if (is_test(kind)) files.push_back({"test.yaml", element_text(what)});
@@ -218,7 +234,7 @@ int write_new(const NewOptions& options, const CLI::App& command, const PackingT
   }
   tell(stdout, "{}: {}\n", options.directory.string(), names);
   const std::filesystem::path packing = options.directory / "packing.h5";
-  const bool has_packing = kind.name != "slope";
+  const bool has_packing = !is_of_law(kind);
   if (has_packing && !options.no_pack) {
     PackOptions packs;
     packs.specification_file = options.directory / "packing.yaml";

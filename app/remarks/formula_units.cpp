@@ -133,6 +133,11 @@ Powers powers_of(const coupler::Monitor& monitor, int dimension) {
     if (value == "lever" || value == "slip" || value == "gap") return {0, 1, 0};
     return dimension == 3 || value == "moment" ? Powers{1, 0, 0} : Powers{1, -1, 0};
   }
+  if (monitor.kind == coupler::Monitor::Kind::place) {
+    if (monitor.component.unit == "Pa") return {1, -2, 0};
+    if (monitor.component.unit == "N/m") return {1, -1, 0};
+    return monitor.component.unit == "m" ? Powers{0, 1, 0} : Powers{};
+  }
   const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};
   if (dimension == 3) return angle ? Powers{1, 1, 0} : Powers{1, 0, 0};

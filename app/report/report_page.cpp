@@ -11,6 +11,7 @@
 #include "app/report/followed.hpp"
 #include "app/report/log_notes.hpp"
 #include "app/report/pictures.hpp"
+#include "app/report/profiles.hpp"
 #include "app/report/report_remarks.hpp"
 #include "app/run/progress.hpp"
 #include "app/run/proof.hpp"
@@ -460,6 +461,13 @@ std::string report_page(const std::vector<RunResult>& results, const ReportConte
   body +=
       "<h2>Curves</h2>\n<p>Drawing a rectangle with the mouse enlarges it, a double click shows all again.</p>\n" +
       curves(results, x);
+  std::string profiles;
+  for (const RunResult& result : results) {
+    const std::string of_run = profiles_section(result);
+    if (!of_run.empty())
+      profiles += (results.size() > 1 ? "<p>" + escaped(result.name) + "</p>\n" : "") + of_run;
+  }
+  if (!profiles.empty()) body += "<h2>Profiles</h2>\n" + profiles;
   std::string meshes;
   for (const MeshPicture& picture : pictures)
     if (!picture.frames.empty() && !picture.fields.empty()) meshes += mesh_picture(picture);

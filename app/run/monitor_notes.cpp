@@ -27,6 +27,8 @@ std::string unit_of(const Monitor& monitor, const std::map<std::string, std::str
       const Powers powers = powers_of(monitor, dimension);
       return powers == Powers{} ? "" : text_of(powers);
     }
+    case Monitor::Kind::place:
+      return monitor.component.unit;
     case Monitor::Kind::formula:
       break;
   }
@@ -42,6 +44,8 @@ std::string kind_of(const Monitor& monitor) {
       return "displacement";
     case Monitor::Kind::structure:
       return "structure";
+    case Monitor::Kind::place:
+      return monitor.component.is_stress ? "stress" : "displacement";
     case Monitor::Kind::formula:
       break;
   }

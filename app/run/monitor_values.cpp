@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/run/place_values.hpp"
 #include "common/error.hpp"
 #include "coupler/case/structure_values.hpp"
 
@@ -33,6 +34,11 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
         break;
       case coupler::Monitor::Kind::structure:
         value = coupler::value_of_structure(solver.problem(), monitor.structure, monitor.value);
+        break;
+      case coupler::Monitor::Kind::place:
+        value =
+            values_at(solver, fem::PlaceFinder<dim>(solver.problem().mesh), monitor.at, {monitor.component})
+                .front();
         break;
       case coupler::Monitor::Kind::formula:
         value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });

@@ -22,6 +22,7 @@
 #include "app/run/run_remarks.hpp"
 #include "app/run/sample.hpp"
 #include "app/run/soft_contacts.hpp"
+#include "app/run/start_text.hpp"
 #include "app/run/take_step.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
@@ -206,9 +207,30 @@ class Run {
   }
 
   fem::StepReport begin() {
+    if (!case_.start_from.empty()) return start_from(case_.start_from);
     if (case_.real_time) return solver_->begin_real_time(case_.explicit_options);
     if (case_.is_automatic()) return solver_->begin_automatic(case_.effort, case_.explicit_options);
     return case_.is_explicit() ? solver_->begin_explicit() : solver_->equilibrate();
+  }
+
+  /// Begins where another run has ended.
+  fem::StepReport start_from(const std::filesystem::path& directory) {
+    const std::filesystem::path file = directory / kCheckpointFile;
+    coupler::Checkpoint end = coupler::read_checkpoint(file);
+    log_.info("starting from step {} of {}", end.step, directory.string());
+    try {
+      PrefixedReader state(end.state, "solver/");
+      const fem::StartReport start = solver_->start_from(state, coupler::regions_of(end.identity));
+      log_.info("{}", text_of(start));
+      if (start.outside > 0)
+        warn(fmt::format(
+            "{} points lie outside of their region in {}: they took the state of the nearest point, at "
+            "most {:.3g} m away",
+            start.outside, directory.string(), start.farthest));
+      return start.step;
+    } catch (const RunError& error) {
+      throw RunError(fmt::format("{} cannot be started from: {}", file.string(), error.what()));
+    }
   }
 
   fem::StepReport take(const coupler::StepTarget& target) {
@@ -286,8 +308,8 @@ class Run {
     save(totals, record_.costs, record_.pool);
     PrefixedWriter state(checkpoint->state, "solver/");
     try {
-      // Nothing will follow the last step.
-      if (step < case_.steps()) solver_->save(state);
+      // Of the last step too: another run may start from it.
+      solver_->save(state);
       checkpoints_.keep(std::move(checkpoint));
     } catch (const RunError& error) {
       if (step == 0) warn(fmt::format("this run cannot be interrupted without loss: {}", error.what()));

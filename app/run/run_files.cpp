@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "app/run/place_values.hpp"
 #include "app/run/structure_files.hpp"
 #include "common/cell.hpp"
 #include "common/error.hpp"
@@ -180,6 +181,9 @@ void RunFiles::write_fields(int step, const fem::Solver<dim>& solver) {
   fem::write_vtu(directory_ / fields_file(step), solver.problem().mesh, fields);
   collection_.add(solver.state().time, fields_file(step));
   write_structures(directory_ / "fields", step, solver);
+  if (!case_.profiles.empty()) std::filesystem::create_directory(directory_ / "profiles", error);
+  for (const coupler::Profile& profile : case_.profiles)
+    write_profile(directory_ / "profiles" / fmt::format("{}-{:05}.csv", profile.name, step), profile, solver);
   if (!case_.output_points) return;
   fem::PlacedFields at_points = fem::collect_point_fields(solver);
   name_units(at_points.fields);

@@ -90,6 +90,11 @@ class StrengthReduction {
   }
 
   void take_steps() {
+    if (!case_.start_from.empty())
+      throw InputError(
+          {case_.file.string(), 0,
+           "start_from: the factor of safety begins with a start of its own; give initial_stress, and the "
+           "stages that lead here"});
     const std::unique_ptr<fem::Solver<dim>> solver = solver_at(1.0);
     const int last = last_step();
     for (int step = 0; step <= last; ++step) {

@@ -11,6 +11,7 @@
 #include "coupler/case/case_identity.hpp"
 #include "coupler/case/expression.hpp"
 #include "coupler/case/material_model.hpp"
+#include "coupler/case/place_values.hpp"
 #include "coupler/pool/patience.hpp"
 #include "fem/solver/problem.hpp"
 #include "fem/solver/solver.hpp"
@@ -19,15 +20,17 @@ namespace polargrain::coupler {
 
 /// A value that is followed through a run: measured on the mesh, or computed from others by a formula.
 struct Monitor {
-  enum class Kind { reaction, displacement, structure, formula };
+  enum class Kind { reaction, displacement, structure, place, formula };
   std::string name;
   Kind kind = Kind::formula;
   std::vector<std::string>
-      on;  ///< boundaries and node sets, a node of several counts once; not of structures and formulas
-  fem::Dof dof = fem::Dof::u1;  ///< not of a formula
+      on;  ///< boundaries and node sets, a node of several counts once; of reaction and displacement
+  fem::Dof dof = fem::Dof::u1;  ///< of reaction and displacement
   /// An interface, beam or anchor, and which of its values: "wall", "moment".
   std::string structure = {};
   std::string value = {};
+  std::vector<double> at = {};        ///< of a place: where, m
+  PlaceValue component = {};          ///< of a place: which value
   std::optional<Expression> formula;  ///< of names that stand before it, and of built_in_values()
 };
 
@@ -81,6 +84,9 @@ struct Case {
   bool rate_follows = false;     ///< the rate of explicit steps, so that explicit_error holds
   double explicit_error = 0.02;  ///< error of the reactions that is allowed in explicit steps
   std::vector<Monitor> monitors;
+  std::vector<Profile> profiles;
+  std::filesystem::path
+      start_from;  ///< result directory of the run whose end this one starts from; empty: none
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
   bool output_points = true;       ///< whether there is one of the integration points beside each

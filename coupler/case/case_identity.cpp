@@ -57,6 +57,14 @@ CaseIdentity identity_of(const Entry& document, const std::filesystem::path& dir
   return identity;
 }
 
+std::vector<std::string> regions_of(const CaseIdentity& identity) {
+  const std::string prefix = "regions.";
+  std::vector<std::string> names;
+  for (const auto& [key, value] : identity.values)
+    if (key.starts_with(prefix)) names.push_back(key.substr(prefix.size()));
+  return names;
+}
+
 std::vector<std::string> differences(const CaseIdentity& before, const CaseIdentity& now) {
   std::map<std::string, std::string> all = before.values;
   all.insert(now.values.begin(), now.values.end());

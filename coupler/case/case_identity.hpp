@@ -19,6 +19,9 @@ struct CaseIdentity {
 /// @param directory where the files of the case are looked for (data_files.hpp)
 CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory);
 
+/// Names of the regions of a case, in their order.
+std::vector<std::string> regions_of(const CaseIdentity& identity);
+
 /// The differences, one line each, keys by name; empty when a run of one case may go on as the other. Values
 /// that no result depends on (title, columns of the table, how often checkpoints are written) may differ.
 std::vector<std::string> differences(const CaseIdentity& before, const CaseIdentity& now);

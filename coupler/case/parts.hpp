@@ -60,6 +60,14 @@ struct CaseParts {
   std::vector<std::pair<std::string, const Entry*>> rigid_bodies = {};
   std::vector<std::pair<std::string, fem::Dof>> own_rotations = {};
 
+  /// The contributions of an interface, a beam or an anchor, by its name: stages place and remove it.
+  struct Structure {
+    enum class Kind { interface, beam, anchor } kind;
+    std::vector<std::size_t> contributions = {};  ///< numbers in the problem
+    std::string along = {};  ///< of an interface: the beam that it lies along, with which it comes
+  };
+  std::map<std::string, Structure> structures = {};
+
   /// "a, b, c" of the keys of a map, for messages.
   template <class Map>
   static std::string names_of(const Map& map) {
@@ -91,6 +99,11 @@ void read_boundary_of_stage(const Entry& entry, const std::string& name, CasePar
 void read_body_of_stage(const Entry& entry, const std::string& name, CaseParts& parts);
 void read_initial_stress(const Entry& entry, CaseParts& parts);
 void read_steps(const Entry& entry, CaseParts& parts);
+/// The key start_from: checks the run there. To be called when materials, regions and steps are read.
+void read_start(Section& top, CaseParts& parts);
+void read_profiles(const Entry& entry, CaseParts& parts);
+/// A monitor with the key `at`: a place inside of the body.
+void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts);
 /// The list below steps.stages: adds to the plan, and to the problem what begins in its stages.
 void read_stages(const Entry& entry, CaseParts& parts);
 /// The count of a section, at most as many as a case may have in all. @param before steps of the plan so far

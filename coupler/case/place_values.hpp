@@ -20,19 +20,11 @@ const PlaceValue* place_value(const std::string& name, int dimension);
 /// Their names, for messages.
 std::vector<std::string> names_of_place_values(int dimension);
 
-/// Values along a straight line, written beside the fields.
+/// Values along a line, written beside the fields.
 struct Profile {
   std::string name;
-  std::vector<double> from, to;  ///< m, on the mesh as it was made
-  int points = 0;                ///< both ends included
+  std::vector<std::vector<double>> places;  ///< one behind the other, m, on the mesh as it was made
   std::vector<PlaceValue> values;
-
-  /// Place of a point of the line, the first is 0.
-  [[nodiscard]] std::vector<double> place(int point) const {
-    std::vector<double> x = from;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += (to[i] - from[i]) * point / (points - 1);
-    return x;
-  }
 };
 
 }  // namespace polargrain::coupler

@@ -54,7 +54,9 @@ class CaseReader {
     }
     if (const Entry* entry = top.require("steps", "a map with at least 'count'")) read_steps(*entry, parts_);
     give_densities();
+    if (top.find("start_from") != nullptr) read_start(top, parts_);
     if (const Entry* entry = top.find("monitors")) read_monitors(*entry);
+    if (const Entry* entry = top.find("profiles")) read_profiles(*entry, parts_);
     if (const Entry* entry = top.find("output")) read_output(*entry);
     if (const Entry* entry = top.find("workers")) read_workers(*entry);
     top.finish();
@@ -228,6 +230,11 @@ class CaseReader {
   void read_measurement(const Entry& entry, Monitor& monitor) {
     Section section(entry, fmt::format("monitor '{}'", monitor.name), faults_);
     if (read_structure_monitor(section, parts_, monitor)) return;
+    if (section.find("at") != nullptr) {
+      read_place_monitor(section, monitor, parts_);
+      section.finish();
+      return;
+    }
     const std::vector<std::string> on =
         section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string_view>
 
 #include "coupler/case/parts.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 
 /// Keys of a stage before which something comes, goes, begins or ends.
 constexpr std::array kBuild{"place", "remove", "boundary", "body", "end"};
+constexpr std::string_view kRemove = "remove";
 
 const Entry* stages_of(const Entry& document) {
   const Entry* const steps = document.find("steps");
@@ -65,6 +68,7 @@ class StagesReader {
   void read() {
     if (are_named_) problem_stages() = {"start"};
     for (std::size_t k = 0; k < list_.items.size(); ++k) read_stage(list_.items[k], k);
+    place_interfaces_with_beams();
     parts_.now = {};
   }
 
@@ -160,18 +164,39 @@ class StagesReader {
 
   void read_regions(Section& stage) {
     parts_.result.with_problem([&](auto& problem) {
-      const auto for_each_region = [&](const char* key, auto visit) {
+      const auto for_each_part = [&](std::string_view name, auto visit) {
+        const std::string key(name);
         if (stage.find(key) == nullptr) return;
-        for (const std::string& region : stage.words(key, "the name of a region, or a list of them")) {
-          if (parts_.has_mesh && !problem.mesh.regions.contains(region)) {
-            stage.fault(key, fmt::format("{}: the mesh has no region '{}'; it has {}", key, region,
-                                         CaseParts::names_of(problem.mesh.regions)));
+        for (const std::string& part :
+             stage.words(key, "the name of a region, beam, interface or anchor, or a list of them")) {
+          if (const auto structure = parts_.structures.find(part); structure != parts_.structures.end()) {
+            named_.insert(part);
+            if (structure->second.kind == CaseParts::Structure::Kind::interface && key == kRemove) {
+              stage.fault(
+                  key, fmt::format("{}: '{}' is an interface, which goes with the ground beside it; leave it "
+                                   "out",
+                                   key, part));
+              continue;
+            }
+            fem::Lifetime life = life_of(problem, structure->second);
+            visit(part, life);
+            for (const std::size_t number : structure->second.contributions)
+              problem.contributions[number]->life = life;
             continue;
           }
-          visit(region, problem.lifetimes[region]);
+          if (parts_.has_mesh && !problem.mesh.regions.contains(part)) {
+            stage.fault(key,
+                        fmt::format("{}: the mesh has no region '{}'; it has {}{}", key, part,
+                                    CaseParts::names_of(problem.mesh.regions),
+                                    parts_.structures.empty() ? ""
+                                                              : "; beams, interfaces and anchors are " +
+                                                                    CaseParts::names_of(parts_.structures)));
+            continue;
+          }
+          visit(part, problem.lifetimes[part]);
         }
       };
-      for_each_region("place", [&](const std::string& region, fem::Lifetime& life) {
+      for_each_part("place", [&](const std::string& region, fem::Lifetime& life) {
         if (life.end <= number_) {
           stage.fault(
               "place",
@@ -183,7 +208,7 @@ class StagesReader {
         }
         life.begin = number_;
       });
-      for_each_region("remove", [&](const std::string& region, fem::Lifetime& life) {
+      for_each_part(kRemove, [&](const std::string& region, fem::Lifetime& life) {
         if (life.end <= number_)
           stage.fault("remove",
                       fmt::format("remove: '{}' was removed in an earlier stage, or in this one", region));
@@ -191,6 +216,23 @@ class StagesReader {
           stage.fault("remove", fmt::format("remove: '{}' is placed in this stage", region));
         life.end = number_;
       });
+    });
+  }
+
+  template <class Problem>
+  static fem::Lifetime life_of(const Problem& problem, const CaseParts::Structure& structure) {
+    return problem.contributions[structure.contributions.front()]->life;
+  }
+
+  /// An interface along a beam comes with it where no stage says otherwise.
+  void place_interfaces_with_beams() {
+    parts_.result.with_problem([&](auto& problem) {
+      for (const auto& [name, structure] : parts_.structures) {
+        if (structure.along.empty() || named_.contains(name)) continue;
+        const fem::Lifetime beam = life_of(problem, parts_.structures.at(structure.along));
+        for (const std::size_t number : structure.contributions)
+          problem.contributions[number]->life.begin = beam.begin;
+      }
     });
   }
 
@@ -216,7 +258,8 @@ class StagesReader {
   CaseParts& parts_;
   bool are_named_;
   double time_ = 0.0;
-  int number_ = 0;  ///< of the problem's stage
+  int number_ = 0;               ///< of the problem's stage
+  std::set<std::string> named_;  ///< structures that a stage places or removes
 };
 
 }  // namespace

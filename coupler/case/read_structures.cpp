@@ -289,9 +289,19 @@ class StructuresReader {
         for (const int node : faces[f]) element.rotations.push_back(places.entry(0, node));
       }
     }
-    if constexpr (dim == 2)
+    if constexpr (dim == 2) {
+      add_structure(curve.beam->name, CaseParts::Structure::Kind::beam);
       problem_.contributions.push_back(std::make_shared<fem::Beam>(problem_.mesh, curve.beam->name,
                                                                    curve.beam->section, std::move(elements)));
+    }
+  }
+
+  /// Of the contribution that comes next.
+  void add_structure(const std::string& name, CaseParts::Structure::Kind kind,
+                     const std::string& along = {}) {
+    CaseParts::Structure& one =
+        parts_.structures.try_emplace(name, CaseParts::Structure{kind, {}, along}).first->second;
+    one.contributions.push_back(problem_.contributions.size());
   }
 
   void check_clamped() {
@@ -331,10 +341,17 @@ class StructuresReader {
       second.push_back(std::move(other));
     }
     fem::InterfaceSettings settings = here.settings;
+    settings.parts_ground = curve.faces.front().second.has_value();
+    for (const fem::TwoSidedFace<dim>& face : curve.faces)
+      for (std::size_t a = 0; a < face.second_nodes.size(); ++a)
+        if (face.first_nodes[a] == face.second_nodes[a]) settings.single_nodes.insert(face.first_nodes[a]);
+    const std::string along = curve.beam ? curve.beam->name : "";
+    add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
     if (!second.empty()) settings.name = here.settings.name + " " + side_of(first);
     add_interface(settings, std::move(first));
     if (second.empty()) return;
     settings.name = here.settings.name + " " + side_of(second);
+    add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
     add_interface(settings, std::move(second));
   }
 
@@ -424,7 +441,9 @@ class StructuresReader {
       section.fault("prestress", "prestress: must not be beyond the strength");
     if (!parts_.has_mesh || parts_.faults.size() > faults_before) return;
     try {
-      problem_.contributions.push_back(std::make_shared<fem::Anchor<dim>>(problem_.mesh, settings));
+      auto anchor = std::make_shared<fem::Anchor<dim>>(problem_.mesh, settings);
+      add_structure(name, CaseParts::Structure::Kind::anchor);
+      problem_.contributions.push_back(std::move(anchor));
     } catch (const RunError& error) {
       section.fault("to", fmt::format("to: {}", error.what()));
     }

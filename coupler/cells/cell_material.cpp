@@ -95,6 +95,16 @@ void CellMaterial<dim>::restore(ArchiveReader& archive) {
 }
 
 template <int dim>
+fem::TakenOver CellMaterial<dim>::take_over(ArchiveReader& archive, std::size_t count,
+                                            std::span<const fem::PointMean> means) {
+  const std::vector<PointState> theirs = read_records<PointState>(archive, "points", count);
+  for (std::size_t point = 0; point < committed_.size(); ++point)
+    committed_[point] = theirs[means[point].nearest];
+  trial_ = committed_;
+  return {.from_nearest = committed_.size()};
+}
+
+template <int dim>
 std::vector<std::string> CellMaterial<dim>::field_names() const {
   return names_of_cell_fields(cosserat_.has_value());
 }

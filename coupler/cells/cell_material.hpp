@@ -39,6 +39,9 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
   void revert() override { trial_ = committed_; }
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
+  /// A box is whole: each point takes that of the nearest one.
+  fem::TakenOver take_over(ArchiveReader& archive, std::size_t count,
+                           std::span<const fem::PointMean> means) override;
 
   /// The diagnostics of the cell (docs/file_formats.md), parted, and with free rotations skew_mobilisation and couple_mobilisation.
   [[nodiscard]] double moment_length() const override { return 2.0 * mean_radius_; }

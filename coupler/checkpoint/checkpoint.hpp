@@ -16,7 +16,7 @@ struct Checkpoint {
   int step = 0;         ///< the last step taken
   std::string history;  ///< history.csv up to that step
   std::string costs;    ///< costs.csv up to that step
-  MemoryArchive state;  ///< of the solver and the materials; empty when the step was the last of the run
+  MemoryArchive state;  ///< of the solver and the materials
 };
 
 /// Where the checkpoint before the one in `file` is kept: `checkpoint.before.h5` beside `checkpoint.h5`.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "common/error.hpp"
 #include "fem/element/dofs.hpp"
@@ -44,7 +45,18 @@ void Anchor<dim>::allocate() {
 }
 
 template <int dim>
+void Anchor<dim>::begin_stage(const StageBegin<dim>& now) {
+  const bool before = std::exchange(active_, this->life.holds(now.stage));
+  if (before == active_) return;
+  allocate();
+  if (!active_) return;
+  committed_plastic_ = elongation_of_.dot(now.nodal(entries_));
+  revert();
+}
+
+template <int dim>
 std::string Anchor<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
+  if (!active_) return {};
   const double elongation = elongation_of_.dot(step.end(entries_));
   const double stiffness = settings_.axial_stiffness / length_;
   const double trial = settings_.prestress + stiffness * (elongation - committed_plastic_);
@@ -65,6 +77,7 @@ Eigen::MatrixXd Anchor<dim>::tangent(std::size_t) const {
 
 template <int dim>
 void Anchor<dim>::commit() {
+  if (!active_) return;
   committed_plastic_ = plastic_;
   committed_force_ = force_;
 }
@@ -99,6 +112,22 @@ template <int dim>
 std::vector<std::string> Anchor<dim>::faults(const Problem<dim>& problem) const {
   if (problem.deformation == Deformation::large)
     return {"anchors are of small deformation; set 'deformation: small'"};
+  return {};
+}
+
+// Its ends need something to hold on to: an element, a beam or a rigid body.
+template <int dim>
+std::vector<std::string> Anchor<dim>::faults_of_stage(const Problem<dim>& problem, int stage) const {
+  const std::vector<char> of_mesh = nodes_of_elements(problem.mesh, {});
+  const std::vector<char> left = nodes_of_elements(problem.mesh, elements_in_stage(problem, stage));
+  for (const int node : {settings_.from, settings_.to.value_or(settings_.from)}) {
+    const auto number = static_cast<std::size_t>(node);
+    if (of_mesh[number] == 0 || left[number] != 0) continue;
+    return {fmt::format(
+        "{} ends at {}, where the ground is not there; 'remove' the anchor too, or 'place' it behind "
+        "that ground",
+        name(), place_text<dim>(problem.mesh.nodes[number]))};
+  }
   return {};
 }
 

@@ -18,8 +18,8 @@ struct AnchorSettings {
   std::optional<int> to = {};                                          ///< node
   typename Cosserat<dim>::Place fixed = Cosserat<dim>::Place::Zero();  ///< its other end without `to`, m
   double axial_stiffness;                                              ///< EA, N, positive
-  double prestress = 0.0;                  ///< force at the start, N, tension positive
-  double strength = HUGE_VAL;              ///< force at which it yields in tension, N
+  double prestress = 0.0;      ///< force at the start, or when a stage places it, N, tension positive
+  double strength = HUGE_VAL;  ///< force at which it yields in tension, N
   double compressive_strength = HUGE_VAL;  ///< the same in compression, positive; 0: a rope
 };
 
@@ -34,6 +34,10 @@ class Anchor : public Contribution<dim> {
   [[nodiscard]] std::size_t elements() const override { return 1; }
   [[nodiscard]] const std::vector<int>& entries(std::size_t) const override { return entries_; }
   void allocate() override;
+  [[nodiscard]] bool takes_stages() const override { return true; }
+  void set_stage(int stage, const std::vector<char>&) override { active_ = this->life.holds(stage); }
+  void begin_stage(const StageBegin<dim>& now) override;
+  [[nodiscard]] bool is_active(std::size_t) const override { return active_; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t) const override;
   void commit() override;
@@ -42,20 +46,23 @@ class Anchor : public Contribution<dim> {
   void restore(ArchiveReader& archive) override;
   [[nodiscard]] std::vector<std::pair<int, int>> joined_nodes() const override;
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
+  [[nodiscard]] std::vector<std::string> faults_of_stage(const Problem<dim>& problem,
+                                                         int stage) const override;
 
   /// N, tension positive, as committed.
-  [[nodiscard]] double force() const { return committed_force_; }
+  [[nodiscard]] double force() const { return active_ ? committed_force_ : 0.0; }
 
  private:
   AnchorSettings<dim> settings_;
   std::vector<int> entries_;
   Eigen::VectorXd elongation_of_;  ///< elongation per value of the entries
   double length_;
-  double committed_plastic_ = 0.0;  ///< elongation that yielding has left, m
+  double committed_plastic_ = 0.0;  ///< elongation that yielding has left, or that was there when it came, m
   double committed_force_;
   double plastic_ = 0.0;
   double force_;
   bool yields_ = false;
+  bool active_ = true;  ///< in the stage
 };
 
 }  // namespace polargrain::fem

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/error.hpp"
 #include "fem/element/dofs.hpp"
 #include "fem/element/quadrature.hpp"
@@ -66,12 +68,23 @@ void Beam::allocate() {
     for (Point& point : part.points) point.plastic_curvature = 0.0;
     part.forces.setZero();
     part.committed_forces.setZero();
+    part.born.resize(0);
   }
 }
 
+void Beam::begin_stage(const StageBegin<2>& now) {
+  const bool before = std::exchange(active_, this->life.holds(now.stage));
+  if (before == active_) return;
+  allocate();
+  if (!active_) return;
+  for (Part& part : parts_) part.born = now.nodal(part.entries);
+}
+
 std::string Beam::evaluate(const NodalStep& step, NodalForces& forces) {
+  if (!active_) return {};
   for (Part& part : parts_) {
-    const Eigen::VectorXd values = step.end(part.entries);
+    Eigen::VectorXd values = step.end(part.entries);
+    if (part.born.size() > 0) values -= part.born;
     part.forces.setZero();
     for (Point& point : part.points) {
       point.answer = respond(section_, point.plastic_curvature, point.strain_of * values);
@@ -93,6 +106,7 @@ Eigen::MatrixXd Beam::tangent(std::size_t e) const {
 }
 
 void Beam::commit() {
+  if (!active_) return;
   for (Part& part : parts_) {
     for (Point& point : part.points) point.plastic_curvature = point.answer.plastic_curvature;
     part.committed_forces = part.forces;
@@ -110,6 +124,9 @@ void Beam::save(ArchiveWriter& archive) const {
     values.insert(values.end(), part.committed_forces.begin(), part.committed_forces.end());
   }
   archive.write("beam", std::span<const double>(values));
+  std::vector<double> born;
+  for (const Part& part : parts_) born.insert(born.end(), part.born.begin(), part.born.end());
+  archive.write("born", std::span<const double>(born));
 }
 
 void Beam::restore(ArchiveReader& archive) {
@@ -121,6 +138,16 @@ void Beam::restore(ArchiveReader& archive) {
   for (Part& part : parts_) {
     for (Point& point : part.points) point.plastic_curvature = *value++;
     for (double& force : part.committed_forces) force = *value++;
+  }
+  const std::vector<double> born = archive.doubles("born");
+  std::size_t entries = 0;
+  for (const Part& part : parts_) entries += part.entries.size();
+  if (!born.empty() && born.size() != entries)
+    throw RunError(fmt::format("{}: the checkpoint is of another beam", name()));
+  auto at = born.begin();
+  for (Part& part : parts_) {
+    part.born.resize(born.empty() ? 0 : static_cast<Eigen::Index>(part.entries.size()));
+    for (double& x : part.born) x = *at++;
   }
   revert();
 }
@@ -141,6 +168,7 @@ std::vector<std::string> Beam::faults(const Problem<2>& problem) const {
 
 std::vector<BeamResult> Beam::results() const {
   std::vector<BeamResult> all;
+  if (!active_) return all;
   double along = 0.0;
   for (const Part& part : parts_) {
     const auto nodes = static_cast<Eigen::Index>(part.element.nodes.size());

@@ -32,7 +32,7 @@ struct BeamResult {
 
 /// A wall, plate or lining of the plane: Timoshenko beams with a rotation of their own (a nodal field), small deformation.
 /// Displacement and rotation are quadratic on sides with a middle node (2 points) and linear on others (1 point), as in the
-/// ground, so that nothing locks. The forces at nodes come from the nodal forces of elements: the points would miss the peak
+/// ground, so that nothing locks. A beam that a stage places is free of forces as it is then. The forces at nodes come from the nodal forces of elements: the points would miss the peak
 /// below a concentrated load.
 class Beam : public Contribution<2> {
  public:
@@ -43,6 +43,10 @@ class Beam : public Contribution<2> {
   [[nodiscard]] std::size_t elements() const override { return parts_.size(); }
   [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return parts_[e].entries; }
   void allocate() override;
+  [[nodiscard]] bool takes_stages() const override { return true; }
+  void set_stage(int stage, const std::vector<char>&) override { active_ = this->life.holds(stage); }
+  void begin_stage(const StageBegin<2>& now) override;
+  [[nodiscard]] bool is_active(std::size_t) const override { return active_; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
   void commit() override;
@@ -73,11 +77,13 @@ class Beam : public Contribution<2> {
     double length = 0.0;
     Eigen::VectorXd forces;  ///< of the last evaluation
     Eigen::VectorXd committed_forces;
+    Eigen::VectorXd born;  ///< values of the entries at which it has no forces; empty: zero
   };
 
   std::string name_;
   BeamSection section_;
   std::vector<Part> parts_;
+  bool active_ = true;  ///< in the stage
 };
 
 }  // namespace polargrain::fem

@@ -117,12 +117,14 @@ void Interface<dim>::set_stiffness(Element& element, double stiffness) {
 template <int dim>
 void Interface<dim>::learn(const Discretisation<dim>& discretisation,
                            std::span<const Response<dim>> committed) {
-  const bool sets_stiffness = !knows_stiffness_ && (settings_.parameters.normal_stiffness <= 0.0 ||
-                                                    settings_.parameters.shear_stiffness <= 0.0);
+  const bool sets_stiffness =
+      settings_.parameters.normal_stiffness <= 0.0 || settings_.parameters.shear_stiffness <= 0.0;
   double least = HUGE_VAL;
   double largest = 0.0;
   for (Element& element : elements_) {
-    if (sets_stiffness) {
+    if (!element.active) continue;
+    if (sets_stiffness && !element.knows_stiffness) {
+      element.knows_stiffness = true;
       double area = 0.0;
       for (const Point& point : element.points) area += point.geometry.area;
       double stiffness = 0.0;
@@ -147,41 +149,43 @@ void Interface<dim>::learn(const Discretisation<dim>& discretisation,
       point.parameters.tan_dilation = std::min(settings_.parameters.tan_dilation, friction);
     }
   }
-  if (sets_stiffness)
+  if (largest > 0.0)
     notes_.push_back(
         fmt::format("{}: stiffness not given is {:.3g} to {:.3g} Pa/m, {:.0f} times that of the "
                     "elements beside it",
                     name(), least, largest, kStiffnessRatio));
-  knows_stiffness_ = true;
 }
 
 template <int dim>
 void Interface<dim>::allocate() {
   for (Element& element : elements_) {
-    for (Point& point : element.points) {
-      point.committed = {};
-      point.jump = point.committed_jump = FaceVector<dim>::Zero();
-      point.answer = {FaceVector<dim>::Zero(), Eigen::Matrix<double, dim, dim>::Zero(), Contact::sticks, {}};
-      point.committed_answer = point.answer;
-    }
+    element.knows_stiffness = false;
+    for (Point& point : element.points) forget(point);
   }
-  knows_stiffness_ = told_slip_ = false;
+  told_slip_ = false;
   notes_.clear();
+}
+
+template <int dim>
+FaceVector<dim> Interface<dim>::jump_at(const Element& element, const Point& point,
+                                        const Eigen::VectorXd& values) {
+  const auto nodes = static_cast<int>(element.face.nodes_a.size());
+  typename Cosserat<dim>::Place jump = Cosserat<dim>::Place::Zero();
+  for (int a = 0; a < nodes; ++a)
+    for (int i = 0; i < dim; ++i)
+      jump(i) +=
+          point.geometry.shape(a) * (values(element.places[static_cast<std::size_t>(dim * (nodes + a) + i)]) -
+                                     values(element.places[static_cast<std::size_t>(dim * a + i)]));
+  return point.geometry.axes * jump;
 }
 
 template <int dim>
 std::string Interface<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   for (Element& element : elements_) {
+    if (!element.active) continue;
     const Eigen::VectorXd values = step.end(element.entries);
-    const auto nodes = static_cast<int>(element.face.nodes_a.size());
     for (Point& point : element.points) {
-      typename Cosserat<dim>::Place jump = Cosserat<dim>::Place::Zero();
-      for (int a = 0; a < nodes; ++a)
-        for (int i = 0; i < dim; ++i)
-          jump(i) += point.geometry.shape(a) *
-                     (values(element.places[static_cast<std::size_t>(dim * (nodes + a) + i)]) -
-                      values(element.places[static_cast<std::size_t>(dim * a + i)]));
-      point.jump = point.geometry.axes * jump;
+      point.jump = jump_at(element, point, values);
       point.answer = respond<dim>(point.parameters, point.committed, point.jump);
     }
     const Eigen::VectorXd own = forces_of(element, values);
@@ -269,6 +273,7 @@ Eigen::MatrixXd Interface<dim>::tangent(std::size_t e) const {
 template <int dim>
 void Interface<dim>::commit() {
   for (Element& element : elements_) {
+    if (!element.active) continue;
     for (Point& point : element.points) {
       point.committed = point.answer.state;
       point.committed_answer = point.answer;
@@ -341,8 +346,8 @@ void Interface<dim>::restore(ArchiveReader& archive) {
     }
     element.rotation_stiffness =
         element.points.front().parameters.shear_stiffness * element.size * element.size;
+    element.knows_stiffness = element.rotation_stiffness > 0.0;
   }
-  knows_stiffness_ = true;
   revert();
 }
 
@@ -372,6 +377,7 @@ template <int dim>
 std::vector<InterfacePointResult<dim>> Interface<dim>::results() const {
   std::vector<InterfacePointResult<dim>> all;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (!elements_[e].active) continue;
     for (const Point& point : elements_[e].points) {
       const InterfaceAnswer<dim>& answer = point.committed_answer;
       all.push_back({point.geometry, e, answer.traction, point.committed_jump,
@@ -397,6 +403,7 @@ double Interface<dim>::lever() const {
   double force = 0.0;
   double moment = 0.0;
   for (const Element& element : elements_) {
+    if (!element.active) continue;
     for (const Point& point : element.points) {
       const double normal = point.geometry.area * point.committed_answer.traction(dim - 1);
       const double height = point.geometry.place(dim - 1);

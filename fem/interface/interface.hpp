@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ struct InterfaceSettings {
   InterfaceParameters parameters;
   /// Friction as a share of the mobilised friction of the neighbours at the start of each step, in the place of tan_friction.
   std::optional<double> share = {};
+  /// Whether the ground is one body along it until the stage that places it (Contribution::life); a rigid wall beside the ground
+  /// is only there from then on.
+  bool parts_ground = false;
+  std::set<int> single_nodes = {};  ///< toes: nodes of side a that are on both sides of a wall of beams
 };
 
 inline constexpr double kStiffnessRatio = 30.0;
@@ -50,6 +55,8 @@ struct InterfacePointResult {
 };
 
 /// Friction between two sides of a curve (in space a surface): an interface of zero thickness. Small deformation.
+/// Its faces come and go with the elements beside them. A face that comes with fill is free of stress; one that a stage places into
+/// the ground carries the stress that the ground had there.
 /// An open point keeps kOpenStiffness of its stiffness in the tangent alone, so that a body that only the interface holds
 /// does not make it singular.
 template <int dim>
@@ -62,6 +69,12 @@ class Interface : public Contribution<dim> {
   [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return elements_[e].entries; }
   void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed) override;
   void allocate() override;
+  [[nodiscard]] bool takes_stages() const override { return true; }
+  [[nodiscard]] bool is_there(std::size_t e, int stage, const std::vector<char>& there) const override;
+  [[nodiscard]] std::vector<std::pair<int, int>> tied_nodes(int stage) const override;
+  void set_stage(int stage, const std::vector<char>& there) override;
+  void begin_stage(const StageBegin<dim>& now) override;
+  [[nodiscard]] bool is_active(std::size_t e) const override { return elements_[e].active; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
   void commit() override;
@@ -96,15 +109,22 @@ class Interface : public Contribution<dim> {
     std::vector<Point> points;
     double size;                      ///< of the face, m
     double rotation_stiffness = 0.0;  ///< of relative rotation, N/m^2 (per area): kt size^2
+    bool active = true;               ///< in the stage
+    bool knows_stiffness = false;     ///< that is not given, by its neighbours at rest
   };
 
   [[nodiscard]] static std::vector<int> all_entries(const InterfaceFace<dim>& face);
   [[nodiscard]] Eigen::VectorXd forces_of(const Element& element, const Eigen::VectorXd& values) const;
   void set_stiffness(Element& element, double stiffness);
+  /// Jump at a point, in the axes of the face. @param values of the element's entries
+  [[nodiscard]] static FaceVector<dim> jump_at(const Element& element, const Point& point,
+                                               const Eigen::VectorXd& values);
+  static void forget(Point& point);
+  /// Stress vector of the ground at the points of faces that are born in it, along the axes of the mesh.
+  void carry_stress_of_ground(const StageBegin<dim>& now, const std::vector<std::size_t>& born);
 
   InterfaceSettings settings_;
   std::vector<Element> elements_;
-  bool knows_stiffness_ = false;
   bool told_slip_ = false;
   std::vector<std::string> notes_;
 };

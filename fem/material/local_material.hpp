@@ -160,6 +160,37 @@ class LocalMaterial final : public Material<dimension_of<Law>>,
     }
   }
 
+  /// Every number of a state is a mean of its own; the law brings a stress that it cannot have back in the next evaluation.
+  TakenOver take_over(ArchiveReader& archive, std::size_t count, std::span<const PointMean> means) override {
+    TakenOver taken;
+    if constexpr (LawWithArchive<Law>) {
+      const std::size_t length = Law::packed(law_.initial_state()).size();
+      const std::vector<double> values = read_lists(archive, "states", count, length);
+      for (std::size_t point = 0; point < committed_.size(); ++point) {
+        std::vector<double> own(length, 0.0);
+        for (std::size_t k = 0; k < length; ++k) {
+          bool some_above = false;
+          bool some_below = false;
+          for (const auto& [other, weight] : means[point].parts) {
+            const double value = values[other * length + k];
+            own[k] += weight * value;
+            some_above = some_above || value > 0.0;
+            some_below = some_below || value < 0.0;
+          }
+          if ((own[k] < 0.0 && !some_below) || (own[k] > 0.0 && !some_above)) {
+            own[k] = 0.0;
+            ++taken.zeroed;
+          }
+        }
+        committed_[point] = Law::unpacked(own);
+      }
+      trial_ = committed_;
+    } else {
+      Material<dim>::take_over(archive, count, means);
+    }
+    return taken;
+  }
+
   [[nodiscard]] std::vector<std::string> field_names() const override {
     if constexpr (LawWithFields<Law>) {
       return law_.field_names();

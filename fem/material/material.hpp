@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/increment.hpp"
 #include "common/response.hpp"
+#include "fem/material/point_mean.hpp"
 #include "fem/material/unrest.hpp"
 
 namespace polargrain::fem {
@@ -91,6 +92,16 @@ class Material {
   virtual void restore(ArchiveReader& archive) {
     (void)archive;
     throw RunError("this material cannot be read from a checkpoint");
+  }
+
+  /// Takes states over from the archive of save of a material with points elsewhere: that of a run on another mesh.
+  /// @param count of its points @param means of them, one for each point of this material
+  /// @throws RunError when the archive holds something else, or this material cannot do it.
+  virtual TakenOver take_over(ArchiveReader& archive, std::size_t count, std::span<const PointMean> means) {
+    (void)archive;
+    (void)count;
+    (void)means;
+    throw RunError("this material cannot take the states of another run over");
   }
 
   /// Names of the values beyond stress and strain that this material can show (void_ratio, ...).

@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <vector>
-
+#include "fem/mesh/find_place.hpp"
 #include "fem/solver/solver.hpp"
 
 namespace polargrain::fem {
-
-/// A place inside of the body: the elements that have it, several on a side, and where it is in them.
-template <int dim>
-struct Probe {
-  struct Inside {
-    int element;
-    typename Cosserat<dim>::Place reference;  ///< coordinates of the reference element
-  };
-  std::vector<Inside> elements;  ///< empty: outside of the body
-};
-
-/// @param place on the mesh as it was made, m
-template <int dim>
-Probe<dim> find_place(const Mesh<dim>& mesh, const typename Cosserat<dim>::Place& place);
 
 /// Displacement and micro-rotation there as results show them, in the order of node_dofs: m, rad. NaN outside of what is there.
 template <int dim>

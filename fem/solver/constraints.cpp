@@ -8,6 +8,18 @@
 #include "fem/solver/solver.hpp"
 
 namespace polargrain::fem {
+namespace {
+
+template <int dim>
+bool has_absent_contributions(const Problem<dim>& problem, int stage, const std::vector<char>& there) {
+  return std::ranges::any_of(problem.contributions, [&](const auto& contribution) {
+    for (std::size_t e = 0; e < contribution->elements(); ++e)
+      if (!contribution->is_there(e, stage, there)) return true;
+    return false;
+  });
+}
+
+}  // namespace
 
 template <int dim>
 Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eigen::VectorXd& offsets)
@@ -71,6 +83,14 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       }
     }
   }
+  for (const auto& contribution : problem.contributions) {
+    for (const auto& [one, other] : contribution->tied_nodes(stage)) {
+      has_ties_ = true;
+      for (const Dof dof : node_dofs<dim>())
+        join(entry_of<dim>(static_cast<std::size_t>(one), dof),
+             entry_of<dim>(static_cast<std::size_t>(other), dof));
+    }
+  }
   for (const EqualDof& equal : problem.equal_dofs) {
     const std::vector<int> nodes = mesh.nodes_on(equal.on);
     for (const int node : nodes)
@@ -79,13 +99,19 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
   }
   leader_.resize(equation_.size());
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) leader_[entry] = find(entry);
-  if (const std::vector<char> there = elements_in_stage(problem, stage); !there.empty()) {
+  if (const std::vector<char> there = elements_in_stage(problem, stage);
+      !there.empty() || has_absent_contributions(problem, stage, there)) {
     // An unknown that no element knows: neither at its own node nor at those tied to it.
     const std::vector<char> nodes = nodes_of_elements(mesh, there);
     std::vector<char> known(equation_.size(), 0);
     for (std::size_t entry = 0; entry < mechanics; ++entry)
       if (nodes[entry / Cosserat<dim>::dofs] != 0) known[leader_[entry]] = 1;
-    for (std::size_t entry = 0; entry < mechanics; ++entry)
+    for (const auto& contribution : problem.contributions)
+      for (std::size_t e = 0; e < contribution->elements(); ++e)
+        if (contribution->is_there(e, stage, there))
+          for (const int entry : contribution->entries(e))
+            known[leader_[static_cast<std::size_t>(entry)]] = 1;
+    for (std::size_t entry = 0; entry < equation_.size(); ++entry)
       if (known[leader_[entry]] == 0) equation_[entry] = -1;
   }
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {

@@ -10,6 +10,7 @@
 #include "common/archive.hpp"
 #include "common/response.hpp"
 #include "fem/material/material.hpp"
+#include "fem/solver/stages.hpp"
 
 namespace polargrain::fem {
 
@@ -41,6 +42,19 @@ struct NodalForces {
   /// against the sum of all of them. A part that is itself the rounded difference of larger numbers must not be smaller than a
   /// millionth of these.
   Eigen::VectorXd parts;
+};
+
+/// The committed state at which a stage of construction begins.
+template <int dim>
+struct StageBegin {
+  int stage;
+  const std::vector<char>& there;  ///< elements of the mesh in the stage, as elements_in_stage has them
+  const Eigen::VectorXd& nodal;    ///< nodal values
+  /// Loads less internal forces of the stage before, at the nodes; zero at nodes that are free.
+  const Eigen::VectorXd& unbalanced;
+  const std::vector<char>& given;  ///< by entry of nodal vectors: a support has held it in the stage before
+  const Discretisation<dim>& discretisation;
+  std::span<const Response<dim>> committed;
 };
 
 /// Terms of the balance beside the stresses of the mesh: water in pores, interfaces, beams. Made of elements that couple entries
@@ -79,6 +93,34 @@ class Contribution {
   virtual void save(ArchiveWriter& archive) const = 0;
   virtual void restore(ArchiveReader& archive) = 0;
 
+  /// The stages of construction that have it. Before the first of them it has no forces, behind the last one neither.
+  Lifetime life = {};
+  /// Whether it can come and go, or its elements with the elements of the mesh beside them.
+  [[nodiscard]] virtual bool takes_stages() const { return false; }
+  /// Whether an element is there in a stage. @param there elements of the mesh in it, as elements_in_stage has them
+  [[nodiscard]] virtual bool is_there(std::size_t element, int stage, const std::vector<char>& there) const {
+    (void)element;
+    (void)there;
+    return life.holds(stage);
+  }
+  /// Pairs of nodes that are one in a stage, since it does not part them yet.
+  [[nodiscard]] virtual std::vector<std::pair<int, int>> tied_nodes(int stage) const {
+    (void)stage;
+    return {};
+  }
+  /// From now on the elements of a stage, and no others, have forces: of a run that goes on, whose states restore gives.
+  virtual void set_stage(int stage, const std::vector<char>& there) {
+    (void)stage;
+    (void)there;
+  }
+  /// The same at the beginning of the stage: elements that come are born at the nodal values of the moment.
+  virtual void begin_stage(const StageBegin<dim>& now) { set_stage(now.stage, now.there); }
+  /// Whether an element has forces since set_stage or begin_stage.
+  [[nodiscard]] virtual bool is_active(std::size_t element) const {
+    (void)element;
+    return true;
+  }
+
   /// Whether its forces depend on how long a step takes: the time can then be no unknown (Solver::advance_measure).
   [[nodiscard]] virtual bool depends_on_duration() const { return false; }
   /// Pairs of nodes that it holds together in all directions: parts of a body that hang on each other by it.
@@ -86,6 +128,13 @@ class Contribution {
   /// Faults of a problem that the contribution belongs to, one message each; runs nothing.
   [[nodiscard]] virtual std::vector<std::string> faults(const Problem<dim>& problem) const {
     (void)problem;
+    return {};
+  }
+  /// The same of one stage in which it is there.
+  [[nodiscard]] virtual std::vector<std::string> faults_of_stage(const Problem<dim>& problem,
+                                                                 int stage) const {
+    (void)problem;
+    (void)stage;
     return {};
   }
   [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }

@@ -36,6 +36,7 @@ Eigen::VectorXd Contributions<dim>::linearised_forces(const Eigen::VectorXd& nod
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal.size());
   for (const auto& contribution : all_) {
     for (std::size_t e = 0; e < contribution->elements(); ++e) {
+      if (!contribution->is_active(e)) continue;
       const std::vector<int>& entries = contribution->entries(e);
       const Eigen::VectorXd values = nodal(entries);
       if (!values.isZero(0.0)) forces(entries) += contribution->tangent(e) * values;

@@ -19,6 +19,13 @@ class Contributions {
   }
 
   void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed);
+  /// See Contribution.
+  void set_stage(int stage, const std::vector<char>& there) {
+    for (const auto& contribution : all_) contribution->set_stage(stage, there);
+  }
+  void begin_stage(const StageBegin<dim>& now) {
+    for (const auto& contribution : all_) contribution->begin_stage(now);
+  }
   [[nodiscard]] bool is_empty() const { return all_.empty(); }
   /// Overwrites the forces. @returns why one of them cannot, with its name; empty when all can
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);

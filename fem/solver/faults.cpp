@@ -206,6 +206,14 @@ void check_stage(const Problem<dim>& problem, int stage, Messages& messages) {
   }
 }
 
+template <int dim>
+void check_contributions(const Problem<dim>& problem, int stage, Messages& messages) {
+  for (const auto& contribution : problem.contributions)
+    if (contribution->life.holds(stage))
+      for (std::string& message : contribution->faults_of_stage(problem, stage))
+        messages.push_back(std::move(message));
+}
+
 /// Nodes that share one unknown must not be given it.
 template <int dim>
 void check_equal_dofs(const Problem<dim>& problem, const GivenValues<dim>& given, Messages& messages) {
@@ -321,8 +329,10 @@ Messages faults(const Problem<dim>& problem) {
   for (const auto& contribution : problem.contributions) {
     for (std::string& message : contribution->faults(problem))
       messages.push_back(contribution->name() + ": " + std::move(message));
-    if (has_stages) messages.push_back("stages of construction do not take " + contribution->name() + " yet");
+    if (has_stages && !contribution->takes_stages())
+      messages.push_back("stages of construction do not take " + contribution->name() + " yet");
   }
+  check_contributions(problem, 0, messages);
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion : free_rigid_motions(problem, 0)) {
     messages.push_back(
@@ -331,6 +341,7 @@ Messages faults(const Problem<dim>& problem) {
   for (std::size_t stage = 1; stage < problem.stages.size(); ++stage) {
     Messages own;
     check_stage(problem, static_cast<int>(stage), own);
+    check_contributions(problem, static_cast<int>(stage), own);
     for (const std::string& message : own)
       if (std::ranges::find(messages, message) == messages.end())
         messages.push_back(fmt::format("stage '{}': {}", problem.stages[stage], message));

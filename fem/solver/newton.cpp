@@ -77,7 +77,9 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
     const std::vector<double>& initial = problem.fields[k].initial;
     std::copy(initial.begin(), initial.end(), state.displacement.begin() + constraints.places().start(k));
   }
-  if (!problem.lifetimes.empty()) enter_stage();
+  const bool contributions_come = std::ranges::any_of(
+      problem.contributions, [](const auto& contribution) { return !contribution->life.is_whole(); });
+  if (!problem.lifetimes.empty() || contributions_come) enter_stage();
   state.strain.assign(discretisation.points(), Cosserat<dim>::Vector::Zero());
   state.responses.resize(discretisation.points());
   if (problem.deformation == Deformation::large && !materials.can_turn())

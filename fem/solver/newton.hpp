@@ -69,6 +69,8 @@ class Newton {
   /// The stage and the forces held back in it, for checkpoints.
   void save_stage(ArchiveWriter& archive) const;
   void restore_stage(ArchiveReader& archive);
+  /// From now on given displacements count from where the nodes are.
+  void count_supports_from_here();
   /// One attempt; commits when it converges, leaves the committed state alone when not.
   [[nodiscard]] Attempt attempt(const StepGoal& goal, int cuts, StepReport& report);
   /// Largest force residual that the best iterate of the last attempt has; infinite without an iterate to commit.
@@ -156,6 +158,8 @@ class Newton {
   void evaluate(Iterate& iterate, StepReport& report);
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();
+  /// Lets the contributions of a stage come and go, from the state of the stage before.
+  void begin_contributions(int stage);
   /// Evaluates the contributions for a step from the committed state. @returns why one of them cannot
   [[nodiscard]] std::string contribute(double time, const Eigen::VectorXd& increment);
   void find_increments(const Eigen::VectorXd& displacement_increment);

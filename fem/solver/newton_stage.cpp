@@ -17,6 +17,7 @@ void Newton<dim>::enter_stage() {
   const std::vector<char> there = elements_in_stage(problem, state.stage);
   discretisation.set_there(there);
   start_.set_there(there);
+  contributions.set_stage(state.stage, there);
   constraints = Constraints<dim>(problem, state.stage, state.offsets);
   loads = Loads<dim>(problem, state.stage);
   tangent_.renew();
@@ -26,6 +27,7 @@ void Newton<dim>::enter_stage() {
 template <int dim>
 void Newton<dim>::begin_stage(int stage) {
   state.offsets = Constraints<dim>::new_offsets(problem, state, stage);
+  begin_contributions(stage);
   state.stage = stage;
   enter_stage();
   if (problem.deformation == Deformation::large) {
@@ -44,7 +46,28 @@ void Newton<dim>::begin_stage(int stage) {
   if (options.reference_force == 0.0)
     state.reference_force = std::max(state.reference_force, loads.largest_force());
   state.next_step = 0.0;
+  if (!contributions.is_empty()) {
+    contributions.learn(discretisation, state.responses);
+    if (const std::string message = contribute(state.time, Eigen::VectorXd::Zero(state.displacement.size()));
+        !message.empty())
+      throw RunError(
+          fmt::format("stage '{}': {}", problem.stages.at(static_cast<std::size_t>(stage)), message));
+    contributions.commit();
+    state.contributed = contributed_.internal;
+  }
   withhold_imbalance();
+}
+
+template <int dim>
+void Newton<dim>::begin_contributions(int stage) {
+  if (contributions.is_empty()) return;
+  const Eigen::VectorXd unbalanced = loads.at(state.time) - committed_internal_forces();
+  std::vector<char> given(static_cast<std::size_t>(unbalanced.size()), 0);
+  for (std::size_t entry = 0; entry < given.size(); ++entry)
+    given[entry] = constraints.is_free(entry) ? 0 : 1;
+  const std::vector<char> there = elements_in_stage(problem, stage);
+  contributions.begin_stage(
+      {stage, there, state.displacement, unbalanced, given, discretisation, state.responses});
 }
 
 template <int dim>
@@ -74,16 +97,28 @@ void Newton<dim>::restore_stage(ArchiveReader& archive) {
   state.offsets = read("stage_offsets");
   state.shown_from = read("stage_shown_from");
   withheld_ = read("stage_withheld");
+  if (!problem.stages.empty() || state.offsets.size() > 0) enter_stage();
+}
+
+template <int dim>
+void Newton<dim>::count_supports_from_here() {
+  Eigen::VectorXd given = state.displacement;
+  constraints.apply(state.time, given);
+  state.offsets = state.displacement - given;
   enter_stage();
 }
 
 template void Newton<2>::enter_stage();
 template void Newton<2>::begin_stage(int);
+template void Newton<2>::begin_contributions(int);
 template void Newton<2>::save_stage(ArchiveWriter&) const;
 template void Newton<2>::restore_stage(ArchiveReader&);
+template void Newton<2>::count_supports_from_here();
 template void Newton<3>::enter_stage();
 template void Newton<3>::begin_stage(int);
+template void Newton<3>::begin_contributions(int);
 template void Newton<3>::save_stage(ArchiveWriter&) const;
 template void Newton<3>::restore_stage(ArchiveReader&);
+template void Newton<3>::count_supports_from_here();
 
 }  // namespace polargrain::fem

@@ -133,6 +133,19 @@ void PointMaterials<dim>::restore(ArchiveReader& archive) {
   }
 }
 
+template <int dim>
+std::size_t PointMaterials<dim>::number_of(const std::shared_ptr<Material<dim>>& material) const {
+  const auto batch = std::ranges::find(batches_, material, &Batch::material);
+  return static_cast<std::size_t>(batch - batches_.begin());
+}
+
+template <int dim>
+TakenOver PointMaterials<dim>::take_over(ArchiveReader& archive, std::size_t from, std::size_t count,
+                                         std::size_t material, std::span<const PointMean> means) {
+  PrefixedReader own(archive, fmt::format("{}/", from));
+  return batches_[material].material->take_over(own, count, means);
+}
+
 template class PointMaterials<2>;
 template class PointMaterials<3>;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,16 @@ class PointMaterials {
   /// The committed states of all materials, each under a number of its own.
   void save(ArchiveWriter& archive) const;
   void restore(ArchiveReader& archive);
+  /// Number of a material, in the order of the regions that come first.
+  [[nodiscard]] std::size_t number_of(const std::shared_ptr<Material<dim>>& material) const;
+  [[nodiscard]] std::size_t count() const { return batches_.size(); }
+  /// Numbers of the points of a material, in the order of its states.
+  [[nodiscard]] const std::vector<std::size_t>& points_of(std::size_t material) const {
+    return batches_[material].points;
+  }
+  /// See Material::take_over. @param archive of save, of all materials of the other run; `from` is the number there
+  TakenOver take_over(ArchiveReader& archive, std::size_t from, std::size_t count, std::size_t material,
+                      std::span<const PointMean> means);
 
   [[nodiscard]] std::pair<const Material<dim>*, std::size_t> at(std::size_t point) const {
     return at_[point];

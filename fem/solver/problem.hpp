@@ -152,13 +152,8 @@ std::vector<std::string> free_rigid_motions(const Mesh<dim>& mesh, Continuum con
 template <int dim>
 std::vector<std::string> free_rigid_motions(const Problem<dim>& problem, int stage);
 
-/// Pairs of nodes that the contributions of a problem hold together.
+/// Pairs of nodes that the contributions of a problem hold together in a stage.
 template <int dim>
-std::vector<std::pair<int, int>> joined_nodes(const Problem<dim>& problem) {
-  std::vector<std::pair<int, int>> all;
-  for (const auto& contribution : problem.contributions)
-    for (const auto& pair : contribution->joined_nodes()) all.push_back(pair);
-  return all;
-}
+std::vector<std::pair<int, int>> joined_nodes(const Problem<dim>& problem, int stage = 0);
 
 }  // namespace polargrain::fem

@@ -212,7 +212,7 @@ std::vector<std::string> free_rigid_motions(const Problem<dim>& problem, int sta
   for (const PrescribedDof<dim>& item : problem.prescribed)
     if (item.life.holds(stage)) prescribed.push_back(item);
   return free_rigid_motions(problem.mesh, problem.continuum, prescribed, problem.ties,
-                            elements_in_stage(problem, stage), joined_nodes(problem));
+                            elements_in_stage(problem, stage), joined_nodes(problem, stage));
 }
 
 template std::vector<std::string> free_rigid_motions<2>(const Mesh<2>& mesh, Continuum continuum,

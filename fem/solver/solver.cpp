@@ -291,7 +291,9 @@ void Solver<dim>::save(ArchiveWriter& archive) const {
   write_state(archive, state());
   const std::array<double, 1> since_rest{static_cast<double>(implementation_->steps_since_rest)};
   archive.write("explicit_steps_since_rest", std::span<const double>(since_rest));
-  if (!problem().stages.empty()) implementation_->save_stage(archive);
+  implementation_->save_stage(archive);
+  PrefixedWriter body(archive, "body/");
+  implementation_->save_body(body);
   PrefixedWriter materials(archive, "materials/");
   implementation_->materials.save(materials);
   PrefixedWriter contributions(archive, "contributions/");
@@ -302,7 +304,7 @@ void Solver<dim>::restore(ArchiveReader& archive) {
   Implementation& self = *implementation_;
   self.state = read_state<dim>(archive, self.constraints.places(), points(), !self.contributions.is_empty());
   self.steps_since_rest = static_cast<int>(read_lists(archive, "explicit_steps_since_rest", 1, 1)[0]);
-  if (!problem().stages.empty()) self.restore_stage(archive);
+  self.restore_stage(archive);
   PrefixedReader materials(archive, "materials/");
   self.materials.restore(materials);
   PrefixedReader contributions(archive, "contributions/");

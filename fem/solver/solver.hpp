@@ -127,6 +127,19 @@ struct DisplacementMeasure {
   std::vector<Term> terms;
 };
 
+/// The outcome of Solver::start_from.
+struct StartReport {
+  StepReport step;
+  bool same_mesh = false;
+  double imbalance = 0.0;        ///< force residual of the states as they were taken over
+  double moved = 0.0;            ///< largest displacement by which balance was found, m
+  double farthest = 0.0;         ///< largest distance of a point from the nearest one of the other run, m
+  std::size_t from_nearest = 0;  ///< TakenOver::from_nearest
+  std::size_t zeroed = 0;        ///< TakenOver::zeroed
+  std::size_t outside =
+      0;  ///< points outside of their region there; they took the state of the nearest point
+};
+
 /// Told of every event while a step runs; for progress lines and logs. Must not change the solver.
 class Observer {
  public:
@@ -201,6 +214,12 @@ class Solver {
   /// After restore, where materials answer otherwise than those that were saved: evaluates them where they are, and lets go
   /// the imbalance in shares as equilibrate does. Not converged where no balance is found.
   StepReport redistribute();
+  /// In place of equilibrate: begins with the state that an earlier run had at its end, also on another mesh. Displacements and
+  /// micro-rotations come by the shape functions of the old elements, states by Material::take_over. Supports count from where
+  /// nodes are. The imbalance is let go as in redistribute; the report tells how far that moves.
+  /// @param end as save has written it @param regions_of_end names, in their order
+  /// @throws RunError where a region of the problem is missing there, or a material cannot take its states over
+  StartReport start_from(ArchiveReader& end, const std::vector<std::string>& regions_of_end);
   /// From now on results show displacements and micro-rotations less those of this moment. Nothing else changes.
   void reset_displacements();
 

@@ -3,8 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "fem/solver/end_of_run.hpp"
 #include "fem/solver/newton.hpp"
 #include "fem/solver/quiet_boundary.hpp"
+#include "fem/solver/recovery.hpp"
 #include "fem/solver/solver.hpp"
 
 namespace polargrain::fem {
@@ -59,6 +61,12 @@ struct Solver<dim>::Implementation : Newton<dim> {
   }
   /// Whether the start, with this residual and the displacements given then, is in balance.
   [[nodiscard]] bool is_balanced(const Residual& residual) const;
+
+  /// The body as another run needs it that starts from here (EndOfRun).
+  void save_body(ArchiveWriter& archive) const;
+  /// Displacements and micro-rotations of another run by its shape functions.
+  void take_displacements(const EndOfRun<dim>& end, const Eigen::VectorXd& of_end,
+                          const Recovery<dim>& recovery);
 
   /// Before a row of explicit steps: where the step before was not explicit, the nodes are at rest, and forces out of balance are held
   /// back. @returns whether they are, for this row to let them go. @throws RunError when the state is of another problem

@@ -58,6 +58,28 @@ std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::strin
   return found;
 }
 
+template <int dim>
+std::vector<std::pair<int, int>> joined_nodes(const Problem<dim>& problem, int stage) {
+  const std::vector<char> there = elements_in_stage(problem, stage);
+  std::vector<std::pair<int, int>> all;
+  // Nodes of elements that are not there take no part; nodes of beams and rigid walls have no elements at any time.
+  const std::vector<char> of_mesh = nodes_of_elements(problem.mesh, {});
+  const std::vector<char> left = nodes_of_elements(problem.mesh, there);
+  const auto takes_part = [&](int node) {
+    const auto number = static_cast<std::size_t>(node);
+    return of_mesh[number] == 0 || left[number] != 0;
+  };
+  for (const auto& contribution : problem.contributions) {
+    const bool holds = contribution->life.holds(stage) || !contribution->tied_nodes(stage).empty();
+    if (!holds) continue;
+    for (const auto& pair : contribution->joined_nodes())
+      if (takes_part(pair.first) && takes_part(pair.second)) all.push_back(pair);
+  }
+  return all;
+}
+
+template std::vector<std::pair<int, int>> joined_nodes<2>(const Problem<2>&, int);
+template std::vector<std::pair<int, int>> joined_nodes<3>(const Problem<3>&, int);
 template std::vector<char> elements_in_stage<2>(const Problem<2>&, int);
 template std::vector<char> elements_in_stage<3>(const Problem<3>&, int);
 template std::vector<char> nodes_of_elements<2>(const Mesh<2>&, const std::vector<char>&);

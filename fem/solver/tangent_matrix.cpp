@@ -26,7 +26,8 @@ void TangentMatrix<dim>::renew() {
   for (std::size_t e = 0; e < discretisation_.elements(); ++e)
     add_element(discretisation_.element_dofs(e), discretisation_.is_there(e));
   for (const auto& contribution : contributions_)
-    for (std::size_t e = 0; e < contribution->elements(); ++e) add_element(contribution->entries(e), true);
+    for (std::size_t e = 0; e < contribution->elements(); ++e)
+      add_element(contribution->entries(e), contribution->is_active(e));
   find_pattern();
   find_places();
 }
@@ -99,8 +100,8 @@ const Eigen::SparseMatrix<double>& TangentMatrix<dim>::assemble(const Linearisat
   for (std::size_t e = 0; e < discretisation_.elements(); ++e, ++equations)
     if (!equations->empty()) add(discretisation_.element_tangent(e, of), *equations, place);
   for (const auto& contribution : contributions_)
-    for (std::size_t e = 0; e < contribution->elements(); ++e)
-      add(contribution->tangent(e), *equations++, place);
+    for (std::size_t e = 0; e < contribution->elements(); ++e, ++equations)
+      if (contribution->is_active(e)) add(contribution->tangent(e), *equations, place);
   // The nodes of an edge belong to one element, so the pattern holds their entries.
   for (const LoadStiffness& edge : loads) {
     for (std::size_t j = 0; j < edge.entries.size(); ++j) {

@@ -2,6 +2,7 @@
 // polargrain new: what it writes is sound and runs as it is, in a folder of its own; what it refuses it says.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "common/csv_table.hpp"
@@ -150,6 +151,33 @@ TEST(NewCommand, ASlopeIsThatOfTheLibrary) {
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "other"));
 }
 
+// The wall carries the earth pressure that the anchor and the ground before it give back, and the way of digging is told.
+TEST(NewCommand, AnExcavationRunsAsItIs) {
+  const Scratch scratch("new_excavation");
+  const Outcome written = run_in(scratch.path(), kProgram + " new excavation -o pit");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome checked = check_moved(scratch, "pit");
+  EXPECT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_TRUE(has(checked.out, "needs no workers")) << checked.out;
+  const Outcome strict = run_in(scratch.path(), kProgram + " check pit/case.yaml --strict");
+  EXPECT_EQ(strict.status, 0) << strict.errors;
+  const Outcome run = run_in(scratch.path(), kProgram + " run pit/case.yaml -o out --quiet");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const CsvTable history(scratch.path() / "out/history.csv");
+  const auto last = history.rows() - 1;
+  EXPECT_EQ(history.rows(), 15u);  // step 0 and those of six stages
+  // K0 against the wall when it has come, over its 11 m: the stress of the ground; the toe has that of the node above it.
+  EXPECT_NEAR(history.numbers("earth")[1], 0.43 * 18e3 * 11 * 11 / 2, 3e-3 * 0.43 * 18e3 * 11 * 11 / 2);
+  EXPECT_NEAR(history.numbers("lever")[1], 11.0 / 3, 1e-2);
+  // It falls towards the active one, which with friction at the wall is below Rankine's, as the wall gives way.
+  EXPECT_LT(history.numbers("earth")[last], history.numbers("earth")[1]);
+  EXPECT_GT(history.numbers("pull")[last], 20e3);
+  EXPECT_GT(std::abs(history.numbers("moment")[last]), 20e3);
+  EXPECT_LT(std::abs(history.numbers("moment")[last]), 500e3);  // the plastic moment
+  EXPECT_GT(history.numbers("heave")[last], 0.0);
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "out/profiles/trough-00014.csv"));
+}
+
 TEST(NewCommand, AMeshOfOnesOwnIsHeldAtItsLowestBoundary) {
   const Scratch scratch("new_mesh");
   const Outcome written = run_in(scratch.path(), kProgram + " new mesh --mesh '" + kSource +
@@ -174,7 +202,7 @@ TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
   };
   const Refusal refusals[] = {
       {"triangle -o new",
-       "there is no kind 'triangle'; one of biaxial, footing, slope, element, triaxial, triaxial3d, footing3d, mesh"},
+       "there is no kind 'triangle'; one of biaxial, footing, slope, excavation, element, triaxial, triaxial3d, footing3d, mesh"},
       {"biaxial -o full", "-o full: the folder has files in it"},
       {"biaxial -o full/mine.txt", "-o full/mine.txt: this is a file"},
       {"biaxial -o new --pressure 100kg", "--pressure 100kg: expected a pressure in Pa"},

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(fem_start_from_test verification verification/fem_start_from_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_stages_test verification verification/fem_stages_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_slab_test verification verification/fem_slab_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_space_test verification verification/fem_space_test.cpp LIBS polargrain_fem)

@@ -42,6 +42,11 @@ class Edges {
     for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
       for (int side = 0; side < mesh.elements[static_cast<std::size_t>(e)].type->corners; ++side)
         ++elements_[corners_of(mesh.side_nodes({e, side}))];
+    for (const auto& [one, other] : fem::joined_nodes(problem)) {
+      if (mesh.nodes[static_cast<std::size_t>(one)] != mesh.nodes[static_cast<std::size_t>(other)]) continue;
+      in_interface_.insert(one);
+      in_interface_.insert(other);
+    }
     for (const fem::BoundaryLoad<2>& load : problem.boundary_loads) {
       std::set<Corners>& under = under_.emplace_back();
       for (const fem::BoundarySide& edge : mesh.boundaries.at(load.on))
@@ -49,9 +54,10 @@ class Edges {
     }
   }
 
-  /// A line inside the body may have a name too.
+  /// A line inside the body may have a name too, and along an interface the other side takes the pressure.
   [[nodiscard]] bool is_outer(const OutlineEdge& edge) const {
-    return elements_.at(corners_of(edge.nodes)) == 1;
+    return elements_.at(corners_of(edge.nodes)) == 1 &&
+           !std::ranges::all_of(edge.nodes, [&](int node) { return in_interface_.contains(node); });
   }
   [[nodiscard]] bool is_loaded(const OutlineEdge& edge) const {
     return std::ranges::any_of(under_,
@@ -72,6 +78,7 @@ class Edges {
  private:
   const fem::Problem<2>& problem_;
   std::map<Corners, int> elements_;
+  std::set<int> in_interface_;  ///< nodes that have another one at their place, joined by an interface
   std::vector<std::set<Corners>> under_;  ///< each load
 };
 

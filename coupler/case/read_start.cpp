@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// start_from: the end of another run in the place of packings and initial stresses.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupler/case/parts.hpp"
+#include "coupler/checkpoint/checkpoint.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// The models whose states another mesh can take over.
+bool can_be_taken_over(const std::string& model) {
+  return model == "elastic" || model == "elastoplastic" || model == "cell";
+}
+
+/// Compares each region with the one of its name there.
+void check_materials(const Entry& start, const CaseIdentity& before, const CaseIdentity& now,
+                     const std::string& run, CaseParts& parts) {
+  const auto value_of = [](const std::map<std::string, std::string>& values, const std::string& key) {
+    const auto value = values.find(key);
+    return value == values.end() ? std::string() : value->second;
+  };
+  const std::vector<std::string> known = regions_of(before);
+  for (const auto& [region, material] : parts.result.regions) {
+    const auto fault = [&](const std::string& text) {
+      parts.faults.push_back(start.fault(fmt::format("start_from: region '{}': {}", region, text)));
+    };
+    const std::string key = "materials." + material + ".";
+    const std::string model = value_of(now.values, key + "model");
+    const bool comes_later = parts.result.with_problem([&](const auto& problem) {
+      const auto life = problem.lifetimes.find(region);
+      return life != problem.lifetimes.end() && life->second.begin > 0;
+    });
+    if (comes_later) continue;
+    if (std::ranges::find(known, region) == known.end()) {
+      fault(fmt::format(
+          "'{}' has no region of this name; it has {}. Give the region a name of that run, or 'place' "
+          "it in a stage",
+          run, listed(known)));
+      continue;
+    }
+    const std::string key_before = "materials." + value_of(before.values, "regions." + region) + ".";
+    const std::string model_before = value_of(before.values, key_before + "model");
+    if (model != model_before) {
+      fault(fmt::format(
+          "is of model '{}' and was of model '{}' in '{}'; a state goes over to the same model alone", model,
+          model_before, run));
+    } else if (!can_be_taken_over(model)) {
+      fault(fmt::format(
+          "states of model '{}' cannot be taken over yet; those of elastic, elastoplastic and cell can",
+          model));
+    } else if (value_of(now.files, key + "packing") != value_of(before.files, key_before + "packing")) {
+      fault(fmt::format("its boxes are of another packing in '{}'; name the packing of that run", run));
+    }
+  }
+}
+
+}  // namespace
+
+void read_start(Section& top, CaseParts& parts) {
+  const Entry& start = *top.find("start_from");
+  const std::string name = top.text("start_from", "the result directory of a run");
+  const std::filesystem::path directory = parts.directory / name;
+  parts.result.start_from = directory;
+  const auto fault = [&](const std::string& text) { top.fault("start_from", "start_from: " + text); };
+  std::error_code error;
+  if (!std::filesystem::is_directory(directory, error)) {
+    fault(fmt::format(
+        "there is no folder '{}'; give the result directory of a run, as seen from the case file", name));
+    return;
+  }
+  if (!std::filesystem::exists(directory / "checkpoint.h5", error)) {
+    fault(fmt::format(
+        "'{}' holds no checkpoint.h5; give the result directory of a run that has come to its end", name));
+    return;
+  }
+  if (parts.result.is_explicit() || parts.result.is_automatic() || parts.result.real_time)
+    fault("it begins with a balanced step; leave out 'method'");
+  parts.result.with_problem([&](const auto& problem) {
+    if (!problem.initial_stresses.empty())
+      fault("the run brings its stress; leave out 'initial_stress', or keep it and leave out this key");
+  });
+  if (!parts.faults.empty()) return;
+  try {
+    const Checkpoint end = read_checkpoint(directory / "checkpoint.h5");
+    if (end.step < 1) fault(fmt::format("'{}' has taken no step yet; run it to its end", name));
+    check_materials(start, end.identity, identity_of(top.entry(), parts.directory), name, parts);
+  } catch (const InputError& of_file) {
+    fault(of_file.what());
+  }
+}
+
+}  // namespace polargrain::coupler

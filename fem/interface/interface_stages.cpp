@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Interfaces in stages of construction: faces that come, go, and are cut into the ground.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "fem/element/dofs.hpp"
+#include "fem/interface/interface.hpp"
+#include "fem/solver/discretisation.hpp"
+
+namespace polargrain::fem {
+
+template <int dim>
+void Interface<dim>::forget(Point& point) {
+  point.committed = {};
+  point.jump = point.committed_jump = FaceVector<dim>::Zero();
+  point.answer = {FaceVector<dim>::Zero(), Eigen::Matrix<double, dim, dim>::Zero(), Contact::sticks, {}};
+  point.committed_answer = point.answer;
+}
+
+template <int dim>
+bool Interface<dim>::is_there(std::size_t e, int stage, const std::vector<char>& there) const {
+  return this->life.holds(stage) &&
+         (there.empty() || std::ranges::all_of(elements_[e].face.neighbours, [&](int neighbour) {
+            return there[static_cast<std::size_t>(neighbour)] != 0;
+          }));
+}
+
+template <int dim>
+std::vector<std::pair<int, int>> Interface<dim>::tied_nodes(int stage) const {
+  if (!settings_.parts_ground || stage >= this->life.begin) return {};
+  return joined_nodes();
+}
+
+template <int dim>
+void Interface<dim>::set_stage(int stage, const std::vector<char>& there) {
+  for (std::size_t e = 0; e < elements_.size(); ++e) elements_[e].active = is_there(e, stage, there);
+}
+
+template <int dim>
+void Interface<dim>::begin_stage(const StageBegin<dim>& now) {
+  std::vector<std::size_t> born;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    Element& element = elements_[e];
+    const bool before = std::exchange(element.active, is_there(e, now.stage, now.there));
+    if (before == element.active) continue;
+    for (Point& point : element.points) forget(point);
+    if (!element.active) continue;
+    born.push_back(e);
+    // It has no stress at the jump of the moment.
+    const Eigen::VectorXd values = now.nodal(element.entries);
+    for (Point& point : element.points) {
+      point.jump = point.committed_jump = jump_at(element, point, values);
+      point.committed.plastic_jump = point.jump;
+    }
+  }
+  if (settings_.parts_ground && this->life.begin == now.stage) carry_stress_of_ground(now, born);
+}
+
+// In the plane the points lie at the nodes, so the stress vectors follow from the nodal forces that the ground on side a needs to
+// stay as it is: nothing moves. In space they are those of the elements beside the face, and what they leave out of balance is let
+// go along the stage.
+template <int dim>
+void Interface<dim>::carry_stress_of_ground(const StageBegin<dim>& now,
+                                            const std::vector<std::size_t>& born) {
+  using Place = typename Cosserat<dim>::Place;
+  if constexpr (dim == 2) {
+    std::map<int, double> area;
+    for (const std::size_t e : born)
+      for (const Point& point : elements_[e].points)
+        for (std::size_t a = 0; a < elements_[e].face.nodes_a.size(); ++a)
+          area[elements_[e].face.nodes_a[a]] +=
+              point.geometry.shape(static_cast<Eigen::Index>(a)) * point.geometry.area;
+    const auto stress_at = [&](int node) -> std::optional<Place> {
+      if (settings_.single_nodes.contains(node)) return {};
+      Place force;
+      for (int i = 0; i < dim; ++i) {
+        const int entry = entry_of<dim>(node, static_cast<Dof>(i));
+        if (now.given[static_cast<std::size_t>(entry)] != 0) return {};
+        force(i) = -now.unbalanced(entry);
+      }
+      return Place(force / area.at(node));
+    };
+    for (const std::size_t e : born) {
+      Element& element = elements_[e];
+      const std::vector<int>& nodes = element.face.nodes_a;
+      std::vector<std::optional<Place>> stresses;
+      for (const int node : nodes) stresses.push_back(stress_at(node));
+      for (Point& point : element.points) {
+        Place stress = Place::Zero();
+        for (std::size_t a = 0; a < nodes.size(); ++a) {
+          const double share = point.geometry.shape(static_cast<Eigen::Index>(a));
+          if (share == 0.0) continue;
+          std::optional<Place> here = stresses[a];
+          // A node that is held, or a toe: the nearest node of the face that tells.
+          for (std::size_t other = nodes.size(); !here && other-- > 0;) here = stresses[other];
+          if (here) stress += share * *here;
+        }
+        point.committed.initial_traction = point.geometry.axes * stress;
+      }
+    }
+  } else {
+    for (const std::size_t e : born) {
+      Element& element = elements_[e];
+      typename Cosserat<dim>::Vector mean = Cosserat<dim>::Vector::Zero();
+      double volume = 0.0;
+      for (const int neighbour : element.face.neighbours) {
+        const auto number = static_cast<std::size_t>(neighbour);
+        for (std::size_t i = now.discretisation.first_point(number);
+             i < now.discretisation.first_point(number + 1); ++i) {
+          mean += now.discretisation.point(i).volume * now.committed[i].stress;
+          volume += now.discretisation.point(i).volume;
+        }
+      }
+      mean /= volume;
+      for (Point& point : element.points) {
+        Place stress = Place::Zero();
+        for (int i = 0; i < dim; ++i)
+          for (int j = 0; j < dim; ++j)
+            stress(i) += mean(Cosserat<dim>::stress_place(j, i)) * point.geometry.axes(dim - 1, j);
+        point.committed.initial_traction = point.geometry.axes * stress;
+      }
+    }
+  }
+}
+
+template void Interface<2>::forget(Point&);
+template void Interface<3>::forget(Point&);
+template bool Interface<2>::is_there(std::size_t, int, const std::vector<char>&) const;
+template bool Interface<3>::is_there(std::size_t, int, const std::vector<char>&) const;
+template std::vector<std::pair<int, int>> Interface<2>::tied_nodes(int) const;
+template std::vector<std::pair<int, int>> Interface<3>::tied_nodes(int) const;
+template void Interface<2>::set_stage(int, const std::vector<char>&);
+template void Interface<3>::set_stage(int, const std::vector<char>&);
+template void Interface<2>::begin_stage(const StageBegin<2>&);
+template void Interface<3>::begin_stage(const StageBegin<3>&);
+
+}  // namespace polargrain::fem

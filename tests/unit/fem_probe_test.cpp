@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values at places inside of the body, against fields that are known everywhere.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fem/material/elastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/mesh/box.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/output/probe.hpp"
+#include "fem/solver/geostatic.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+const TimeTable kZero = TimeTable::constant(0.0);
+constexpr double kWeight = 18e3;
+
+template <int dim>
+std::shared_ptr<Material<dim>> elastic() {
+  return std::make_shared<LocalMaterial<ElasticLaw<dim>>>(
+      ElasticLaw<dim>(ElasticParameters<dim>{20e6, 0.25, 8e6, 0.2}));
+}
+
+class EveryElement : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
+  Problem<2> problem;
+  problem.mesh = rectangle({{4.0, 3.0}, {4, 3}}, GetParam());
+  // A skewed mesh: the corners in the middle are moved.
+  for (Eigen::Vector2d& node : problem.mesh.nodes) node.x() += 0.1 * node.x() * (4.0 - node.x()) / 4.0;
+  problem.materials["all"] = elastic<2>();
+  problem.prescribed = {{"left", Dof::u1, kZero}, {"right", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}};
+  problem.body_loads = {gravity(kWeight)};
+  problem.initial_stresses = {geostatic_stress({3.0, kWeight, 0.5, 10e3})};
+  problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(10e3)}};
+  Solver<2> solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (const Eigen::Vector2d& place :
+       std::vector<Eigen::Vector2d>{{0.3, 0.2}, {2.0, 1.0}, {0.0, 0.0}, {3.9, 2.95}, {1.7, 2.0}}) {
+    const Vector7 stress = stress_at(solver, find_place(solver.problem().mesh, place));
+    const double vertical = -(10e3 + kWeight * (3.0 - place.y()));
+    // One point an element gives the mean of the element.
+    const double tolerance = GetParam() == "T3" ? kWeight : 1e-6;
+    EXPECT_NEAR(stress(k22), vertical, tolerance) << place.transpose();
+    EXPECT_NEAR(stress(k11), 0.5 * vertical, tolerance);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
+
+TEST(displacement_at, a_place_of_stretched_ground_is_that_of_the_stretch) {
+  Problem<3> problem;
+  problem.mesh = box({{2.0, 1.0, 3.0}, {2, 1, 3}}, "H20R");
+  problem.materials["all"] = elastic<3>();
+  problem.prescribed = {{"left", Dof::u1, kZero},   {"front", Dof::u2, kZero},
+                        {"bottom", Dof::u3, kZero}, {"right", Dof::u1, kZero},
+                        {"back", Dof::u2, kZero},   {"top", Dof::u3, TimeTable::constant(-3e-3)}};
+  Solver<3> solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const Probe<3> probe = find_place<3>(solver.problem().mesh, {1.0, 0.4, 1.3});
+  EXPECT_EQ(probe.elements.size(), 2U);  // on the face between two elements
+  EXPECT_NEAR(displacement_at(solver, probe)(2), -1.3e-3, 1e-15);
+  const double oedometric = 20e6 * (1 - 0.25) / ((1 + 0.25) * (1 - 2 * 0.25));
+  EXPECT_NEAR(stress_at(solver, probe)(8), -1e-3 * oedometric, 1e-6);
+}
+
+TEST(find_place, outside_of_the_body_finds_nothing) {
+  Problem<2> problem;
+  problem.mesh = rectangle({{4.0, 3.0}, {4, 3}});
+  EXPECT_TRUE(find_place<2>(problem.mesh, {4.1, 1.0}).elements.empty());
+  EXPECT_EQ(find_place<2>(problem.mesh, {2.0, 1.0}).elements.size(), 4U);
+  problem.materials["all"] = elastic<2>();
+  problem.prescribed = {{"left", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}, {"bottom", Dof::w, kZero}};
+  Solver<2> solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  EXPECT_TRUE(std::isnan(stress_at(solver, find_place<2>(solver.problem().mesh, {5.0, 1.0}))(k11)));
+}
+
+}  // namespace

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values at places, along lines, and the start from another run as a case file has them: faults with line and remedy.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/checkpoint/checkpoint.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+// Lines are counted in the expectations below.
+const std::string kCase = R"(title: A block
+mesh: {rectangle: {size: [2 m, 1 m], elements: [4, 2]}}
+continuum: cauchy
+materials:
+  soil: {model: elastic, E: 20 MPa, nu: 0.3}
+regions: {all: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+monitors:
+  deep: {at: [1 m, 0.5 m], stress: s22}
+  settled: {at: [1 m, 1 m], displacement: u2}
+profiles:
+  axis: {from: [1 m, 0], to: [1 m, 1 m], points: 5, values: [s22, u2]}
+  trough: {on: top, values: [u2]}
+start_from: first
+steps: {count: 1}
+)";
+
+class ProfilesCase : public testing::Test {
+ protected:
+  ProfilesCase()
+      : directory_(std::filesystem::temp_directory_path() / ("profiles_case." + std::to_string(getpid()))) {
+    std::filesystem::create_directories(directory_ / "first");
+    end_.identity.values = {{"materials.soil.model", "elastic"}, {"regions.all", "soil"}};
+    end_.step = 3;
+    keep();
+  }
+  ~ProfilesCase() override { std::filesystem::remove_all(directory_); }
+
+  void keep() { write_checkpoint(directory_ / "first/checkpoint.h5", end_); }
+
+  Case read(const std::string& good = "", const std::string& bad = "") {
+    std::string text = kCase;
+    if (!good.empty()) text.replace(text.find(good), good.size(), bad);
+    std::ofstream(directory_ / "case.yaml") << text;
+    return read_case(directory_ / "case.yaml");
+  }
+  /// "LINE: message" of the first fault.
+  std::string fault(const std::string& good = "", const std::string& bad = "") {
+    try {
+      (void)read(good, bad);
+    } catch (const InputError& error) {
+      const Fault& first = error.faults().front();
+      return std::to_string(first.line) + ": " + first.message;
+    }
+    return "none";
+  }
+
+  std::filesystem::path directory_;
+  Checkpoint end_;
+};
+
+TEST_F(ProfilesCase, IsReadWhole) {
+  const Case the_case = read();
+  ASSERT_EQ(the_case.profiles.size(), 2U);
+  EXPECT_EQ(the_case.profiles[0].places.size(), 5U);
+  EXPECT_EQ(the_case.profiles[0].places[1], (std::vector<double>{1.0, 0.25}));
+  EXPECT_EQ(the_case.profiles[1].places.size(), 9U);  // the nodes of four sides
+  EXPECT_EQ(the_case.monitors[0].component.unit, "Pa");
+  EXPECT_EQ(the_case.start_from, directory_ / "first");
+}
+
+TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
+  EXPECT_EQ(
+      fault("at: [1 m, 0.5 m]", "at: [3 m, 0.5 m]"),
+      "10: monitor 'deep': at: this place is outside of the body; give one inside, on the mesh as it is made");
+  EXPECT_EQ(fault("displacement: u2}", "stress: u2}"), "11: monitor 'settled': stress: 'u2' is no stress");
+  EXPECT_EQ(fault("displacement: u2}", "on: top}"),
+            "11: monitor 'settled': on: 'at' says where; keep one of them");
+  EXPECT_EQ(fault("from: [1 m, 0], to: [1 m, 1 m]", "from: [3 m, 0], to: [3 m, 1 m]"),
+            "13: profile 'axis': no point of this line lies in the body; give 'from' and 'to' on the "
+            "mesh as it is made");
+  EXPECT_NE(
+      fault("values: [s22, u2]", "values: [s22, u4]").find("13: profile 'axis': values: expected one of u1"),
+      std::string::npos);
+  EXPECT_NE(fault("axis:", "a/b:").find("letters, digits, _ and -"), std::string::npos);
+  EXPECT_NE(fault("on: top, values", "on: tap, values").find("14: profile 'trough': on"), std::string::npos);
+}
+
+TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
+  EXPECT_EQ(
+      fault("start_from: first", "start_from: frist"),
+      "15: case: start_from: there is no folder 'frist'; give the result directory of a run, as seen from the "
+      "case file");
+  std::filesystem::create_directories(directory_ / "empty");
+  EXPECT_EQ(
+      fault("start_from: first", "start_from: empty"),
+      "15: case: start_from: 'empty' holds no checkpoint.h5; give the result directory of a run that has come to "
+      "its end");
+  EXPECT_EQ(
+      fault("steps: {count: 1}",
+            "steps: {count: 1}\ninitial_stress: [{surface: 1 m, unit_weight: 18 kN/m3, K0: 0.5}]"),
+      "15: case: start_from: the run brings its stress; leave out 'initial_stress', or keep it and leave out this "
+      "key");
+  end_.identity.values["materials.soil.model"] = "elastoplastic";
+  keep();
+  EXPECT_EQ(
+      fault(),
+      "15: start_from: region 'all': is of model 'elastic' and was of model 'elastoplastic' in 'first'; a state "
+      "goes over to the same model alone");
+  end_.identity.values = {{"materials.soil.model", "elastic"}, {"regions.lower", "soil"}};
+  keep();
+  EXPECT_EQ(
+      fault(),
+      "15: start_from: region 'all': 'first' has no region of this name; it has lower. Give the region a name of "
+      "that run, or 'place' it in a stage");
+  end_.identity.values = {{"materials.soil.model", "elastic"}, {"regions.all", "soil"}};
+  end_.step = 0;
+  keep();
+  EXPECT_EQ(fault(), "15: case: start_from: 'first' has taken no step yet; run it to its end");
+  std::ofstream(directory_ / "first/checkpoint.h5") << "no checkpoint";
+  EXPECT_NE(fault().find("15: case: start_from: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace polargrain::coupler

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Walls, their interfaces and anchors in stages of construction, against superposition, ground at rest and closed forms.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "common/memory_archive.hpp"
+#include "coupler/case/case.hpp"
+#include "coupler/case/structure_values.hpp"
+#include "fem/interface/interface.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+/// Ground of 20 m x 10 m with a wall of beams at 4 m, from the surface down to 4 m below the pit. Its interface sticks, so that
+/// everything is elastic.
+std::string ground(const std::string& stages, const std::string& element = "Q8R") {
+  return "title: a wall in the ground\n"
+         "continuum: cauchy\n"
+         "mesh:\n"
+         "  rectangle:\n"
+         "    size: [20 m, 10 m]\n"
+         "    elements: [10, 10]\n"
+         "    element: " +
+         element +
+         "\n"
+         "    regions: {p1: [0, 9 m, 4 m, 10 m], p2: [0, 8 m, 4 m, 9 m], p3: [0, 7 m, 4 m, 8 m],"
+         " p4: [0, 6 m, 4 m, 7 m], p5: [0, 5 m, 4 m, 6 m]}\n"
+         "    lines: {line: [4 m, 1 m, 4 m, 10 m]}\n"
+         "materials: {soil: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
+         "regions: {p1: soil, p2: soil, p3: soil, p4: soil, p5: soil, rest: soil}\n"
+         "interfaces: {skin: {on: line, friction: 45 deg, cohesion: 1 GPa, tension: 0.9 GPa, "
+         "cohesion_after_opening: kept, normal_stiffness: 1 GPa/m, shear_stiffness: 0.1 GPa/m}}\n"
+         "beams: {wall: {on: line, EA: 3000 MN/m, EI: 20 MNm2/m}}\n"
+         "anchors: {rod: {from: wall_top, to: [14 m, 6 m], EA: 20 MN/m, prestress: 40 kN/m}}\n"
+         "boundary:\n"
+         "  - {on: [left, right], fix: [u1]}\n"
+         "  - {on: bottom, fix: [u1, u2]}\n"
+         "body: [{unit_weight: 18 kN/m3}]\n"
+         "initial_stress: [{surface: 10 m, unit_weight: 18 kN/m3, K0: 0.6}]\n"
+         "steps:\n"
+         "  tolerance: 1e-13\n"
+         "  stages:\n" +
+         stages;
+}
+
+Case read(const std::string& text) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("structure_stages." + std::to_string(getpid()) + ".yaml");
+  std::ofstream(file) << text;
+  Case the_case = read_case(file);
+  std::filesystem::remove(file);
+  for (auto& [region, material] : the_case.problem.materials)
+    material = the_case.materials.at(the_case.regions.at(region))->make_for<2>(nullptr);
+  return the_case;
+}
+
+void take(const Case& the_case, int step, fem::Solver<2>& solver) {
+  const CaseStage* const stage = the_case.stage_of(step);
+  if (stage != nullptr && stage->first_step == step && stage->number != solver.state().stage)
+    solver.begin_stage(stage->number);
+  const StepTarget& target = the_case.plan[static_cast<std::size_t>(step) - 1];
+  const fem::StepReport report = solver.advance(target.amount, target.released);
+  ASSERT_TRUE(report.converged) << "step " << step << ": " << report.message;
+}
+
+/// @param steps that are taken; 0: all
+std::unique_ptr<fem::Solver<2>> run(const Case& the_case, int steps = 0) {
+  auto solver = std::make_unique<fem::Solver<2>>(the_case.problem, the_case.solver);
+  const fem::StepReport begun = solver->equilibrate();
+  EXPECT_TRUE(begun.converged) << begun.message;
+  for (int step = 1; step <= (steps > 0 ? steps : the_case.steps()); ++step) take(the_case, step, *solver);
+  return solver;
+}
+
+double value(const fem::Solver<2>& solver, const std::string& name, const std::string& of) {
+  return value_of_structure(solver.problem(), name, of);
+}
+
+double largest(const Eigen::VectorXd& values) {
+  return values.lpNorm<Eigen::Infinity>();
+}
+
+constexpr const char* kPlace = "    - {name: wall, place: [wall, rod], count: 2}\n";
+constexpr const char* kOneCut = "    - {name: dig, remove: [p1, p2, p3, p4, p5], count: 1}\n";
+constexpr const char* kFiveCuts =
+    "    - {name: d1, remove: p1, count: 1}\n"
+    "    - {name: d2, remove: p2, count: 3}\n"
+    "    - {name: d3, remove: p3, count: 1}\n"
+    "    - {name: d4, remove: p4, count: 2}\n"
+    "    - {name: d5, remove: p5, count: 1}\n";
+
+// All is linear, so how the pit is dug does not matter.
+TEST(StructureStages, FiveCutsAreOneCut) {
+  for (const std::string before : {"", kPlace}) {
+    for (const std::string element : {"Q8R", "Q4", "T6"}) {
+      const auto one = run(read(ground(before + kOneCut, element)));
+      const auto five = run(read(ground(before + kFiveCuts, element)));
+      const Eigen::VectorXd difference = one->state().displacement - five->state().displacement;
+      EXPECT_LT(largest(difference), 1e-9 * largest(one->state().displacement)) << before << element;
+      for (const auto& [name, of] : std::vector<std::pair<std::string, std::string>>{
+               {"wall", "moment"}, {"wall", "shear"}, {"rod", "force"}, {"skin right", "pressure"}})
+        EXPECT_NEAR(value(*five, name, of) / value(*one, name, of), 1.0, 1e-9) << name << element;
+      EXPECT_GT(std::abs(value(*one, "wall", "moment")), 1e3);
+    }
+  }
+}
+
+// A wall that a stage cuts into ground at rest carries the stress that was there, and nothing moves.
+TEST(StructureStages, GroundAtRestStaysAtRestWhenAWallIsPlaced) {
+  const Case the_case =
+      read(ground("    - {name: wall, place: wall, count: 2}\n"
+                  "    - {name: rod, place: rod, count: 1}\n"));
+  const auto solver = run(the_case, 2);
+  EXPECT_LT(largest(solver->state().displacement), 1e-12);
+  EXPECT_NEAR(value(*solver, "wall", "moment"), 0.0, 1e-6);
+  int found = 0;
+  for (const auto& contribution : solver->problem().contributions) {
+    const auto* const skin = dynamic_cast<const fem::Interface<2>*>(contribution.get());
+    if (skin == nullptr) continue;
+    for (const fem::InterfacePointResult<2>& point : skin->results()) {
+      if (point.geometry.place(1) < 1.1) continue;  // the toe has the stress of its neighbour
+      EXPECT_NEAR(point.traction(1), -0.6 * 18e3 * (10.0 - point.geometry.place(1)), 1e-5);
+      EXPECT_NEAR(point.traction(0), 0.0, 1e-5);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 2 * (9 * 3 - 1));
+  EXPECT_EQ(value(*solver, "rod", "force"), 0.0);
+}
+
+// Before it is placed the wall is not felt: the ground is one body, as it is without any.
+TEST(StructureStages, GroundIsOneBodyUntilTheWallComes) {
+  const std::string dig =
+      "    - {name: dig, remove: p1, count: 1}\n    - {name: wall, place: wall, count: 1}\n";
+  const auto with = run(read(ground(dig)), 1);
+  std::string plain = ground("    - {name: dig, remove: p1, count: 1}\n");
+  for (const std::string key : {"interfaces:", "beams:", "anchors:"})
+    plain.erase(plain.find(key), plain.find('\n', plain.find(key)) + 1 - plain.find(key));
+  const auto without = run(read(plain));
+  for (std::size_t node = 0; node < without->problem().mesh.nodes.size(); ++node) {
+    const auto entry = fem::entry_of<2>(static_cast<int>(node), fem::Dof::u2);
+    EXPECT_NEAR(with->state().displacement(entry), without->state().displacement(entry),
+                1e-9 * largest(without->state().displacement));
+  }
+}
+
+// N = N0 / (1 + k_rod / k_ground): the rod loosens as the ground gives way. The stiffness of the ground is that of another run.
+TEST(StructureStages, ARodIsPrestressedWhenItComesAndLetsGoWhenItGoes) {
+  const std::string wall = "    - {name: wall, place: wall, count: 1}\n";
+  const auto pulled = run(read(ground(wall + "    - {name: rod, place: rod, count: 2}\n"
+                                             "    - {name: gone, remove: rod, count: 1}\n")),
+                          3);
+  const auto along = [](const fem::Solver<2>& solver) {
+    const int head = solver.problem().mesh.nodes_on("wall_top").front();
+    const Eigen::Vector2d way = (Eigen::Vector2d(14, 6) - Eigen::Vector2d(4, 10)).normalized();
+    return way.dot(solver.state().displacement.segment<2>(fem::entry_of<2>(head)));
+  };
+  // A force of the same direction on the head gives the stiffness.
+  const Eigen::Vector2d way = (Eigen::Vector2d(14, 6) - Eigen::Vector2d(4, 10)).normalized();
+  const auto loaded =
+      run(read(ground(wall + "    - {name: pull, count: 1, boundary: [{on: wall_top, node_force: {u1: " +
+                      std::to_string(40 * way(0)) + " kN/m, u2: " + std::to_string(40 * way(1)) +
+                      " kN/m}}]}\n    - {name: rod, place: rod, count: 1}\n")),
+          2);
+  const double ground_stiffness = 40e3 / along(*loaded);
+  const double rod_stiffness = 20e6 / std::sqrt(116.0);
+  EXPECT_NEAR(value(*pulled, "rod", "force"), 40e3 / (1.0 + rod_stiffness / ground_stiffness), 40e3 * 1e-6);
+  const Case the_case = read(ground(wall + "    - {name: rod, place: rod, count: 2}\n"
+                                           "    - {name: gone, remove: rod, count: 1}\n"));
+  const auto gone = run(the_case);
+  EXPECT_LT(largest(gone->state().displacement), 1e-9 * largest(pulled->state().displacement));
+  EXPECT_EQ(value(*gone, "rod", "force"), 0.0);
+}
+
+// The state of a stage with a wall that has come is kept in a checkpoint.
+TEST(StructureStages, AreRestoredInTheMiddleOfAStage) {
+  const Case the_case = read(ground(kPlace + std::string(kFiveCuts)));
+  const auto whole = run(the_case);
+  const double moment = value(*whole, "wall", "moment");
+  const Eigen::VectorXd displacement = whole->state().displacement;
+  for (const int middle : {1, 2, 4, 7}) {
+    const auto first = run(the_case, middle);
+    MemoryArchive archive;
+    first->save(archive);
+    const Case again = read(ground(kPlace + std::string(kFiveCuts)));
+    fem::Solver<2> second(again.problem, again.solver);
+    second.restore(archive);
+    for (int step = middle + 1; step <= again.steps(); ++step) take(again, step, second);
+    EXPECT_EQ(second.state().displacement, displacement) << middle;
+    EXPECT_EQ(value(second, "wall", "moment"), moment);
+  }
+}
+
+// Fill that is placed against a wall presses on it from then on: the wall, fixed, takes all that the fill does not stand on.
+TEST(StructureStages, FillPressesOnTheWallThatItIsPlacedAgainst) {
+  std::string text = ground(
+      "    - {name: strip, remove: p1, count: 1}\n"
+      "    - {name: fill, place: fill, count: 3}\n");
+  const std::string region = "p1: [0, 9 m, 4 m, 10 m]";
+  text.replace(text.find(region), region.size(), "p1: [0, 9 m, 2 m, 10 m], fill: [2 m, 9 m, 4 m, 10 m]");
+  const std::string regions = "regions: {p1: soil";
+  text.replace(text.rfind(regions), regions.size(), "regions: {fill: soil, p1: soil");
+  const std::string initial = "initial_stress: [{surface: 10 m, unit_weight: 18 kN/m3, K0: 0.6}]\n";
+  std::string given = "initial_stress:\n";
+  for (const std::string name : {"p1", "p2", "p3", "p4", "p5", "rest"})
+    given += "  - {surface: 10 m, unit_weight: 18 kN/m3, K0: 0.6, region: " + name + "}\n";
+  text.replace(text.find(initial), initial.size(), given);
+  text.erase(text.find("anchors:"), text.find('\n', text.find("anchors:")) + 1 - text.find("anchors:"));
+  const auto before = run(read(text), 1);
+  const auto after = run(read(text));
+  const auto top_pressure = [](const fem::Solver<2>& solver) {
+    double pressure = 0.0;
+    for (const auto& contribution : solver.problem().contributions) {
+      const auto* const skin = dynamic_cast<const fem::Interface<2>*>(contribution.get());
+      if (skin == nullptr || skin->settings().name != "skin left") continue;
+      for (const fem::InterfacePointResult<2>& point : skin->results())
+        if (point.geometry.place(1) > 9.01) pressure -= point.geometry.area * point.traction(1);
+    }
+    return pressure;
+  };
+  EXPECT_EQ(top_pressure(*before), 0.0);  // its faces are not there
+  // Between nothing and the weight of the fill, 36 kN/m.
+  EXPECT_GT(top_pressure(*after), 0.5e3);
+  EXPECT_LT(top_pressure(*after), 36e3);
+  // What the ground and the wall stand on has grown by the weight.
+  EXPECT_NEAR(after->reaction("bottom")(1) - before->reaction("bottom")(1), 36e3, 1.0);
+}
+
+std::string fault_of(const std::string& stages, const std::string& from = "from: wall_top") {
+  std::string text = ground(stages);
+  text.replace(text.find("from: wall_top"), std::string("from: wall_top").size(), from);
+  try {
+    (void)read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StructureStages, FaultsNameThePartAndTheRemedy) {
+  EXPECT_NE(fault_of("    - {name: x, place: wal, count: 1}\n")
+                .find("beams, interfaces and anchors are rod, skin, wall"),
+            std::string::npos);
+  EXPECT_NE(fault_of("    - {name: x, remove: skin, count: 1}\n").find("goes with the ground beside it"),
+            std::string::npos);
+  EXPECT_NE(fault_of("    - {name: x, place: wall, count: 1}\n    - {name: y, place: wall, count: 1}\n")
+                .find("'wall' has been placed in an earlier stage"),
+            std::string::npos);
+  // An anchor at a node of ground that goes.
+  const std::string at_corner = fault_of("    - {name: cut, remove: p1, count: 1}\n", "from: top_left");
+  EXPECT_NE(at_corner.find(
+                "stage 'cut': the anchor 'rod' ends at (0, 10), where the ground is not there; 'remove' the "
+                "anchor too"),
+            std::string::npos)
+      << at_corner;
+  EXPECT_EQ(fault_of("    - {name: cut, remove: [p1, rod], count: 1}\n", "from: top_left"), "");
+}
+
+}  // namespace
+}  // namespace polargrain::coupler
