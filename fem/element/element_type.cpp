@@ -19,11 +19,12 @@ template <int dim>
 const std::vector<ElementType<dim>>& element_types() {
   if constexpr (dim == 2) {
     static const std::vector<ElementType<2>> types{quadrilateral8_reduced(), quadrilateral8(),
-                                                   quadrilateral4(), triangle6()};
+                                                   quadrilateral4(), triangle6(), quadrilateral4_one_point()};
     return types;
   } else {
-    static const std::vector<ElementType<3>> types{hexahedron20_reduced(), hexahedron20(), hexahedron8(),
-                                                   tetrahedron10(), wedge15()};
+    static const std::vector<ElementType<3>> types{
+        hexahedron20_reduced(), hexahedron20(), hexahedron8(),
+        tetrahedron10(),        wedge15(),      hexahedron8_one_point()};
     return types;
   }
 }

@@ -54,6 +54,9 @@ struct ElementType {
   /// In the plane the outward normal is to the right of the way from the first corner of a side to the second. In space it
   /// is x,xi cross x,eta of the face's reference coordinates.
   std::vector<ElementSide<dim>> sides;
+  /// Elements with one integration point: it stands for the mean over these places, of shape functions and gradients alike
+  /// (Flanagan and Belytschko 1981). Patterns that it does not see need springs (solver/stabilisation.hpp).
+  std::vector<QuadraturePoint<dim>> averaged = {};
 };
 
 /// @param name one of element_names(), for example "Q8R".

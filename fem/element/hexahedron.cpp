@@ -2,6 +2,7 @@
 #include "fem/element/hexahedron.hpp"
 
 #include <array>
+#include <utility>
 
 #include "fem/element/faces.hpp"
 #include "fem/element/quadrature.hpp"
@@ -95,6 +96,14 @@ ElementType<3> hexahedron20_reduced() {
 }
 ElementType<3> hexahedron20() {
   return serendipity_type("H20", 3);
+}
+ElementType<3> hexahedron8_one_point() {
+  ElementType<3> type = hexahedron8();
+  type.name = "H8R";
+  type.averaged = std::move(type.quadrature);
+  type.quadrature = gauss_cube(1);
+  type.mean_dilatation = false;
+  return type;
 }
 ElementType<3> hexahedron8() {
   static const ElementType<2> face = quadrilateral4();

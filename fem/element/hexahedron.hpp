@@ -11,5 +11,7 @@ ElementType<3> hexahedron20_reduced();
 ElementType<3> hexahedron20();
 /// H8: trilinear, 2x2x2 points, mean dilatation. Stiff in bending: for fine meshes.
 ElementType<3> hexahedron8();
+/// H8R: trilinear, one point, springs against hourglass patterns. Cheap, for cells of grains and explicit steps.
+ElementType<3> hexahedron8_one_point();
 
 }  // namespace polargrain::fem

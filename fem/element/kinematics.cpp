@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/element/kinematics.hpp"
 
+#include "fem/element/averaged_places.hpp"
 #include "fem/element/dofs.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "fem/material/polar_decomposition.hpp"
 #include "fem/material/rotation.hpp"
@@ -29,6 +31,48 @@ void add_micro_rotation(const PointGeometry<dim>& point, const NodeColumns<dim>&
   }
 }
 
+/// In place, at places of the reference element.
+template <int dim>
+std::vector<PointGeometry<dim>> geometries_at(const std::vector<QuadraturePoint<dim>>& places,
+                                              const ElementType<dim>& type, const VectorRows<dim>& nodes) {
+  std::vector<PointGeometry<dim>> points;
+  for (const QuadraturePoint<dim>& place : places) {
+    const ShapeFunctions<dim> shape = type.shape_functions(place.position);
+    const typename Cosserat<dim>::Gradient j = jacobian<dim>(nodes, shape);
+    PointGeometry<dim> point;
+    point.position = nodes.transpose() * shape.value;
+    point.volume = place.weight * j.determinant();
+    point.shape = shape.value;
+    point.gradient = shape.derivative * j.inverse();
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+/// The point that stands for these: means over their volume. Where one of them is inside out its volume is not positive.
+template <int dim>
+PointGeometry<dim> mean_of(const std::vector<PointGeometry<dim>>& points) {
+  PointGeometry<dim> mean = points.front();
+  double volume = mean.volume;
+  double least = mean.volume;
+  mean.position *= mean.volume;
+  mean.shape *= mean.volume;
+  mean.gradient *= mean.volume;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const PointGeometry<dim>& point = points[i];
+    volume += point.volume;
+    least = std::min(least, point.volume);
+    mean.position += point.volume * point.position;
+    mean.shape += point.volume * point.shape;
+    mean.gradient += point.volume * point.gradient;
+  }
+  mean.volume = least > 0.0 ? volume : least;
+  mean.position /= volume;
+  mean.shape /= volume;
+  mean.gradient /= volume;
+  return mean;
+}
+
 }  // namespace
 
 template <int dim>
@@ -37,23 +81,21 @@ typename Cosserat<dim>::Gradient jacobian(const VectorRows<dim>& nodes, const Sh
 }
 
 template <int dim>
+std::vector<PointGeometry<dim>> averaged_places(const ElementType<dim>& type, const VectorRows<dim>& nodes) {
+  return geometries_at(type.averaged, type, nodes);
+}
+
+template <int dim>
 std::vector<PointGeometry<dim>> point_geometries(const ElementType<dim>& type, const VectorRows<dim>& nodes) {
-  std::vector<PointGeometry<dim>> points;
-  double volume = 0.0;
-  VectorRows<dim> mean = VectorRows<dim>::Zero(type.nodes, dim);
-  for (const QuadraturePoint<dim>& place : type.quadrature) {
-    const ShapeFunctions<dim> shape = type.shape_functions(place.position);
-    const typename Cosserat<dim>::Gradient j = jacobian<dim>(nodes, shape);
-    PointGeometry<dim> point;
-    point.position = nodes.transpose() * shape.value;
-    point.volume = place.weight * j.determinant();
-    point.shape = shape.value;
-    point.gradient = shape.derivative * j.inverse();
-    volume += point.volume;
-    mean += point.volume * point.gradient;
-    points.push_back(std::move(point));
-  }
+  if (!type.averaged.empty()) return {mean_of(averaged_places<dim>(type, nodes))};
+  std::vector<PointGeometry<dim>> points = geometries_at(type.quadrature, type, nodes);
   if (type.mean_dilatation) {
+    double volume = 0.0;
+    VectorRows<dim> mean = VectorRows<dim>::Zero(type.nodes, dim);
+    for (const PointGeometry<dim>& point : points) {
+      volume += point.volume;
+      mean += point.volume * point.gradient;
+    }
     mean /= volume;
     for (PointGeometry<dim>& point : points)
       point.dilatation_correction = (1.0 / dim) * (mean - point.gradient);
@@ -141,6 +183,10 @@ StrainMatrix<dim> strain_matrix(const PointGeometry<dim>& point, Continuum conti
 
 template Cosserat<2>::Gradient jacobian<2>(const VectorRows<2>& nodes, const ShapeFunctions<2>& shape);
 template Cosserat<3>::Gradient jacobian<3>(const VectorRows<3>& nodes, const ShapeFunctions<3>& shape);
+template std::vector<PointGeometry<2>> averaged_places<2>(const ElementType<2>& type,
+                                                          const VectorRows<2>& nodes);
+template std::vector<PointGeometry<3>> averaged_places<3>(const ElementType<3>& type,
+                                                          const VectorRows<3>& nodes);
 template std::vector<PointGeometry<2>> point_geometries<2>(const ElementType<2>& type,
                                                            const VectorRows<2>& nodes);
 template std::vector<PointGeometry<3>> point_geometries<3>(const ElementType<3>& type,

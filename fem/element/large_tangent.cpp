@@ -18,10 +18,27 @@ Eigen::Matrix2d in_plane(const Vector7& stress) {
 }
 
 /// d u_i / d x_j at the end of the step for a unit value of one displacement of node `a`.
-Eigen::Matrix2d unit_gradient(const PointGeometry<2>& end, Eigen::Index a, Eigen::Index component) {
-  Eigen::Matrix2d g = Eigen::Matrix2d::Zero();
+template <int dim>
+typename Cosserat<dim>::Gradient unit_gradient(const PointGeometry<dim>& end, Eigen::Index a,
+                                               Eigen::Index component) {
+  typename Cosserat<dim>::Gradient g = Cosserat<dim>::Gradient::Zero();
   g.row(component) = end.gradient.row(a);
   return g;
+}
+
+/// The same as the material feels it: of gradients that are means about the start, which lead to other means at the end.
+template <int dim>
+typename Cosserat<dim>::Gradient felt_gradient(const PointGeometry<dim>& end, const PointGeometry<dim>& start,
+                                               const Increment<dim>& increment, bool is_averaged,
+                                               Eigen::Index a, Eigen::Index component) {
+  using Gradient = typename Cosserat<dim>::Gradient;
+  if (is_averaged)
+    return unit_gradient<dim>(start, a, component) *
+           Gradient(Gradient::Identity() + increment.displacement_gradient).inverse();
+  Gradient felt = unit_gradient<dim>(end, a, component);
+  if (end.dilatation_correction.size() > 0)
+    felt += end.dilatation_correction(a, component) * Gradient::Identity();
+  return felt;
 }
 
 /// The step of one point taken apart, and how its parts change with the nodal values.
@@ -75,6 +92,9 @@ class StepKinematics {
   Eigen::Matrix2d inverse_;  // (U + I)^-1
 };
 
+Eigen::VectorXd change_of_shape(const PointGeometry<3>& end, const Eigen::Matrix3d& g, const Vector18& stress,
+                                Continuum continuum);
+
 /// How the nodal forces of a given stress change with the shape: gradients by -N_a,k g_kj, the volume by tr g.
 Eigen::VectorXd change_of_shape(const PointGeometry<2>& end, const Eigen::Matrix2d& g, const Vector7& stress,
                                 Continuum continuum) {
@@ -93,12 +113,26 @@ Eigen::VectorXd change_of_shape(const PointGeometry<2>& end, const Eigen::Matrix
   return forces;
 }
 
+/// For a unit value of one displacement of node `a`, over the volume of the point.
+/// @param places that the point stands for; none: itself
+template <int dim>
+Eigen::VectorXd change_of_shape(const PointGeometry<dim>& end, std::span<const PointGeometry<dim>> places,
+                                Eigen::Index a, Eigen::Index component,
+                                const typename Cosserat<dim>::Vector& stress, Continuum continuum) {
+  if (places.empty()) return change_of_shape(end, unit_gradient<dim>(end, a, component), stress, continuum);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(entry_of<dim>(end.shape.size()));
+  for (const PointGeometry<dim>& place : places)
+    sum += place.volume / end.volume *
+           change_of_shape(place, unit_gradient<dim>(place, a, component), stress, continuum);
+  return sum;
+}
+
 }  // namespace
 
 template <>
 Eigen::MatrixXd large_tangent<2>(const PointGeometry<2>& end, const PointGeometry<2>& start,
                                  const Increment<2>& increment, Continuum continuum,
-                                 const Response<2>& response) {
+                                 const Response<2>& response, std::span<const PointGeometry<2>> places) {
   const auto nodes = end.shape.size();
   const StepKinematics step(increment, continuum);
   const Eigen::Matrix2d s = in_plane(response.stress);
@@ -113,11 +147,8 @@ Eigen::MatrixXd large_tangent<2>(const PointGeometry<2>& end, const PointGeometr
       tangent.col(column) = b.transpose() * (response.tangent * change.strain);
       continue;
     }
-    const Eigen::Matrix2d g = unit_gradient(end, a, component);
-    Eigen::Matrix2d felt = g;
-    if (end.dilatation_correction.size() > 0)
-      felt += end.dilatation_correction(a, component) * Eigen::Matrix2d::Identity();
-    const auto change = step.of_displacement(felt);
+    const auto change =
+        step.of_displacement(felt_gradient<2>(end, start, increment, !places.empty(), a, component));
     Eigen::Matrix2d spin;
     spin << 0.0, -change.angle, change.angle, 0.0;
     const Eigen::Matrix2d ds = spin * s - s * spin;
@@ -127,7 +158,8 @@ Eigen::MatrixXd large_tangent<2>(const PointGeometry<2>& end, const PointGeometr
     dstress(k12) += ds(0, 1);
     dstress(k21) += ds(1, 0);
     dstress.tail<2>() += spin * m;
-    tangent.col(column) = b.transpose() * dstress + change_of_shape(end, g, response.stress, continuum);
+    tangent.col(column) =
+        b.transpose() * dstress + change_of_shape<2>(end, places, a, component, response.stress, continuum);
   }
   return end.volume * tangent;
 }
@@ -223,7 +255,7 @@ Eigen::VectorXd change_of_shape(const PointGeometry<3>& end, const Eigen::Matrix
 template <>
 Eigen::MatrixXd large_tangent<3>(const PointGeometry<3>& end, const PointGeometry<3>& start,
                                  const Increment<3>& increment, Continuum continuum,
-                                 const Response<3>& response) {
+                                 const Response<3>& response, std::span<const PointGeometry<3>> places) {
   const auto nodes = end.shape.size();
   const SpaceStep step(increment, continuum);
   const Eigen::Matrix3d s = tensor(response.stress, 0);
@@ -233,16 +265,12 @@ Eigen::MatrixXd large_tangent<3>(const PointGeometry<3>& end, const PointGeometr
   Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(entry_of<3>(nodes), entry_of<3>(nodes));
   for (Eigen::Index a = 0; a < nodes; ++a) {
     for (int i = 0; i < 3; ++i) {
-      Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
-      g.row(i) = end.gradient.row(a);
-      Eigen::Matrix3d felt = g;
-      if (end.dilatation_correction.size() > 0)
-        felt += end.dilatation_correction(a, i) * Eigen::Matrix3d::Identity();
-      const SpaceStep::Variation change = step.of_displacement(felt);
+      const SpaceStep::Variation change =
+          step.of_displacement(felt_gradient<3>(end, start, increment, !places.empty(), a, i));
       stresses.col(entry_of<3>(a) + i) =
           response.tangent * change.strain +
           components(change.spin * s - s * change.spin, change.spin * m - m * change.spin);
-      shape.col(entry_of<3>(a) + i) = change_of_shape(end, g, response.stress, continuum);
+      shape.col(entry_of<3>(a) + i) = change_of_shape<3>(end, places, a, i, response.stress, continuum);
       stresses.col(entry_of<3>(a) + 3 + i) =
           response.tangent * step.of_rotation(i, start.shape(a), start.gradient.row(a).transpose()).strain;
     }

@@ -11,10 +11,11 @@ namespace polargrain::fem {
 /// along (updated Lagrangian). The law follows the stretch of the step and its answer turns (rotation.hpp); the forces
 /// belong to the end of the step. Exact for laws whose tangent is: the turn of a stress is never handed to a law.
 /// @param start, end geometry of the point at both ends of the step @param increment that the material was given
+/// @param places averaged_places at the end; empty where the point stands for itself
 template <int dim>
 Eigen::MatrixXd large_tangent(const PointGeometry<dim>& end, const PointGeometry<dim>& start,
                               const Increment<dim>& increment, Continuum continuum,
-                              const Response<dim>& response);
+                              const Response<dim>& response, std::span<const PointGeometry<dim>> places = {});
 
 /// The further stiffness of elements with mean dilatation: their mean gradients change with the shape of the element.
 /// @param points of the element at the end of the step @param answers as many

@@ -2,6 +2,7 @@
 #include "fem/element/quadrilateral.hpp"
 
 #include <array>
+#include <utility>
 
 #include "fem/element/line.hpp"
 #include "fem/element/quadrature.hpp"
@@ -79,6 +80,14 @@ ElementType<2> quadrilateral4() {
           bilinear,
           true,
           sides_of_polygon(4, false)};
+}
+ElementType<2> quadrilateral4_one_point() {
+  ElementType<2> type = quadrilateral4();
+  type.name = "Q4R";
+  type.averaged = std::move(type.quadrature);
+  type.quadrature = gauss_square(1);
+  type.mean_dilatation = false;
+  return type;
 }
 ElementType<2> quadrilateral8_reduced() {
   return serendipity_type("Q8R", 2);

@@ -108,7 +108,7 @@ void check(const CylinderSpecification& specification, const ElementType<3>& typ
     throw RunError(fmt::format("a cylinder needs at least 1 ring and 1 layer of elements, not {} and {}",
                                specification.rings, specification.layers));
   if (type.corners != 8)
-    throw RunError(fmt::format("a cylinder is made of hexahedra (H20R, H20, H8), not of {}", type.name));
+    throw RunError(fmt::format("a cylinder is made of hexahedra (H20R, H20, H8, H8R), not of {}", type.name));
 }
 
 void name_sides(const Grids& grids, Sector sector, Mesh<3>& mesh) {

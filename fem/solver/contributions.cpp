@@ -46,6 +46,13 @@ Eigen::VectorXd Contributions<dim>::linearised_forces(const Eigen::VectorXd& nod
 }
 
 template <int dim>
+double Contributions<dim>::stored_energy() const {
+  double sum = 0.0;
+  for (const auto& contribution : all_) sum += contribution->stored_energy();
+  return sum;
+}
+
+template <int dim>
 void Contributions<dim>::commit() {
   for (const auto& contribution : all_) contribution->commit();
 }

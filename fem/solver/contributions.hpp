@@ -31,6 +31,8 @@ class Contributions {
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);
   /// The tangent of the last evaluation times nodal values.
   [[nodiscard]] Eigen::VectorXd linearised_forces(const Eigen::VectorXd& nodal) const;
+  /// The sum of Contribution::stored_energy.
+  [[nodiscard]] double stored_energy() const;
   void commit();
   void revert();
   /// Each under a number of its own.

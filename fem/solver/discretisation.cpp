@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/elementary_functions.hpp"
+#include "fem/element/averaged_places.hpp"
 #include "fem/element/dofs.hpp"
 #include "fem/element/large_tangent.hpp"
 
@@ -35,6 +36,7 @@ Discretisation<dim>::Discretisation(const Mesh<dim>& mesh, Continuum continuum, 
       element_of_point_.push_back(number);
     }
     first_point_.push_back(points_.size());
+    averaged_.push_back(averaged_places<dim>(*mesh.elements[e].type, mesh.element_positions(number)));
     std::vector<int>& dofs = dofs_.emplace_back();
     for (const int node : mesh.elements[e].nodes) {
       for (const Dof dof : node_dofs<dim>()) dofs.push_back(entry_of<dim>(node, dof));
@@ -52,6 +54,7 @@ std::string Discretisation<dim>::move_to(const Eigen::VectorXd& nodal) {
       positions.row(static_cast<Eigen::Index>(a)) +=
           nodal.segment<dim>(entry_of<dim>(mesh_.elements[e].nodes[a])).transpose();
     }
+    averaged_[e] = averaged_places<dim>(*mesh_.elements[e].type, positions);
     std::size_t i = first_point_[e];
     for (PointGeometry<dim>& point : point_geometries<dim>(*mesh_.elements[e].type, positions)) {
       if (!(point.volume > 0.0)) {
@@ -149,7 +152,7 @@ Eigen::MatrixXd Discretisation<dim>::element_tangent(std::size_t e, const Linear
   for (std::size_t i = first_point_[e]; i < first_point_[e + 1]; ++i) {
     if (const auto& moving = of.moving) {
       tangent += large_tangent<dim>(points_[i], moving->start.point(i), moving->increments[i], continuum_,
-                                    of.answers[i]);
+                                    of.answers[i], averaged_[e]);
       continue;
     }
     const auto b = strain_matrix<dim>(points_[i], continuum_);

@@ -81,6 +81,8 @@ class Discretisation {
   std::vector<PointGeometry<dim>> points_;
   std::vector<int> element_of_point_;
   std::vector<std::size_t> first_point_;
+  /// averaged_places of each element; all empty where no element has them.
+  std::vector<std::vector<PointGeometry<dim>>> averaged_;
   std::vector<std::vector<int>> dofs_;
   std::vector<char> there_;  ///< by element; empty: all of them
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fem/solver/problem.hpp"
+#include "fem/solver/stabilisation.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -333,6 +334,8 @@ Messages faults(const Problem<dim>& problem) {
       messages.push_back("stages of construction do not take " + contribution->name() + " yet");
   }
   check_contributions(problem, 0, messages);
+  if (has_stages && Stabilisation<dim>::of(problem.mesh, problem.continuum))
+    messages.push_back("stages of construction do not take elements with one integration point yet");
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion : free_rigid_motions(problem, 0)) {
     messages.push_back(

@@ -14,6 +14,7 @@
 #include "fem/solver/equation_scaling.hpp"
 #include "fem/solver/free_rotations.hpp"
 #include "fem/solver/residual_floor.hpp"
+#include "fem/solver/stabilisation.hpp"
 #include "fem/solver/why_singular.hpp"
 
 namespace polargrain::fem {
@@ -40,6 +41,16 @@ Problem<dim> checked(Problem<dim> problem) {
   return problem;
 }
 
+/// With the springs that elements with one integration point need, unless it brings its own.
+template <int dim>
+Problem<dim> stabilised(Problem<dim> problem) {
+  for (const auto& contribution : problem.contributions)
+    if (dynamic_cast<const Stabilisation<dim>*>(contribution.get()) != nullptr) return problem;
+  if (auto springs = Stabilisation<dim>::of(problem.mesh, problem.continuum))
+    problem.contributions.push_back(std::move(springs));
+  return problem;
+}
+
 template <int dim>
 Eigen::Index field_entries(const Problem<dim>& problem) {
   const FieldPlaces<dim> places = problem.places();
@@ -58,7 +69,7 @@ double mean_element_size(const Discretisation<dim>& discretisation) {
 
 template <int dim>
 Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
-    : problem(checked(std::move(problem_in))),
+    : problem(stabilised(checked(std::move(problem_in)))),
       options(options_in),
       discretisation(problem.mesh, problem.continuum, field_entries(problem)),
       constraints(problem),
@@ -69,6 +80,7 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints, problem.contributions),
+      linear_solver_(coarse_space<dim>(problem.mesh, constraints)),
       anderson_(options.acceleration_depth, reference_length, dim, constraints.places().mechanics()),
       start_(problem.mesh, problem.continuum, field_entries(problem)),
       trial_(discretisation.points()) {
@@ -146,9 +158,10 @@ std::string Newton<dim>::contribute(double time, const Eigen::VectorXd& incremen
 
 template <int dim>
 void Newton<dim>::refuse_explicit() const {
-  if (problem.contributions.empty()) return;
-  throw RunError("explicit steps do not take " + problem.contributions.front()->name() +
-                 " yet; balance the steps by iterations instead");
+  for (const auto& contribution : problem.contributions)
+    if (!contribution->takes_explicit_steps())
+      throw RunError("explicit steps do not take " + contribution->name() +
+                     " yet; balance the steps by iterations instead");
 }
 
 template <int dim>
@@ -284,7 +297,10 @@ template <int dim>
 bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
                              const std::vector<Response<dim>>& responses, const Eigen::VectorXd& right_side,
                              Correction& change, StepReport& report) {
-  if (!factorise(responses, iterate.time, report)) return false;
+  if (!factorise(responses, iterate.time, report)) {
+    tell_of_solver();
+    return false;
+  }
   const Stopwatch watch(report.solve_seconds);
   const auto add_solution = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
     constraints.add_free(solved(constraints.restrict_to_free(forces)), nodal);
@@ -312,7 +328,13 @@ bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
   if (!converges_fast_) {
     anderson_.accelerate(change, [&](const Eigen::VectorXd& forces) { return respond(forces, 0.0); });
   }
+  tell_of_solver();
   return change.displacement.allFinite() && std::isfinite(change.time);
+}
+
+template <int dim>
+void Newton<dim>::tell_of_solver() {
+  if (const std::string news = linear_solver_.news(); observer && !news.empty()) observer->solves(news);
 }
 
 template <int dim>
@@ -406,6 +428,7 @@ std::string Newton<dim>::residual_text(const Residual& residual) const {
 template <int dim>
 Newton<dim>::Predictor Newton<dim>::predict(const StepGoal& goal) {
   move_to_committed();
+  linear_solver_.begin_step();
   unbalanced_.resize(0);
   anderson_.clear();
   internal_before_ = discretisation.internal_forces(state.responses);
@@ -532,7 +555,9 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
   }
   materials.commit();
   if (!contributions.is_empty()) {
+    const double before = contributions.stored_energy();
     contributions.commit();
+    state.internal_work += contributions.stored_energy() - before;
     state.contributed = contributed_.internal;
   }
   state.responses = trial_;

@@ -11,7 +11,7 @@ namespace polargrain::fem {
 template <int dim>
 Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& moved, StepReport& report) {
   move_to_committed();
-  internal_before_ = discretisation.internal_forces(state.responses);
+  internal_before_ = committed_internal_forces();
   loads_before_ = loads_at(state.time, released_, jump_let_go_);
   Iterate iterate = start_of({.time = time, .measure = {}, .released = released});
   constraints.add_free(moved, iterate.displacement);
@@ -31,7 +31,7 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
 
 template <int dim>
 Eigen::VectorXd Newton<dim>::unbalanced() const {
-  return loads_at(state.time, released_, jump_let_go_) - discretisation.internal_forces(state.responses);
+  return loads_at(state.time, released_, jump_let_go_) - committed_internal_forces();
 }
 
 template <int dim>

@@ -3,6 +3,7 @@ polargrain_test(fem_start_from_test verification verification/fem_start_from_tes
 polargrain_test(fem_stages_test verification verification/fem_stages_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_slab_test verification verification/fem_slab_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_space_test verification verification/fem_space_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_one_point_test verification verification/fem_one_point_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_bodies_test verification verification/fem_bodies_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_patch_test verification verification/fem_patch_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_shear_layer_test verification verification/fem_shear_layer_test.cpp LIBS polargrain_fem)

@@ -163,9 +163,9 @@ TEST_P(SpacePatch, ConstantStrainAndRotationOnAShakenMesh) {
   EXPECT_LT(patch_error(GetParam(), true, kTurned, 0.0, 0.0), 1e-11);
 }
 
-// 2x2x2 points, and those of wedges, do not integrate N s,j of a distorted element exactly; on parallelepipeds they do.
+// 2x2x2 points of H20R, one point, and those of wedges, do not integrate N s,j of a distorted element exactly; on parallelepipeds they do.
 TEST_P(SpacePatch, ConstantCurvature) {
-  const bool shaken = GetParam() != "H20R" && GetParam() != "W15";
+  const bool shaken = GetParam() != "H20R" && GetParam() != "W15" && GetParam() != "H8R";
   EXPECT_LT(patch_error(GetParam(), shaken, kCurved, 0.0, 0.0), 1e-11);
   EXPECT_LT(patch_error(GetParam(), shaken, kCurved, 12.0, 8.0), 1e-11);
 }

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Elements with one integration point and springs against their hourglass patterns: H8R and Q4R.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <iostream>
+
+#include "fem/material/cone_matching.hpp"
+#include "fem/material/elastic.hpp"
+#include "fem/material/elastoplastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/mesh/box.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/discretisation.hpp"
+#include "fem/solver/solver.hpp"
+#include "fem/solver/stabilisation.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+template <int dim>
+ElasticParameters<dim> parameters(double young, double poisson, double cosserat, double length) {
+  ElasticParameters<dim> made;
+  made.young_modulus = young;
+  made.poisson_ratio = poisson;
+  made.cosserat_shear_modulus = cosserat;
+  made.internal_length = length;
+  return made;
+}
+
+template <int dim>
+std::shared_ptr<Material<dim>> elastic(const ElasticParameters<dim>& of) {
+  return std::make_shared<LocalMaterial<ElasticLaw<dim>>>(ElasticLaw<dim>(of));
+}
+
+/// A brick or rectangle of unit elements.
+template <int dim>
+Mesh<dim> unit_elements(int along, const std::string& element) {
+  if constexpr (dim == 2)
+    return rectangle({{1.0 * along, 1.0 * along}, {along, along}}, element);
+  else
+    return box({{1.0 * along, 1.0 * along, 1.0 * along}, {along, along, along}}, element);
+}
+
+/// Eigenvalues of the stiffness without supports, below 1e-9 of the largest.
+template <int dim>
+int zero_modes(int along, const ElasticParameters<dim>& of, bool with_springs) {
+  const Mesh<dim> mesh = unit_elements<dim>(along, dim == 2 ? "Q4R" : "H8R");
+  const Discretisation<dim> discretisation(mesh, Continuum::cosserat);
+  std::vector<Response<dim>> answers(discretisation.points());
+  for (Response<dim>& answer : answers) answer.tangent = elastic_stiffness(of);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(discretisation.nodal_size(), discretisation.nodal_size());
+  const auto springs = Stabilisation<dim>::of(mesh, Continuum::cosserat);
+  springs->learn(discretisation, answers);
+  for (std::size_t e = 0; e < discretisation.elements(); ++e) {
+    const std::vector<int>& dofs = discretisation.element_dofs(e);
+    stiffness(dofs, dofs) += discretisation.element_tangent(e, {answers});
+    if (with_springs) stiffness(dofs, dofs) += springs->tangent(e);
+  }
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues();
+  return static_cast<int>((values.array() < 1e-9 * values(values.size() - 1)).count());
+}
+
+// One point has 18 strains (7 with s_33 in the plane, of which 6 are free): the rest of 48 (12) unknowns is unresisted without springs.
+TEST(OnePoint, LeavesTheRigidMotionsAlone) {
+  const auto space = parameters<3>(2.5, 0.25, 0.5, 0.3);
+  const auto plane = parameters<2>(2.5, 0.25, 0.5, 0.3);
+  EXPECT_EQ(zero_modes<3>(1, space, false), 48 - 18);
+  EXPECT_EQ(zero_modes<2>(1, plane, false), 12 - 6);
+  for (const int along : {1, 2, 3}) {
+    EXPECT_EQ(zero_modes<3>(along, space, true), 6) << along;
+    EXPECT_EQ(zero_modes<2>(along, plane, true), 3) << along;
+  }
+  // Without skew stiffness, uniform micro-rotations are free, as with every element.
+  EXPECT_EQ(zero_modes<3>(2, parameters<3>(2.5, 0.25, 0.0, 0.3), true), 9);
+  EXPECT_EQ(zero_modes<2>(2, parameters<2>(2.5, 0.25, 0.0, 0.3), true), 4);
+}
+
+/// A classical cantilever of length 4 and height 1 under a shear traction at its end: deflection of the end's middle.
+double deflection(const std::string& element, int high, double share) {
+  Problem<3> problem;
+  problem.mesh = box({{4.0, 1.0, 1.0}, {4 * high, high, high}}, element);
+  problem.continuum = Continuum::cauchy;
+  problem.materials["all"] = elastic(parameters<3>(1000.0, 0.3, 0.0, 0.0));
+  const TimeTable zero = TimeTable::constant(0.0);
+  for (const Dof dof : {Dof::u1, Dof::u2, Dof::u3}) problem.prescribed.push_back({"left", dof, zero, {}});
+  BoundaryLoad<3> load;
+  load.on = "right";
+  load.traction[2] = TimeTable::ramp(-1.0);
+  problem.boundary_loads.push_back(load);
+  if (auto springs = Stabilisation<3>::of(problem.mesh, problem.continuum, share))
+    problem.contributions.push_back(std::move(springs));
+  const std::vector<int> end = problem.mesh.nodes_on("right");
+  Solver<3> solver(std::move(problem), {});
+  EXPECT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  EXPECT_TRUE(report.converged) << report.message;
+  double sum = 0.0;
+  for (const int node : end) sum += solver.state().displacement(entry_of<3>(node, Dof::u3));
+  return sum / static_cast<double>(end.size());
+}
+
+/// An elastoplastic specimen between rough plates, in the plane or in space: the force of the upper plate at the end.
+template <int dim>
+double squeezed(const std::string& element, int along, int explicit_steps) {
+  constexpr double pressure = 100e3;
+  Problem<dim> problem;
+  if constexpr (dim == 2)
+    problem.mesh = rectangle({{0.04, 0.08}, {along, 2 * along}}, element);
+  else
+    problem.mesh = box({{0.04, 0.04, 0.08}, {along, along, 2 * along}}, element);
+  ElastoplasticParameters<dim> sand;
+  sand.elastic = parameters<dim>(40e6, 0.3, 10e6, 3e-3);
+  for (int i = 0; i < dim; ++i) sand.elastic.initial_stress(Cosserat<dim>::stress_place(i, i)) = -pressure;
+  if constexpr (dim == 2) sand.elastic.initial_stress(k33) = -pressure;
+  sand.cone = hardening_cone({PiecewiseLinear(35.0), PiecewiseLinear(5.0), PiecewiseLinear(1e3)},
+                             dim == 2 ? ConeMatch::plane_strain : ConeMatch::triaxial_compression);
+  problem.materials["all"] =
+      std::make_shared<LocalMaterial<ElastoplasticLaw<dim>>>(ElastoplasticLaw<dim>(sand));
+  const Dof vertical = dim == 2 ? Dof::u2 : Dof::u3;
+  for (const char* const plate : {"bottom", "top"})
+    for (int i = 0; i < dim; ++i) {
+      const Dof dof = node_dofs<dim>()[static_cast<std::size_t>(i)];
+      const bool moves = plate[0] == 't' && dof == vertical;
+      problem.prescribed.push_back(
+          {plate, dof, moves ? TimeTable::ramp(-0.0012) : TimeTable::constant(0.0), {}});
+    }
+  for (const char* const side : {"left", "right", "front", "back"}) {
+    if (dim == 2 && (side[0] == 'f' || side[0] == 'b')) continue;
+    BoundaryLoad<dim> load;
+    load.on = side;
+    load.pressure = TimeTable::constant(pressure);
+    problem.boundary_loads.push_back(load);
+  }
+  Solver<dim> solver(std::move(problem), {});
+  if (explicit_steps > 0) {
+    EXPECT_TRUE(solver.begin_explicit().converged);
+    EXPECT_TRUE(solver.advance_explicit(1.0, explicit_steps).converged);
+  } else {
+    EXPECT_TRUE(solver.equilibrate().converged);
+    for (int step = 1; step <= 5; ++step) {
+      const StepReport report = solver.advance(step / 5.0);
+      EXPECT_TRUE(report.converged) << report.message;
+      EXPECT_EQ(report.substeps, 1);
+    }
+  }
+  return solver.reaction("top")(dim - 1);
+}
+
+/// Nodal values of a body whose nodes go from x to moved(x); micro-rotations are those of the turn.
+template <class Moved>
+Eigen::VectorXd displaced(const Mesh<3>& mesh, const Moved& moved, const Eigen::Vector3d& turn) {
+  Eigen::VectorXd values(entry_of<3>(static_cast<Eigen::Index>(mesh.nodes.size())));
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+    const auto entry = entry_of<3>(static_cast<Eigen::Index>(node));
+    values.segment<3>(entry) = moved(mesh.nodes[node]) - mesh.nodes[node];
+    values.segment<3>(entry + 3) = turn;
+  }
+  return values;
+}
+
+}  // namespace
+
+// Energy of squares of nodal places: a turn by any angle adds none, and turns the forces.
+TEST(OnePoint, SpringsTurnWithTheBody) {
+  Mesh<3> mesh = box({{1, 1, 2}, {2, 2, 3}}, "H8R");
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+    const double k = static_cast<double>(node);
+    mesh.nodes[node] += 0.05 * Eigen::Vector3d(std::sin(2.1 * k), std::cos(1.3 * k), std::sin(0.7 * k));
+  }
+  const Discretisation<3> discretisation(mesh, Continuum::cosserat);
+  std::vector<Response<3>> answers(discretisation.points());
+  for (Response<3>& answer : answers) answer.tangent = elastic_stiffness(parameters<3>(2.5, 0.25, 0.5, 0.3));
+  const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat);
+  springs->learn(discretisation, answers);
+  const auto forces_of = [&](const Eigen::VectorXd& values) {
+    NodalForces forces;
+    const Eigen::VectorXd start = Eigen::VectorXd::Zero(values.size());
+    forces.internal = forces.parts = start;
+    EXPECT_EQ(springs->evaluate({0.0, 1.0, start, values}, forces), "");
+    return forces.internal;
+  };
+  const Eigen::Vector3d about = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, about).toRotationMatrix();
+  const auto bent = [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return x + 0.1 * Eigen::Vector3d(x(1) * x(2), x(0) * x(2), x(0) * x(1) * x(2));
+  };
+  const Eigen::VectorXd straight = forces_of(displaced(mesh, bent, Eigen::Vector3d::Zero()));
+  EXPECT_GT(straight.norm(), 1e-3);
+  const auto rigid = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return turn * x; };
+  EXPECT_LT(forces_of(displaced(mesh, rigid, 2.0 * about)).norm(), 1e-12 * straight.norm());
+  const auto both = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return turn * bent(x); };
+  const Eigen::VectorXd turned = forces_of(displaced(mesh, both, 2.0 * about));
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+    const auto entry = entry_of<3>(static_cast<Eigen::Index>(node));
+    EXPECT_LT((turned.segment<3>(entry) - turn * straight.segment<3>(entry)).norm(), 1e-13);
+  }
+}
+
+// Rough plates and plastic flow: the error against a fine mesh, beside elements with more points.
+TEST(OnePoint, CarriesAPlasticSpecimen) {
+  const double fine = squeezed<3>("H20R", 4, 0);
+  for (const char* const element : {"H8R", "H8", "H20R"})
+    std::cout << "[figure] force of " << element
+              << " on 2 x 2 x 4 over that of H20R on 4 x 4 x 8: " << squeezed<3>(element, 2, 0) / fine
+              << '\n';
+  EXPECT_NEAR(squeezed<3>("H8R", 2, 0) / fine, 1.0, 0.05);
+  EXPECT_NEAR(squeezed<2>("Q4R", 4, 0) / squeezed<2>("Q8R", 8, 0), 1.0, 0.05);
+}
+
+// As fast as Newton's steps allow; the difference is that of explicit steps with every element (fem_explicit_test).
+TEST(OnePoint, ExplicitStepsAgreeWithNewton) {
+  EXPECT_NEAR(squeezed<2>("Q4R", 2, 2000) / squeezed<2>("Q4R", 2, 0), 1.0, 0.02);
+  EXPECT_NEAR(squeezed<3>("H8R", 2, 2000) / squeezed<3>("H8R", 2, 0), 1.0, 0.02);
+}
+
+TEST(OnePoint, BendsACantilever) {
+  const double fine = deflection("H20R", 4, 0.0);
+  // Timoshenko: P L^3 / (3 E I) + P L / (k G A), k = 5/6; the clamped end is held sideways too.
+  EXPECT_NEAR(fine, -(64.0 / 3.0 / (1000.0 / 12.0) + 4.0 / (5.0 / 6.0 * 1000.0 / 2.6)), 0.01 * 0.27);
+  for (const int high : {2, 4})
+    for (const double share : {0.03, 0.1, 0.3, 1.0})
+      std::cout << "[figure] cantilever of H8R, " << high << " over its height, springs " << share << ": "
+                << deflection("H8R", high, share) / fine << '\n';
+  std::cout << "[figure] of H8: " << deflection("H8", 2, 0.0) / fine << ", "
+            << deflection("H8", 4, 0.0) / fine << '\n';
+}
