@@ -20,6 +20,7 @@ class Contributions {
 
   void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed);
   [[nodiscard]] bool is_empty() const { return all_.empty(); }
+  void prepare(const NodalStep& step);
   /// Overwrites the forces. @returns why one of them cannot, with its name; empty when all can
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);
   /// The tangent of the last evaluation times nodal values.
