@@ -66,7 +66,7 @@ template <int dim>
 void SpreadSlip<dim>::learn(const Discretisation<dim>&, std::span<const Response<dim>>) {
   for (Part& part : elements_) {
     const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
-    double strength = 0.0;
+    double strength = 1e-6 * stiffness_;  // a point without strength has some overstress too
     for (std::size_t i = 0; i < part.points.size(); ++i) strength = std::max(strength, answers[i].scale);
     part.resistance = options_.overstress * strength / stiffness_;
   }

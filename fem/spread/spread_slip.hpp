@@ -18,7 +18,7 @@ struct SpreadOptions {
   double width = 0.0;
   /// Overstress that a step needs for a growth of the source of 1, over the strength at its start (SlipAnswer::scale). It decides
   /// where neighbouring lines could slip alike; the smaller the steps, the smaller the overstress.
-  double overstress = 0.005;
+  double overstress = 0.001;
 };
 
 /// Names of the fields: the slip, and the overstress over SlipDriven::slip_stiffness.
