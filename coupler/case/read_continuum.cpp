@@ -55,7 +55,7 @@ void read_continuum(const Entry* entry, const Entry& document, CaseParts& parts)
 void check_spread_slips(const Entry& entry, CaseParts& parts) {
   bool any = false;
   for (const auto& [name, recipe] : parts.result.materials) {
-    if (!recipe) return;
+    if (!recipe) return;  // a fault
     any = any || recipe->slips() == Slips::spread;
     if (recipe->slips() == Slips::own)
       parts.faults.push_back(entry.fault(fmt::format(
