@@ -35,6 +35,7 @@
 #include "coupler/replay/replay.hpp"
 #include "fem/solver/automatic.hpp"
 #include "fem/solver/explicit_rate.hpp"
+#include "fem/spread/spread_slip.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -147,6 +148,7 @@ class Run {
       material = recipe.make_for<dim>(pool_ ? &*pool_ : nullptr);
       if (const std::string note = recipe.note(); !note.empty()) warn(note);
     }
+    if (case_.spread > 0.0) fem::add_spread_slip<dim>(problem(), {case_.spread});
     solver_.emplace(problem(), case_.solver);
     solver_->set_observer(&observer_);
     observer_.on_struggle = [this](const fem::Trouble& trouble) {

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/memory_archive.hpp"
 #include "common/standard_streams.hpp"
+#include "fem/spread/spread_slip.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -81,6 +82,7 @@ class StrengthReduction {
       const coupler::Weakened weak = recipe.weakened(factor);
       material = (weak.recipe ? *weak.recipe : recipe).template make_for<dim>(nullptr);
     }
+    if (case_.spread > 0.0) fem::add_spread_slip<dim>(problem, {case_.spread});
     return std::make_unique<fem::Solver<dim>>(std::move(problem), case_.solver);
   }
 

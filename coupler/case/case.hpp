@@ -72,6 +72,8 @@ struct Case {
   fem::Problem<2> problem;
   /// The same of a body in space, in the place of `problem`; nothing: the case is of the plane.
   std::optional<fem::Problem<3>> space;
+  /// Width over which slips are spread, m (fem::SpreadOptions::width); 0: each point slips by itself.
+  double spread = 0.0;
   std::map<std::string, std::shared_ptr<const MaterialRecipe>> materials;  ///< by name
   std::map<std::string, std::string> regions;                              ///< region: name of its material
   std::vector<StepTarget> plan;                                            ///< the steps, in their order

@@ -15,9 +15,10 @@ struct CaseFiles {
   int dem_steps = 0;  ///< of an explicit step; 0: cells are asked by Newton's method
   bool iterates =
       true;  ///< whether steps are balanced by iterations; with dem_steps too where the method is automatic
-  int ask_every = 0;     ///< explicit steps after which cells of a law follow; 0: as dem_steps
-  int dimension = 2;     ///< of the elements, 2 or 3
-  bool cosserat = true;  ///< false: a classical continuum, which asks for no Gc and no lc
+  int ask_every = 0;           ///< explicit steps after which cells of a law follow; 0: as dem_steps
+  int dimension = 2;           ///< of the elements, 2 or 3
+  bool cosserat = true;        ///< false: a classical continuum, which asks for no Gc and no lc
+  bool spreads_slips = false;  ///< laws take their slip from the nodes (Case::spread)
 };
 
 /// The text of a script with the included files in their place (paths from the including file), marked with the origin of each

@@ -14,6 +14,13 @@ namespace polargrain::coupler {
 
 class MaterialRecipe;
 
+/// The slips of a material where the case spreads slips.
+enum class Slips {
+  none,    ///< it is elastic
+  spread,  ///< it follows those of the nodes
+  own      ///< it has its own, which nothing spreads: not allowed there
+};
+
 /// A material with its strength divided by a factor.
 struct Weakened {
   std::shared_ptr<const MaterialRecipe> recipe = nullptr;  ///< null: the material has no strength, and stays
@@ -55,6 +62,7 @@ class MaterialRecipe {
     return grains()->packing.grain_mass() / grains()->packing.volume();
   }
   double given_density = 0.0;
+  [[nodiscard]] virtual Slips slips() const { return Slips::own; }
 
   /// Whether the material resists a micro-rotation relative to the continuum (Gc > 0).
   [[nodiscard]] virtual bool holds_micro_rotations() const { return true; }

@@ -11,6 +11,7 @@
 #include "coupler/case/document.hpp"
 #include "coupler/case/document_kind.hpp"
 #include "coupler/case/parts.hpp"
+#include "coupler/case/read_continuum.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -33,16 +34,17 @@ class CaseReader {
     while (case_.title.ends_with('\n')) case_.title.pop_back();  // of a text in lines of its own
     if (!control_character_in(case_.title).empty())
       top.fault("title", "title: must be one line without control characters; write the rest as comments");
-    const bool cauchy = top.choice_or("continuum", {"cosserat", "cauchy"}, "cosserat") == "cauchy";
+    const Entry* const continuum = top.find("continuum");
     const bool large = top.choice_or("deformation", {"small", "large"}, "small") == "large";
     if (const Entry* entry = top.require("mesh", "a map with the mesh")) read_mesh(*entry, parts_);
     parts_.builds = builds_in_stages(document_);
     case_.with_problem([&](auto& problem) {
-      problem.continuum = cauchy ? fem::Continuum::cauchy : fem::Continuum::cosserat;
       problem.deformation = large ? fem::Deformation::large : fem::Deformation::small;
     });
+    read_continuum(continuum, document_, parts_);
     read_structures(top.find("interfaces"), top.find("beams"), top.find("anchors"), parts_);
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
+    if (case_.spread > 0.0) check_spread_slips(*continuum, parts_);
     if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
     boundary_ = top.require("boundary", "a list of supports and loads");
     if (boundary_ != nullptr) read_boundary(*boundary_, parts_);
@@ -77,10 +79,10 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        std::unique_ptr<MaterialRecipe> recipe =
-            model.read(member.key, section, faults_,
-                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), iterates(document_),
-                                 ask_every_of(document_), case_.dimension(), !is_classical()});
+        std::unique_ptr<MaterialRecipe> recipe = model.read(
+            member.key, section, faults_,
+            CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), iterates(document_),
+                      ask_every_of(document_), case_.dimension(), !is_classical(), case_.spread > 0.0});
         const double density = section.quantity_or("density", Dimension::density, Limit::positive, 0.0);
         if (recipe) recipe->given_density = density;
         case_.materials[member.key] = std::move(recipe);

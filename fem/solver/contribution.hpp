@@ -144,6 +144,9 @@ class Contribution {
   [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
   /// Events of the last commits that a user should read in the log, a sentence each; then forgotten.
   [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
+  /// Told of each step that is evaluated before the materials are: for materials that follow nodal values beside the strain.
+  /// The predictor of a step, whose increment is zero, asks the materials nothing, and does not tell.
+  virtual void prepare(const NodalStep& step) { (void)step; }
 };
 
 }  // namespace polargrain::fem

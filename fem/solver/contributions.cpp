@@ -21,6 +21,11 @@ void Contributions<dim>::learn(const Discretisation<dim>& discretisation,
 }
 
 template <int dim>
+void Contributions<dim>::prepare(const NodalStep& step) {
+  for (const auto& contribution : all_) contribution->prepare(step);
+}
+
+template <int dim>
 std::string Contributions<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   forces.internal = Eigen::VectorXd::Zero(step.start.size());
   forces.parts = forces.internal;

@@ -27,6 +27,7 @@ class Contributions {
     for (const auto& contribution : all_) contribution->begin_stage(now);
   }
   [[nodiscard]] bool is_empty() const { return all_.empty(); }
+  void prepare(const NodalStep& step);
   /// Overwrites the forces. @returns why one of them cannot, with its name; empty when all can
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);
   /// The tangent of the last evaluation times nodal values.

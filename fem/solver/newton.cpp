@@ -249,6 +249,7 @@ void Newton<dim>::evaluate(Iterate& iterate, StepReport& report) {
     const Stopwatch watch(report.material_seconds);
     find_increments(iterate.displacement);
     if (refusal_.empty()) {
+      contributions.prepare({state.time, iterate.time, state.displacement, iterate.displacement});
       materials.evaluate(increments_, trial_);
       report.evaluations += static_cast<long>(trial_.size());
     }

@@ -4,6 +4,7 @@ target_compile_definitions(record_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PR
 polargrain_test(coupler_messages_test unit unit/coupler_messages_test.cpp LIBS polargrain_pool)
 polargrain_test(stages_case_test unit unit/stages_case_test.cpp LIBS polargrain_coupler)
 polargrain_test(coupler_case_test unit unit/coupler_case_test.cpp LIBS polargrain_coupler)
+polargrain_test(continuum_case_test unit unit/continuum_case_test.cpp LIBS polargrain_coupler)
 polargrain_test(document_kind_test unit unit/document_kind_test.cpp LIBS polargrain_coupler)
 polargrain_test(cell_increment_test unit unit/cell_increment_test.cpp LIBS polargrain_coupler)
 polargrain_test(network_moduli_test unit unit/network_moduli_test.cpp LIBS polargrain_coupler)

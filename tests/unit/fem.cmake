@@ -10,6 +10,7 @@ polargrain_test(fem_automatic_test unit unit/fem_automatic_test.cpp LIBS polargr
 polargrain_test(fem_dynamics_test unit unit/fem_dynamics_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_solver_test unit unit/fem_solver_test.cpp LIBS polargrain_fem)
 polargrain_test(nodal_field_test unit unit/nodal_field_test.cpp LIBS polargrain_fem)
+polargrain_test(spread_slip_test unit unit/spread_slip_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_noise_test unit unit/fem_noise_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_probe_test unit unit/fem_probe_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fem)

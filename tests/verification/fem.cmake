@@ -9,6 +9,7 @@ polargrain_test(fem_patch_test verification verification/fem_patch_test.cpp LIBS
 polargrain_test(fem_shear_layer_test verification verification/fem_shear_layer_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_biaxial_test verification verification/fem_biaxial_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_softening_layer_test verification verification/fem_softening_layer_test.cpp LIBS polargrain_fem)
+polargrain_test(spread_band_test verification verification/spread_band_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_glide_layer_test verification verification/fem_glide_layer_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_hole_test verification verification/fem_hole_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_footing_test verification verification/fem_footing_test.cpp LIBS polargrain_fem)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A material that softens in a continuum without a length.
+// A material that softens in a continuum without a length. Slips that are spread have one.
 #include <fmt/format.h>
 
 #include "app/remarks/kinds.hpp"
@@ -7,7 +7,7 @@
 
 namespace polargrain::app {
 void softening_cauchy(const Scene& scene, Remarks& remarks) {
-  if (!scene.is_classical()) return;
+  if (!scene.is_classical() || scene.the_case().spread > 0.0) return;
   for (const SceneRegion& region : scene.regions()) {
     // A single element has one deformation, whatever its size.
     if (!softens(scene, region) || region.elements.size() < 2) continue;

@@ -22,6 +22,7 @@ class ElasticRecipe : public MaterialRecipe {
   [[nodiscard]] bool holds_micro_rotations() const override {
     return parameters_.cosserat_shear_modulus > 0.0;
   }
+  [[nodiscard]] Slips slips() const override { return Slips::none; }
 
  private:
   template <int wanted>

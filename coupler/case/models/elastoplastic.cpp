@@ -12,6 +12,7 @@
 #include "coupler/case/models/cosserat_moduli.hpp"
 #include "fem/material/cone_matching.hpp"
 #include "fem/material/local_material.hpp"
+#include "fem/material/slip_driven_cone.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -20,11 +21,13 @@ template <int dim>
 class ElastoplasticRecipe : public MaterialRecipe {
  public:
   ElastoplasticRecipe(fem::ElastoplasticParameters<dim> parameters, fem::MohrCoulombHardening strength,
-                      fem::ConeMatch match, std::string note)
+                      fem::ConeMatch match, std::string note, bool spread)
       : parameters_(std::move(parameters)),
         strength_(std::move(strength)),
         match_(match),
-        note_(std::move(note)) {}
+        note_(std::move(note)),
+        spread_(spread) {}
+  [[nodiscard]] Slips slips() const override { return spread_ ? Slips::spread : Slips::own; }
   [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
     return make_local<2>(pool);
   }
@@ -39,15 +42,18 @@ class ElastoplasticRecipe : public MaterialRecipe {
     fem::ElastoplasticParameters<dim> parameters = parameters_;
     const fem::MohrCoulombHardening strength = fem::divided(strength_, factor);
     parameters.cone = fem::hardening_cone(strength, match_);
-    return {std::make_shared<ElastoplasticRecipe<dim>>(std::move(parameters), strength, match_, note_)};
+    return {
+        std::make_shared<ElastoplasticRecipe<dim>>(std::move(parameters), strength, match_, note_, spread_)};
   }
 
  private:
   template <int wanted>
   [[nodiscard]] std::shared_ptr<fem::Material<wanted>> make_local(Pool*) const {
-    if constexpr (wanted == dim)
+    if constexpr (wanted == dim) {
+      if (spread_) return std::make_shared<fem::SlipDrivenCone<dim>>(parameters_);
       return std::make_shared<fem::LocalMaterial<fem::ElastoplasticLaw<dim>>>(
           fem::ElastoplasticLaw<dim>(parameters_));
+    }
     throw RunError("an elastoplastic material of another dimension was asked for");
   }
 
@@ -55,6 +61,7 @@ class ElastoplasticRecipe : public MaterialRecipe {
   fem::MohrCoulombHardening strength_;
   fem::ConeMatch match_;
   std::string note_;
+  bool spread_;
 };
 
 /// The strength that a cone has where it was not matched; empty where that is no surprise.
@@ -112,6 +119,8 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
   try {
     parameters.cone = fem::hardening_cone(mohr_coulomb, match);
     messages = fem::faults(parameters);
+    if (files.spreads_slips)
+      for (const std::string& message : fem::slip_faults(parameters)) messages.push_back(message);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) messages.push_back(fault.message);
   }
@@ -121,7 +130,7 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
   if (!messages.empty()) return nullptr;
   std::string note = note_on(section.name(), parameters.cone, match);
   return std::make_unique<ElastoplasticRecipe<dim>>(std::move(parameters), mohr_coulomb, match,
-                                                    std::move(note));
+                                                    std::move(note), files.spreads_slips);
 }
 
 std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The kind of continuum and spread slips as a case file has them.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+#include "coupler/case/case.hpp"
+#include "fem/material/elastoplastic.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/material/slip_driven.hpp"
+
+namespace polargrain::coupler {
+namespace {
+
+// Lines are counted in the expectations below.
+const std::string kCase = R"(title: A specimen
+continuum: {kind: cauchy, spread: 50 mm}
+mesh: {rectangle: {size: [0.2 m, 0.4 m], elements: [4, 8], regions: {plate: [0, 0.35 m, 0.2 m, 0.4 m]}}}
+materials:
+  sand: {model: elastoplastic, E: 20 MPa, nu: 0.3, confining: 100 kPa, friction_angle: [40 deg, 30 deg], dilatancy_angle: 8 deg, cohesion: 0, hardening_shear: 0.3}
+  steel: {model: elastic, E: 2 GPa, nu: 0.2, confining: 100 kPa}
+regions: {plate: steel, rest: sand}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: [left, right], pressure: 100 kPa}
+  - {on: top, move: {u2: -10 mm}}
+steps: {count: 20}
+)";
+
+class ContinuumCase : public testing::Test {
+ protected:
+  ContinuumCase()
+      : directory_(std::filesystem::temp_directory_path() / ("continuum_case." + std::to_string(getpid()))) {
+    std::filesystem::create_directories(directory_);
+  }
+  ~ContinuumCase() override { std::filesystem::remove_all(directory_); }
+
+  /// The case with a piece of its text replaced.
+  Case read(const std::string& good = "", const std::string& bad = "") {
+    std::string text = kCase;
+    if (!good.empty()) text.replace(text.find(good), good.size(), bad);
+    std::ofstream(directory_ / "case.yaml") << text;
+    return read_case(directory_ / "case.yaml");
+  }
+  /// "LINE: message" of the first fault.
+  std::string fault(const std::string& good, const std::string& bad) {
+    try {
+      (void)read(good, bad);
+    } catch (const InputError& error) {
+      return std::to_string(error.faults().front().line) + ": " + error.faults().front().message;
+    }
+    return "no fault";
+  }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+using Local = fem::LocalMaterial<fem::ElastoplasticLaw<2>>;
+
+TEST_F(ContinuumCase, spreads_the_slips_of_elastoplastic_materials_beside_elastic_ones) {
+  const Case found = read();
+  EXPECT_EQ(found.spread, 0.05);
+  EXPECT_EQ(found.problem.continuum, fem::Continuum::cauchy);
+  EXPECT_NE(std::dynamic_pointer_cast<fem::SlipDriven<2>>(found.materials.at("sand")->make(nullptr)),
+            nullptr);
+  EXPECT_EQ(std::dynamic_pointer_cast<fem::SlipDriven<2>>(found.materials.at("steel")->make(nullptr)),
+            nullptr);
+}
+
+TEST_F(ContinuumCase, without_a_spread_it_is_the_case_of_before) {
+  for (const char* none : {"cauchy", "{kind: cauchy}", "{kind: cauchy, spread: 0}"}) {
+    const Case found = read("{kind: cauchy, spread: 50 mm}", none);
+    EXPECT_EQ(found.spread, 0.0);
+    EXPECT_EQ(found.problem.continuum, fem::Continuum::cauchy);
+    EXPECT_NE(std::dynamic_pointer_cast<Local>(found.materials.at("sand")->make(nullptr)), nullptr) << none;
+  }
+  EXPECT_EQ(fault("{kind: cauchy, spread: 50 mm}", "cosmic"),
+            "2: case: continuum: expected one of cosserat, cauchy, found 'cosmic'");
+}
+
+TEST_F(ContinuumCase, faults_say_where_slips_are_not_spread) {
+  EXPECT_NE(
+      fault("spread: 50 mm", "spread: 5 d50").find("2: continuum: spread: multiples of d50 belong to cells"),
+      std::string::npos);
+  EXPECT_NE(fault("steps: {count: 20}", "steps: {count: 20, method: explicit}")
+                .find("2: continuum: spread: explicit steps"),
+            std::string::npos);
+  EXPECT_NE(fault("steps: {count: 20}", "deformation: large\nsteps: {count: 20}")
+                .find("2: continuum: spread: slips are spread in small"),
+            std::string::npos);
+  const std::string law =
+      "model: elastoplastic, E: 20 MPa, nu: 0.3, confining: 100 kPa, friction_angle: [40 deg, 30 deg], dilatancy_angle: "
+      "8 deg, cohesion: 0, hardening_shear: 0.3";
+  EXPECT_NE(fault(law, "model: elastic, E: 20 MPa, nu: 0.3").find("2: continuum: spread: no material"),
+            std::string::npos);
+  EXPECT_NE(fault("hardening_shear: 0.3", "hardening_shear: 0.3, invariants: [0.375, 0.125, 0.25]")
+                .find("5: material 'sand': slips are spread with the invariants"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace polargrain::coupler

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Slips that are spread: a softening column against its closed form, tangents against differences, restarts.
+#include "fem/spread/spread_slip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "common/error.hpp"
+#include "common/memory_archive.hpp"
+#include "fem/material/local_material.hpp"
+#include "fem/material/slip_driven_cone.hpp"
+#include "fem/mesh/rectangle.hpp"
+#include "fem/solver/discretisation.hpp"
+#include "fem/solver/solver.hpp"
+
+using namespace polargrain;
+using namespace polargrain::fem;
+
+namespace {
+
+constexpr double kDiameter = 0.01;            // m
+constexpr double kHeight = 20.0 * kDiameter;  // of the column
+constexpr double kWidth = 5.0 * kDiameter;    // of the spread slip
+constexpr double kPeak = 100e3, kResidual = 50e3, kSoftening = 1.0;
+constexpr double kWeak = 0.98;
+
+ElastoplasticParameters<2> softening(double factor) {
+  ElastoplasticParameters<2> parameters;
+  parameters.elastic.young_modulus = 40e6;
+  parameters.elastic.poisson_ratio = 0.3;
+  parameters.cone = {0.0, 0.0, PiecewiseLinear::ramp(factor * kPeak, factor * kResidual, kSoftening)};
+  return parameters;
+}
+
+/// A periodic column of one element across, sheared; the strength of its middle diameter is 2 % lower.
+Problem<2> column(int elements, double width = kWidth) {
+  Problem<2> problem;
+  const double size = kHeight / elements;
+  problem.mesh = rectangle({{size, kHeight}, {1, elements}});
+  problem.continuum = Continuum::cauchy;
+  problem.mesh.regions.clear();
+  for (int e = 0; e < elements; ++e) {
+    const bool middle = std::abs((e + 0.5) * size - 0.5 * kHeight) < 0.5 * kDiameter;
+    problem.mesh.regions[middle ? "weak" : "rest"].push_back(e);
+  }
+  problem.materials["weak"] = std::make_shared<SlipDrivenCone<2>>(softening(kWeak));
+  problem.materials["rest"] = std::make_shared<SlipDrivenCone<2>>(softening(1.0));
+  problem.ties = {{"right", "left"}};
+  for (const char* end : {"bottom", "top"})
+    problem.prescribed.push_back({end, Dof::u2, TimeTable::constant(0.0), {}});
+  problem.prescribed.push_back({"bottom", Dof::u1, TimeTable::constant(0.0), {}});
+  problem.prescribed.push_back(
+      {"top", Dof::u1, TimeTable::ramp(1.0, 1.0), {}});  // the time is the displacement
+  add_spread_slip(problem, {width});
+  return problem;
+}
+
+/// The column whose slip has one source in its middle: g = top cosh((H/2 - |z|)/l) / cosh(H/2l).
+struct ClosedForm {
+  double length = kWidth / (2.0 * std::log(2.0));
+  double slip_at_most = 0.0;
+
+  [[nodiscard]] double shape(double z) const {
+    return std::cosh((0.5 * kHeight - z) / length) / std::cosh(0.5 * kHeight / length);
+  }
+  /// Mean over the half column, z from its middle.
+  template <class Value>
+  [[nodiscard]] static double mean(const Value& value) {
+    constexpr int kParts = 4000;  // the middle diameter ends on one of their edges
+    double sum = 0.0;
+    for (int k = 0; k < kParts; ++k) sum += value((k + 0.5) * 0.5 * kHeight / kParts);
+    return sum / kParts;
+  }
+  /// The stress that the mean strength, weighted with the shape, balances.
+  [[nodiscard]] double stress() const {
+    const auto strength = [&](double z) {
+      const double slip = slip_at_most * shape(z);
+      return (z < 0.5 * kDiameter ? kWeak : 1.0) *
+             (kPeak + (kResidual - kPeak) * std::min(slip / kSoftening, 1.0));
+    };
+    return mean([&](double z) { return shape(z) * strength(z); }) / mean([&](double z) { return shape(z); }) /
+           std::sqrt(3.0);
+  }
+  [[nodiscard]] double displacement() const {
+    const double shear = 40e6 / 2.6;
+    return kHeight *
+           (stress() / shear + std::sqrt(3.0) * slip_at_most * mean([&](double z) { return shape(z); }));
+  }
+  [[nodiscard]] double width() const {
+    const double half = std::acosh(0.5 * std::cosh(0.5 * kHeight / length));
+    return 2.0 * (0.5 * kHeight - length * half);
+  }
+  static ClosedForm at(double displacement) {
+    ClosedForm low, high;
+    high.slip_at_most = 2.0;
+    for (int k = 0; k < 60; ++k) {
+      ClosedForm middle;
+      middle.slip_at_most = 0.5 * (low.slip_at_most + high.slip_at_most);
+      (middle.displacement() < displacement ? low : high) = middle;
+    }
+    return low;
+  }
+};
+
+/// Full width at half maximum of the slip along the left side.
+double width_of(const Solver<2>& solver) {
+  std::map<double, double> slips;
+  const Problem<2>& problem = solver.problem();
+  for (const int node : problem.fields[0].nodes) {
+    const auto& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
+    if (place(0) == 0.0) slips[place(1)] = solver.state().displacement(problem.places().entry(0, node));
+  }
+  double most = 0.0;
+  for (const auto& [z, slip] : slips) most = std::max(most, slip);
+  double ends[2] = {0.0, 0.0};
+  int found = 0;
+  for (auto next = slips.begin(), last = next++; next != slips.end(); last = next++) {
+    const double a = last->second - 0.5 * most, b = next->second - 0.5 * most;
+    if ((a < 0.0) == (b < 0.0)) continue;
+    if (found < 2) ends[found] = last->first + (next->first - last->first) * a / (a - b);
+    ++found;
+  }
+  EXPECT_EQ(found, 2);
+  return ends[1] - ends[0];
+}
+
+TEST(spread_slip, column_has_the_thickness_and_the_stress_of_the_closed_form_on_each_mesh) {
+  // 20 to 80 elements over 20 d; slip lies on one or two nodes, so the closed form, with one, is a little thinner.
+  for (const int elements : {20, 40, 80}) {
+    Solver<2> solver(column(elements), {});
+    ASSERT_TRUE(solver.equilibrate().converged);
+    constexpr int kSteps = 60;
+    int iterations = 0;
+    for (int step = 1; step <= kSteps; ++step) {
+      const double displacement = step * 0.8e-3;
+      const StepReport report = solver.advance(displacement);
+      ASSERT_TRUE(report.converged) << step << " " << report.message;
+      iterations += report.iterations;
+      // The step across the onset, where the whole column is about to slip, is cut. Behind it the set of slipping nodes is found.
+      if (step > 5) {
+        EXPECT_LE(report.iterations, 8) << step;
+      }
+      if (step % 20 != 0) continue;
+      const ClosedForm exact = ClosedForm::at(displacement);
+      const double stress = solver.reaction("top")(0) / (kHeight / elements);
+      EXPECT_NEAR(stress, exact.stress(), 0.001 * kPeak) << elements;
+      EXPECT_NEAR(width_of(solver), exact.width(), 0.08 * exact.width()) << elements;
+    }
+    EXPECT_LE(iterations, 8 * kSteps);
+  }
+}
+
+TEST(spread_slip, column_of_a_wider_spread_is_as_much_thicker) {
+  Solver<2> solver(column(40, 2.0 * kWidth), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
+  ClosedForm exact;
+  exact.length *= 2.0;
+  EXPECT_NEAR(width_of(solver), exact.width(), 0.08 * exact.width());
+}
+
+/// Friction, dilatancy and cohesion that change with the slip.
+template <int dim>
+ElastoplasticParameters<dim> sand(double begin, double end) {
+  ElastoplasticParameters<dim> parameters;
+  parameters.elastic.young_modulus = 20e6;
+  parameters.elastic.poisson_ratio = 0.3;
+  parameters.elastic.cosserat_shear_modulus = 5e6;
+  parameters.elastic.internal_length = 0.01;
+  for (int i = 0; i < dim; ++i) parameters.elastic.initial_stress(Cosserat<dim>::stress_place(i, i)) = -1e5;
+  if constexpr (dim == 2) parameters.elastic.initial_stress(k33) = -1e5;
+  parameters.cone = {PiecewiseLinear::ramp(begin, end, 0.3), PiecewiseLinear::ramp(0.4, 0.1, 0.3),
+                     PiecewiseLinear::ramp(2e3, 1e3, 0.3)};
+  return parameters;
+}
+
+/// An increment with a strain; in the plane eps_33 is passed over.
+template <int dim>
+Increment<dim> increment_of(const typename Cosserat<dim>::Vector& strain) {
+  Increment<dim> increment;
+  if constexpr (dim == 2) {
+    increment.displacement_gradient << strain(k11), strain(k21), strain(k12), strain(k22);
+    increment.curvature = strain.template tail<2>();
+  } else {
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) {
+        increment.displacement_gradient(j, i) = strain(Cosserat<3>::stress_place(i, j));
+        increment.curvature(j, i) = strain(Cosserat<3>::couple_place(i, j));
+      }
+  }
+  return increment;
+}
+
+template <int dim>
+void check_law_against_differences() {
+  using Vector = typename Cosserat<dim>::Vector;
+  SlipDrivenCone<dim> law(sand<dim>(1.2, 0.6));
+  law.allocate(1);
+  const auto at = [&](const Vector& strain, double slip) {
+    Increment<dim> increment = increment_of<dim>(strain);
+    Response<dim> response;
+    law.set_slips(std::span(&slip, 1));
+    law.evaluate(std::span(&increment, 1), std::span(&response, 1));
+    EXPECT_EQ(response.quality, Quality::good) << response.message;
+    return std::pair(response, law.slip_answers()[0]);
+  };
+  std::srand(7);
+  for (int sample = 0; sample < 20; ++sample) {
+    const Vector strain = 5e-3 * Vector::Random();
+    const double slip = 2e-4;
+    const auto [response, answer] = at(strain, slip);
+    const double step = 1e-6;
+    Vector way = Vector::Random();
+    if constexpr (dim == 2) way(k33) = 0.0;
+    const auto [ahead, answer_ahead] = at(strain + step * way, slip);
+    const auto [behind, answer_behind] = at(strain - step * way, slip);
+    EXPECT_LT((response.tangent * way - (ahead.stress - behind.stress) / (2.0 * step)).norm(),
+              1e-5 * (response.tangent * way).norm());
+    EXPECT_NEAR(answer.drive_by_strain.dot(way), (answer_ahead.drive - answer_behind.drive) / (2.0 * step),
+                1e-5 * answer.drive_by_strain.norm());
+    const auto [more, answer_more] = at(strain, slip + step);
+    const auto [less, answer_less] = at(strain, slip - step);
+    EXPECT_LT((answer.stress_by_slip - (more.stress - less.stress) / (2.0 * step)).norm(),
+              1e-5 * answer.stress_by_slip.norm());
+    EXPECT_NEAR(answer.drive_by_slip, (answer_more.drive - answer_less.drive) / (2.0 * step),
+                1e-5 * std::abs(answer.drive_by_slip));
+  }
+}
+
+TEST(spread_slip, derivatives_of_the_law_are_those_of_differences) {
+  check_law_against_differences<2>();
+  check_law_against_differences<3>();
+}
+
+TEST(spread_slip, law_at_the_slip_of_the_local_law_has_its_stress) {
+  const ElastoplasticParameters<2> parameters = sand<2>(0.8, 1.2);
+  const ElastoplasticLaw<2> local(parameters);
+  SlipDrivenCone<2> law(parameters);
+  law.allocate(1);
+  ElastoplasticState<2> state = local.initial_state(), trial;
+  std::srand(3);
+  for (int step = 0; step < 20; ++step) {
+    Increment<2> increment =
+        increment_of<2>(Vector7(Vector7(1e-3, -2e-3, 0.0, 1e-3, 0.0, 0.01, 0.0) + 1e-3 * Vector7::Random()));
+    const Response<2> expected = local.integrate(state, increment, trial);
+    const double slip = trial.gamma_p - state.gamma_p;
+    state = trial;
+    Response<2> found;
+    law.set_slips(std::span(&slip, 1));
+    law.evaluate(std::span(&increment, 1), std::span(&found, 1));
+    law.commit();
+    EXPECT_LT((found.stress - expected.stress).norm(), 1e-9 * expected.stress.norm());
+    if (slip > 0.0) {
+      EXPECT_NEAR(law.slip_answers()[0].drive, 0.0, 1e-7 * law.slip_answers()[0].scale);
+    }
+  }
+  EXPECT_GT(state.gamma_p, 0.01);
+}
+
+/// A block of distorted elements between smooth plates.
+Problem<2> block(std::shared_ptr<Material<2>> material) {
+  Problem<2> problem;
+  problem.mesh = rectangle({{0.1, 0.1}, {3, 3}});
+  for (const Element<2>& element : problem.mesh.elements)
+    for (const int node : element.nodes) {
+      Eigen::Vector2d& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
+      const bool inside = place.minCoeff() > 1e-6 && place.maxCoeff() < 0.1 - 1e-6;
+      if (inside && place(0) < 0.06 && place(1) < 0.06 && place(0) > 0.03 && place(1) > 0.03)
+        place += Eigen::Vector2d(4e-3, -2e-3);
+    }
+  problem.materials["all"] = std::move(material);
+  problem.prescribed = {{"bottom", Dof::u2, TimeTable::constant(0.0), {}},
+                        {"bottom_left", Dof::u1, TimeTable::constant(0.0), {}},
+                        {"top", Dof::u2, TimeTable::ramp(-0.01, 1.0), {}}};
+  for (const char* side : {"left", "right"})
+    problem.boundary_loads.push_back({side, TimeTable::constant(1e5)});
+  return problem;
+}
+
+TEST(spread_slip, uniform_hardening_is_that_of_the_local_law) {
+  const ElastoplasticParameters<2> parameters = sand<2>(0.8, 1.2);
+  Problem<2> spread = block(std::make_shared<SlipDrivenCone<2>>(parameters));
+  add_spread_slip(spread, {kWidth});
+  Solver<2> with(std::move(spread), {});
+  Solver<2> without(
+      block(std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters))), {});
+  for (Solver<2>* solver : {&with, &without}) ASSERT_TRUE(solver->equilibrate().converged);
+  for (int step = 1; step <= 20; ++step) {
+    for (Solver<2>* solver : {&with, &without}) {
+      const StepReport report = solver->advance(0.05 * step);
+      ASSERT_TRUE(report.converged) << report.message;
+      EXPECT_EQ(report.cuts, 0);
+      EXPECT_LE(report.iterations, 8);
+    }
+    // Apart but for the overstress: 0.001 of the strength times the growth of slip in a step, 0.006.
+    EXPECT_NEAR(with.reaction("top")(1) / without.reaction("top")(1), 1.0, 5e-5);
+  }
+  EXPECT_GT(with.state().displacement(with.problem().places().start(0)), 0.05);
+}
+
+TEST(spread_slip, tangent_is_that_of_differences) {
+  const auto material = std::make_shared<SlipDrivenCone<2>>(sand<2>(1.2, 0.6));
+  Problem<2> problem = block(material);
+  const auto spread = add_spread_slip(problem, {kWidth});
+  const FieldPlaces<2> places = problem.places();
+  const Discretisation<2> discretisation(problem.mesh, problem.continuum, places.size() - places.mechanics());
+  material->allocate(discretisation.points());
+  std::vector<Response<2>> responses(discretisation.points());
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(places.size());
+  const auto forces = [&](const Eigen::VectorXd& nodal) {
+    const NodalStep step{0.0, 1.0, start, nodal};
+    spread->prepare(step);
+    material->evaluate(discretisation.increments(nodal), responses);
+    NodalForces contributed{start, start};
+    EXPECT_EQ(spread->evaluate(step, contributed), "");
+    return Eigen::VectorXd(discretisation.internal_forces(responses) + contributed.internal);
+  };
+  (void)forces(start);
+  spread->learn(discretisation, responses);
+  std::srand(5);
+  Eigen::VectorXd nodal = 3e-4 * Eigen::VectorXd::Random(places.size());
+  nodal.tail(places.size() - places.start(0)) *= 10.0;  // slips and overstresses, of both signs
+  const Eigen::VectorXd way = Eigen::VectorXd::Random(places.size());
+  (void)forces(nodal);
+  Eigen::VectorXd linear = discretisation.linearised_forces({responses}, way);
+  for (std::size_t e = 0; e < spread->elements(); ++e)
+    linear(spread->entries(e)) += spread->tangent(e) * Eigen::VectorXd(way(spread->entries(e)));
+  const double step = 1e-8;
+  const Eigen::VectorXd differences =
+      (forces(nodal + step * way) - forces(nodal - step * way)) / (2.0 * step);
+  for (const auto& [from, to] : {std::pair{Eigen::Index(0), places.mechanics()},
+                                 {places.start(0), places.start(1)},
+                                 {places.start(1), places.size()}})
+    EXPECT_LT((linear - differences).segment(from, to - from).norm(),
+              1e-5 * linear.segment(from, to - from).norm());
+}
+
+TEST(spread_slip, goes_on_from_an_archive_to_the_same_bits) {
+  Solver<2> through(column(20), {});
+  ASSERT_TRUE(through.equilibrate().converged);
+  for (int step = 1; step <= 10; ++step) ASSERT_TRUE(through.advance(step * 0.8e-3).converged);
+  MemoryArchive archive;
+  through.save(archive);
+  Solver<2> restored(column(20), {});
+  restored.restore(archive);
+  for (Solver<2>* solver : {&through, &restored})
+    for (int step = 11; step <= 15; ++step) ASSERT_TRUE(solver->advance(step * 0.8e-3).converged);
+  EXPECT_EQ(through.state().displacement, restored.state().displacement);
+  EXPECT_EQ(through.state().contributed, restored.state().contributed);
+}
+
+TEST(spread_slip, slip_goes_on_neither_in_unloading_nor_in_reloading_below_strength) {
+  Solver<2> solver(column(20), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (int step = 1; step <= 10; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
+  const Eigen::Index first = solver.problem().places().start(0), last = solver.problem().places().start(1);
+  const Eigen::VectorXd slips = solver.state().displacement.segment(first, last - first);
+  const double stress = solver.reaction("top")(0);
+  for (const double displacement : {7.7e-3, 7.9e-3}) {
+    ASSERT_TRUE(solver.advance(displacement).converged);
+    EXPECT_LT((solver.state().displacement.segment(first, last - first) - slips).norm(), 1e-9 * slips.norm());
+  }
+  // 0.1 mm short of where it was, over 0.2 m with G = 40 MPa / 2.6.
+  EXPECT_NEAR(solver.reaction("top")(0), stress - 0.01 * 0.1e-3 / 0.2 * 40e6 / 2.6, 1e-6 * stress);
+}
+
+TEST(spread_slip, faults_are_named) {
+  Problem<2> problem = column(20);
+  problem.deformation = Deformation::large;
+  const std::vector<std::string> messages = problem.contributions.front()->faults(problem);
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_NE(messages[0].find("small deformation"), std::string::npos);
+  Problem<2> local =
+      block(std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(sand<2>(0.8, 1.2))));
+  EXPECT_THROW(add_spread_slip(local, {kWidth}), RunError);
+  ElastoplasticParameters<2> others = sand<2>(0.8, 1.2);
+  others.weights = {0.375, 0.125, 0.25};
+  EXPECT_THROW(SlipDrivenCone<2>{others}, RunError);
+}
+
+}  // namespace
