@@ -79,6 +79,7 @@ class Study:
         """@returns forces of the plates at the tenths of the way, fewer where the run has ended early, and user time in s"""
         out = self.place / f"{kind}-{rows}-{seed}-{name}"
         if not (out / "user_seconds").exists():
+            shutil.rmtree(out, ignore_errors=True)  # of a run that was broken off
             script, packing = self.prepare(kind, seed)
             height = 0.5 * WIDTH * rows
             case = self.place / f"{out.name}.yaml"
