@@ -76,12 +76,18 @@ std::string with_number(std::size_t count) {
 
 Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
+  // The stress at time zero of a run that starts from another one is not known here.
+  const bool begins_here = scene.the_case().start_from.empty();
   if (scene.dimension() == 3) {
-    for (const RemarkKind look : kInSpace) look(scene, remarks);
+    for (const RemarkKind look : kInSpace)
+      if (begins_here || look != loads_at_start_in_space) look(scene, remarks);
   } else {
-    for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
-    if (remarks.empty()) balance_at_start(scene, remarks);
-    for (const RemarkKind look : kOthers) look(scene, remarks);
+    if (begins_here) {
+      for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
+      if (remarks.empty()) balance_at_start(scene, remarks);
+    }
+    for (const RemarkKind look : kOthers)
+      if (begins_here || look != weight_at_once) look(scene, remarks);
   }
   std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.weight > b.weight;
