@@ -82,8 +82,11 @@ std::string with_number(std::size_t count) {
 
 Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
-  look_by(kAtTimeZero, scene, remarks);
-  if (remarks.empty()) look_by(kBalance, scene, remarks);
+  // The stress at time zero of a run that starts from another one is not known here.
+  if (scene.the_case().start_from.empty()) {
+    look_by(kAtTimeZero, scene, remarks);
+    if (remarks.empty()) look_by(kBalance, scene, remarks);
+  }
   look_by(kOthers, scene, remarks);
   // Regions of one material have its remarks alike.
   std::set<std::string> told;

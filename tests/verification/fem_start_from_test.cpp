@@ -221,7 +221,7 @@ TEST(start_from, a_run_that_was_started_so_goes_on_and_is_restored) {
   const auto make = [] {
     Problem<2> problem = ground(4, kLoad);
     problem.boundary_loads.front().pressure = TimeTable({{0, kLoad}, {1, 1.25 * kLoad}});
-    problem.prescribed.push_back({"right", Dof::u2, TimeTable({{0, 0}, {1, -1e-4}})});
+    problem.prescribed.push_back({"top_right", Dof::u2, TimeTable({{0, 0}, {1, -1e-4}})});
     problem.initial_stresses.clear();
     return std::make_unique<Solver<2>>(std::move(problem), SolverOptions{});
   };
@@ -231,7 +231,7 @@ TEST(start_from, a_run_that_was_started_so_goes_on_and_is_restored) {
   MemoryArchive middle;
   solver->save(middle);
   ASSERT_TRUE(solver->advance(1.0).converged);
-  for (const int node : solver->problem().mesh.nodes_on("right")) {
+  for (const int node : solver->problem().mesh.nodes_on("top_right")) {
     const auto entry = entry_of<2>(node, Dof::u2);
     EXPECT_NEAR(solver->state().displacement(entry) - start(entry), -1e-4, 1e-15);
   }
