@@ -129,9 +129,24 @@ bool holds(const fem::Mesh<2>& mesh, const fem::Element<2>& element, const Eigen
   for (int k = 0; k < element.type->corners; ++k) {
     const Eigen::Vector2d side = corner(k + 1) - corner(k);
     const Eigen::Vector2d way = place - corner(k);
-    if (side.x() * way.y() - side.y() * way.x() <= 1e-9 * side.squaredNorm()) return false;
+    if (side.x() * way.y() - side.y() * way.x() < 0.0) return false;
   }
   return true;
+}
+
+/// An element that holds a place with ground on all sides of it, also where it lies between elements; -1: there is no such one.
+int element_around(const fem::Mesh<2>& mesh, const Eigen::Vector2d& place, double size) {
+  constexpr double kBeside = 1e-6;
+  int found = -1;
+  for (const double x : {-kBeside, kBeside})
+    for (const double y : {-1.1 * kBeside, 1.1 * kBeside}) {
+      const Eigen::Vector2d here = place + size * Eigen::Vector2d(x, y);
+      const auto at = std::ranges::find_if(
+          mesh.elements, [&](const fem::Element<2>& element) { return holds(mesh, element, here); });
+      if (at == mesh.elements.end()) return -1;
+      found = static_cast<int>(at - mesh.elements.begin());
+    }
+  return found;
 }
 
 /// A far end that nothing moves, in the midst of ground that does.
@@ -145,17 +160,15 @@ void look_at_anchor(const Scene& scene, const std::string& name, Remarks& remark
     if (!value) return;
     place(i) = *value;
   }
-  for (std::size_t e = 0; e < scene.mesh().elements.size(); ++e) {
-    if (!holds(scene.mesh(), scene.mesh().elements[e], place)) continue;
-    remarks.push_back(
-        {Rank::doubtful, 2.0,
-         to->fault(fmt::format(
-             "anchors: '{}': its far end ({:.4g}, {:.4g}) m lies within region '{}' and is fixed there: it does not move "
-             "with the ground",
-             name, place.x(), place.y(), scene.region_of(static_cast<int>(e)).name)),
-         "name a node of the ground, to: NAME; or put the end beyond the mesh"});
-    return;
-  }
+  const int element = element_around(scene.mesh(), place, scene.body().smaller_side());
+  if (element < 0) return;
+  remarks.push_back(
+      {Rank::doubtful, 2.0,
+       to->fault(fmt::format(
+           "anchors: '{}': its far end ({:.4g}, {:.4g}) m lies within region '{}' and is fixed there: it does not move "
+           "with the ground",
+           name, place.x(), place.y(), scene.region_of(element).name)),
+       "name a node of the ground, to: NAME; or put the end beyond the mesh"});
 }
 
 }  // namespace
