@@ -142,6 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "its friction of 45 deg is above the 30 deg of material 'sand' beside it", Rank::doubtful},
         Careless{"BeamAsThickAsAHouse", kSheet, "EI: 20 MNm2/m", "EI: 20000 MNm2/m",
                  "EA and EI belong to a plate 8.94 m thick"},
+        Careless{"BeamStifferThanSteel", kSheet, "EI: 20 MNm2/m", "EI: 20 kNm2/m, GA: 100 MN/m",
+                 "EA and EI belong to a plate 8.94 mm thick, sqrt(12 EI / EA), of 335 GPa"},
         Careless{"BeamOfFoil", kSheet, "EI: 20 MNm2/m, Mp: 300 kNm/m", "EI: 0.02 kNm2/m",
                  "EA and EI belong to a plate 0.283 mm thick"},
         Careless{"AnchorFixedAtANode", kSheet, "to: [-10 m, 4 m]", "to: [5 m, 2 m]",

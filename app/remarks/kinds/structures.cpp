@@ -23,6 +23,7 @@ constexpr double kSoftInterface = 1.0;
 constexpr double kHardInterface = 1e6;
 constexpr double kThickBeam = 5.0;    // m
 constexpr double kThinBeam = 0.5e-3;  // m
+constexpr double kStiffBeam = 250e9;  // Pa: steel has 210
 
 /// Confined modulus of a region, Pa; nothing where it is not known.
 std::optional<double> confined_modulus(const Scene& scene, const SceneRegion& region) {
@@ -105,19 +106,21 @@ void look_at_interface(const Scene& scene, const std::string& name, const Beside
          "a wall has 1/3 to all of the friction of the ground: friction, or share: 2/3"});
 }
 
-/// The thickness of a plate that has both stiffnesses: EA = E t, EI = E t^3 / 12.
+/// A plate that has both stiffnesses: EA = E t, EI = E t^3 / 12.
 void look_at_beam(const Scene& scene, const std::string& name, Remarks& remarks) {
   const auto axial = scene.quantity({"beams", name, "EA"}, Dimension::force_per_length);
   const auto bending = scene.quantity({"beams", name, "EI"}, Dimension::moment);
   if (!axial || !bending || *axial <= 0.0) return;
   const double thickness = std::sqrt(12.0 * *bending / *axial);
   const double most = std::min(kThickBeam, scene.body().smaller_side());
-  if (thickness >= kThinBeam && thickness <= most) return;
+  const double modulus = *axial / thickness;
+  if (thickness >= kThinBeam && thickness <= most && modulus <= kStiffBeam) return;
   remarks.push_back(
-      {Rank::wrong, std::max(thickness / most, kThinBeam / thickness),
+      {Rank::wrong, std::max({thickness / most, kThinBeam / thickness, modulus / kStiffBeam}),
        scene.place({"beams", name, "EI"})
-           .fault(fmt::format("beams: '{}': EA and EI belong to a plate {} thick, sqrt(12 EI / EA)", name,
-                              metres(thickness))),
+           .fault(fmt::format(
+               "beams: '{}': EA and EI belong to a plate {} thick, sqrt(12 EI / EA), of {:.3g} GPa", name,
+               metres(thickness), 1e-9 * modulus)),
        "check the units: EA in MN/m, EI in MNm2/m, both of a metre of thickness"});
 }
 
