@@ -192,6 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"AnAnchorToTheOtherSide", kSheet, "to: [-10 m, 4 m]", "to: [8 m, 2 m]"},
         Careless{"AThinSheet", kSheet, "EA: 3000 MN/m, EI: 20 MNm2/m, Mp: 300 kNm/m",
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
+        Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
+                 "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
         Careless{"TrafficThatGoesAgain", kBank, "pressure: 10 kPa",
                  "pressure: [[2, 0], [2.5, 10 kPa], [3, 0]]"},
         Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
