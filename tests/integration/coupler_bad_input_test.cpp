@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
             "case.yaml:7: materials: Gc is zero everywhere and no boundary fixes w, so nothing holds the "
             "micro-rotations; set 'continuum: cauchy', give Gc, or fix w"},
         BadInput{"UndampedBeyondOne", "lc: 10 mm", "lc: 10 mm, damping: 1.5",
-                 "case.yaml:7: material 'sand': damping: must be less than 1"},
+                 "case.yaml:7: material 'sand': damping: must be below 1, found '"},
         BadInput{"UnknownControlOfRotations", "lc: 10 mm", "lc: 10 mm, rotations: fixed",
                  "case.yaml:7: material 'sand': rotations: expected one of free, controlled, found 'fixed'"},
         BadInput{"CosseratPartTwice", "G: 40 MPa, Gc: 10 MPa, lc: 10 mm", "rotations: controlled, Gc: 10 MPa",
