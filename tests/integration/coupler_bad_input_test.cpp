@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{
             "BodyWithoutLoad", "continuum: cosserat", "body: [{factor: 1}]",
             "case.yaml:5: body item 1: expected either 'unit_weight', for example 18 kN/m3, or 'force', a "
-            "list of its two components"},
+            "list of its 2 components"},
         BadInput{"BodyOfAnUnknownRegion", "continuum: cosserat",
                  "body: [{unit_weight: 1 kN/m3, region: core}]",
                  "case.yaml:5: body item 1: region: the mesh has no region 'core'; it has all"},
