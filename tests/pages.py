@@ -213,6 +213,7 @@ def figures_of_readme():
 
 KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
                  r"\(\s*\"([A-Za-z]\w*)\"")
+TOLD_ONCE = re.compile(r"\bKey\{\s*\.name = \"(\w+)\"")  # coupler/case/keys.hpp
 CHOICES = re.compile(r"\.choice(?:_or)?\(\s*\"\w+\",\s*\{([^}]*)\}")
 KEYS_OF = ["coupler/case", "app/pack", "app/element", "app/calibrate"]
 REFERENCE = ["docs/user_guide.md", "docs/element_tests.md", "docs/file_formats.md", "docs/scripts.md", "docs/running.md"]
@@ -223,10 +224,10 @@ def check_keys(_, __):
     howto = told + "\n".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs/howto").glob("*.md"))
     faults, count = [], 0
     for folder in KEYS_OF:
-        for source in sorted((ROOT / folder).rglob("*.cpp")):
+        for source in sorted(file for kind in ("cpp", "hpp") for file in (ROOT / folder).rglob("*." + kind)):
             text = source.read_text(encoding="utf-8")
             words = {word for choices in CHOICES.findall(text) for word in re.findall(r"\"(\w+)\"", choices)}
-            for key in sorted((set(KEY.findall(text)) | words) - {"v_"}):  # a prefix of LIGGGHTS's
+            for key in sorted((set(KEY.findall(text)) | set(TOLD_ONCE.findall(text)) | words) - {"v_"}):  # a prefix of LIGGGHTS's
                 count += 1
                 if not re.search(rf"\b{key}\b", told):
                     faults.append(f"{source.relative_to(ROOT)}: the key or choice '{key}' is in no table of {', '.join(REFERENCE)}")

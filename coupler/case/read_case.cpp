@@ -12,6 +12,7 @@
 #include "coupler/case/document_kind.hpp"
 #include "coupler/case/parts.hpp"
 #include "coupler/case/read_continuum.hpp"
+#include "coupler/case/workers_keys.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -329,15 +330,10 @@ class CaseReader {
 
   void read_workers(const Entry& entry) {
     Section workers(entry, "workers", faults_);
-    PatienceLimits& patience = case_.patience;
-    patience.silence_seconds =
-        workers.quantity_or("silence", Dimension::duration, Limit::positive, patience.silence_seconds);
-    patience.cell_seconds =
-        workers.quantity_or("cell_time", Dimension::duration, Limit::positive, patience.cell_seconds);
-    case_.check_share =
-        workers.quantity_or("check", Dimension::number, Limit::not_negative, case_.check_share);
-    if (case_.check_share > 1.0)
-      workers.fault("check", "check: is a share of the evaluations, at most 1 (100 %)");
+    WorkersOfCase of_case;
+    read_keys(workers, of_case);
+    case_.patience = of_case.patience;
+    case_.check_share = of_case.check_share;
     workers.finish();
   }
 

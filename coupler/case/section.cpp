@@ -408,6 +408,11 @@ void Section::require_below(const std::string& key, double bound, const std::str
   fault(key, fmt::format("{}: must be below {:g}, found '{}': {}", key, bound, entry->text, why));
 }
 
+void Section::fault_beyond(const std::string& key, double bound, const std::string& why) {
+  if (const Entry* const entry = entry_.find(key); entry != nullptr)
+    fault(key, fmt::format("{}: must be at most {:g}, found '{}': {}", key, bound, entry->text, why));
+}
+
 void Section::find_forgotten_units() {
   for (const Written& plain : written_) {
     const bool by_option = plain.entry->line == 0;  // --set, which scripts write, in SI units

@@ -64,6 +64,9 @@ class Section {
   /// Faults where a value that must stay below a bound does not. @param why the meaning of values beyond it
   void require_below(const std::string& key, double bound, const std::string& why);
 
+  /// The fault of a value beyond a bound that it may reach.
+  void fault_beyond(const std::string& key, double bound, const std::string& why);
+
   /// To be called when all keys have been asked for. Keys that nobody asked for are faults, and so are plain numbers
   /// beside others of their dimension that carry a unit (40 beside 10 MPa): a unit was most likely forgotten
   /// (not in options, which scripts write).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -94,7 +95,10 @@ std::vector<std::string> free_motions(const Eigen::Matrix3d& normal_matrix, cons
 /// "1" for the first axis, "(x, y, z)" for another direction.
 std::string direction_text(const Eigen::Vector3d& direction) {
   constexpr double kSmall = 1e-8;
-  const Eigen::Vector3d unit = direction.normalized();
+  Eigen::Vector3d unit = direction.normalized();
+  // An axis and its opposite are one: the first component that counts is positive.
+  const auto first = std::ranges::find_if(unit, [](double x) { return std::abs(x) > kSmall; });
+  if (first != unit.end() && *first < 0.0) unit = -unit;
   for (int i = 0; i < 3; ++i)
     if (1.0 - std::abs(unit(i)) < kSmall) return fmt::format("{}", i + 1);
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", unit(0), unit(1), unit(2));

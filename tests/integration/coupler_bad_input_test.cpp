@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{
             "BodyWithoutLoad", "continuum: cosserat", "body: [{factor: 1}]",
             "case.yaml:5: body item 1: expected either 'unit_weight', for example 18 kN/m3, or 'force', a "
-            "list of its two components"},
+            "list of its 2 components"},
         BadInput{"BodyOfAnUnknownRegion", "continuum: cosserat",
                  "body: [{unit_weight: 1 kN/m3, region: core}]",
                  "case.yaml:5: body item 1: region: the mesh has no region 'core'; it has all"},
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
             "case.yaml:7: materials: Gc is zero everywhere and no boundary fixes w, so nothing holds the "
             "micro-rotations; set 'continuum: cauchy', give Gc, or fix w"},
         BadInput{"UndampedBeyondOne", "lc: 10 mm", "lc: 10 mm, damping: 1.5",
-                 "case.yaml:7: material 'sand': damping: must be less than 1"},
+                 "case.yaml:7: material 'sand': damping: must be below 1, found '"},
         BadInput{"UnknownControlOfRotations", "lc: 10 mm", "lc: 10 mm, rotations: fixed",
                  "case.yaml:7: material 'sand': rotations: expected one of free, controlled, found 'fixed'"},
         BadInput{"CosseratPartTwice", "G: 40 MPa, Gc: 10 MPa, lc: 10 mm", "rotations: controlled, Gc: 10 MPa",

@@ -142,8 +142,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "its friction of 45 deg is above the 30 deg of material 'sand' beside it", Rank::doubtful},
         Careless{"BeamAsThickAsAHouse", kSheet, "EI: 20 MNm2/m", "EI: 20000 MNm2/m",
                  "EA and EI belong to a plate 8.94 m thick"},
+        Careless{"BeamStifferThanSteel", kSheet, "EI: 20 MNm2/m", "EI: 20 kNm2/m, GA: 100 MN/m",
+                 "EA and EI belong to a plate 8.94 mm thick, sqrt(12 EI / EA), of 335 GPa"},
         Careless{"BeamOfFoil", kSheet, "EI: 20 MNm2/m, Mp: 300 kNm/m", "EI: 0.02 kNm2/m",
                  "EA and EI belong to a plate 0.283 mm thick"},
+        Careless{"AnchorFixedAtANode", kSheet, "to: [-10 m, 4 m]", "to: [5 m, 2 m]",
+                 "its far end (5, 2) m lies within region 'all' and is fixed there", Rank::doubtful},
         Careless{"AnchorFixedInTheGround", kSheet, "to: [-10 m, 4 m]", "to: [5.5 m, 2.5 m]",
                  "its far end (5.5, 2.5) m lies within region 'all' and is fixed there", Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
@@ -185,12 +189,24 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"InterfaceAsRoughAsTheGround", kWall, "friction: 20 deg", "friction: 30 deg"},
         Careless{"ARopeToAnEndBeyondTheMesh", kSheet, "spacing: 2 m",
                  "spacing: 2 m, compressive_strength: 0, prestress: 10 kN"},
+        Careless{"AnAnchorToTheOtherSide", kSheet, "to: [-10 m, 4 m]", "to: [8 m, 2 m]"},
         Careless{"AThinSheet", kSheet, "EA: 3000 MN/m, EI: 20 MNm2/m, Mp: 300 kNm/m",
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
+        Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
+                 "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
         Careless{"TrafficThatGoesAgain", kBank, "pressure: 10 kPa",
                  "pressure: [[2, 0], [2.5, 10 kPa], [3, 0]]"},
         Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
     [](const auto& info) { return info.param.name; });
+
+/// On 2 s of the column on a base that moves after quake.csv.
+app::Remarks remarks_on_motion_of(const Scratch& scratch) {
+  write(scratch.path() / "case.yaml",
+        replaced(replaced(kColumn, "  - {on: bottom, fix: [u1, u2]}\n",
+                          "  - {on: bottom, fix: [u2], accelerate: {u1: quake.csv}}\n"),
+                 "  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}\n", ""));
+  return app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
+}
 
 /// A motion of `rows` rows 0.01 s apart, of this amplitude in m/s2. @returns the remarks on 2 s of it
 app::Remarks remarks_on_motion(int rows, double amplitude) {
@@ -199,11 +215,7 @@ app::Remarks remarks_on_motion(int rows, double amplitude) {
   for (int row = 0; row < rows; ++row)
     table += fmt::format("{},{}\n", 0.01 * row, amplitude * std::sin(0.12 * row));
   write(scratch.path() / "quake.csv", table);
-  write(scratch.path() / "case.yaml",
-        replaced(replaced(kColumn, "  - {on: bottom, fix: [u1, u2]}\n",
-                          "  - {on: bottom, fix: [u2], accelerate: {u1: quake.csv}}\n"),
-                 "  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}\n", ""));
-  return app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
+  return remarks_on_motion_of(scratch);
 }
 
 TEST(Motions, ThatGoOnBehindTheRunAreTold) {
@@ -215,6 +227,20 @@ TEST(Motions, ThatGoOnBehindTheRunAreTold) {
 TEST(Motions, InCentimetresAreTold) {
   const app::Remarks remarks = remarks_on_motion(201, 100.0);
   EXPECT_TRUE(is_told(remarks, "m/s2, 10 times gravity", Rank::wrong)) << app::text_of(remarks, true);
+}
+
+/// Every second row has another sign: 50 Hz. Shear waves of sqrt(15.4 MPa / 2000 kg/m3) = 87.7 m/s are 1.75 m long then, and
+/// elements have 0.707 m.
+TEST(Motions, TooFastForTheElementsAreTold) {
+  const Scratch scratch("careless_noise");
+  std::string table = "time,acceleration\n";
+  for (int row = 0; row <= 200; ++row) table += fmt::format("{},{}\n", 0.01 * row, row % 2 == 0 ? 1.0 : -1.0);
+  write(scratch.path() / "quake.csv", table);
+  const app::Remarks remarks = remarks_on_motion_of(scratch);
+  EXPECT_TRUE(is_told(remarks,
+                      "has 50 Hz in the mean, whose shear wave is 1.75 m long in region 'all': 2.5 elements",
+                      Rank::doubtful))
+      << app::text_of(remarks, true);
 }
 
 TEST(Motions, AsLongAsTheRunAreRight) {

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+polargrain_test(keys_test unit unit/keys_test.cpp LIBS polargrain_hosts)
+target_compile_definitions(keys_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 polargrain_test(record_test unit unit/record_test.cpp LIBS polargrain_pool)
 target_compile_definitions(record_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 polargrain_test(coupler_messages_test unit unit/coupler_messages_test.cpp LIBS polargrain_pool)

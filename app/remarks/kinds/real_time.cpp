@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
 #include "coupler/case/data_files.hpp"
@@ -18,8 +20,46 @@ using coupler::Entry;
 
 constexpr double kLight = 300.0;            // kg/m^3
 constexpr double kHeavy = 12e3;             // lead
+constexpr double kElementsOfAWave = 4.0;    // of elements with middle nodes
 constexpr double kLost = 0.02;              // of a motion
 constexpr double kMostAcceleration = 50.0;  // m/s2, five times gravity: an earthquake has 0.1 to 10
+
+/// Speed of shear waves in a region, m/s; nothing where a modulus is not known.
+std::optional<double> shear_speed(const Scene& scene, const SceneRegion& region) {
+  double shear = 0.0;
+  if (region.packing != nullptr) {
+    shear = region.packing->moduli.shear;
+  } else {
+    const auto young = scene.quantity({"materials", region.material, "E"}, Dimension::pressure);
+    const auto poisson = scene.quantity({"materials", region.material, "nu"}, Dimension::number);
+    if (young && poisson) shear = 0.5 * *young / (1.0 + *poisson);
+  }
+  const double density = scene.with_problem([&](const auto& problem) {
+    const auto found = problem.densities.find(region.name);
+    return found == problem.densities.end() ? 0.0 : found->second;
+  });
+  if (!(shear > 0.0 && density > 0.0)) return {};
+  return std::sqrt(shear / density);
+}
+
+/// @param frequency of the motion, Hz: half of its changes of sign, over its time
+void look_at_waves(const Scene& scene, const Entry& place, double frequency, Remarks& remarks) {
+  for (const SceneRegion& region : scene.regions()) {
+    const auto speed = shear_speed(scene, region);
+    if (!speed || frequency <= 0.0) continue;
+    const double wave = *speed / frequency;
+    const double element = usual_element(scene, region);
+    if (kElementsOfAWave * element <= wave) continue;
+    remarks.push_back(
+        {Rank::doubtful, kElementsOfAWave * element / wave,
+         place.fault(fmt::format(
+             "boundary: the motion of '{}' has {:.3g} Hz in the mean, whose shear wave is {} long in region '{}': {:.2g} "
+             "elements (at least {:g})",
+             place.text, frequency, metres(wave), region.name, wave / element, kElementsOfAWave)),
+         fmt::format("elements of {} and less, or a motion without its high frequencies",
+                     metres(wave / kElementsOfAWave))});
+  }
+}
 
 void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
   const auto end = scene.end_time();
@@ -29,7 +69,9 @@ void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
   if (table.rows() < 2) return;
   double last = 0.0;
   double largest = 0.0;
+  double turns = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (row > 0 && table.number(row, 1) * table.number(row - 1, 1) < 0.0) ++turns;
     last = std::max(last, table.number(row, 0));
     largest = std::max(largest, std::abs(table.number(row, 1)));
   }
@@ -45,6 +87,7 @@ void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
          place.fault(fmt::format("boundary: the motion of '{}' reaches {:.4g} m/s2, {:.2g} times gravity",
                                  place.text, largest, largest / 9.81)),
          "accelerations are in m/s2: check the unit of the file"});
+  if (last > 0.0) look_at_waves(scene, place, 0.5 * turns / last, remarks);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ constexpr double kSoftInterface = 1.0;
 constexpr double kHardInterface = 1e6;
 constexpr double kThickBeam = 5.0;    // m
 constexpr double kThinBeam = 0.5e-3;  // m
+constexpr double kStiffBeam = 250e9;  // Pa: steel has 210
 
 /// Confined modulus of a region, Pa; nothing where it is not known.
 std::optional<double> confined_modulus(const Scene& scene, const SceneRegion& region) {
@@ -105,19 +106,21 @@ void look_at_interface(const Scene& scene, const std::string& name, const Beside
          "a wall has 1/3 to all of the friction of the ground: friction, or share: 2/3"});
 }
 
-/// The thickness of a plate that has both stiffnesses: EA = E t, EI = E t^3 / 12.
+/// A plate that has both stiffnesses: EA = E t, EI = E t^3 / 12.
 void look_at_beam(const Scene& scene, const std::string& name, Remarks& remarks) {
   const auto axial = scene.quantity({"beams", name, "EA"}, Dimension::force_per_length);
   const auto bending = scene.quantity({"beams", name, "EI"}, Dimension::moment);
   if (!axial || !bending || *axial <= 0.0) return;
   const double thickness = std::sqrt(12.0 * *bending / *axial);
   const double most = std::min(kThickBeam, scene.body().smaller_side());
-  if (thickness >= kThinBeam && thickness <= most) return;
+  const double modulus = *axial / thickness;
+  if (thickness >= kThinBeam && thickness <= most && modulus <= kStiffBeam) return;
   remarks.push_back(
-      {Rank::wrong, std::max(thickness / most, kThinBeam / thickness),
+      {Rank::wrong, std::max({thickness / most, kThinBeam / thickness, modulus / kStiffBeam}),
        scene.place({"beams", name, "EI"})
-           .fault(fmt::format("beams: '{}': EA and EI belong to a plate {} thick, sqrt(12 EI / EA)", name,
-                              metres(thickness))),
+           .fault(fmt::format(
+               "beams: '{}': EA and EI belong to a plate {} thick, sqrt(12 EI / EA), of {:.3g} GPa", name,
+               metres(thickness), 1e-9 * modulus)),
        "check the units: EA in MN/m, EI in MNm2/m, both of a metre of thickness"});
 }
 
@@ -129,9 +132,24 @@ bool holds(const fem::Mesh<2>& mesh, const fem::Element<2>& element, const Eigen
   for (int k = 0; k < element.type->corners; ++k) {
     const Eigen::Vector2d side = corner(k + 1) - corner(k);
     const Eigen::Vector2d way = place - corner(k);
-    if (side.x() * way.y() - side.y() * way.x() <= 1e-9 * side.squaredNorm()) return false;
+    if (side.x() * way.y() - side.y() * way.x() < 0.0) return false;
   }
   return true;
+}
+
+/// An element that holds a place with ground on all sides of it, also where it lies between elements; -1: there is no such one.
+int element_around(const fem::Mesh<2>& mesh, const Eigen::Vector2d& place, double size) {
+  constexpr double kBeside = 1e-6;
+  int found = -1;
+  for (const double x : {-kBeside, kBeside})
+    for (const double y : {-1.1 * kBeside, 1.1 * kBeside}) {
+      const Eigen::Vector2d here = place + size * Eigen::Vector2d(x, y);
+      const auto at = std::ranges::find_if(
+          mesh.elements, [&](const fem::Element<2>& element) { return holds(mesh, element, here); });
+      if (at == mesh.elements.end()) return -1;
+      found = static_cast<int>(at - mesh.elements.begin());
+    }
+  return found;
 }
 
 /// A far end that nothing moves, in the midst of ground that does.
@@ -145,17 +163,15 @@ void look_at_anchor(const Scene& scene, const std::string& name, Remarks& remark
     if (!value) return;
     place(i) = *value;
   }
-  for (std::size_t e = 0; e < scene.mesh().elements.size(); ++e) {
-    if (!holds(scene.mesh(), scene.mesh().elements[e], place)) continue;
-    remarks.push_back(
-        {Rank::doubtful, 2.0,
-         to->fault(fmt::format(
-             "anchors: '{}': its far end ({:.4g}, {:.4g}) m lies within region '{}' and is fixed there: it does not move "
-             "with the ground",
-             name, place.x(), place.y(), scene.region_of(static_cast<int>(e)).name)),
-         "name a node of the ground, to: NAME; or put the end beyond the mesh"});
-    return;
-  }
+  const int element = element_around(scene.mesh(), place, scene.body().smaller_side());
+  if (element < 0) return;
+  remarks.push_back(
+      {Rank::doubtful, 2.0,
+       to->fault(fmt::format(
+           "anchors: '{}': its far end ({:.4g}, {:.4g}) m lies within region '{}' and is fixed there: it does not move "
+           "with the ground",
+           name, place.x(), place.y(), scene.region_of(element).name)),
+       "name a node of the ground, to: NAME; or put the end beyond the mesh"});
 }
 
 }  // namespace

@@ -112,9 +112,9 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
 }
 
 void idle_steps(const Scene& scene, Remarks& remarks) {
+  if (scene.the_case().real_time) return;  // a body goes on by itself
   const auto end = scene.end_time();
-  // Where parts come or go they are the change; in real time a body goes on by itself.
-  if (!end || scene.problem().stages.size() > 1 || scene.the_case().real_time) return;
+  if (!end || scene.problem().stages.size() > 1) return;  // where parts come or go, that is what changes
   // Step by step: whole cycles of a load end where they began. A pause before a further change is meant.
   double from = 0.0;
   int idle = 0;  // since the last change

@@ -10,6 +10,7 @@
 #include "coupler/case/contact_library.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/measured_length.hpp"
+#include "coupler/case/models/cell_control_keys.hpp"
 #include "coupler/case/script_dimension.hpp"
 
 namespace polargrain::coupler {
@@ -37,30 +38,6 @@ std::filesystem::path packing_file(Section& section, const std::filesystem::path
                   "correct the path or put the file there",
                   name));
   return {};
-}
-
-CellControl read_control(Section& section) {
-  CellControl control;
-  const auto positive = [&](const char* key, double otherwise) {
-    return section.quantity_or(key, Dimension::number, Limit::positive, otherwise);
-  };
-  control.inertial_number = positive("inertial_number", control.inertial_number);
-  control.unbalanced_force_ratio = positive("unbalanced_force_ratio", control.unbalanced_force_ratio);
-  control.unbalanced_moment_ratio = positive("unbalanced_moment_ratio", control.unbalanced_moment_ratio);
-  section.require_below(
-      "inertial_number", 0.1,
-      "grains would fly past each other instead of resting on each other; quasi-static is 1e-3 and less");
-  for (const char* const key : {"unbalanced_force_ratio", "unbalanced_moment_ratio"})
-    section.require_below(key, 1.0, "any state at all would count as at rest");
-  control.damping = section.quantity_or("damping", Dimension::number, Limit::not_negative, control.damping);
-  if (control.damping >= 1.0) section.fault("damping", "damping: must be less than 1");
-  control.least_steps = section.whole_or("least_steps", 1, control.least_steps);
-  control.most_relaxation_steps = section.whole_or("most_relaxation_steps", 1, control.most_relaxation_steps);
-  const std::string tangent = section.choice_or("tangent", {"condensed", "voigt"}, "condensed");
-  control.tangent = tangent == "voigt" ? CellTangent::voigt : CellTangent::condensed;
-  const std::string loop = section.choice_or("loop", {"automatic", "engine"}, "automatic");
-  control.loop = loop == "engine" ? CellLoop::engine : CellLoop::automatic;
-  return control;
 }
 
 /// Sizes of grains may differ by so much, relative, from those a length was measured with.
@@ -174,7 +151,7 @@ CellDefinition read_cell_without_packing(const std::string& name, Section& secti
   definition.script_file = script.file;
   definition.script = script.text;
   definition.contact_library = read_contact_library(section, files);
-  definition.control = read_control(section);
+  read_keys(section, definition.control);
   return definition;
 }
 
