@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One Newton iteration in space over the number of unknowns: assembly, and solution by iterations on levels or directly.
 // The tangent is the unsymmetric one of a non-associated law at its first iteration. Usage: space_solve_bench
-// ELEMENT ELEMENTS_ALONG
+// ELEMENT ELEMENTS_ALONG [MOST_ITERATIONS]
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -59,6 +59,7 @@ class Told : public Observer {
 int main(int argc, char** argv) {
   const std::string element = argc > 1 ? argv[1] : "H20R";
   const int along = argc > 2 ? std::stoi(argv[2]) : 12;
+  const int most_iterations = argc > 3 ? std::stoi(argv[3]) : 0;
   Problem<3> problem;
   problem.mesh = box({{0.1, 0.1, 0.1}, {along, along, along}}, element);
   problem.materials["all"] = sand();
@@ -85,12 +86,13 @@ int main(int argc, char** argv) {
   const double start = processor_seconds();
   StepReport sum;
   for (const double time : {0.5, 1.0}) {
-    const StepReport report = solver.advance(time);
+    const StepReport report = solver.advance(time, 1.0, most_iterations);
     fmt::print("{}\n", report.converged ? "balanced" : report.message);
     sum.iterations += report.iterations;
     sum.material_seconds += report.material_seconds;
     sum.assembly_seconds += report.assembly_seconds;
     sum.solve_seconds += report.solve_seconds;
+    if (most_iterations > 0) break;
   }
   const double iterations = sum.iterations;
   fmt::print(

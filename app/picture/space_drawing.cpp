@@ -220,7 +220,7 @@ std::string space_drawing(const fem::Mesh<3>& mesh, const std::vector<SceneRegio
                           const std::vector<PlaceConditions<3>>& places) {
   const std::vector<OuterFace> faces = outer_faces(mesh);
   const Eigen::Vector3d before(0.55, -0.85, 0.5);
-  return figure(mesh, regions, places, faces, before, "From before, right and above") +
+  return figure(mesh, regions, places, faces, before, "From the front, right and above") +
          figure(mesh, regions, places, faces, -before, "From behind, left and below");
 }
 

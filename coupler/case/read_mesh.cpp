@@ -288,14 +288,14 @@ void make_from_file(Section& mesh, const std::string& name, std::optional<fem::G
   constexpr std::string_view kFull = kReduced.substr(0, kReduced.size() - 1);
   const std::string element =
       mesh.choice_or("element", fem::element_names<dim>(), fem::element_names<dim>().front());
-  if (element != kReduced && element != kFull) {
+  if (element != kReduced && element != kFull && element != fem::kOnePoint<dim>) {
     if (!element.empty())
       mesh.fault(
           "element",
           fmt::format("element: the mesh file holds the kinds of its elements; for its {} choose {} or "
-                      "{}, found '{}'",
+                      "{}, for those with corners alone {}, found '{}'",
                       dim == 2 ? "quadrilaterals of 8 nodes" : "hexahedra of 20 nodes", kReduced, kFull,
-                      element));
+                      fem::kOnePoint<dim>, element));
     return;
   }
   if (!content) return;

@@ -30,14 +30,16 @@ struct Offered {
   std::vector<std::size_t> order = {};
 };
 
-/// @param serendipity the quadrilateral of 8 nodes, the hexahedron of 20 nodes
+/// @param chosen of the elements with one shape and several quadratures
 template <int dim>
-std::vector<Offered> offered(std::string_view serendipity) {
+std::vector<Offered> offered(std::string_view chosen) {
+  const bool one_point = chosen == kOnePoint<dim>;
+  const std::string_view serendipity = one_point ? kSerendipity<dim> : chosen;
   if constexpr (dim == 2) {
-    return {{16, serendipity}, {3, "Q4"}, {9, "T6"}};
+    return {{16, serendipity}, {3, one_point ? chosen : "Q4"}, {9, "T6"}};
   } else {
     return {{17, serendipity, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}},
-            {5, "H8"},
+            {5, one_point ? chosen : "H8"},
             {11, "T10", {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
             {18, "W15", {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}}};
   }
@@ -93,8 +95,8 @@ GmshReaderFunction reader_function(const std::filesystem::path& mesh_file,
 template <int dim>
 class Reader {
  public:
-  Reader(std::filesystem::path file, std::string_view serendipity, GmshContent content)
-      : file_(std::move(file)), offered_(offered<dim>(serendipity)), content_(std::move(content)) {}
+  Reader(std::filesystem::path file, std::string_view chosen, GmshContent content)
+      : file_(std::move(file)), offered_(offered<dim>(chosen)), content_(std::move(content)) {}
 
   Mesh<dim> read() {
     if (!content_.error.empty()) fail(fmt::format("Gmsh cannot read it: {}", content_.error));
@@ -350,23 +352,23 @@ int dimension_of(const GmshContent& content) {
 }
 
 template <int dim>
-Mesh<dim> read_gmsh(const std::filesystem::path& file, std::string_view serendipity,
+Mesh<dim> read_gmsh(const std::filesystem::path& file, std::string_view chosen,
                     const std::vector<std::filesystem::path>& module_places) {
-  return mesh_of<dim>(file, read_gmsh_content(file, module_places), serendipity);
+  return mesh_of<dim>(file, read_gmsh_content(file, module_places), chosen);
 }
 
 template <int dim>
-Mesh<dim> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view serendipity) {
-  return Reader<dim>(file, serendipity, std::move(content)).read();
+Mesh<dim> mesh_of(const std::filesystem::path& file, GmshContent content, std::string_view chosen) {
+  return Reader<dim>(file, chosen, std::move(content)).read();
 }
 
-template Mesh<2> read_gmsh<2>(const std::filesystem::path& file, std::string_view serendipity,
+template Mesh<2> read_gmsh<2>(const std::filesystem::path& file, std::string_view chosen,
                               const std::vector<std::filesystem::path>& module_places);
-template Mesh<3> read_gmsh<3>(const std::filesystem::path& file, std::string_view serendipity,
+template Mesh<3> read_gmsh<3>(const std::filesystem::path& file, std::string_view chosen,
                               const std::vector<std::filesystem::path>& module_places);
 template Mesh<2> mesh_of<2>(const std::filesystem::path& file, GmshContent content,
-                            std::string_view serendipity);
+                            std::string_view chosen);
 template Mesh<3> mesh_of<3>(const std::filesystem::path& file, GmshContent content,
-                            std::string_view serendipity);
+                            std::string_view chosen);
 
 }  // namespace polargrain::fem

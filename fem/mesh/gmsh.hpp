@@ -26,20 +26,24 @@ int dimension_of(const GmshContent& content);
 template <int dim>
 inline constexpr std::string_view kSerendipity = dim == 2 ? "Q8R" : "H20R";
 
+/// The one for quadrilaterals of 4 nodes, and for hexahedra of 8, that may be asked for in place of Q4 and H8.
+template <int dim>
+inline constexpr std::string_view kOnePoint = dim == 2 ? "Q4R" : "H8R";
+
 /// The mesh of the content. Named physical groups become regions (surfaces; in space volumes), boundaries (curves; surfaces)
 /// and node sets (points; in space curves too); the region and the node set `all` are added. Where surfaces (volumes) have
 /// physical groups, elements outside them are left out. Mirrored elements are turned round. Quadrilaterals of 4 nodes become
 /// Q4, triangles of 6 nodes T6; in space hexahedra of 8 nodes H8, tetrahedra of 10 nodes T10, wedges of 15 nodes W15.
-/// @param serendipity the element for quadrilaterals of 8 nodes, "Q8R" or "Q8"; for hexahedra of 20, "H20R" or "H20"
+/// @param chosen the element for quadrilaterals of 8 nodes, "Q8R" or "Q8"; for hexahedra of 20, "H20R" or "H20"; or kOnePoint
 /// @throws InputError when it was not read, has elements of other kinds, leaves the plane z = 0 (dim 2), or a curve (surface)
 /// of a physical group is not a side of an element.
 template <int dim = 2>
 Mesh<dim> mesh_of(const std::filesystem::path& file, GmshContent content,
-                  std::string_view serendipity = kSerendipity<dim>);
+                  std::string_view chosen = kSerendipity<dim>);
 
 /// Both in one. @throws InputError as they do
 template <int dim = 2>
-Mesh<dim> read_gmsh(const std::filesystem::path& file, std::string_view serendipity = kSerendipity<dim>,
+Mesh<dim> read_gmsh(const std::filesystem::path& file, std::string_view chosen = kSerendipity<dim>,
                     const std::vector<std::filesystem::path>& module_places = gmsh_module_places());
 
 }  // namespace polargrain::fem

@@ -56,7 +56,7 @@ std::optional<Eigen::VectorXd> gmres(
       if (!std::isfinite(left)) return std::nullopt;
       column(count + 1) = left;
       for (int i = 0; i < count; ++i) turns[static_cast<std::size_t>(i)].apply(column(i), column(i + 1));
-      const double length = std::hypot(column(count), left);
+      const double length = std::sqrt(column(count) * column(count) + left * left);
       if (length == 0.0) return std::nullopt;  // the preconditioned matrix is singular
       turns.push_back({column(count) / length, left / length});
       turns.back().apply(column(count), column(count + 1));

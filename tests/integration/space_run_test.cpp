@@ -204,7 +204,8 @@ TEST_F(SpaceRun, RemarksKnowBodiesInSpace) {
   expect("u3: -0.5 mm", "u3: -40 mm", "steps: a step strains the body by 0.02");
 }
 
-/// A specimen between a rough and a smooth plate, in the plane or as a slab one element thick held in plane strain.
+/// A specimen between rough plates, in the plane or as a slab one element thick. Stresses s31 and s32 of grains are not zero on the
+/// faces of a slab: it repeats along its thickness, as the plane does.
 std::string slab_case(bool in_space, const std::string& material) {
   const std::string low = in_space ? "front" : "bottom";
   const std::string high = in_space ? "back" : "top";
@@ -213,13 +214,13 @@ std::string slab_case(bool in_space, const std::string& material) {
                               : "{rectangle: {size: [0.1 m, 0.1 m], elements: [1, 1]}}") +
          "\nmaterials: {sand: " + material + "}\nregions: {all: sand}\nboundary:\n  - {on: " + low +
          ", fix: [u1, u2]}\n  - {on: " + high +
-         ", move: {u2: -0.3 mm}}\n  - {on: [left, right], pressure: 100 kPa}\n" +
-         (in_space ? "  - {on: [bottom, top], fix: [u3, w1, w2]}\n" : "") +
-         "steps: {count: 3, tolerance: 1e-9}\nmonitors: {force: {on: " + high + ", reaction: u2}}\n";
+         ", fix: [u1], move: {u2: -0.03 mm}}\n  - {on: [left, right], pressure: 100 kPa}\n" +
+         (in_space ? "  - {on: all, fix: [u3, w1, w2]}\n  - {on: bottom, tie: top}\n" : "") +
+         "steps: {count: 3, tolerance: 1e-10}\nmonitors: {force: {on: " + high + ", reaction: u2}}\n";
 }
 
-// Boxes of spheres answer alike in the plane and in a slab: strains out of the plane are zero in both. Iterations end at 1e-9 of
-// the forces.
+// Boxes of spheres answer alike in the plane and in a slab. Iterations end at 1e-10 of the forces, and grains that rearrange
+// multiply what is left: by 50 at most here.
 TEST_F(SpaceRun, ASlabOfBoxesOfSpheresIsThePlane) {
   make_spheres(folder());
   const std::string boxes =
@@ -247,7 +248,7 @@ TEST_F(SpaceRun, ThePictureShowsFacesAndConditions) {
     return found;
   };
   EXPECT_EQ(count("<svg viewBox"), 2U);
-  EXPECT_EQ(count("stroke-width='.6'/>"), 2U * (4U + 4U * 6U));  // each face of 2 x 2 and 2 x 3 from one side
+  EXPECT_EQ(count("stroke-width='.6'/>"), 2U * 4U + 4U * 6U);  // each face from one side
   for (const char* const face : {"left", "right", "front", "back", "bottom", "top"})
     EXPECT_EQ(count(std::string(">") + face + "</text>"), 1U) << face;
   EXPECT_NE(page.find("u3 moved by -6 mm"), std::string::npos);

@@ -120,6 +120,7 @@ TEST(GmshBody, ElementsAreThoseOfTheFile) {
   EXPECT_EQ(name_in("two_blocks_hex20.msh"), "H20R");
   EXPECT_EQ(name_in("two_blocks_hex20.msh", "H20"), "H20");
   EXPECT_EQ(name_in("two_blocks_hex8.msh"), "H8");
+  EXPECT_EQ(name_in("two_blocks_hex8.msh", "H8R"), "H8R");
   EXPECT_EQ(name_in("two_blocks_tet10.msh"), "T10");
   EXPECT_EQ(name_in("two_blocks_wedge15.msh"), "W15");
 }

@@ -111,15 +111,15 @@ TEST(Multilevel, FindsTheDirectSolution) {
 
 TEST(Multilevel, TakesCouplesFromWeakToStrong) {
   // The default is below 80 iterations; strong skew stiffness ties rotations of a node to displacements of its neighbours.
-  for (const double length : {2e-3, 0.1})
-    for (const double ratio : {0.02, 1.0, 5.0}) {
+  for (const double length : {5e-3, 0.1})
+    for (const double ratio : {0.02, 1.0, 3.0}) {
       ElasticParameters<3> of = sand();
       of.internal_length = length;
       of.cosserat_shear_modulus = ratio * 20e6;
       const Problem<3> problem = body_on_plate(box({{0.2, 0.1, 0.3}, {4, 2, 6}}), of);
       const Outcome outcome = compare(problem, of, kElastic);
       EXPECT_LT(outcome.error, 1e-6) << length << " " << ratio;
-      EXPECT_LT(outcome.iterations, 240) << length << " " << ratio;
+      EXPECT_LT(outcome.iterations, 200) << length << " " << ratio;
     }
 }
 
