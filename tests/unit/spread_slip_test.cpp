@@ -259,6 +259,27 @@ TEST(spread_slip, law_at_the_slip_of_the_local_law_has_its_stress) {
   EXPECT_GT(state.gamma_p, 0.01);
 }
 
+TEST(spread_slip, slip_beyond_the_deviator_uses_it_up) {
+  const ElastoplasticParameters<2> parameters = sand<2>(0.8, 1.2);
+  SlipDrivenCone<2> law(parameters);
+  law.allocate(1);
+  Increment<2> nothing;
+  Response<2> response;
+  law.evaluate(std::span(&nothing, 1), std::span(&response, 1));
+  EXPECT_LT((response.tangent - elastic_stiffness(parameters.elastic)).norm(),
+            1e-9 * response.tangent.norm());
+  Vector7 strain = Vector7::Zero();
+  strain(k11) = 1e-3, strain(k22) = -1e-3;
+  const Increment<2> increment = increment_of<2>(strain);
+  const double slip = 2e-3;  // q would be 3 G 1e-3 * 2 / sqrt(3) without it
+  law.set_slips(std::span(&slip, 1));
+  law.evaluate(std::span(&increment, 1), std::span(&response, 1));
+  EXPECT_EQ(response.quality, Quality::good);
+  const double mean = response.stress.head<3>().mean();
+  EXPECT_LT((response.stress.head<3>() - Eigen::Vector3d::Constant(mean)).norm(), 1e-9 * std::abs(mean));
+  EXPECT_LT(law.slip_answers()[0].drive, 0.0);
+}
+
 /// A block of distorted elements between smooth plates.
 Problem<2> block(std::shared_ptr<Material<2>> material) {
   Problem<2> problem;
