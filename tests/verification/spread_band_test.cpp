@@ -169,6 +169,7 @@ Mesh<2> grid(double size, const char* type, double turned = 0.0) {
 TEST(spread_band, does_not_follow_the_mesh) {
   const Outcome straight = outcome_of(grid(1.25, "Q8R"));
   EXPECT_LE(straight.mean_iterations, 8.0);
+  EXPECT_NEAR(straight.band.thickness, 1.2 * kSpread, 0.05 * kSpread);
   for (const auto& [type, turned] : {std::pair{"Q8R", 20.0}, {"T6", 0.0}, {"T6", 20.0}}) {
     const Outcome outcome = outcome_of(grid(1.25, type, turned));
     EXPECT_NEAR(outcome.band.inclination, straight.band.inclination, 1.0) << type << turned;
