@@ -58,13 +58,15 @@ Problem<2> column(int elements, double width = kWidth, double weak = 0.5 * kHeig
   return problem;
 }
 
-/// The column whose slip has one source in its middle: g = top cosh((H/2 - |z|)/l) / cosh(H/2l).
+/// The column whose slip has one source in its middle: g = top cosh((H/2 - |z|)/l) / cosh(H/2l); sinh where its ends hold the slip.
 struct ClosedForm {
+  bool held = false;
   double length = kWidth / (2.0 * std::log(2.0));
   double slip_at_most = 0.0;
 
   [[nodiscard]] double shape(double z) const {
-    return std::cosh((0.5 * kHeight - z) / length) / std::cosh(0.5 * kHeight / length);
+    const auto function = [&](double x) { return held ? std::sinh(x) : std::cosh(x); };
+    return function((0.5 * kHeight - z) / length) / function(0.5 * kHeight / length);
   }
   /// Mean over the half column, z from its middle.
   template <class Value>
@@ -90,14 +92,16 @@ struct ClosedForm {
            (stress() / shear + std::sqrt(3.0) * slip_at_most * mean([&](double z) { return shape(z); }));
   }
   [[nodiscard]] double width() const {
-    const double half = std::acosh(0.5 * std::cosh(0.5 * kHeight / length));
+    const double end = 0.5 * kHeight / length;
+    const double half = held ? std::asinh(0.5 * std::sinh(end)) : std::acosh(0.5 * std::cosh(end));
     return 2.0 * (0.5 * kHeight - length * half);
   }
-  static ClosedForm at(double displacement) {
+  static ClosedForm at(double displacement, bool held = false) {
     ClosedForm low, high;
+    low.held = high.held = held;
     high.slip_at_most = 2.0;
     for (int k = 0; k < 60; ++k) {
-      ClosedForm middle;
+      ClosedForm middle = low;
       middle.slip_at_most = 0.5 * (low.slip_at_most + high.slip_at_most);
       (middle.displacement() < displacement ? low : high) = middle;
     }
@@ -166,6 +170,20 @@ TEST(spread_slip, column_of_a_wider_spread_is_as_much_thicker) {
   ClosedForm exact;
   exact.length *= 2.0;
   EXPECT_NEAR(width_of(solver), exact.width(), 0.08 * exact.width());
+}
+
+TEST(spread_slip, ends_can_hold_the_slip) {
+  Problem<2> problem = column(80);
+  for (const char* field : {kSlip, kOverstress})  // both: a source there would have no slip to feed
+    for (const char* end : {"bottom", "top"})
+      problem.prescribed_fields.push_back({field, end, TimeTable::constant(0.0)});
+  Solver<2> solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
+  const ClosedForm exact = ClosedForm::at(60 * 0.8e-3, true);
+  EXPECT_NEAR(solver.reaction("top")(0) / (kHeight / 80), exact.stress(), 0.001 * kPeak);
+  EXPECT_NEAR(width_of(solver), exact.width(), 0.08 * exact.width());
+  EXPECT_EQ(slips_of(solver).begin()->second, 0.0);
 }
 
 TEST(spread_slip, end_is_a_mirror) {
