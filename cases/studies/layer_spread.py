@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A band of cells that softens as slowly as one of grains: a column in which every slip drags its neighbours along.
 
-    python3 layer_spread.py -o RESULTS [--lengths 0 4 5 6 8] [--columns 5] [--layers FOLDER] [--program POLARGRAIN]
+    python3 layer_spread.py -o RESULTS [--lengths 0 4 5 6 8] [--kernel helmholtz] [--columns 5] [--layers FOLDER] [--program POLARGRAIN]
 
 A column of places, a cell each, periodic along its height, under constant normal stress. What slips at place j is spread over its
 neighbours with weights W, in height the square of a hyperbolic secant whose full width at half maximum is the length (0: not at all), so
-that a cell is sheared by the mean over the slips around it, and a place slips when the mean of its neighbours' strengths, with the same
+that a cell is sheared by the mean over the slips around it (helmholtz: the weights of the finite elements, docs/theory/spread.md), and a place slips when the mean of its neighbours' strengths, with the same
 weights, is the shear stress T of the column (virtual work):
 
     shear of cell i     g_i = sum_j W_ij a_j
@@ -45,10 +45,14 @@ SOFTEST = 0.1         # of the packing's stiffness at rest: below that iteration
 WAYS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)   # past the peak, d
 
 
-def weights(places, spacing, length):
+def weights(places, spacing, length, kernel):
     """@returns W: columns and rows add up to 1"""
     if length == 0.0:
         return numpy.eye(places)
+    if kernel == "helmholtz":  # that of the finite elements (docs/theory/spread.md)
+        apart = length / (2.0 * math.log(2.0)) / spacing
+        neighbours = numpy.roll(numpy.eye(places), 1, axis=0) + numpy.roll(numpy.eye(places), -1, axis=0)
+        return numpy.linalg.inv((1.0 + 2.0 * apart**2) * numpy.eye(places) - apart**2 * neighbours)
     apart = numpy.abs(numpy.subtract.outer(numpy.arange(places), numpy.arange(places)))
     apart = numpy.minimum(apart, places - apart) * spacing
     kernel = numpy.cosh(numpy.minimum(2.0 * math.acosh(math.sqrt(2.0)) * apart / length, 300.0)) ** -2.0
@@ -58,9 +62,9 @@ def weights(places, spacing, length):
 class Column:
     """@param cells from bottom to top @param spacing d"""
 
-    def __init__(self, cells, spacing, length):
+    def __init__(self, cells, spacing, length, kernel):
         self.cells = cells
-        self.spread = weights(len(cells), spacing, length)
+        self.spread = weights(len(cells), spacing, length, kernel)
         self.heights = numpy.full(len(cells), spacing)  # current, d
         self.at_rest = [statistics.mean(cell.at_rest.tangent[k, k] for cell in cells) for k in (2, 3)]
         self.stress = statistics.mean(cell.at_rest.stress[1, 0] for cell in cells)
@@ -136,12 +140,12 @@ def accelerated(tried, moves):
     return tried[-1] + moves[-1] - (places + differences) @ factors
 
 
-def run(file, packings, places, length, way, engines):
+def run(file, packings, places, length, kernel, way, engines):
     """Shears a column until `way` past its peak. @returns rows of displacement (d), ratio and shear of every cell; and costs"""
     if file.exists():
         kept = json.loads(file.read_text(encoding="utf-8"))
         return kept["rows"], kept["costs"]
-    column = Column([polargrain.Cell(packing, SCRIPT, engines=engines) for packing in packings], HEIGHT / places, length)
+    column = Column([polargrain.Cell(packing, SCRIPT, engines=engines) for packing in packings], HEIGHT / places, length, kernel)
     rows = [(0.0, column.stress / PRESSURE, [0.0] * places)]
     total, displacement, driven, peak = numpy.zeros(places), 0.0, 0.0, (0.0, 0.0)
     steps = cut = 0
@@ -223,6 +227,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", type=pathlib.Path, required=True)
     arguments.add_argument("--lengths", type=float, nargs="+", default=[0.0, 4.0, 5.0, 6.0, 8.0])
+    arguments.add_argument("--kernel", choices=["sech2", "helmholtz"], default="sech2")
     arguments.add_argument("--columns", type=int, default=5)
     arguments.add_argument("--places", type=int, default=20)
     arguments.add_argument("--grains", type=int, default=100, help="of a cell")
@@ -244,11 +249,11 @@ def main():
             packings.append(place / f"grains{options.grains}-seed{100 + 20 * number + k}.h5")
             if not packings[-1].exists():
                 polargrain.pack({**specification, "seed": 100 + 20 * number + k}, packings[-1])
-        name = f"column{number}-{options.grains}-{options.places}-{length:g}"
+        name = f"column{number}-{options.grains}-{options.places}-{length:g}" + ("" if options.kernel == "sech2" else "-" + options.kernel)
         # Finer meshes have the same packings at the same heights.
         here = [packings[k * 20 // options.places] for k in range(options.places)]
         with polargrain.Engines() as engines:
-            rows, cost = run(place / f"{name}.json", here, options.places, length, options.way, engines)
+            rows, cost = run(place / f"{name}.json", here, options.places, length, options.kernel, options.way, engines)
         groups.setdefault(f"{length:g} d", []).append(of_column(rows))
         costs.setdefault(f"{length:g} d", []).append(cost)
         print(name, groups[f"{length:g} d"][-1], cost, flush=True)

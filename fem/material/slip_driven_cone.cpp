@@ -29,7 +29,8 @@ std::vector<std::string> slip_faults(const ElastoplasticParameters<dim>& paramet
 
 template <int dim>
 SlipDrivenCone<dim>::SlipDrivenCone(const ElastoplasticParameters<dim>& parameters)
-    : frame_{SubspaceModuli(parameters.elastic, parameters.weights), parameters.elastic.internal_length, 0.0},
+    : frame_{SubspaceModuli(parameters.elastic, parameters.weights), parameters.elastic.internal_length,
+             parameters.apex_stiffness_share},
       cone_(parameters.cone),
       scale_(Vector::Ones()),
       initial_stress_(parameters.elastic.initial_stress) {
@@ -73,13 +74,17 @@ void SlipDrivenCone<dim>::answer(const State& start, const Vector& strain, doubl
       start.stress + elastic_stress(moduli, ScaledVector<double, dim>(strain.cwiseProduct(scale_)));
   const Split<double, dim> split(trial);
   const double q_trial = deviatoric_stress(split, moduli);
-  const double q = q_trial - slip_stiffness() * slip;
+  // A slip that neighbours bring may be more than the deviator; it is then used up.
+  const bool used_up = slip > 0.0 && slip_stiffness() * slip >= q_trial;
+  const bool follows = !used_up && q_trial > 0.0;  // the deviator has a direction, which slip goes along
+  const double q = follows ? q_trial - slip_stiffness() * slip : 0.0;
   end = {trial, start.slip + slip};
-  if (!std::isfinite(q_trial) || !std::isfinite(slip) || q < 0.0) {
+  if (!std::isfinite(q_trial) || !std::isfinite(slip)) {
     end = start;
     response.stress = frame_.unscaled_stress(start.stress);
     response.quality = Quality::failed;
-    response.message = "a step of the slip is larger than the deviatoric stress can follow";
+    response.message =
+        "the trial stress is not a finite number; the increment of strain is broken or far too large";
     response.step_factor = 0.5;
     return;
   }
@@ -88,33 +93,32 @@ void SlipDrivenCone<dim>::answer(const State& start, const Vector& strain, doubl
   const double swelling = moduli.bulk * (cone.dilatancy + slip * cone.dilatancy_slope);
   const double mean = split.mean - moduli.bulk * cone.dilatancy * slip;
   // The parts that the invariant feels shrink by one factor with the default weights; the skew one stays.
-  const double retained = q_trial > 0.0 ? q / q_trial : 1.0;
+  const double retained = used_up ? 0.0 : follows ? q / q_trial : 1.0;
   std::array<double, 3> stiffness{};
   ScaledVector<double, dim> felt = ScaledVector<double, dim>::Zero();
   ScaledVector<double, dim> q_by_strain = ScaledVector<double, dim>::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     const bool feels = moduli.return_stiffness(k) > 0.0;
-    stiffness[k] = moduli.stiffness[k] * (feels ? retained : 1.0);
+    stiffness[k] = moduli.stiffness[k] * (feels ? std::max(retained, frame_.apex_stiffness_share) : 1.0);
     if (!feels) continue;
     felt += split.part[k];
-    if (q_trial > 0.0)
-      q_by_strain += (1.5 / q_trial * moduli.weight[k] * moduli.stiffness[k]) * split.part[k];
+    if (follows) q_by_strain += (1.5 / q_trial * moduli.weight[k] * moduli.stiffness[k]) * split.part[k];
   }
   end.stress += (retained - 1.0) * felt + (mean - split.mean) * one;
 
   ScaledMatrix<double, dim> tangent = subspace_matrix<double, dim>(stiffness, moduli.couples);
   add_volumetric(tangent, moduli.bulk);
-  if (q_trial > 0.0) tangent += ((1.0 - retained) / q_trial) * felt * q_by_strain.transpose();
+  if (follows) tangent += ((1.0 - retained) / q_trial) * felt * q_by_strain.transpose();
   response.stress = frame_.unscaled_stress(end.stress);
   response.tangent = scale_.asDiagonal() * tangent * scale_.asDiagonal();
 
   answer.drive = cone.yield_function(q, mean);
   answer.scale = q + std::abs(cone.friction * mean) + cone.cohesion;
   answer.stress_by_slip =
-      scale_.cwiseProduct((q_trial > 0.0 ? -slip_stiffness() / q_trial : 0.0) * felt - swelling * one);
+      scale_.cwiseProduct((follows ? -slip_stiffness() / q_trial : 0.0) * felt - swelling * one);
   answer.drive_by_strain = scale_.cwiseProduct(q_by_strain + (cone.friction * moduli.bulk) * one);
-  answer.drive_by_slip =
-      -slip_stiffness() - cone.friction * swelling + cone.friction_slope * mean - cone.cohesion_slope;
+  answer.drive_by_slip = (follows ? -slip_stiffness() : 0.0) - cone.friction * swelling +
+                         cone.friction_slope * mean - cone.cohesion_slope;
 }
 
 template <int dim>

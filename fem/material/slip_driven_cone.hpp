@@ -17,7 +17,8 @@ std::vector<std::string> slip_faults(const ElastoplasticParameters<dim>& paramet
 ///
 ///     q = q_trial - 3 G dg,   p = p_trial - K M_psi dg,   drive F = q + M_phi p - k   (docs/theory/plasticity.md, B.4).
 ///
-/// It has no apex: a step that would turn q negative is Quality::failed, and is cut. Small deformation.
+/// Where neighbours bring more slip than the deviator can take, q is 0; the tangent then has the share of the elastic stiffness that
+/// an apex has. The cone has no apex under tension. Small deformation.
 template <int dim>
 class SlipDrivenCone final : public Material<dim>, public SlipDriven<dim> {
  public:

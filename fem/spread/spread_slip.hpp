@@ -35,7 +35,7 @@ inline constexpr const char* kOverstress = "overstress";
 template <int dim>
 class SpreadSlip final : public Contribution<dim> {
  public:
-  /// @param slip, overstress numbers of the fields @param materials by region: those of the problem that are SlipDriven
+  /// @param slip, overstress numbers of the fields @param materials SlipDriven ones of the problem, by region
   SpreadSlip(const Problem<dim>& problem, std::size_t slip, std::size_t overstress,
              const std::map<std::string, std::shared_ptr<SlipDriven<dim>>>& materials, SpreadOptions options);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "common/error.hpp"
@@ -34,15 +35,15 @@ ElastoplasticParameters<2> softening(double factor) {
   return parameters;
 }
 
-/// A periodic column of one element across, sheared; the strength of its middle diameter is 2 % lower.
-Problem<2> column(int elements, double width = kWidth) {
+/// A periodic column of one element across, sheared; the strength of its middle diameter, or of the half one at `weak`, is 2 % lower.
+Problem<2> column(int elements, double width = kWidth, double weak = 0.5 * kHeight) {
   Problem<2> problem;
   const double size = kHeight / elements;
   problem.mesh = rectangle({{size, kHeight}, {1, elements}});
   problem.continuum = Continuum::cauchy;
   problem.mesh.regions.clear();
   for (int e = 0; e < elements; ++e) {
-    const bool middle = std::abs((e + 0.5) * size - 0.5 * kHeight) < 0.5 * kDiameter;
+    const bool middle = std::abs((e + 0.5) * size - weak) < 0.5 * kDiameter;
     problem.mesh.regions[middle ? "weak" : "rest"].push_back(e);
   }
   problem.materials["weak"] = std::make_shared<SlipDrivenCone<2>>(softening(kWeak));
@@ -57,13 +58,15 @@ Problem<2> column(int elements, double width = kWidth) {
   return problem;
 }
 
-/// The column whose slip has one source in its middle: g = top cosh((H/2 - |z|)/l) / cosh(H/2l).
+/// The column whose slip has one source in its middle: g = top cosh((H/2 - |z|)/l) / cosh(H/2l); sinh where its ends hold the slip.
 struct ClosedForm {
+  bool held = false;
   double length = kWidth / (2.0 * std::log(2.0));
   double slip_at_most = 0.0;
 
   [[nodiscard]] double shape(double z) const {
-    return std::cosh((0.5 * kHeight - z) / length) / std::cosh(0.5 * kHeight / length);
+    const auto function = [&](double x) { return held ? std::sinh(x) : std::cosh(x); };
+    return function((0.5 * kHeight - z) / length) / function(0.5 * kHeight / length);
   }
   /// Mean over the half column, z from its middle.
   template <class Value>
@@ -89,14 +92,16 @@ struct ClosedForm {
            (stress() / shear + std::sqrt(3.0) * slip_at_most * mean([&](double z) { return shape(z); }));
   }
   [[nodiscard]] double width() const {
-    const double half = std::acosh(0.5 * std::cosh(0.5 * kHeight / length));
+    const double end = 0.5 * kHeight / length;
+    const double half = held ? std::asinh(0.5 * std::sinh(end)) : std::acosh(0.5 * std::cosh(end));
     return 2.0 * (0.5 * kHeight - length * half);
   }
-  static ClosedForm at(double displacement) {
+  static ClosedForm at(double displacement, bool held = false) {
     ClosedForm low, high;
+    low.held = high.held = held;
     high.slip_at_most = 2.0;
     for (int k = 0; k < 60; ++k) {
-      ClosedForm middle;
+      ClosedForm middle = low;
       middle.slip_at_most = 0.5 * (low.slip_at_most + high.slip_at_most);
       (middle.displacement() < displacement ? low : high) = middle;
     }
@@ -104,14 +109,20 @@ struct ClosedForm {
   }
 };
 
-/// Full width at half maximum of the slip along the left side.
-double width_of(const Solver<2>& solver) {
+/// Slip along the left side, by height.
+std::map<double, double> slips_of(const Solver<2>& solver) {
   std::map<double, double> slips;
   const Problem<2>& problem = solver.problem();
   for (const int node : problem.fields[0].nodes) {
     const auto& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
     if (place(0) == 0.0) slips[place(1)] = solver.state().displacement(problem.places().entry(0, node));
   }
+  return slips;
+}
+
+/// Their full width at half maximum.
+double width_of(const Solver<2>& solver) {
+  const std::map<double, double> slips = slips_of(solver);
   double most = 0.0;
   for (const auto& [z, slip] : slips) most = std::max(most, slip);
   double ends[2] = {0.0, 0.0};
@@ -159,6 +170,33 @@ TEST(spread_slip, column_of_a_wider_spread_is_as_much_thicker) {
   ClosedForm exact;
   exact.length *= 2.0;
   EXPECT_NEAR(width_of(solver), exact.width(), 0.08 * exact.width());
+}
+
+TEST(spread_slip, ends_can_hold_the_slip) {
+  Problem<2> problem = column(80);
+  for (const char* field : {kSlip, kOverstress})  // both: a source there would have no slip to feed
+    for (const char* end : {"bottom", "top"})
+      problem.prescribed_fields.push_back({field, end, TimeTable::constant(0.0)});
+  Solver<2> solver(std::move(problem), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
+  const ClosedForm exact = ClosedForm::at(60 * 0.8e-3, true);
+  EXPECT_NEAR(solver.reaction("top")(0) / (kHeight / 80), exact.stress(), 0.001 * kPeak);
+  EXPECT_NEAR(width_of(solver), exact.width(), 0.08 * exact.width());
+  EXPECT_EQ(slips_of(solver).begin()->second, 0.0);
+}
+
+TEST(spread_slip, end_is_a_mirror) {
+  Solver<2> solver(column(80, kWidth, 0.0), {});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.4e-3).converged);
+  const std::map<double, double> slips = slips_of(solver);
+  const double length = kWidth / (2.0 * std::log(2.0));
+  const double exact =
+      kHeight - length * std::acosh(0.5 * std::cosh(kHeight / length));  // half of a thickness
+  auto above = slips.begin();
+  while (above->second > 0.5 * slips.begin()->second) ++above;
+  EXPECT_NEAR(above->first, exact, 0.08 * exact + kHeight / 80);
 }
 
 /// Friction, dilatancy and cohesion that change with the slip.
@@ -259,6 +297,27 @@ TEST(spread_slip, law_at_the_slip_of_the_local_law_has_its_stress) {
   EXPECT_GT(state.gamma_p, 0.01);
 }
 
+TEST(spread_slip, slip_beyond_the_deviator_uses_it_up) {
+  const ElastoplasticParameters<2> parameters = sand<2>(0.8, 1.2);
+  SlipDrivenCone<2> law(parameters);
+  law.allocate(1);
+  Increment<2> nothing;
+  Response<2> response;
+  law.evaluate(std::span(&nothing, 1), std::span(&response, 1));
+  EXPECT_LT((response.tangent - elastic_stiffness(parameters.elastic)).norm(),
+            1e-9 * response.tangent.norm());
+  Vector7 strain = Vector7::Zero();
+  strain(k11) = 1e-3, strain(k22) = -1e-3;
+  const Increment<2> increment = increment_of<2>(strain);
+  const double slip = 2e-3;  // q would be 3 G 1e-3 * 2 / sqrt(3) without it
+  law.set_slips(std::span(&slip, 1));
+  law.evaluate(std::span(&increment, 1), std::span(&response, 1));
+  EXPECT_EQ(response.quality, Quality::good);
+  const double mean = response.stress.head<3>().mean();
+  EXPECT_LT((response.stress.head<3>() - Eigen::Vector3d::Constant(mean)).norm(), 1e-9 * std::abs(mean));
+  EXPECT_LT(law.slip_answers()[0].drive, 0.0);
+}
+
 /// A block of distorted elements between smooth plates.
 Problem<2> block(std::shared_ptr<Material<2>> material) {
   Problem<2> problem;
@@ -335,6 +394,28 @@ TEST(spread_slip, tangent_is_that_of_differences) {
                                  {places.start(1), places.size()}})
     EXPECT_LT((linear - differences).segment(from, to - from).norm(),
               1e-5 * linear.segment(from, to - from).norm());
+}
+
+TEST(spread_slip, tangent_is_symmetric_where_flow_is_associated) {
+  ElastoplasticParameters<2> parameters = sand<2>(0.6, 0.6);
+  parameters.cone = {0.6, 0.6, PiecewiseLinear::ramp(2e3, 1e3, 0.3)};
+  const auto material = std::make_shared<SlipDrivenCone<2>>(parameters);
+  Problem<2> problem = block(material);
+  const auto spread = add_spread_slip(problem, {kWidth});
+  const Discretisation<2> discretisation(problem.mesh, problem.continuum, 0);
+  material->allocate(discretisation.points());
+  std::vector<Response<2>> responses(discretisation.points());
+  std::srand(5);
+  const Eigen::VectorXd nodal = 3e-4 * Eigen::VectorXd::Random(problem.places().size());
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(nodal.size());
+  const NodalStep step{0.0, 1.0, start, nodal};
+  spread->prepare(step);
+  material->evaluate(discretisation.increments(nodal), responses);
+  spread->learn(discretisation, responses);
+  NodalForces contributed{start, start};
+  ASSERT_EQ(spread->evaluate(step, contributed), "");
+  const Eigen::MatrixXd tangent = spread->tangent(4);
+  EXPECT_LT((tangent - tangent.transpose()).norm(), 1e-12 * tangent.norm());
 }
 
 TEST(spread_slip, goes_on_from_an_archive_to_the_same_bits) {
