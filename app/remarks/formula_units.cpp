@@ -121,6 +121,8 @@ Powers powers_of(coupler::Dimension dimension) {
       return {1, -3, 0};
     case coupler::Dimension::duration:
       return {0, 0, 1};
+    case coupler::Dimension::flow:
+      return {0, 1, -1};
     default:
       return {};
   }
@@ -132,6 +134,10 @@ Powers powers_of(const coupler::Monitor& monitor, int dimension) {
     if (value == "mobilised") return {};
     if (value == "lever" || value == "slip" || value == "gap") return {0, 1, 0};
     return dimension == 3 || value == "moment" ? Powers{1, 0, 0} : Powers{1, -1, 0};
+  }
+  if (monitor.kind == coupler::Monitor::Kind::water) {
+    if (monitor.value == "pressure") return {1, -2, 0};
+    return {0, dimension, monitor.value == "flow" ? -1 : 0};
   }
   const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};

@@ -46,7 +46,8 @@ constexpr RemarkKind kOthers[] = {movement,
                                   carried_along,
                                   held_sides,
                                   shape_of_elements,
-                                  places_of_monitors};
+                                  places_of_monitors,
+                                  pore_water};
 
 /// The kinds that know bodies in space.
 constexpr RemarkKind kInSpace[] = {loads_at_start_in_space,
@@ -66,7 +67,11 @@ constexpr RemarkKind kInSpace[] = {loads_at_start_in_space,
                                    softening_cauchy,
                                    output,
                                    cost,
-                                   moduli};
+                                   moduli,
+                                   pore_water};
+
+/// The kinds that weigh loads against the stress of the skeleton alone.
+constexpr RemarkKind kOfDryGround[] = {loads_at_start, loads_at_start_in_space, weight_at_once};
 
 std::string with_number(std::size_t count) {
   return fmt::format("{} remark{}", count, count == 1 ? "" : "s");
@@ -76,12 +81,17 @@ std::string with_number(std::size_t count) {
 
 Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
+  const bool is_wet = scene.find({"water"}) != nullptr;
+  const auto look_with = [&](const auto& kinds) {
+    for (const RemarkKind look : kinds)
+      if (!is_wet || std::ranges::find(kOfDryGround, look) == std::end(kOfDryGround)) look(scene, remarks);
+  };
   if (scene.dimension() == 3) {
-    for (const RemarkKind look : kInSpace) look(scene, remarks);
+    look_with(kInSpace);
   } else {
-    for (const RemarkKind look : kAtTimeZero) look(scene, remarks);
-    if (remarks.empty()) balance_at_start(scene, remarks);
-    for (const RemarkKind look : kOthers) look(scene, remarks);
+    look_with(kAtTimeZero);
+    if (remarks.empty() && !is_wet) balance_at_start(scene, remarks);
+    look_with(kOthers);
   }
   std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.weight > b.weight;

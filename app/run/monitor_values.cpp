@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "coupler/case/structure_values.hpp"
+#include "coupler/case/water_values.hpp"
 
 namespace polargrain::app {
 
@@ -33,6 +34,9 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
         break;
       case coupler::Monitor::Kind::structure:
         value = coupler::value_of_structure(solver.problem(), monitor.structure, monitor.value);
+        break;
+      case coupler::Monitor::Kind::water:
+        value = coupler::value_of_water(solver, monitor.on, monitor.value);
         break;
       case coupler::Monitor::Kind::formula:
         value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });

@@ -19,14 +19,15 @@ namespace polargrain::coupler {
 
 /// A value that is followed through a run: measured on the mesh, or computed from others by a formula.
 struct Monitor {
-  enum class Kind { reaction, displacement, structure, formula };
+  enum class Kind { reaction, displacement, structure, water, formula };
   std::string name;
   Kind kind = Kind::formula;
   std::vector<std::string>
       on;  ///< boundaries and node sets, a node of several counts once; not of structures and formulas
   fem::Dof dof = fem::Dof::u1;  ///< not of a formula
-  /// An interface, beam or anchor, and which of its values: "wall", "moment".
+  /// An interface, beam or anchor.
   std::string structure = {};
+  /// Of a structure or of water: "moment", "pressure".
   std::string value = {};
   std::optional<Expression> formula;  ///< of names that stand before it, and of built_in_values()
 };

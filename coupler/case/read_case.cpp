@@ -44,9 +44,11 @@ class CaseReader {
     read_structures(top.find("interfaces"), top.find("beams"), top.find("anchors"), parts_);
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
     if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
+    if (const Entry* entry = top.find("water")) read_water(*entry, parts_);
     boundary_ = top.require("boundary", "a list of supports and loads");
     if (boundary_ != nullptr) read_boundary(*boundary_, parts_);
     finish_structures(parts_);
+    add_water(parts_);
     if (const Entry* entry = top.find("body")) read_body_loads(*entry, parts_);
     if (const Entry* entry = top.find("initial_stress")) {
       read_initial_stress(*entry, parts_);
@@ -228,6 +230,7 @@ class CaseReader {
   void read_measurement(const Entry& entry, Monitor& monitor) {
     Section section(entry, fmt::format("monitor '{}'", monitor.name), faults_);
     if (read_structure_monitor(section, parts_, monitor)) return;
+    if (read_water_monitor(section, parts_, monitor)) return;
     const std::vector<std::string> on =
         section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;

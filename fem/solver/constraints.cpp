@@ -30,7 +30,7 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       value.fades = !item.from_here;
     }
   }
-  for (const PrescribedField<dim>* const item : fields_in_precedence(problem)) {
+  for (const PrescribedField<dim>* const item : fields_in_precedence(problem, stage)) {
     const std::size_t field = number_of_field(problem.fields, item->field);
     for (const int node : mesh.nodes_on(item->on)) {
       const int entry = places_.entry(field, node);
@@ -87,6 +87,19 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       if (nodes[entry / Cosserat<dim>::dofs] != 0) known[leader_[entry]] = 1;
     for (std::size_t entry = 0; entry < mechanics; ++entry)
       if (known[leader_[entry]] == 0) equation_[entry] = -1;
+    for (std::size_t field = 0; field < problem.fields.size(); ++field) {
+      if (problem.fields[field].elements.empty()) continue;
+      for (const int number : problem.fields[field].elements) {
+        if (there[static_cast<std::size_t>(number)] == 0) continue;
+        const Element<dim>& element = mesh.elements[static_cast<std::size_t>(number)];
+        for (int a = 0; a < element.type->corners; ++a)
+          known[leader_[static_cast<std::size_t>(
+              places_.entry(field, element.nodes[static_cast<std::size_t>(a)]))]] = 1;
+      }
+      for (Eigen::Index entry = places_.start(field); entry < places_.start(field + 1); ++entry)
+        if (known[leader_[static_cast<std::size_t>(entry)]] == 0)
+          equation_[static_cast<std::size_t>(entry)] = -1;
+    }
   }
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {
     if (entry == mechanics) mechanical_unknowns_ = unknowns_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -78,6 +79,13 @@ class Contribution {
   /// The committed state, as Material::save and restore keep theirs.
   virtual void save(ArchiveWriter& archive) const = 0;
   virtual void restore(ArchiveReader& archive) = 0;
+
+  /// The longest time that the step to come should take, for the accuracy of the contribution; longer ones are taken in parts.
+  [[nodiscard]] virtual double longest_step() const { return HUGE_VAL; }
+  /// Whether it follows stages of construction.
+  [[nodiscard]] virtual bool takes_stages() const { return false; }
+  /// Told at the begin of each stage, and behind a restart in one. @param there elements_in_stage
+  virtual void enter_stage(const std::vector<char>& there) { (void)there; }
 
   /// Whether its forces depend on how long a step takes: the time can then be no unknown (Solver::advance_measure).
   [[nodiscard]] virtual bool depends_on_duration() const { return false; }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/prefixed_archive.hpp"
 
 namespace polargrain::fem {
@@ -42,6 +44,18 @@ Eigen::VectorXd Contributions<dim>::linearised_forces(const Eigen::VectorXd& nod
     }
   }
   return forces;
+}
+
+template <int dim>
+double Contributions<dim>::longest_step() const {
+  double longest = HUGE_VAL;
+  for (const auto& contribution : all_) longest = std::min(longest, contribution->longest_step());
+  return longest;
+}
+
+template <int dim>
+void Contributions<dim>::enter_stage(const std::vector<char>& there) {
+  for (const auto& contribution : all_) contribution->enter_stage(there);
 }
 
 template <int dim>

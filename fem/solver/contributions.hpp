@@ -24,6 +24,8 @@ class Contributions {
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);
   /// The tangent of the last evaluation times nodal values.
   [[nodiscard]] Eigen::VectorXd linearised_forces(const Eigen::VectorXd& nodal) const;
+  [[nodiscard]] double longest_step() const;
+  void enter_stage(const std::vector<char>& there);
   void commit();
   void revert();
   /// Each under a number of its own.

@@ -252,11 +252,10 @@ bool check_fields(const Problem<dim>& problem, Messages& messages) {
 }
 
 template <int dim>
-void check_prescribed_fields(const Problem<dim>& problem, Messages& messages) {
-  if (!check_fields(problem, messages)) return;
+void check_prescribed_fields(const Problem<dim>& problem, int stage, Messages& messages) {
   const FieldPlaces<dim> places = problem.places();
   std::map<int, const PrescribedField<dim>*> first;
-  for (const PrescribedField<dim>* const item : fields_in_precedence(problem)) {
+  for (const PrescribedField<dim>* const item : fields_in_precedence(problem, stage)) {
     const std::size_t field = number_of_field(problem.fields, item->field);
     if (field == problem.fields.size()) {
       messages.push_back(
@@ -302,8 +301,11 @@ std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem
 }
 
 template <int dim>
-std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem) {
-  return sorted_by_precedence(problem.mesh, problem.prescribed_fields);
+std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem, int stage) {
+  std::vector<const PrescribedField<dim>*> items =
+      sorted_by_precedence(problem.mesh, problem.prescribed_fields);
+  std::erase_if(items, [&](const PrescribedField<dim>* item) { return !item->life.holds(stage); });
+  return items;
 }
 
 template <int dim>
@@ -317,11 +319,13 @@ Messages faults(const Problem<dim>& problem) {
   const GivenValues<dim> given = check_prescribed_once(problem, 0, messages);
   check_ties(problem, given, messages);
   check_equal_dofs(problem, given, messages);
-  check_prescribed_fields(problem, messages);
+  const bool has_fields = check_fields(problem, messages);
+  if (has_fields) check_prescribed_fields(problem, 0, messages);
   for (const auto& contribution : problem.contributions) {
     for (std::string& message : contribution->faults(problem))
       messages.push_back(contribution->name() + ": " + std::move(message));
-    if (has_stages) messages.push_back("stages of construction do not take " + contribution->name() + " yet");
+    if (has_stages && !contribution->takes_stages())
+      messages.push_back("stages of construction do not take " + contribution->name() + " yet");
   }
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion : free_rigid_motions(problem, 0)) {
@@ -331,6 +335,7 @@ Messages faults(const Problem<dim>& problem) {
   for (std::size_t stage = 1; stage < problem.stages.size(); ++stage) {
     Messages own;
     check_stage(problem, static_cast<int>(stage), own);
+    if (has_fields) check_prescribed_fields(problem, static_cast<int>(stage), own);
     for (const std::string& message : own)
       if (std::ranges::find(messages, message) == messages.end())
         messages.push_back(fmt::format("stage '{}': {}", problem.stages[stage], message));
@@ -340,8 +345,8 @@ Messages faults(const Problem<dim>& problem) {
 
 template std::vector<const PrescribedDof<2>*> in_precedence<2>(const Problem<2>& problem, int stage);
 template std::vector<const PrescribedDof<3>*> in_precedence<3>(const Problem<3>& problem, int stage);
-template std::vector<const PrescribedField<2>*> fields_in_precedence<2>(const Problem<2>& problem);
-template std::vector<const PrescribedField<3>*> fields_in_precedence<3>(const Problem<3>& problem);
+template std::vector<const PrescribedField<2>*> fields_in_precedence<2>(const Problem<2>& problem, int stage);
+template std::vector<const PrescribedField<3>*> fields_in_precedence<3>(const Problem<3>& problem, int stage);
 template Messages faults<2>(const Problem<2>& problem);
 template Messages faults<3>(const Problem<3>& problem);
 

@@ -19,6 +19,7 @@ void Newton<dim>::enter_stage() {
   start_.set_there(there);
   constraints = Constraints<dim>(problem, state.stage, state.offsets);
   loads = Loads<dim>(problem, state.stage);
+  contributions.enter_stage(there);
   tangent_.renew();
   linear_solver_.forget_pattern();
 }
@@ -44,6 +45,13 @@ void Newton<dim>::begin_stage(int stage) {
   if (options.reference_force == 0.0)
     state.reference_force = std::max(state.reference_force, loads.largest_force());
   state.next_step = 0.0;
+  if (!contributions.is_empty()) {
+    // Of what is there now, before time goes on.
+    if (const std::string message = contribute(state.time, Eigen::VectorXd::Zero(state.displacement.size()));
+        !message.empty())
+      throw RunError(message);
+    state.contributed = contributed_.internal;
+  }
   withhold_imbalance();
 }
 

@@ -101,7 +101,8 @@ Solver<dim>::Implementation::Passing Solver<dim>::Implementation::pass(StepGoal 
 
 template <int dim>
 template <class GoalAt>
-StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations) {
+StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations,
+                                              double duration) {
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
   Substeps way(1.5, state.next_step);
   JumpWatch jumps;
@@ -111,6 +112,7 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
     return report;
   };
   while (!way.arrived()) {
+    if (duration > 0.0) way.limit(this->contributions.longest_step() / duration);
     if (most_iterations > 0 && report.iterations >= most_iterations)
       return given_up(fmt::format("{} iterations have brought it {:.0f} % of its way, and that is its bound",
                                   report.iterations, 100.0 * way.done()));
@@ -229,7 +231,7 @@ StepReport Solver<dim>::advance(double time, double released, int most_iteration
                         .measure = {},
                         .released = released_at(end)};
       },
-      most_iterations);
+      most_iterations, time - start);
   of_attempt = usual;
   return report;
 }
