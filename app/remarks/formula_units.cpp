@@ -121,6 +121,8 @@ Powers powers_of(coupler::Dimension dimension) {
       return {1, -3, 0};
     case coupler::Dimension::duration:
       return {0, 0, 1};
+    case coupler::Dimension::flow:
+      return {0, 1, -1};
     default:
       return {};
   }
@@ -137,6 +139,10 @@ Powers powers_of(const coupler::Monitor& monitor, int dimension) {
     if (monitor.component.unit == "Pa") return {1, -2, 0};
     if (monitor.component.unit == "N/m") return {1, -1, 0};
     return monitor.component.unit == "m" ? Powers{0, 1, 0} : Powers{};
+  }
+  if (monitor.kind == coupler::Monitor::Kind::water) {
+    if (monitor.value == "pressure") return {1, -2, 0};
+    return {0, dimension, monitor.value == "flow" ? -1 : 0};
   }
   const bool angle = fem::is_rotation(monitor.dof);
   if (monitor.kind == coupler::Monitor::Kind::displacement) return angle ? Powers{} : Powers{0, 1, 0};

@@ -66,12 +66,21 @@ constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {weight_of_parts, Bodies::plane},
                             {loads_of_stages, Bodies::both},
                             {densities, Bodies::both},
-                            {motions, Bodies::both}};
+                            {motions, Bodies::both},
+                            {pore_water, Bodies::both}};
+
+/// The kinds that weigh loads against the stress of the skeleton alone.
+constexpr RemarkKind kOfDryGround[] = {loads_at_start, loads_at_start_in_space, weight_at_once,
+                                       balance_at_start};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
   const Bodies here = scene.dimension() == 3 ? Bodies::space : Bodies::plane;
-  for (const Kind& kind : kinds)
-    if (kind.bodies == here || kind.bodies == Bodies::both) kind.look(scene, remarks);
+  const bool is_wet = scene.find({"water"}) != nullptr;
+  for (const Kind& kind : kinds) {
+    if (kind.bodies != here && kind.bodies != Bodies::both) continue;
+    if (!is_wet || std::ranges::find(kOfDryGround, kind.look) == std::end(kOfDryGround))
+      kind.look(scene, remarks);
+  }
 }
 
 std::string with_number(std::size_t count) {

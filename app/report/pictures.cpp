@@ -31,6 +31,8 @@ const std::vector<std::string> kUsualFields{"deviatoric_strain",
                                             "coordination_number",
                                             "sliding_fraction",
                                             "couple_stress",
+                                            "pore_pressure",
+                                            "flow_velocity",
                                             "source",
                                             "error_estimate"};
 

@@ -23,6 +23,7 @@ std::string unit_of(const Monitor& monitor, const std::map<std::string, std::str
       return turns ? "N" : "N/m";
     case Monitor::Kind::displacement:
       return turns ? "rad" : "m";
+    case Monitor::Kind::water:
     case Monitor::Kind::structure: {
       const Powers powers = powers_of(monitor, dimension);
       return powers == Powers{} ? "" : text_of(powers);
@@ -46,6 +47,8 @@ std::string kind_of(const Monitor& monitor) {
       return "structure";
     case Monitor::Kind::place:
       return monitor.component.is_stress ? "stress" : "displacement";
+    case Monitor::Kind::water:
+      return "water";
     case Monitor::Kind::formula:
       break;
   }

@@ -6,6 +6,7 @@
 #include "app/run/place_values.hpp"
 #include "common/error.hpp"
 #include "coupler/case/structure_values.hpp"
+#include "coupler/case/water_values.hpp"
 
 namespace polargrain::app {
 
@@ -39,6 +40,9 @@ MonitorValues monitor_values(const std::vector<coupler::Monitor>& monitors, cons
         value =
             values_at(solver, fem::PlaceFinder<dim>(solver.problem().mesh), monitor.at, {monitor.component})
                 .front();
+        break;
+      case coupler::Monitor::Kind::water:
+        value = coupler::value_of_water(solver, monitor.on, monitor.value);
         break;
       case coupler::Monitor::Kind::formula:
         value = monitor.formula->evaluate([&](const std::string& name) { return value_of(values, name); });

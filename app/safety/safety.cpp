@@ -12,6 +12,7 @@
 #include "common/memory_archive.hpp"
 #include "common/standard_streams.hpp"
 #include "fem/spread/spread_slip.hpp"
+#include "fem/water/pore_water.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -54,6 +55,11 @@ class StrengthReduction {
     if (case_.is_explicit())
       faults.push_back({case_.file.string(), 0,
                         "steps: method: the factor of safety is found by balanced steps; use newton"});
+    if (fem::pore_water_of(case_.template problem_of<dim>()) != nullptr)
+      faults.push_back(
+          {case_.file.string(), 0,
+           "water: the factor of safety takes no pore water yet: while strength falls, none would flow; "
+           "leave out 'water'"});
     if (faults.empty() && !has_strength)
       faults.push_back(
           {case_.file.string(), 0, "no material of the case has a strength that could be reduced"});

@@ -20,14 +20,15 @@ namespace polargrain::coupler {
 
 /// A value that is followed through a run: measured on the mesh, or computed from others by a formula.
 struct Monitor {
-  enum class Kind { reaction, displacement, structure, place, formula };
+  enum class Kind { reaction, displacement, structure, water, place, formula };
   std::string name;
   Kind kind = Kind::formula;
   std::vector<std::string>
-      on;  ///< boundaries and node sets, a node of several counts once; of reaction and displacement
+      on;  ///< boundaries and node sets, a node of several counts once; not of structures, places and formulas
   fem::Dof dof = fem::Dof::u1;  ///< of reaction and displacement
-  /// An interface, beam or anchor, and which of its values: "wall", "moment".
+  /// An interface, beam or anchor.
   std::string structure = {};
+  /// Of a structure or of water: "moment", "pressure".
   std::string value = {};
   std::vector<double> at = {};        ///< of a place: where, m
   PlaceValue component = {};          ///< of a place: which value

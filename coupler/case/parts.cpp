@@ -67,10 +67,10 @@ void CaseParts::check_places(Section& section, const std::string& key, const std
   });
 }
 
-std::array<std::size_t, 4> CaseParts::counts() const {
+CaseParts::Counts CaseParts::counts() const {
   return result.with_problem([](const auto& problem) {
-    return std::array{problem.prescribed.size(), problem.boundary_loads.size(), problem.node_loads.size(),
-                      problem.body_loads.size()};
+    return Counts{problem.prescribed.size(), problem.boundary_loads.size(), problem.node_loads.size(),
+                  problem.body_loads.size(), problem.prescribed_fields.size()};
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "coupler/case/case.hpp"
 #include "coupler/case/section.hpp"
+#include "fem/water/pore_water.hpp"
 
 namespace polargrain::coupler {
 
@@ -18,6 +20,13 @@ const std::vector<std::string>& dof_names(int dimension);
 fem::Dof dof_of(const std::string& name);
 /// Of a prescribed value: a length, or an angle.
 Dimension dimension_of(fem::Dof dof);
+
+/// The section `water` as it was read, before the boundary is.
+struct WaterOfCase {
+  const Entry* entry;
+  std::map<std::string, fem::WaterOfRegion> regions;
+  fem::PoreWaterOptions options;
+};
 
 /// The common data of the readers of the parts of a case.
 struct CaseParts {
@@ -36,12 +45,13 @@ struct CaseParts {
   Now now = {};
 
   /// The items of the problem that an item of `boundary` or `body` has made: from, and up to, so many of prescribed,
-  /// boundary_loads, node_loads and body_loads.
+  /// boundary_loads, node_loads, body_loads and prescribed_fields.
+  using Counts = std::array<std::size_t, 5>;
   struct Made {
-    std::array<std::size_t, 4> from, to;
+    Counts from, to;
   };
   std::map<std::string, Made> named = {};  ///< by the `name` of the item
-  [[nodiscard]] std::array<std::size_t, 4> counts() const;
+  [[nodiscard]] Counts counts() const;
   /// Calls visit(item) for all of them.
   template <class Visit>
   void for_each(const Made& made, Visit visit) {
@@ -53,12 +63,17 @@ struct CaseParts {
       in(problem.boundary_loads, 1);
       in(problem.node_loads, 2);
       in(problem.body_loads, 3);
+      in(problem.prescribed_fields, 4);
     });
   }
   /// Interfaces against rigid bodies, by their names, which name the nodes of the bodies too; and rotations of nodes without
   /// elements, which are zero unless a support gives them.
   std::vector<std::pair<std::string, const Entry*>> rigid_bodies = {};
   std::vector<std::pair<std::string, fem::Dof>> own_rotations = {};
+  std::optional<WaterOfCase> water = {};
+
+  /// Of the loading time: with water it is physical.
+  [[nodiscard]] Dimension time() const { return water ? Dimension::duration : Dimension::number; }
 
   /// The contributions of an interface, a beam or an anchor, by its name: stages place and remove it.
   struct Structure {
@@ -92,6 +107,17 @@ void read_structures(const Entry* interfaces, const Entry* beams, const Entry* a
 void finish_structures(CaseParts& parts);
 /// Reads a monitor of an interface, a beam or an anchor. @returns false, with nothing read, when it is one of something else
 bool read_structure_monitor(Section& section, CaseParts& parts, Monitor& monitor);
+/// Behind the regions and before the boundary.
+void read_water(const Entry& entry, CaseParts& parts);
+/// Reads the value of a key of an item as a table over the time.
+using TableReader = std::function<fem::TimeTable(const std::string& key, Dimension dimension)>;
+/// Reads drained, pore_pressure, water_level and flux of an item of `boundary`. @returns whether one of them is there
+bool read_water_boundary(Section& item, const std::vector<std::string>& places, CaseParts& parts,
+                         const TableReader& table);
+/// Gives the problem its pore pressures, when the boundary has been read.
+void add_water(CaseParts& parts);
+/// @returns false, with nothing read, when it is a monitor of something else
+bool read_water_monitor(Section& section, CaseParts& parts, Monitor& monitor);
 void read_boundary(const Entry& entry, CaseParts& parts);
 void read_body_loads(const Entry& entry, CaseParts& parts);
 /// The same lists of a stage. @param name of the stage, for messages
@@ -108,6 +134,9 @@ void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts);
 void read_stages(const Entry& entry, CaseParts& parts);
 /// The count of a section, at most as many as a case may have in all. @param before steps of the plan so far
 int step_count(Section& section, std::size_t before);
+/// Ends of `count` steps from `start` to `end`: equal ones, or from the length of `first` each longer by the same ratio.
+std::vector<double> times_of_steps(Section& section, double start, double end, int count,
+                                   const CaseParts& parts);
 /// Whether parts come or go in some stage; known before the steps are read.
 bool builds_in_stages(const Entry& document);
 /// The entry of the stage that a message of fem::faults begins with; null where it begins without a stage.

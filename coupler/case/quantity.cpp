@@ -12,6 +12,9 @@
 namespace polargrain::coupler {
 namespace {
 
+constexpr double kDay = 86400.0;         // s
+constexpr double kYear = 365.25 * kDay;  // s
+
 struct Unit {
   Dimension dimension;
   std::string_view name;
@@ -19,7 +22,7 @@ struct Unit {
   bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 44> kUnits{{
+constexpr std::array<Unit, 51> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -64,6 +67,13 @@ constexpr std::array<Unit, 44> kUnits{{
     {Dimension::duration, "s", 1.0},
     {Dimension::duration, "min", 60.0},
     {Dimension::duration, "h", 3600.0},
+    {Dimension::duration, "d", kDay},
+    {Dimension::duration, "a", kYear},
+    {Dimension::flow, "m/s", 1.0},
+    {Dimension::flow, "cm/s", 1e-2},
+    {Dimension::flow, "mm/s", 1e-3},
+    {Dimension::flow, "m/d", 1.0 / kDay},
+    {Dimension::flow, "m/a", 1.0 / kYear},
 }};
 
 std::string_view trimmed(std::string_view text) {
@@ -103,6 +113,8 @@ std::string expectation(Dimension dimension) {
       return "a stress per displacement in Pa/m, or with one of the units " + units;
     case Dimension::duration:
       return "a time in s, or with one of the units " + units;
+    case Dimension::flow:
+      return "a permeability or flux in m/s, or with one of the units " + units;
     case Dimension::unit_weight:
       return "a force per volume in N/m3, or with one of the units " + units;
     case Dimension::density:
@@ -160,7 +172,7 @@ std::string_view si_unit(Dimension dimension) {
 std::string all_units() {
   std::string list;
   for (const Unit& unit : kUnits) {
-    if (!unit.listed) continue;
+    if (!unit.listed || unit.dimension == Dimension::flow) continue;
     if (!list.empty()) list += ", ";
     list += unit.name;
   }
@@ -170,6 +182,7 @@ std::string all_units() {
 std::optional<UnitAhead> unit_ahead(std::string_view text) {
   std::optional<UnitAhead> longest;
   for (const Unit& unit : kUnits) {
+    if (unit.dimension == Dimension::flow) continue;  // a formula divides by a monitor named d or s
     if (!text.starts_with(unit.name) || (longest && longest->length >= unit.name.size())) continue;
     const char next = text.size() > unit.name.size() ? text[unit.name.size()] : ' ';
     const bool goes_on = std::isalnum(static_cast<unsigned char>(next)) != 0 || next == '_';

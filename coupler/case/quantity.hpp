@@ -19,7 +19,8 @@ enum class Dimension {
   unit_weight,
   density,
   bedding,  ///< stress over a displacement, of an interface
-  duration
+  duration,
+  flow  ///< volume of water per area and time: a permeability, a flux
 };
 
 /// "a pressure in Pa, or with one of the units Pa, kPa, MPa, GPa": for messages.
@@ -39,7 +40,7 @@ double largest_of(Dimension dimension);
 /// "Pa": the unit of a number written without one; empty for Dimension::number.
 std::string_view si_unit(Dimension dimension);
 
-/// The unit of any dimension that `text` begins with and that no letter or digit follows: the longest, so that "kN/m3" is
+/// The unit of any dimension but `flow` that `text` begins with and that no letter or digit follows: the longest, so that "kN/m3" is
 /// not taken for kN.
 struct UnitAhead {
   std::size_t length;  ///< characters
@@ -48,7 +49,7 @@ struct UnitAhead {
 };
 std::optional<UnitAhead> unit_ahead(std::string_view text);
 
-/// "m, mm, ...": all units there are, for messages.
+/// "m, mm, ...": all units that unit_ahead knows, for messages.
 std::string all_units();
 
 }  // namespace polargrain::coupler

@@ -47,9 +47,11 @@ class CaseReader {
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
     if (case_.spread > 0.0) check_spread_slips(*continuum, parts_);
     if (const Entry* entry = top.require("regions", "a map from region to material")) read_regions(*entry);
+    if (const Entry* entry = top.find("water")) read_water(*entry, parts_);
     boundary_ = top.require("boundary", "a list of supports and loads");
     if (boundary_ != nullptr) read_boundary(*boundary_, parts_);
     finish_structures(parts_);
+    add_water(parts_);
     if (const Entry* entry = top.find("body")) read_body_loads(*entry, parts_);
     if (const Entry* entry = top.find("initial_stress")) {
       read_initial_stress(*entry, parts_);
@@ -238,6 +240,7 @@ class CaseReader {
       section.finish();
       return;
     }
+    if (read_water_monitor(section, parts_, monitor)) return;
     const std::vector<std::string> on =
         section.words("on", "the name of a boundary or node set, or a list of them");
     const bool reaction = section.find("reaction") != nullptr;

@@ -22,11 +22,16 @@ enum class Single {
 
 /// A value, or a list of [time, value]: straight between them, constant outside.
 fem::TimeTable time_table(Section& section, const std::string& key, Dimension dimension, Single single,
-                          const CaseParts::Now& now = {}) {
+                          const CaseParts& parts) {
+  const CaseParts::Now& now = parts.now;
   const Entry* entry = section.find(key);
   if (entry == nullptr || entry->kind != Entry::Kind::sequence) {
     const double value = section.quantity(key, dimension, Limit::any);
     if (single == Single::constant || value == 0.0) return fem::TimeTable::constant(value);
+    if (now.number == 0 && parts.water)
+      section.fault(key, key +
+                             ": with water the time is physical, and a single value does not tell when it is "
+                             "reached; give a table such as [[0 s, 0], [1 h, VALUE]]");
     if (now.number == 0) return fem::TimeTable::ramp(value);
     if (now.end) return fem::TimeTable({{now.start, 0.0}, {*now.end, value}});
     section.fault(
@@ -36,7 +41,7 @@ fem::TimeTable time_table(Section& section, const std::string& key, Dimension di
     return fem::TimeTable::constant(0.0);
   }
   std::vector<fem::TimeTable::Point> points;
-  for (const auto& [time, value] : section.pairs(key, Dimension::number, dimension, Limit::any)) {
+  for (const auto& [time, value] : section.pairs(key, parts.time(), dimension, Limit::any)) {
     points.push_back({time, value});
   }
   return points.empty() ? fem::TimeTable::constant(0.0) : fem::TimeTable(std::move(points));
@@ -52,7 +57,7 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
   for (const std::string& name : dof_names(parts.result.dimension())) {
     if (values.find(name) == nullptr) continue;
     const fem::Dof dof = dof_of(name);
-    take(dof, time_table(values, name, dimension(dof), single, parts.now));
+    take(dof, time_table(values, name, dimension(dof), single, parts));
   }
   values.finish();
   return true;
@@ -125,7 +130,7 @@ template <int dim>
 bool read_tractions(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
   fem::BoundaryLoad<dim> load;
   const bool pressure = item.find("pressure") != nullptr;
-  if (pressure) load.pressure = time_table(item, "pressure", Dimension::pressure, Single::constant);
+  if (pressure) load.pressure = time_table(item, "pressure", Dimension::pressure, Single::constant, parts);
   const auto dimension = [](fem::Dof dof) {
     return fem::is_rotation(dof) ? Dimension::force_per_length : Dimension::pressure;
   };
@@ -180,7 +185,7 @@ bool read_tie(Section& item, const std::vector<std::string>& places, CaseParts& 
 
 /// Gives what an item has made its name and the stage that it begins with. An item of the same name ends.
 /// @param before counts of the problem before the item was read
-void give_name(Section& item, const std::array<std::size_t, 4>& before, CaseParts& parts) {
+void give_name(Section& item, const CaseParts::Counts& before, CaseParts& parts) {
   const CaseParts::Made made{before, parts.counts()};
   parts.for_each(made, [&](auto& one) { one.life.begin = parts.now.number; });
   if (item.find("name") == nullptr) return;
@@ -194,7 +199,7 @@ void give_name(Section& item, const std::array<std::size_t, 4>& before, CasePart
 
 void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
-  const std::array<std::size_t, 4> before = parts.counts();
+  const CaseParts::Counts before = parts.counts();
   const std::vector<std::string> places =
       item.words("on", "the name of a boundary or node set, or a list of them");
   const bool supports = read_supports(item, places, parts);
@@ -202,6 +207,10 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
       parts.result.space ? read_tractions<3>(item, places, parts) : read_tractions<2>(item, places, parts);
   const bool forces = read_node_forces(item, places, parts);
   const bool tie = read_tie(item, places, parts);
+  const bool water =
+      read_water_boundary(item, places, parts, [&](const std::string& key, Dimension dimension) {
+        return time_table(item, key, dimension, Single::constant, parts);
+      });
   give_name(item, before, parts);
   if (parts.now.number > 0 && item.choice_or("from", {"here", "start"}, "here") == "start") {
     parts.result.with_problem([&](auto& problem) {
@@ -218,10 +227,11 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
   }
   item.finish();
   if (!tractions) parts.check_places(item, "on", places);
-  if (!supports && !tractions && !forces && !tie && !quiet && entry.kind == Entry::Kind::map) {
+  if (!supports && !tractions && !forces && !tie && !quiet && !water && entry.kind == Entry::Kind::map) {
     parts.faults.push_back(entry.fault(
         name +
-        ": has no support and no load; give fix, move, accelerate, pressure, traction, node_force, tie or quiet"));
+        ": has no support and no load; give fix, move, accelerate, pressure, traction, node_force, tie or quiet, and "
+        "with water drained, pore_pressure, water_level or flux"));
   }
 }
 
@@ -235,11 +245,11 @@ bool is_list(const Entry& entry, const std::string& key, const std::string& exam
 template <int dim>
 void read_body_item(const Entry& entry, const std::string& name, CaseParts& parts) {
   Section item(entry, name, parts.faults);
-  const std::array<std::size_t, 4> before = parts.counts();
+  const CaseParts::Counts before = parts.counts();
   const std::string region = parts.region(item, "region");
   const fem::TimeTable factor = item.find("factor") == nullptr
                                     ? fem::TimeTable::constant(1.0)
-                                    : time_table(item, "factor", Dimension::number, Single::constant);
+                                    : time_table(item, "factor", Dimension::number, Single::constant, parts);
   const bool weight = item.find("unit_weight") != nullptr;
   const bool force = item.find("force") != nullptr;
   if (weight == force && entry.kind == Entry::Kind::map) {
@@ -300,7 +310,19 @@ void read_initial_stress_item(const Entry& entry, const std::string& name, CaseP
     level.unit_weight = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
     level.earth_pressure_ratio = item.quantity("K0", Dimension::number, Limit::not_negative);
     level.surcharge = item.quantity_or("surcharge", Dimension::pressure, Limit::any, 0.0);
-    parts.result.problem_of<dim>().initial_stresses.push_back(fem::geostatic_stress<dim>(level, region));
+    // Stress is effective where the pores hold water, so regions with and without water have items of their own.
+    const bool wets = parts.water && parts.water->options.table;
+    std::vector<std::string> regions{region};
+    if (wets && region.empty()) {
+      regions.clear();
+      for (const auto& [name, material] : parts.result.regions) regions.push_back(name);
+    }
+    for (const std::string& name : regions) {
+      level.water_level = {};
+      if (wets && parts.water->regions.contains(name)) level.water_level = parts.water->options.table;
+      if (wets) level.water_weight = parts.water->options.unit_weight;
+      parts.result.problem_of<dim>().initial_stresses.push_back(fem::geostatic_stress<dim>(level, name));
+    }
   }
   item.finish();
 }

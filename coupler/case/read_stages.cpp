@@ -135,7 +135,11 @@ class StagesReader {
         parts_.faults.push_back(
             entry.fault(stage.name() + ": expected one of until, measure (with grow) and arc_length"));
     } else if (until || nothing) {
-      const double end = until ? stage.quantity("until", Dimension::number, Limit::positive) : time_ + 1.0;
+      const double end = until ? stage.quantity("until", parts_.time(), Limit::positive) : time_ + 1.0;
+      if (!until && parts_.water)
+        stage.fault("until", stage.name() +
+                                 ": with water the time is physical; give the time at which the stage "
+                                 "ends, such as 'until: 10 d'");
       if (!plan.empty() && plan.back().control != StepTarget::Control::time) {
         stage.fault("until",
                     "until: the time is not known after a stage that follows a measure or the arc length; "
@@ -143,9 +147,8 @@ class StagesReader {
       } else if (end <= time_) {
         stage.fault("until", fmt::format("until: must be later than the end of the stage before, {}", time_));
       }
-      for (int i = 1; i <= count; ++i) {
-        plan.push_back({StepTarget::Control::time, i == count ? end : time_ + (end - time_) * i / count, {}});
-      }
+      for (const double time : times_of_steps(stage, time_, end, count, parts_))
+        plan.push_back({StepTarget::Control::time, time, {}});
       time_ = end;
     } else if (measure != nullptr) {
       const fem::DisplacementMeasure of = read_measure(*measure, stage.name(), parts_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "coupler/case/parts.hpp"
@@ -14,6 +16,20 @@ constexpr int kMostSteps = 1000000;
 /// The memory of a step, measured: its place in the plan, its rows, its values for the summary.
 constexpr double kBytesOfStep = 1000.0;
 
+/// The flow of water needs the duration of each step.
+void check_steps_with_water(Section& steps, const std::vector<StepTarget>& plan) {
+  const bool by_time = std::ranges::all_of(
+      plan, [](const StepTarget& target) { return target.control == StepTarget::Control::time; });
+  if (!by_time)
+    steps.fault("stages",
+                "stages: water flows in a known time; with 'water' a stage ends at a time ('until'), not at "
+                "a measure or an arc length");
+  for (const char* const key : {"method", "time"})
+    if (const Entry* const other = steps.find(key);
+        other != nullptr && other->text != "newton" && other->text != "loading")
+      steps.fault(key, fmt::format("{0}: {0} '{1}' takes no water yet; leave it out", key, other->text));
+}
+
 }  // namespace
 
 int step_count(Section& section, std::size_t before) {
@@ -26,6 +42,40 @@ int step_count(Section& section, std::size_t before) {
   return 1;
 }
 
+std::vector<double> times_of_steps(Section& section, double start, double end, int count,
+                                   const CaseParts& parts) {
+  std::vector<double> times;
+  const double whole = end - start;
+  const double first = section.quantity_or("first", Dimension::duration, Limit::positive, 0.0);
+  double growth = 1.0;
+  if (first > 0.0) {
+    const auto reached = [&](double ratio) {  // by so many steps, each `ratio` times the one before
+      return ratio == 1.0 ? first * count : first * (std::pow(ratio, count) - 1.0) / (ratio - 1.0);
+    };
+    if (!parts.water)
+      section.fault("first", "first: steps grow where water flows; without 'water' they are equal");
+    if (count < 2 || reached(1.0) > whole) {
+      section.fault(
+          "first",
+          fmt::format("first: {} steps of this length go beyond the end; give a shorter one", count));
+    } else {
+      double high = 2.0;
+      while (reached(high) < whole) high *= 2.0;
+      double low = 1.0;
+      for (int k = 0; k < 200; ++k) (reached(0.5 * (low + high)) < whole ? low : high) = 0.5 * (low + high);
+      growth = high;
+    }
+  }
+  double step = first;
+  double time = start;
+  for (int i = 1; i <= count; ++i) {
+    time = growth > 1.0 ? time + step : start + whole * i / count;
+    step *= growth;
+    times.push_back(i == count ? end : time);
+  }
+  return times;
+}
+
 void read_steps(const Entry& entry, CaseParts& parts) {
   Section steps(entry, "steps", parts.faults);
   std::vector<StepTarget>& plan = parts.result.plan;
@@ -33,17 +83,22 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   if (stages == nullptr) {
     const int count = step_count(steps, 0);
     const double end = steps.quantity_or("duration", Dimension::duration, Limit::positive, 1.0);
-    if (steps.find("duration") != nullptr && steps.find("time") == nullptr)
+    const bool has_duration = steps.find("duration") != nullptr;
+    if (has_duration && !parts.water && steps.find("time") == nullptr)
       steps.fault("duration", "duration: the loading time ends at 1; real time needs 'time: real'");
-    for (int i = 1; i <= count; ++i) {
-      plan.push_back({StepTarget::Control::time, i == count ? end : end * i / count, {}});
-    }
+    if (!has_duration && parts.water)
+      steps.fault("duration",
+                  "steps: with water the time is physical; give the time that the steps take, such as "
+                  "'duration: 10 d'");
+    for (const double time : times_of_steps(steps, 0.0, end, count, parts))
+      plan.push_back({StepTarget::Control::time, time, {}});
   } else {
     if (steps.find("count") != nullptr) {
       steps.fault("count", "count: each stage has its own; remove it or the stages");
     }
     read_stages(*stages, parts);
   }
+  if (parts.water) check_steps_with_water(steps, plan);
   const std::string method = steps.choice_or("method", {"newton", "explicit", "automatic"}, "newton");
   if (method != "newton") {
     if (parts.builds)

@@ -9,6 +9,7 @@
 #include "fem/output/smooth.hpp"
 #include "fem/output/stress_measures.hpp"
 #include "fem/output/vtu.hpp"
+#include "fem/water/pore_water.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -303,13 +304,56 @@ Field interpolated(const Solver<dim>& solver, const Field& at_nodes) {
   return field;
 }
 
+/// Where pores hold water: the total stress, and the flow. `stress` is the effective one.
+template <int dim>
+void add_water_fields(const Solver<dim>& solver, std::vector<PointField>& fields) {
+  using Counts = Cosserat<dim>;
+  const PoreWater<dim>* const water = pore_water_of(solver.problem());
+  if (water == nullptr) return;
+  const std::vector<Field> scalars = scalar_fields(solver);
+  const std::vector<double> pressure =
+      interpolated(solver, *std::ranges::find(scalars, kPorePressure, &Field::name)).values;
+  std::vector<bool> wet(solver.points(), false);
+  Field velocity{"flow_velocity", 3, std::vector<double>(3 * solver.points(), 0.0), "m/s", kVector};
+  std::vector<std::size_t> first{0};
+  for (const Element<dim>& element : solver.problem().mesh.elements)
+    first.push_back(first.back() + element.type->quadrature.size());
+  for (std::size_t e = 0; e < water->elements(); ++e) {
+    const auto element = static_cast<std::size_t>(water->mesh_element(e));
+    for (std::size_t point = first[element]; point < first[element + 1]; ++point) {
+      if (!solver.is_there(point)) continue;
+      wet[point] = true;
+      const auto v = water->velocity(e, point - first[element], solver.state().displacement);
+      std::copy(v.begin(), v.end(), velocity.values.begin() + static_cast<std::ptrdiff_t>(3 * point));
+    }
+  }
+  std::array<bool, Counts::stresses> normal{};
+  for (int i = 0; i < dim; ++i) normal[static_cast<std::size_t>(Counts::stress_place(i, i))] = true;
+  if constexpr (dim == 2) normal[k33] = true;
+  Field total{"total_stress", Counts::stresses, {}, "Pa", tensor_names<dim>()};
+  total = point_field(solver, std::move(total), [&](std::size_t point, int i) {
+    const double stress = solver.state().responses[point].stress(i);
+    return wet[point] && normal[static_cast<std::size_t>(i)] ? stress - pressure[point] : stress;
+  });
+  fields.push_back({std::move(total), {}});
+  fields.push_back({std::move(velocity), std::move(wet)});
+}
+
+/// All that is shown at the integration points, the stress first.
+template <int dim>
+std::vector<PointField> fields_at_points(const Solver<dim>& solver) {
+  std::vector<PointField> fields = basic_fields(solver);
+  add_water_fields(solver, fields);
+  return fields;
+}
+
 }  // namespace
 
 template <int dim>
 Fields collect_fields(const Solver<dim>& solver) {
   Fields fields;
   fields.points = nodal_fields(solver);
-  for (const PointField& of : basic_fields(solver)) {
+  for (const PointField& of : fields_at_points(solver)) {
     fields.cells.push_back(element_averages(solver, of.field));
     if (of.known.empty() || std::ranges::find(kSmoothed, of.field.name) != kSmoothed.end())
       fields.points.push_back(smoothed(solver, of.field, of.known));
@@ -339,7 +383,7 @@ PlacedFields collect_point_fields(const Solver<dim>& solver) {
   for (const Field& field : nodal_fields(solver)) fields.push_back(interpolated(solver, field));
   fields.push_back(point_field(solver, {"volume", 1, {}, dim == 2 ? "m^2" : "m^3"},
                                [&](std::size_t point, int) { return solver.volume_of_point(point); }));
-  std::vector<PointField> basic = basic_fields(solver);
+  std::vector<PointField> basic = fields_at_points(solver);
   const Field stress = basic.front().field;
   for (PointField& of : basic) fields.push_back(std::move(of.field));
   add_stress_measures<dim>(fields, stress);

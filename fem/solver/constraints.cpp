@@ -42,7 +42,7 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       value.fades = !item.from_here;
     }
   }
-  for (const PrescribedField<dim>* const item : fields_in_precedence(problem)) {
+  for (const PrescribedField<dim>* const item : fields_in_precedence(problem, stage)) {
     const std::size_t field = number_of_field(problem.fields, item->field);
     for (const int node : mesh.nodes_on(item->on)) {
       const int entry = places_.entry(field, node);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -120,6 +121,8 @@ class Contribution {
     (void)element;
     return true;
   }
+  /// The longest time that the step to come should take, for the accuracy of the contribution; longer ones are taken in parts.
+  [[nodiscard]] virtual double longest_step() const { return HUGE_VAL; }
 
   /// Whether its forces depend on how long a step takes: the time can then be no unknown (Solver::advance_measure).
   [[nodiscard]] virtual bool depends_on_duration() const { return false; }

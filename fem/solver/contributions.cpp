@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/prefixed_archive.hpp"
 
 namespace polargrain::fem {
@@ -55,6 +57,13 @@ double Contributions<dim>::stored_energy() const {
   double sum = 0.0;
   for (const auto& contribution : all_) sum += contribution->stored_energy();
   return sum;
+}
+
+template <int dim>
+double Contributions<dim>::longest_step() const {
+  double longest = HUGE_VAL;
+  for (const auto& contribution : all_) longest = std::min(longest, contribution->longest_step());
+  return longest;
 }
 
 template <int dim>

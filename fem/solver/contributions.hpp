@@ -34,6 +34,8 @@ class Contributions {
   [[nodiscard]] Eigen::VectorXd linearised_forces(const Eigen::VectorXd& nodal) const;
   /// The sum of Contribution::stored_energy.
   [[nodiscard]] double stored_energy() const;
+  /// The least of Contribution::longest_step.
+  [[nodiscard]] double longest_step() const;
   void commit();
   void revert();
   /// Each under a number of its own.

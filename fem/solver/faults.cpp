@@ -261,11 +261,10 @@ bool check_fields(const Problem<dim>& problem, Messages& messages) {
 }
 
 template <int dim>
-void check_prescribed_fields(const Problem<dim>& problem, Messages& messages) {
-  if (!check_fields(problem, messages)) return;
+void check_prescribed_fields(const Problem<dim>& problem, int stage, Messages& messages) {
   const FieldPlaces<dim> places = problem.places();
   std::map<int, const PrescribedField<dim>*> first;
-  for (const PrescribedField<dim>* const item : fields_in_precedence(problem)) {
+  for (const PrescribedField<dim>* const item : fields_in_precedence(problem, stage)) {
     const std::size_t field = number_of_field(problem.fields, item->field);
     if (field == problem.fields.size()) {
       messages.push_back(
@@ -311,8 +310,11 @@ std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem
 }
 
 template <int dim>
-std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem) {
-  return sorted_by_precedence(problem.mesh, problem.prescribed_fields);
+std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem, int stage) {
+  std::vector<const PrescribedField<dim>*> items =
+      sorted_by_precedence(problem.mesh, problem.prescribed_fields);
+  std::erase_if(items, [&](const PrescribedField<dim>* item) { return !item->life.holds(stage); });
+  return items;
 }
 
 template <int dim>
@@ -326,7 +328,8 @@ Messages faults(const Problem<dim>& problem) {
   const GivenValues<dim> given = check_prescribed_once(problem, 0, messages);
   check_ties(problem, given, messages);
   check_equal_dofs(problem, given, messages);
-  check_prescribed_fields(problem, messages);
+  const bool has_fields = check_fields(problem, messages);
+  if (has_fields) check_prescribed_fields(problem, 0, messages);
   for (const auto& contribution : problem.contributions) {
     for (std::string& message : contribution->faults(problem))
       messages.push_back(contribution->name() + ": " + std::move(message));
@@ -345,6 +348,7 @@ Messages faults(const Problem<dim>& problem) {
     Messages own;
     check_stage(problem, static_cast<int>(stage), own);
     check_contributions(problem, static_cast<int>(stage), own);
+    if (has_fields) check_prescribed_fields(problem, static_cast<int>(stage), own);
     for (const std::string& message : own)
       if (std::ranges::find(messages, message) == messages.end())
         messages.push_back(fmt::format("stage '{}': {}", problem.stages[stage], message));
@@ -354,8 +358,8 @@ Messages faults(const Problem<dim>& problem) {
 
 template std::vector<const PrescribedDof<2>*> in_precedence<2>(const Problem<2>& problem, int stage);
 template std::vector<const PrescribedDof<3>*> in_precedence<3>(const Problem<3>& problem, int stage);
-template std::vector<const PrescribedField<2>*> fields_in_precedence<2>(const Problem<2>& problem);
-template std::vector<const PrescribedField<3>*> fields_in_precedence<3>(const Problem<3>& problem);
+template std::vector<const PrescribedField<2>*> fields_in_precedence<2>(const Problem<2>& problem, int stage);
+template std::vector<const PrescribedField<3>*> fields_in_precedence<3>(const Problem<3>& problem, int stage);
 template Messages faults<2>(const Problem<2>& problem);
 template Messages faults<3>(const Problem<3>& problem);
 

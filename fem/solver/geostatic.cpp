@@ -9,7 +9,8 @@ template <int dim>
 InitialStress<dim> geostatic_stress(const Ground& ground, std::string region) {
   const auto stress = [ground](const typename Cosserat<dim>::Place& x) {
     constexpr int up = dim - 1;
-    const double vertical = -(ground.surcharge + ground.unit_weight * (ground.surface_height - x(up)));
+    double vertical = -(ground.surcharge + ground.unit_weight * (ground.surface_height - x(up)));
+    if (ground.water_level) vertical += ground.water_weight * (*ground.water_level - x(up));
     typename Cosserat<dim>::Vector s = Cosserat<dim>::Vector::Zero();
     for (int i = 0; i < dim; ++i)
       s(Cosserat<dim>::stress_place(i, i)) = i == up ? vertical : ground.earth_pressure_ratio * vertical;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <optional>
+
 #include "fem/solver/problem.hpp"
 
 namespace polargrain::fem {
@@ -10,6 +12,10 @@ struct Ground {
   double unit_weight = 0.0;         ///< N/m^3, positive
   double earth_pressure_ratio = 1;  ///< K0, horizontal over vertical stress
   double surcharge = 0.0;           ///< pressure on the surface, Pa
+  /// Where pores are full of water at rest: the height of its level, m. Weight and surcharge are then total, the stress is effective,
+  /// and K0 the ratio of effective stresses.
+  std::optional<double> water_level = {};
+  double water_weight = 0.0;  ///< N/m^3
 };
 
 /// Vertical stress -(surcharge + weight times depth), K0 times that across, no shear, no couples.

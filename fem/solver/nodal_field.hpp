@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/cosserat.hpp"
+#include "fem/solver/stages.hpp"
 #include "fem/solver/time_table.hpp"
 
 namespace polargrain::fem {
@@ -22,6 +23,9 @@ struct NodalField {
   double tolerance = 1e-8;
   std::vector<double> initial = {};  ///< values at time 0, one a node of `nodes`; zero when empty
   bool tied = false;                 ///< whether a Tie joins its values too
+  /// Elements of the mesh whose corners carry it. A node is no unknown in a stage that has none of its elements; it keeps its last
+  /// value. Empty: every node is one in every stage.
+  std::vector<int> elements = {};
 };
 
 /// Given values of a field, as PrescribedDof gives displacements: table times profile, plus offset. Nodes without an unknown of
@@ -34,6 +38,7 @@ struct PrescribedField {
   TimeTable value;
   ByPlace profile = {};  ///< 1 everywhere when empty
   ByPlace offset = {};   ///< 0 everywhere when empty
+  Lifetime life = {};
 
   [[nodiscard]] double factor_at(const typename Cosserat<dim>::Place& x) const {
     return profile ? profile(x) : 1.0;

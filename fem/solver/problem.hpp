@@ -130,7 +130,7 @@ struct Problem {
 template <int dim>
 std::vector<const PrescribedDof<dim>*> in_precedence(const Problem<dim>& problem, int stage = 0);
 template <int dim>
-std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem);
+std::vector<const PrescribedField<dim>*> fields_in_precedence(const Problem<dim>& problem, int stage = 0);
 
 /// All faults of a problem, one message each: unknown names, elements with no or two materials, a dof
 /// prescribed twice with different values by items of one precedence, ties whose sides do not match, distorted elements, rigid

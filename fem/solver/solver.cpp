@@ -106,7 +106,8 @@ Solver<dim>::Implementation::Passing Solver<dim>::Implementation::pass(StepGoal 
 
 template <int dim>
 template <class GoalAt>
-StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations) {
+StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at, int most_iterations,
+                                              double duration) {
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
   Substeps way(1.5, state.next_step);
   JumpWatch jumps;
@@ -116,6 +117,7 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
     return report;
   };
   while (!way.arrived()) {
+    if (duration > 0.0) way.limit(this->contributions.longest_step() / duration);
     StepGoal goal = goal_at(way.end(), way.share());
     goal.most_iterations = most_iterations;
     if (goal.is_spent(report.iterations))
@@ -236,7 +238,7 @@ StepReport Solver<dim>::advance(double time, double released, int most_iteration
                         .measure = {},
                         .released = released_at(end)};
       },
-      most_iterations);
+      most_iterations, time - start);
 }
 
 template <int dim>

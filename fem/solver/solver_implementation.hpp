@@ -41,8 +41,9 @@ struct Solver<dim>::Implementation : Newton<dim> {
   /// lengths, are what is cut, so that a step under another control may follow.
   /// @param goal_at the goal that lies at a share of the way: (share at its end, share of the substep).
   /// @param most_iterations that it may take, lost ones too; 0: as many as it needs
+  /// @param duration of the way, which contributions may limit parts of; 0: they do not
   template <class GoalAt>
-  StepReport march(StepReport report, GoalAt goal_at, int most_iterations = 0);
+  StepReport march(StepReport report, GoalAt goal_at, int most_iterations = 0, double duration = 0.0);
 
   /// Share of the forces held back that is let go at a share of the way from here to where `goal` of them are.
   [[nodiscard]] auto releasing(double goal) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 namespace polargrain::fem {
 
@@ -14,8 +15,13 @@ class Substeps {
   [[nodiscard]] bool arrived() const { return done_ >= 1.0; }
   [[nodiscard]] double done() const { return done_; }
   /// Of the way that is tried now.
-  [[nodiscard]] double share() const { return is_part() ? next_ : 1.0 - done_; }
-  [[nodiscard]] double end() const { return is_part() ? done_ + next_ : 1.0; }
+  [[nodiscard]] double share() const { return is_limited() ? limit_ : part(); }
+  [[nodiscard]] double end() const { return is_limited() ? done_ + limit_ : is_part() ? done_ + next_ : 1.0; }
+  /// The part that is tried now is no longer than this, which is no cut. A part that would leave less than itself leaves as much.
+  void limit(double share) {
+    const double left = 1.0 - done_;
+    limit_ = share < left && left < 2.0 * share ? 0.5 * left : share;
+  }
   /// Length of the part to come, for the way after this one; 0: nothing was cut.
   [[nodiscard]] double next() const { return next_; }
   [[nodiscard]] int cuts_in_a_row() const { return cuts_; }
@@ -34,14 +40,15 @@ class Substeps {
   void begin_again() { done_ = 0.0; }
 
  private:
-  [[nodiscard]] bool is_part() const {
-    constexpr double kNearlyAll = 1.0 - 1e-6;
-    return next_ > 0.0 && next_ < kNearlyAll * (1.0 - done_);
-  }
+  static constexpr double kNearlyAll = 1.0 - 1e-6;
+  [[nodiscard]] bool is_part() const { return next_ > 0.0 && next_ < kNearlyAll * (1.0 - done_); }
+  [[nodiscard]] double part() const { return is_part() ? next_ : 1.0 - done_; }
+  [[nodiscard]] bool is_limited() const { return limit_ < kNearlyAll * part(); }
 
   double growth_;
   double next_;
   double done_ = 0.0;
+  double limit_ = HUGE_VAL;
   int cuts_ = 0;
 };
 

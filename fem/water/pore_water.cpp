@@ -22,11 +22,13 @@ double porosity(double void_ratio) {
 template <int dim>
 PoreWater<dim>::PoreWater(const Problem<dim>& problem, std::size_t field,
                           std::map<std::string, WaterOfRegion> regions, PoreWaterOptions options)
-    : regions_(std::move(regions)), options_(std::move(options)) {
+    : regions_(std::move(regions)),
+      options_(std::move(options)),
+      is_large_(problem.deformation == Deformation::large) {
   const FieldPlaces<dim> places = problem.places();
   first_entry_ = places.start(field);
   outflow_ = Eigen::VectorXd::Zero(places.start(field + 1) - first_entry_);
-  trial_outflow_ = outflow_;
+  trial_outflow_ = flow_ = outflow_;
   for (const auto& [region, water] : regions_) {
     const auto elements = problem.mesh.regions.find(region);
     if (elements == problem.mesh.regions.end()) continue;  // a fault
@@ -49,16 +51,33 @@ void PoreWater<dim>::add_element(const Problem<dim>& problem, const FieldPlaces<
   made.entries = made.moved;
   made.entries.insert(made.entries.end(), made.pressed.begin(), made.pressed.end());
 
-  const VectorRows<dim> nodes = problem.mesh.element_positions(number);
+  made.type = element.type;
+  made.nodes = problem.mesh.element_positions(number);
+  made.points.resize(element.type->quadrature.size());
+  place(made, made.nodes);
+}
+
+template <int dim>
+VectorRows<dim> PoreWater<dim>::positions(const ElementOfWater& element, const Eigen::VectorXd& nodal) {
+  VectorRows<dim> nodes = element.nodes;
+  for (Eigen::Index a = 0; a < nodes.rows(); ++a)
+    for (int i = 0; i < dim; ++i) nodes(a, i) += nodal(element.moved[static_cast<std::size_t>(a * dim + i)]);
+  return nodes;
+}
+
+template <int dim>
+void PoreWater<dim>::place(ElementOfWater& element, const VectorRows<dim>& nodes) const {
   const auto points = point_geometries<dim>(*element.type, nodes);
   auto shapes = corner_shapes_in_place<dim>(*element.type, nodes);
-  made.coupling.setZero(dim * element.type->nodes, element.type->corners);
+  element.coupling.setZero(dim * element.type->nodes, element.type->corners);
   for (std::size_t i = 0; i < points.size(); ++i) {
     // dN_a / dx_i in the order of the displacements.
     const Eigen::MatrixXd columns = points[i].gradient.transpose();
-    const Eigen::VectorXd divergence = columns.reshaped();
-    made.coupling += points[i].volume * divergence * shapes[i].value.transpose();
-    made.points.push_back({points[i].volume, 0.0, 0.0, divergence, std::move(shapes[i])});
+    Point& point = element.points[i];
+    point.volume = points[i].volume;
+    point.divergence = columns.reshaped();
+    point.shape = std::move(shapes[i]);
+    element.coupling += point.volume * point.divergence * point.shape.value.transpose();
   }
 }
 
@@ -85,10 +104,10 @@ void PoreWater<dim>::add_flux(const Problem<dim>& problem, const FieldPlaces<dim
                               const WaterFlux& flux) {
   const auto boundary = problem.mesh.boundaries.find(flux.on);
   if (boundary == problem.mesh.boundaries.end()) return;  // a fault
-  std::map<int, double> values;
   for (const BoundarySide& side : boundary->second) {
     const ElementType<dim - 1>& type = *problem.mesh.side_of(side).type;
     const std::vector<int> numbers = problem.mesh.side_nodes(side);
+    std::map<int, double> values;
     for (const QuadraturePoint<dim - 1>& place : type.quadrature) {
       const ShapeFunctions<dim - 1> geometry = type.shape_functions(place.position);
       Eigen::Matrix<double, dim, dim - 1> tangents = Eigen::Matrix<double, dim, dim - 1>::Zero();
@@ -102,21 +121,36 @@ void PoreWater<dim>::add_flux(const Problem<dim>& problem, const FieldPlaces<dim
         if (entry >= 0) values[entry] += place.weight * area * shape(a);
       }
     }
-  }
-  UnitFlux& made = fluxes_.emplace_back();
-  made.table = &flux.value;
-  for (const auto& [entry, value] : values) {
-    made.entries.push_back(entry);
-    made.values.push_back(value);
+    UnitFlux& made = fluxes_.emplace_back(UnitFlux{side.element, {}, {}, &flux.value});
+    for (const auto& [entry, value] : values) {
+      made.entries.push_back(entry);
+      made.values.push_back(value);
+    }
   }
 }
 
 template <int dim>
+void PoreWater<dim>::set_stage(int, const std::vector<char>& there) {
+  is_there_ = there;
+  for (ElementOfWater& element : elements_) element.is_there = stands(element.number);
+  longest_ = 0.0;
+}
+
+template <int dim>
+double PoreWater<dim>::longest_step() const {
+  if (options_.pressure_change <= 0.0) return HUGE_VAL;
+  return std::max(longest_, options_.shortest_step);
+}
+
+template <int dim>
 void PoreWater<dim>::allocate() {
+  longest_ = 0.0;
   outflow_.setZero();
+  flow_.setZero();
   told_of_suction_ = tells_of_suction_ = false;
   for (ElementOfWater& element : elements_) {
     for (Point& point : element.points) point.void_ratio = point.trial_void_ratio = element.water->void_ratio;
+    if (is_large_) place(element, element.nodes);
     refresh(element);
   }
 }
@@ -129,14 +163,23 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
   const Eigen::VectorXd of_others = forces.internal.segment(first_entry_, outflow_.size());
   duration_ = step.duration();
   least_pressure_ = 0.0;
+  change_ = 0.0;
   for (ElementOfWater& element : elements_) {
+    if (!element.is_there) continue;
     const Eigen::VectorXd start = step.start(element.pressed);
     const Eigen::VectorXd change = step.increment(element.pressed);
     const Eigen::VectorXd moved = step.increment(element.moved);
+    Eigen::VectorXd squeezed;
+    if (is_large_) {
+      squeezed = squeeze(element, step);
+    } else {
+      squeezed = element.coupling.transpose() * moved;
+      for (Point& point : element.points)
+        point.trial_void_ratio = point.void_ratio + (1.0 + point.void_ratio) * point.divergence.dot(moved);
+    }
     forces.internal(element.moved) -= element.coupling * (start + change);
 
     const Eigen::VectorXd mean = start + theta * change;
-    const Eigen::VectorXd squeezed = element.coupling.transpose() * moved;
     const Eigen::VectorXd stored = element.storage * change;
     const Eigen::VectorXd led = duration_ * (element.conduction * mean);
     const Eigen::VectorXd sunk = duration_ * element.weight;
@@ -145,13 +188,11 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
         squeezed.cwiseAbs() + stored.cwiseAbs() + led.cwiseAbs() + sunk.cwiseAbs() +
         kRounding * (element.coupling.cwiseAbs().transpose() * moved.cwiseAbs() +
                      duration_ * (element.conduction.cwiseAbs() * mean.cwiseAbs()));
-    for (Point& point : element.points) {
-      const double strain = point.divergence.dot(moved);
-      point.trial_void_ratio = point.void_ratio + (1.0 + point.void_ratio) * strain;
-    }
+    change_ = std::max(change_, change.cwiseAbs().maxCoeff());
     least_pressure_ = std::min(least_pressure_, (start + change).minCoeff());
   }
   for (const UnitFlux& flux : fluxes_) {
+    if (!stands(flux.element)) continue;
     const double brought =
         duration_ * (theta * flux.table->at(step.time) + (1.0 - theta) * flux.table->at(step.start_time));
     for (std::size_t k = 0; k < flux.entries.size(); ++k) {
@@ -165,12 +206,43 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
 }
 
 template <int dim>
+Eigen::VectorXd PoreWater<dim>::squeeze(ElementOfWater& element, const NodalStep& step) const {
+  // Water flows and is stored where the step begins, pushes where it ends, and leaves what has gone of the volume.
+  place(element, positions(element, step.start));
+  refresh(element);
+  std::vector<double> before;
+  for (const Point& point : element.points) before.push_back(point.volume);
+  place(element, positions(element, step.start + step.increment));
+  Eigen::VectorXd squeezed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(element.pressed.size()));
+  const Eigen::VectorXd pressures = step.end(element.pressed);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    Point& point = element.points[i];
+    squeezed += (point.volume - before[i]) * point.shape.value;
+    point.trial_void_ratio = (1.0 + point.void_ratio) * point.volume / before[i] - 1.0;
+    point.trial_pressure = point.shape.value.dot(pressures);
+  }
+  return squeezed;
+}
+
+template <int dim>
 Eigen::MatrixXd PoreWater<dim>::tangent(std::size_t e) const {
   const ElementOfWater& element = elements_[e];
   const Eigen::Index u = element.coupling.rows();
   const Eigen::Index p = element.coupling.cols();
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(u + p, u + p);
+  if (!element.is_there) return tangent;
   tangent.topRightCorner(u, p) = -element.coupling;
+  if (is_large_) {
+    // The faces that a pressure pushes on turn and stretch.
+    for (const Point& point : element.points) {
+      const double force = point.trial_pressure * point.volume;
+      tangent.topLeftCorner(u, u) -= force * point.divergence * point.divergence.transpose();
+      for (Eigen::Index a = 0; a < u; ++a)
+        for (Eigen::Index b = 0; b < u; ++b)
+          tangent(a, b) +=
+              force * point.divergence(a - a % dim + b % dim) * point.divergence(b - b % dim + a % dim);
+    }
+  }
   tangent.bottomLeftCorner(p, u) = -element.coupling.transpose();
   tangent.bottomRightCorner(p, p) = -(element.storage + options_.theta * duration_ * element.conduction);
   return tangent;
@@ -180,7 +252,15 @@ template <int dim>
 void PoreWater<dim>::commit() {
   for (ElementOfWater& element : elements_) {
     for (Point& point : element.points) point.void_ratio = point.trial_void_ratio;
-    refresh(element);
+    if (!is_large_) refresh(element);
+  }
+  flow_.setZero();
+  if (duration_ > 0.0) {
+    flow_ = (trial_outflow_ - outflow_) / duration_;
+    // Steps grow no faster than pressures slow down.
+    const double factor =
+        0.8 * options_.pressure_change / std::max(change_, 1e-12 * options_.pressure_change);
+    longest_ = duration_ * std::clamp(factor, 0.5, 2.0);
   }
   outflow_ = trial_outflow_;
   // Air comes in at less than a metre of suction in sand.
@@ -196,6 +276,8 @@ void PoreWater<dim>::save(ArchiveWriter& archive) const {
   archive.write("void_ratios", std::span<const double>(void_ratios));
   archive.write("outflow",
                 std::span<const double>(outflow_.data(), static_cast<std::size_t>(outflow_.size())));
+  archive.write("longest_step", std::span<const double>(&longest_, 1));
+  archive.write("flow", std::span<const double>(flow_.data(), static_cast<std::size_t>(flow_.size())));
 }
 
 template <int dim>
@@ -205,7 +287,10 @@ void PoreWater<dim>::restore(ArchiveReader& archive) {
   const std::vector<double> void_ratios = read_lists(archive, "void_ratios", points, 1);
   const std::vector<double> outflow =
       read_lists(archive, "outflow", static_cast<std::size_t>(outflow_.size()), 1);
+  longest_ = read_lists(archive, "longest_step", 1, 1)[0];
+  const std::vector<double> flow = read_lists(archive, "flow", outflow.size(), 1);
   outflow_ = Eigen::Map<const Eigen::VectorXd>(outflow.data(), outflow_.size());
+  flow_ = Eigen::Map<const Eigen::VectorXd>(flow.data(), flow_.size());
   auto next = void_ratios.begin();
   for (ElementOfWater& element : elements_) {
     for (Point& point : element.points) point.void_ratio = point.trial_void_ratio = *next++;
@@ -217,6 +302,21 @@ template <int dim>
 double PoreWater<dim>::permeability(std::size_t e) const {
   const ElementOfWater& element = elements_[e];
   return element.water->undrained ? 0.0 : element.water->permeability.at(element.points.front().void_ratio);
+}
+
+template <int dim>
+typename Cosserat<dim>::Place PoreWater<dim>::velocity(std::size_t e, std::size_t point,
+                                                       const Eigen::VectorXd& nodal) const {
+  const ElementOfWater& element = elements_[e];
+  const Point& at = element.points[point];
+  typename Cosserat<dim>::Place velocity = Cosserat<dim>::Place::Zero();
+  if (element.water->undrained) return velocity;
+  const double k = element.water->permeability.at(at.void_ratio);
+  const auto shape =
+      is_large_ ? corner_shapes_in_place<dim>(*element.type, positions(element, nodal))[point] : at.shape;
+  velocity = -(k / options_.unit_weight) * (shape.derivative.transpose() * nodal(element.pressed));
+  if (options_.table) velocity(dim - 1) -= k;
+  return velocity;
 }
 
 template <int dim>
@@ -240,6 +340,10 @@ std::vector<std::string> PoreWater<dim>::faults(const Problem<dim>& problem) con
       messages.push_back(fmt::format("the mesh has no region '{}'", region));
       continue;
     }
+    if (const auto life = problem.lifetimes.find(region);
+        life != problem.lifetimes.end() && life->second.begin > 0)
+      messages.push_back(fmt::format(
+          "'{}' comes in a later stage: what comes is dry; name the regions with water, without it", region));
     bool twice = false;
     for (const int e : elements->second) {
       twice = !wet.insert(e).second || twice;
@@ -256,11 +360,15 @@ std::vector<std::string> PoreWater<dim>::faults(const Problem<dim>& problem) con
         "elements {} have displacements and pressures of one degree, which makes pressures oscillate: take "
         "elements with middle nodes ({})",
         type, dim == 2 ? "Q8R, T6" : "H20R, T10"));
-  for (const WaterFlux& flux : options_.fluxes)
-    if (!problem.mesh.boundaries.contains(flux.on))
+  for (const WaterFlux& flux : options_.fluxes) {
+    const auto boundary = problem.mesh.boundaries.find(flux.on);
+    if (boundary == problem.mesh.boundaries.end()) {
       messages.push_back(fmt::format("a flux needs a boundary, '{}' is not a boundary", flux.on));
-  if (problem.deformation == Deformation::large)
-    messages.emplace_back("pore water flows in small deformation only, so far");
+    } else if (std::ranges::none_of(boundary->second,
+                                    [&](const BoundarySide& side) { return wet.contains(side.element); })) {
+      messages.push_back(fmt::format("a flux comes in at '{}', where no element has water", flux.on));
+    }
+  }
   return messages;
 }
 
@@ -269,16 +377,19 @@ std::shared_ptr<PoreWater<dim>> add_pore_water(Problem<dim>& problem,
                                                std::map<std::string, WaterOfRegion> regions,
                                                const PoreWaterOptions& options) {
   std::set<int> corners;
+  std::set<int> carriers;
   for (const auto& [region, water] : regions) {
     const auto elements = problem.mesh.regions.find(region);
     if (elements == problem.mesh.regions.end()) continue;
     for (const int e : elements->second) {
       const Element<dim>& element = problem.mesh.elements[static_cast<std::size_t>(e)];
+      carriers.insert(e);
       corners.insert(element.nodes.begin(), element.nodes.begin() + element.type->corners);
     }
   }
   NodalField pressure{kPorePressure, "Pa", {corners.begin(), corners.end()}};
   pressure.tied = true;
+  pressure.elements.assign(carriers.begin(), carriers.end());
   if (options.table) {
     for (const int node : pressure.nodes)
       pressure.initial.push_back(
@@ -292,6 +403,15 @@ std::shared_ptr<PoreWater<dim>> add_pore_water(Problem<dim>& problem,
   return water;
 }
 
+template <int dim>
+const PoreWater<dim>* pore_water_of(const Problem<dim>& problem) {
+  for (const auto& contribution : problem.contributions)
+    if (const auto* const water = dynamic_cast<const PoreWater<dim>*>(contribution.get())) return water;
+  return nullptr;
+}
+
+template const PoreWater<2>* pore_water_of<2>(const Problem<2>&);
+template const PoreWater<3>* pore_water_of<3>(const Problem<3>&);
 template class PoreWater<2>;
 template class PoreWater<3>;
 template std::shared_ptr<PoreWater<2>> add_pore_water<2>(Problem<2>&, std::map<std::string, WaterOfRegion>,

@@ -35,6 +35,9 @@ struct PoreWaterOptions {
   /// p is the excess over whatever is hydrostatic, zero at the start.
   std::optional<double> table = {};
   std::vector<WaterFlux> fluxes = {};
+  /// Pa that pressures may change in a step, by their last rate; 0: steps are as long as asked for.
+  double pressure_change = 0.0;
+  double shortest_step = 0.0;  ///< s; no step is made shorter for that, and the first one is as long
 };
 
 /// Name of the field of pore pressures (Pa, compression positive).
@@ -42,7 +45,8 @@ inline constexpr const char* kPorePressure = "pore_pressure";
 
 /// Saturated pores that water flows through (Biot): the stress of the mesh is the effective one, the total one less p on the
 /// normal stresses. Displacements are quadratic, p is linear on the same elements (Taylor and Hood); boundaries are closed
-/// where nothing is said. Small deformation. docs/theory/water.md
+/// where nothing is said. In large
+/// deformation on the moved mesh, fluxes through the undeformed areas. Regions with water may go in a stage, and their fluxes with them; what comes is dry. docs/theory/water.md
 template <int dim>
 class PoreWater final : public Contribution<dim> {
  public:
@@ -60,6 +64,13 @@ class PoreWater final : public Contribution<dim> {
   void revert() override {}
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
+  [[nodiscard]] double longest_step() const override;
+  [[nodiscard]] bool takes_stages() const override { return true; }
+  [[nodiscard]] bool is_there(std::size_t e, int, const std::vector<char>& there) const override {
+    return there.empty() || there[static_cast<std::size_t>(elements_[e].number)] != 0;
+  }
+  void set_stage(int stage, const std::vector<char>& there) override;
+  [[nodiscard]] bool is_active(std::size_t e) const override { return elements_[e].is_there; }
   [[nodiscard]] bool depends_on_duration() const override { return true; }
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
   [[nodiscard]] std::vector<std::string> take_notes() override;
@@ -70,6 +81,12 @@ class PoreWater final : public Contribution<dim> {
   /// Volume that has left the ground through a node since the start: m^3, in the plane per m of thickness. Zero where the node
   /// is closed. @param entry of its pressure in nodal vectors
   [[nodiscard]] double outflow(int entry) const { return outflow_(entry - first_entry_); }
+  /// The same a second, m^3/s or m^2/s, mean over the last committed step; 0 where it had no duration.
+  [[nodiscard]] double flow(int entry) const { return flow_(entry - first_entry_); }
+  /// Volume of water an area and second by Darcy's law, m/s, at a point of an element. @param nodal committed nodal values
+  [[nodiscard]] typename Cosserat<dim>::Place velocity(std::size_t e, std::size_t point,
+                                                       const Eigen::VectorXd& nodal) const;
+  [[nodiscard]] const std::map<std::string, WaterOfRegion>& regions() const { return regions_; }
   /// k at the first point of an element, m/s; 0 where it is undrained.
   [[nodiscard]] double permeability(std::size_t e) const;
 
@@ -79,12 +96,16 @@ class PoreWater final : public Contribution<dim> {
     double volume;
     double void_ratio;           ///< committed
     double trial_void_ratio;     ///< of the last evaluation
+    double trial_pressure;       ///< the same, in large deformation
     Eigen::VectorXd divergence;  ///< volume strain = divergence . displacements of the element
     ShapeFunctions<dim> shape;   ///< of the corners, gradients by position
   };
   struct ElementOfWater {
     int number;  ///< in the mesh
     const WaterOfRegion* water;
+    bool is_there = true;  ///< in the stage
+    const ElementType<dim>* type;
+    VectorRows<dim> nodes;     ///< undeformed
     std::vector<int> entries;  ///< displacements, then pressures
     std::vector<int> moved;    ///< entries of the displacements
     std::vector<int> pressed;  ///< entries of the pressures
@@ -94,8 +115,9 @@ class PoreWater final : public Contribution<dim> {
     Eigen::MatrixXd conduction;  ///< H
     Eigen::VectorXd weight;      ///< h_g
   };
-  /// A flux of 1 m/s on a boundary, at the pressures of its nodes.
+  /// A flux of 1 m/s on a side of an element, at the pressures of its nodes.
   struct UnitFlux {
+    int element;
     std::vector<int> entries;
     std::vector<double> values;
     const TimeTable* table;
@@ -104,17 +126,31 @@ class PoreWater final : public Contribution<dim> {
                    const WaterOfRegion& water);
   void add_flux(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field,
                 const WaterFlux& flux);
+  [[nodiscard]] bool stands(int element) const {
+    return is_there_.empty() || is_there_[static_cast<std::size_t>(element)] != 0;
+  }
+  /// Positions of the nodes with their displacements.
+  static VectorRows<dim> positions(const ElementOfWater& element, const Eigen::VectorXd& nodal);
+  /// Volumes, gradients and coupling where the nodes are.
+  void place(ElementOfWater& element, const VectorRows<dim>& nodes) const;
+  /// In large deformation: places the element at both ends of the step. @returns volume lost to each pressure, negative
+  Eigen::VectorXd squeeze(ElementOfWater& element, const NodalStep& step) const;
   /// Storage and conduction of the committed void ratios.
   void refresh(ElementOfWater& element) const;
 
   std::map<std::string, WaterOfRegion> regions_;
   PoreWaterOptions options_;
+  bool is_large_;
   std::vector<ElementOfWater> elements_;
   std::vector<UnitFlux> fluxes_;
-  Eigen::Index first_entry_;  ///< of the pressures in nodal vectors
-  Eigen::VectorXd outflow_;   ///< by pressure, committed
+  std::vector<char> is_there_;  ///< by element of the mesh; empty: all are
+  Eigen::Index first_entry_;    ///< of the pressures in nodal vectors
+  Eigen::VectorXd outflow_;     ///< by pressure, committed
+  Eigen::VectorXd flow_;        ///< the same, a second
   Eigen::VectorXd trial_outflow_;
-  double duration_ = 0.0;        ///< of the last evaluation
+  double duration_ = 0.0;  ///< of the last evaluation
+  double change_ = 0.0;    ///< largest one of a pressure, of the last evaluation
+  double longest_ = 0.0;   ///< longest_step() by the last committed step; 0: there is none in this stage
   double least_pressure_ = 0.0;  ///< of the last evaluation
   bool told_of_suction_ = false;
   bool tells_of_suction_ = false;
@@ -126,5 +162,9 @@ template <int dim>
 std::shared_ptr<PoreWater<dim>> add_pore_water(Problem<dim>& problem,
                                                std::map<std::string, WaterOfRegion> regions,
                                                const PoreWaterOptions& options);
+
+/// The water of a problem; null where it has none.
+template <int dim>
+const PoreWater<dim>* pore_water_of(const Problem<dim>& problem);
 
 }  // namespace polargrain::fem

@@ -79,7 +79,7 @@ TEST(Expression, SaysWhatIsWrong) {
   EXPECT_EQ(
       error_of("3 apples"),
       "'apples' is no unit (%, m, mm, cm, um, km, Pa, kPa, MPa, GPa, rad, deg, mrad, N, kN, Nm, kNm, N/m, kN/m, "
-      "MN/m, N/m3, kN/m3, MN/m3, kg/m3, t/m3, Pa/m, kPa/m, MPa/m, GPa/m, s, min, h) at character 3 of '3 apples'");
+      "MN/m, N/m3, kN/m3, MN/m3, kg/m3, t/m3, Pa/m, kPa/m, MPa/m, GPa/m, s, min, h, d, a) at character 3 of '3 apples'");
   EXPECT_EQ(error_of("(a"), "expected ')' at character 3 of '(a'");
   EXPECT_NE(error_of(std::string(100000, '(')).find("nested too deeply"), std::string::npos);
 }

@@ -117,7 +117,8 @@ void look_at_displacement(const Scene& scene, const Monitor& monitor, Remarks& r
 void places_of_monitors(const Scene& scene, Remarks& remarks) {
   if (!scene.problem().ties.empty()) return;
   for (const Monitor& monitor : scene.the_case().monitors) {
-    if (monitor.kind == Monitor::Kind::formula || monitor.dof == fem::Dof::w || monitor.on.size() != 1)
+    if (monitor.kind == Monitor::Kind::formula || monitor.kind == Monitor::Kind::water ||
+        monitor.dof == fem::Dof::w || monitor.on.size() != 1)
       continue;
     if (monitor.kind == Monitor::Kind::reaction)
       look_at_force(scene, monitor, remarks);

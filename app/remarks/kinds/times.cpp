@@ -39,7 +39,8 @@ void last_point(const coupler::Entry& entry, double& last, const coupler::Entry*
   if (entry.kind == coupler::Entry::Kind::sequence && entry.items.size() > 1) {
     const coupler::Entry& point = entry.items.back();
     if (point.kind == coupler::Entry::Kind::sequence && point.items.size() == 2) {
-      const auto time = coupler::parse_quantity(point.items[0].text, coupler::Dimension::number);
+      auto time = coupler::parse_quantity(point.items[0].text, coupler::Dimension::number);
+      if (!time) time = coupler::parse_quantity(point.items[0].text, coupler::Dimension::duration);
       const bool stays = entry.items[entry.items.size() - 2].items.size() == 2 &&
                          entry.items[entry.items.size() - 2].items[1].text == point.items[1].text;
       if (time && !stays && *time > last) {
@@ -114,7 +115,8 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
 void idle_steps(const Scene& scene, Remarks& remarks) {
   if (scene.the_case().real_time) return;  // a body goes on by itself
   const auto end = scene.end_time();
-  if (!end || scene.problem().stages.size() > 1) return;  // where parts come or go, that is what changes
+  // Where parts come or go, and where water flows, that is what changes.
+  if (!end || scene.problem().stages.size() > 1 || scene.find({"water"}) != nullptr) return;
   // Step by step: whole cycles of a load end where they began. A pause before a further change is meant.
   double from = 0.0;
   int idle = 0;  // since the last change

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water in the pores: its numbers, where it may leave, and steps against the time of consolidation.
+#include "fem/water/pore_water.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/remarks/kinds.hpp"
+
+namespace polargrain::app {
+namespace {
+
+using coupler::Dimension;
+
+/// Ground: clay to gravel.
+constexpr double kLeastPermeability = 1e-13;  // m/s
+constexpr double kMostPermeability = 0.1;
+
+/// A number beyond the bounds of water or ground.
+void look_at_number(const Scene& scene, const Scene::Path& path, Dimension dimension, double least,
+                    double most, const std::string& usual, Remarks& remarks) {
+  const auto value = scene.quantity(path, dimension);
+  if (!value || (*value >= least && *value <= most)) return;
+  remarks.push_back({Rank::wrong, *value < least ? least / *value : *value / most,
+                     scene.place(path).fault(fmt::format("water: {} is {:.3g} {} ({})", path.back(), *value,
+                                                         coupler::si_unit(dimension), usual)),
+                     "check the number and its unit"});
+}
+
+void look_at_numbers(const Scene& scene, Remarks& remarks) {
+  look_at_number(scene, {"water", "unit_weight"}, Dimension::unit_weight, 9.5e3, 11e3,
+                 "water: 9.81 kN/m3, of the sea 10.1 kN/m3", remarks);
+  std::vector<Scene::Path> places{{"water"}};
+  if (const coupler::Entry* const regions = scene.find({"water", "regions"}))
+    for (const coupler::Entry::Member& member : regions->members)
+      places.push_back({"water", "regions", member.key});
+  for (Scene::Path path : places) {
+    path.emplace_back("permeability");
+    look_at_number(scene, path, Dimension::flow, kLeastPermeability, kMostPermeability,
+                   "clay: 1e-11 to 1e-8 m/s, sand: 1e-6 to 1e-3 m/s, gravel: to 0.1 m/s", remarks);
+    path.back() = "void_ratio";
+    look_at_number(scene, path, Dimension::number, 0.15, 4.0, "sand: 0.4 to 1, clay: to 3", remarks);
+  }
+}
+
+/// Oedometric modulus of a law in closed form, Pa.
+std::optional<double> stiffness_of(const Scene& scene, const std::string& region) {
+  const std::string& material = scene.the_case().regions.at(region);
+  const auto young = scene.quantity({"materials", material, "E"}, Dimension::pressure);
+  const auto poisson = scene.quantity({"materials", material, "nu"}, Dimension::number);
+  if (!young || !poisson || scene.the_case().materials.at(material)->grains() != nullptr) return {};
+  return *young * (1.0 - *poisson) / ((1.0 + *poisson) * (1.0 - 2.0 * *poisson));
+}
+
+template <int dim>
+class Look {
+ public:
+  Look(const Scene& scene, const fem::Problem<dim>& problem, const fem::PoreWater<dim>& water,
+       Remarks& remarks)
+      : scene_(scene), problem_(problem), water_(water), remarks_(remarks) {}
+
+  void at_drains() {
+    const bool flows =
+        std::ranges::any_of(water_.regions(), [](const auto& region) { return !region.second.undrained; });
+    if (!problem_.prescribed_fields.empty() || !flows) return;
+    const bool fed = !water_.options().fluxes.empty();
+    add(fed ? Rank::wrong : Rank::doubtful, 10.0, {"boundary"},
+        fmt::format("boundary: all boundaries are closed to water{}",
+                    fed ? ", and a flux brings some in: its pressure rises for ever"
+                        : ": excess pressures stay in the body"),
+        "give a boundary 'drained: true' or 'pore_pressure', or the water 'undrained: true'");
+  }
+
+  void at_weight() {
+    const bool heavy = !problem_.body_loads.empty();
+    if (heavy && !water_.options().table) {
+      add(Rank::doubtful, 2.0, {"body"},
+          "body: without 'level' below 'water' pressures are those in excess of water at rest: the weight must "
+          "be the submerged one",
+          "give the height of the water, 'level', and the saturated weight; or the submerged weight, some 10 kN/m3");
+    } else if (!heavy && water_.options().table) {
+      add(Rank::doubtful, 2.0, {"water", "level"},
+          "water: 'level' gives the water its weight, and the ground has none",
+          "give the saturated weight below 'body', or leave out 'level'");
+    }
+  }
+
+  /// Free surfaces with a pressure inside and nothing outside.
+  void at_loads() {
+    std::set<std::string> loaded;
+    for (const auto& load : problem_.boundary_loads) loaded.insert(load.on);
+    for (const auto& support : problem_.prescribed) loaded.insert(support.on);
+    for (const auto& given : problem_.prescribed_fields) {
+      if (!problem_.mesh.boundaries.contains(given.on) || loaded.contains(given.on)) continue;
+      double largest = 0.0;
+      for (const int node : problem_.mesh.nodes_on(given.on)) {
+        const auto& x = problem_.mesh.nodes[static_cast<std::size_t>(node)];
+        largest =
+            std::max(largest, given.factor_at(x) * given.value.at(end_of_first_step()) + given.offset_at(x));
+      }
+      if (water_.options().table && largest > 0.01 * water_.options().unit_weight)
+        add(Rank::doubtful, largest / water_.options().unit_weight, {"boundary"},
+            fmt::format(
+                "boundary: the water at '{}' has a pressure of up to {:.3g} kPa, and no load acts there",
+                given.on, 1e-3 * largest),
+            "water outside presses on the ground: give it 'pressure' too");
+    }
+  }
+
+  void at_steps() {
+    const auto& plan = scene_.the_case().plan;
+    if (plan.empty() || !jumps_at_start()) return;
+    const fem::PoreWaterOptions& options = water_.options();
+    const double first = options.pressure_change > 0.0 ? std::min(options.shortest_step, end_of_first_step())
+                                                       : end_of_first_step();
+    double least = 0.0;      // h^2 / (6 cv) beside drained sides, s
+    double largest_h = 0.0;  // that it belongs to, m
+    double whole = 0.0;      // of consolidation, s
+    std::string where;
+    for (const auto& given : problem_.prescribed_fields) {
+      const auto boundary = problem_.mesh.boundaries.find(given.on);
+      if (boundary == problem_.mesh.boundaries.end()) continue;
+      for (const fem::BoundarySide& side : boundary->second) {
+        const auto diffusivity = diffusivity_of(side.element);
+        if (!diffusivity) continue;
+        const double height = height_over(side);
+        whole = std::max(whole, scene_.body().smaller_side() * scene_.body().smaller_side() / *diffusivity);
+        if (height * height / (6.0 * *diffusivity) <= least) continue;
+        least = height * height / (6.0 * *diffusivity);
+        largest_h = height;
+        where = given.on;
+      }
+    }
+    if (where.empty()) return;
+    if (first < 0.99 * least) {
+      add(Rank::doubtful, least / first, {"steps"},
+          fmt::format(
+              "steps: the first one takes {:.3g} s, less than h^2/(6 cv) = {:.3g} s of the elements of {:.3g} m "
+              "at '{}': behind the sudden load the pressure overshoots there, by up to a quarter of it",
+              first, least, largest_h, where),
+          fmt::format(
+              "begin with a step of {:.2g} s ('first', 'shortest_step'), or make these elements {:.2g} m high",
+              least, largest_h * std::sqrt(first / least)));
+    } else if (first > 0.1 * whole && first < 10.0 * whole) {
+      add(Rank::doubtful, first / (0.1 * whole), {"steps"},
+          fmt::format(
+              "steps: the first one takes {:.3g} s, and the body consolidates in H^2/cv = {:.3g} s: pressures are "
+              "off by some {:.0f} % of the load",
+              first, whole, std::min(30.0, 100.0 * first / whole)),
+          fmt::format("begin with a shorter step that grows: 'first: {:.2g} s'",
+                      std::max(least, 1e-3 * whole)));
+    }
+  }
+
+ private:
+  void add(Rank rank, double weight, const Scene::Path& path, const std::string& finding,
+           const std::string& remedy) {
+    remarks_.push_back({rank, std::max(1.0, weight), scene_.place(path).fault(finding), remedy});
+  }
+  [[nodiscard]] double end_of_first_step() const {
+    return scene_.the_case().plan.empty() ? 0.0 : scene_.the_case().plan.front().amount;
+  }
+  /// Whether the first step bears a load at once, and without most of it by a straight rise.
+  [[nodiscard]] bool jumps_at_start() const {
+    for (const auto& load : problem_.boundary_loads) {
+      if (load.pressure.at(0.0) != 0.0) return true;
+      for (const auto& along : load.traction)
+        if (along.at(0.0) != 0.0) return true;
+    }
+    return std::ranges::any_of(problem_.node_loads,
+                               [](const auto& load) { return load.value.at(0.0) != 0.0; });
+  }
+  /// cv = k Eoed / (unit weight of water), m^2/s.
+  [[nodiscard]] std::optional<double> diffusivity_of(int element) const {
+    for (const auto& [name, region] : water_.regions()) {
+      const std::vector<int>& elements = problem_.mesh.regions.at(name);
+      if (region.undrained || std::ranges::find(elements, element) == elements.end()) continue;
+      const auto stiffness = stiffness_of(scene_, name);
+      if (!stiffness) return {};
+      return region.permeability.at(region.void_ratio) * *stiffness / water_.options().unit_weight;
+    }
+    return {};
+  }
+  /// Size of an element across one of its sides, m.
+  [[nodiscard]] double height_over(const fem::BoundarySide& side) const {
+    const double size = scene_.body().elements[static_cast<std::size_t>(side.element)];
+    if constexpr (dim == 3) return size;
+    const std::vector<int> nodes = problem_.mesh.side_nodes(side);
+    return size * size /
+           (problem_.mesh.nodes[static_cast<std::size_t>(nodes[0])] -
+            problem_.mesh.nodes[static_cast<std::size_t>(nodes[1])])
+               .norm();
+  }
+
+  const Scene& scene_;
+  const fem::Problem<dim>& problem_;
+  const fem::PoreWater<dim>& water_;
+  Remarks& remarks_;
+};
+
+}  // namespace
+
+void pore_water(const Scene& scene, Remarks& remarks) {
+  if (scene.find({"water"}) == nullptr) return;
+  look_at_numbers(scene, remarks);
+  const auto look = [&]<int dim>(const fem::Problem<dim>& problem) {
+    const fem::PoreWater<dim>* const water = fem::pore_water_of(problem);
+    if (water == nullptr) return;
+    Look<dim> at(scene, problem, *water, remarks);
+    at.at_drains();
+    at.at_weight();
+    at.at_loads();
+    at.at_steps();
+  };
+  scene.with_problem(look);
+}
+
+}  // namespace polargrain::app
