@@ -4,16 +4,16 @@
 
 namespace polargrain::fem {
 
-/// What a step has cost, tries that were lost included, and what it was let through with.
+/// The work of a step, lost tries included, and the doubts that it was let through with.
 struct StepWork {
   int substeps = 0;  ///< committed on the way; 1 when nothing was cut
   int cuts = 0;
   int iterations = 0;
-  long evaluations = 0;        ///< of material points
-  int within_noise = 0;        ///< substeps committed with a residual above its tolerance but within the noise
-  int within_rounding = 0;     ///< substeps committed above their tolerance because nothing but rounding is left
-  int limited = 0;             ///< corrections that SolverOptions::largest_strain has shortened or replaced
-  int jumps = 0;               ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
+  long evaluations = 0;     ///< of material points
+  int within_noise = 0;     ///< substeps committed with a residual above its tolerance but within the noise
+  int within_rounding = 0;  ///< substeps committed above their tolerance because nothing but rounding is left
+  int limited = 0;          ///< corrections that SolverOptions::largest_strain has shortened or replaced
+  int jumps = 0;            ///< jumps of the stresses that were passed, see SolverOptions::most_jumps
   double jump_residual = 0.0;  ///< the largest force residual that one of them left, let go since
   double material_seconds = 0.0;
   double assembly_seconds = 0.0;

@@ -128,8 +128,14 @@ TEST_F(ExplicitRunTest, SayHowFarTheyWereFromEquilibrium) {
   EXPECT_LT(median_of("slow"), 0.2 * median_of("fast"));
 }
 
-// Stiff spheres, steps of many of their elastic strains: the remark names the way out. In explicit steps there is no such remark.
-TEST_F(ExplicitRunTest, IsProposedForSpheres) {
+// Steps of many elastic strains, of discs and of stiff spheres: the remark names the way out. In explicit steps there is no such
+// remark.
+TEST_F(ExplicitRunTest, IsProposedForLargeSteps) {
+  write_column({.steps = "tolerance: 1e-2"});
+  const Outcome discs =
+      run_in(scratch_.path(), POLARGRAIN " check case.yaml --all --set boundary.1.move.u2='-30 mm'");
+  EXPECT_NE((discs.out + discs.errors).find("'method: explicit'"), std::string::npos)
+      << discs.out << discs.errors;
   std::filesystem::copy(std::filesystem::path(POLARGRAIN_SOURCE_DIRECTORY) / "cases/spheres/packing1000.csv",
                         scratch_.path());
   write_column({.steps = "tolerance: 1e-2"});

@@ -54,11 +54,12 @@ void of_nothing(const Scene& scene, const SceneRegion& region, double elastic, R
        "check the unit of the movement"});
 }
 
-/// Newton's method asks boxes of stiff spheres thousands of times, and stops soon (docs/theory/explicit.md).
+/// Newton's method asks boxes of stiff spheres thousands of times, and stops soon (docs/theory/explicit.md); explicit steps take
+/// less time for discs too, from an elastic strain a step on (docs/howto/method.md).
 std::string proposal(const SceneRegion& region) {
   return region.cell->packing.dimension == 3
              ? "'method: explicit', which carries spheres where Newton's method stops, or "
-             : "";
+             : "'method: explicit', which takes less time for such steps, or ";
 }
 
 void of_cells(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
