@@ -22,6 +22,7 @@ class RunObserver : public Progress {
   void cut(double time, const std::string& reason, double next_time) override {
     log_.warn("  step to {:.6g} given up: {}; next try to {:.6g}", time, reason, next_time);
   }
+  void solves(const std::string& text) override { log_.info("  {}", text); }
   void struggles(const fem::Trouble& trouble) override {
     if (on_struggle) on_struggle(trouble);
   }

@@ -1,85 +1,91 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/linear_solver.hpp"
 
-#include <malloc.h>
-#include <signal.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <Eigen/UmfPackSupport>
-#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "fem/solver/direct_solver.hpp"
+#include "fem/solver/multilevel.hpp"
 
 namespace polargrain::fem {
-namespace {
-
-/// Holds SIGTERM and SIGABRT back from this thread. METIS takes them over while it orders: it would swallow the wish to
-/// stop, jump out of its own middle, and leave the ordering to another method, with other last bits of every result.
-class SignalsHeldBack {
- public:
-  SignalsHeldBack() {
-    sigset_t held;
-    sigemptyset(&held);
-    for (const int signal : kSignals) sigaddset(&held, signal);
-    pthread_sigmask(SIG_BLOCK, &held, &mask_);
-    for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], nullptr, &actions_[k]);
-  }
-  /// Signals that came meanwhile go to the handlers of before, with their flags, which METIS forgets.
-  ~SignalsHeldBack() {
-    for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &actions_[k], nullptr);
-    pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
-  }
-  SignalsHeldBack(const SignalsHeldBack&) = delete;
-  SignalsHeldBack& operator=(const SignalsHeldBack&) = delete;
-
- private:
-  static constexpr std::array kSignals{SIGTERM, SIGABRT};
-  sigset_t mask_{};
-  std::array<struct sigaction, kSignals.size()> actions_{};
-};
-
-}  // namespace
 
 struct LinearSolver::Implementation {
-  Eigen::UmfPackLU<Eigen::SparseMatrix<double>> lu;
-  bool analysed = false;
+  Implementation(CoarseSpace of_mesh, int most_direct)
+      : space(std::move(of_mesh)), direct_unknowns(most_direct) {
+    if (space.groups.unknowns() > direct_unknowns) iterative.emplace(space, direct_unknowns);
+  }
+
+  CoarseSpace space;
+  int direct_unknowns;
+  std::optional<MultilevelSolver> iterative;
+  DirectSolver direct;
+  const Eigen::SparseMatrix<double>* matrix = nullptr;
+  bool tries_iterations = true;
+  bool is_direct = true;  ///< the matrix factorised last
+  bool was_told = false;  ///< how iterations are made
+  std::string news;
+
+  void tell(const std::string& text) { news += (news.empty() ? "" : "; ") + text; }
+
+  /// The direct solution in place of iterations. @param why "they do not converge"
+  bool give_up_iterations(const char* why) {
+    is_direct = true;
+    tries_iterations = false;
+    iterative.emplace(space, direct_unknowns);  // its memory is needed
+    const bool solved = direct.factorise(*matrix);
+    tell(fmt::format("iterations for {} unknowns end: {}; {}", matrix->rows(), why,
+                     solved ? "direct solutions (UMFPACK) until the end of the step" : direct.why_not()));
+    return solved;
+  }
 };
 
-LinearSolver::LinearSolver() : implementation_(std::make_unique<Implementation>()) {
-#ifdef __GLIBC__
-  // The factors of every iteration go where the last ones were. Given back to the system in between, their
-  // pages would be zeroed and mapped again each time, a fifth of the time of a factorisation.
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-#endif
-  // The pattern is symmetric even where values are not: diagonal pivots keep the fill of a symmetric
-  // ordering, and nested dissection needs half the time of minimum degree at 100,000 unknowns.
-  auto& control = implementation_->lu.umfpackControl();
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-  control[UMFPACK_IRSTEP] = 0;  // Newton's iteration refines the solution itself
-}
+LinearSolver::LinearSolver(CoarseSpace space, int direct_unknowns)
+    : implementation_(std::make_unique<Implementation>(std::move(space), direct_unknowns)) {}
+
 LinearSolver::~LinearSolver() = default;
 
-void LinearSolver::forget_pattern() {
-  implementation_->analysed = false;
+void LinearSolver::change_pattern(CoarseSpace space) {
+  std::string unread = std::move(implementation_->news);
+  implementation_ = std::make_unique<Implementation>(std::move(space), implementation_->direct_unknowns);
+  implementation_->news = std::move(unread);
+}
+
+void LinearSolver::begin_step() {
+  implementation_->tries_iterations = true;
 }
 
 bool LinearSolver::factorise(const Eigen::SparseMatrix<double>& matrix) {
   if (matrix.rows() == 0) return true;
-  const Eigen::Map<const Eigen::VectorXd> values(matrix.valuePtr(), matrix.nonZeros());
-  if (!values.allFinite()) return false;
-  auto& [lu, analysed] = *implementation_;
-  if (!analysed) {
-    const SignalsHeldBack held;
-    lu.analyzePattern(matrix);
-    if (lu.info() != Eigen::Success) return false;
-    analysed = true;
-  }
-  lu.factorize(matrix);
-  return lu.info() == Eigen::Success;
+  Implementation& own = *implementation_;
+  if (!Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return false;
+  own.matrix = &matrix;
+  own.is_direct = !own.iterative || !own.tries_iterations;
+  if (own.is_direct) return own.direct.factorise(matrix);
+  if (!own.iterative->factorise(matrix)) return own.give_up_iterations("a level is singular");
+  if (!std::exchange(own.was_told, true))
+    own.tell(fmt::format("linear systems are solved by iterations on levels of {} unknowns",
+                         fmt::join(own.iterative->unknowns_of_levels(), ", ")));
+  return true;
 }
 
 Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& right_side) const {
   if (right_side.size() == 0) return right_side;
-  return implementation_->lu.solve(right_side);
+  Implementation& own = *implementation_;
+  if (!own.is_direct) {
+    if (std::optional<Eigen::VectorXd> solution = own.iterative->solve(right_side))
+      return *std::move(solution);
+    if (!own.give_up_iterations("they do not converge"))
+      return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return own.direct.solve(right_side);
+}
+
+std::string LinearSolver::news() {
+  return std::exchange(implementation_->news, {});
 }
 
 }  // namespace polargrain::fem

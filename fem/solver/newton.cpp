@@ -69,6 +69,7 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
       tangent_(discretisation, constraints, problem.contributions),
+      linear_solver_(coarse_space<dim>(problem.mesh, constraints)),
       anderson_(options.acceleration_depth, reference_length, dim, constraints.places().mechanics()),
       start_(problem.mesh, problem.continuum, field_entries(problem)),
       trial_(discretisation.points()) {
@@ -282,7 +283,10 @@ template <int dim>
 bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
                              const std::vector<Response<dim>>& responses, const Eigen::VectorXd& right_side,
                              Correction& change, StepReport& report) {
-  if (!factorise(responses, iterate.time, report)) return false;
+  if (!factorise(responses, iterate.time, report)) {
+    tell_of_solver();
+    return false;
+  }
   const Stopwatch watch(report.solve_seconds);
   const auto add_solution = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& nodal) {
     constraints.add_free(solved(constraints.restrict_to_free(forces)), nodal);
@@ -310,7 +314,13 @@ bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
   if (!converges_fast_) {
     anderson_.accelerate(change, [&](const Eigen::VectorXd& forces) { return respond(forces, 0.0); });
   }
+  tell_of_solver();
   return change.displacement.allFinite() && std::isfinite(change.time);
+}
+
+template <int dim>
+void Newton<dim>::tell_of_solver() {
+  if (const std::string news = linear_solver_.news(); observer && !news.empty()) observer->solves(news);
 }
 
 template <int dim>
@@ -404,6 +414,7 @@ std::string Newton<dim>::residual_text(const Residual& residual) const {
 template <int dim>
 Newton<dim>::Predictor Newton<dim>::predict(const StepGoal& goal) {
   move_to_committed();
+  linear_solver_.begin_step();
   unbalanced_.resize(0);
   anderson_.clear();
   internal_before_ = discretisation.internal_forces(state.responses);

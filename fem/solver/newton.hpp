@@ -150,6 +150,8 @@ class Newton {
   /// Evaluates the contributions for a step from the committed state. @returns why one of them cannot
   [[nodiscard]] std::string contribute(double time, const Eigen::VectorXd& increment);
   void find_increments(const Eigen::VectorXd& displacement_increment);
+  /// Hands on what the observer should know of the linear solver.
+  void tell_of_solver();
   [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
                                 const std::vector<Response<dim>>& responses,

@@ -20,7 +20,7 @@ void Newton<dim>::enter_stage() {
   constraints = Constraints<dim>(problem, state.stage, state.offsets);
   loads = Loads<dim>(problem, state.stage);
   tangent_.renew();
-  linear_solver_.forget_pattern();
+  linear_solver_.change_pattern(coarse_space<dim>(problem.mesh, constraints));
 }
 
 template <int dim>

@@ -148,6 +148,8 @@ class Observer {
   virtual void cut(double time, const std::string& reason, double next_time) {
     (void)time, (void)reason, (void)next_time;
   }
+  /// How linear systems are solved, or why no longer so.
+  virtual void solves(const std::string& text) { (void)text; }
   /// A step has been cut for the second time: where it is out of balance. The solver stands at its last committed state.
   virtual void struggles(const Trouble& trouble) { (void)trouble; }
 };

@@ -4,6 +4,7 @@ polargrain_test(fem_cylinder_test unit unit/fem_cylinder_test.cpp LIBS polargrai
 polargrain_test(fem_element_test unit unit/fem_element_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_supports_test unit unit/fem_supports_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_linear_solver_test unit unit/fem_linear_solver_test.cpp LIBS polargrain_fem)
+polargrain_test(fem_multilevel_test unit unit/fem_multilevel_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_explicit_test unit unit/fem_explicit_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_automatic_test unit unit/fem_automatic_test.cpp LIBS polargrain_fem)
 polargrain_test(fem_dynamics_test unit unit/fem_dynamics_test.cpp LIBS polargrain_fem)
