@@ -58,6 +58,7 @@ class Frames {
   /// @param current stand where they are at frame `from` instead
   [[nodiscard]] Samples increment(std::size_t from, std::size_t to, bool current) const;
   [[nodiscard]] FrameKind kind() const { return kind_; }
+  [[nodiscard]] const std::filesystem::path& file(std::size_t index) const { return files_[index]; }
   /// Places of images that have no displacement in one of two frames or in both; of grains and elements 0.
   [[nodiscard]] std::size_t missing(std::size_t from, std::size_t to) const;
 

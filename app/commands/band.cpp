@@ -16,6 +16,7 @@
 #include "band/displacement_field.hpp"
 #include "band/frames.hpp"
 #include "band/shear_band.hpp"
+#include "band/space_fields.hpp"
 #include "common/error.hpp"
 #include "common/plain_text.hpp"
 #include "common/standard_streams.hpp"
@@ -51,14 +52,6 @@ struct Increments {
   std::vector<double> strains;  ///< middle of each
   std::vector<double> localisations;
 };
-
-std::vector<std::size_t> frames_apart(const Frames& frames, double window) {
-  std::vector<std::size_t> chosen{0};
-  const std::vector<double>& strains = frames.axial_strains();
-  for (std::size_t k = 1; k < strains.size(); ++k)
-    if (strains[k] - strains[chosen.back()] > (1.0 - 1e-6) * window) chosen.push_back(k);
-  return chosen;
-}
 
 void write_samples(const std::filesystem::path& file, const Samples& samples) {
   std::string text = "x,y,area,shear,volume_strain,rotation\n";
@@ -131,9 +124,15 @@ void write_summary(const std::filesystem::path& file, const BandMeasurement& mea
 
 }  // namespace
 
-BandMeasurement measure_band(const BandCommandOptions& options) {
-  const std::filesystem::path& directory = options.places.front();
-  const Frames frames(directory, options.strain_column, options.units, options.neighbourhood);
+std::vector<std::size_t> frames_apart(const Frames& frames, double window) {
+  std::vector<std::size_t> chosen{0};
+  const std::vector<double>& strains = frames.axial_strains();
+  for (std::size_t k = 1; k < strains.size(); ++k)
+    if (strains[k] - strains[chosen.back()] > (1.0 - 1e-6) * window) chosen.push_back(k);
+  return chosen;
+}
+
+std::pair<std::size_t, std::size_t> increment_of(const Frames& frames, const BandCommandOptions& options) {
   const double last_strain = frames.axial_strains().back();
   const std::size_t to = frames.nearest(options.to >= 0.0 ? options.to : last_strain);
   const std::size_t from = frames.nearest(options.from >= 0.0 ? options.from : 2.0 / 3.0 * last_strain);
@@ -141,6 +140,13 @@ BandMeasurement measure_band(const BandCommandOptions& options) {
     throw InputError({"", 0,
                       fmt::format("--from {} and --to {} are one frame; the frames go from {:.4g} to {:.4g}",
                                   options.from, options.to, frames.axial_strains().front(), last_strain)});
+  return {from, to};
+}
+
+BandMeasurement measure_band(const BandCommandOptions& options) {
+  const std::filesystem::path& directory = options.places.front();
+  const Frames frames(directory, options.strain_column, options.units, options.neighbourhood);
+  const auto [from, to] = increment_of(frames, options);
   BandMeasurement measured = measured_in(frames.increment(from, to, options.current), options);
   measured.begin = frames.axial_strains()[from];
   measured.end = frames.axial_strains()[to];
@@ -188,6 +194,11 @@ int band(const BandCommandOptions& options) {
                       "one result directory was expected, or one or two CSV files of displacements"});
   // A name that ends otherwise is meant as a directory, and there is none.
   const bool is_csv = of_fields && options.places.front().extension() == ".csv";
+  if (!is_csv) {
+    const Frames frames(options.places.front(), options.strain_column, options.units, options.neighbourhood);
+    if (frames.kind() == FrameKind::elements && polargrain::band::is_of_space(frames.file(0)))
+      return band_in_space(frames, options);
+  }
   const BandMeasurement measured = is_csv ? measure_band_of_fields(options) : measure_band(options);
   constexpr const char* kPlaces[] = {"integration points", "grains", "places of the images"};
   std::string where = options.places.front().string();

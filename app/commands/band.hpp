@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "band/frames.hpp"
@@ -47,7 +48,17 @@ BandMeasurement measure_band(const BandCommandOptions& options);
 /// last, NAME.band.json. @throws InputError as read_displacement_field
 BandMeasurement measure_band_of_fields(const BandCommandOptions& options);
 
-/// One of the two, and prints what it found. @returns 0, also when there is no band
+/// Frames, from the first, each farther than a window of axial strain from the last.
+std::vector<std::size_t> frames_apart(const polargrain::band::Frames& frames, double window);
+
+/// First and last frame of the increment that the options name. @throws InputError where they are one
+std::pair<std::size_t, std::size_t> increment_of(const polargrain::band::Frames& frames,
+                                                 const BandCommandOptions& options);
+
+/// Looks for the plane of a result in space, writes band.json and band.csv as measure_band does, and prints what it found.
+int band_in_space(const polargrain::band::Frames& frames, const BandCommandOptions& options);
+
+/// One of the first two, or the last, and prints what it found. @returns 0, also when there is no band
 /// @throws InputError as these
 int band(const BandCommandOptions& options);
 

@@ -41,6 +41,13 @@ class Reader {
     if (!piece_) fail("there is no unstructured grid in it");
   }
 
+  /// Whether one of its cells is an element of the dimension.
+  [[nodiscard]] bool has_elements() const {
+    const std::map<int, const ElementType<dim>*> types = types_by_vtk<dim>();
+    return std::ranges::any_of(array<std::uint8_t>("Cells", "types"),
+                               [&](std::uint8_t kind) { return types.contains(kind); });
+  }
+
   FieldFile<dim> read() const {
     FieldFile<dim> content;
     read_nodes(content.mesh);
@@ -135,6 +142,10 @@ class Reader {
 template <int dim>
 FieldFile<dim> read_vtu(const std::filesystem::path& file) {
   return Reader<dim>(file).read();
+}
+
+int dimension_of_vtu(const std::filesystem::path& file) {
+  return Reader<3>(file).has_elements() ? 3 : 2;
 }
 
 template FieldFile<2> read_vtu<2>(const std::filesystem::path&);

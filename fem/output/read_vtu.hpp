@@ -19,6 +19,9 @@ struct FieldFile {
 template <int dim = 2>
 FieldFile<dim> read_vtu(const std::filesystem::path& file);
 
+/// 3 where one of the cells has a volume, else 2. @throws InputError as read_vtu
+int dimension_of_vtu(const std::filesystem::path& file);
+
 /// The field of that name, or null.
 const Field* find_field(const std::vector<Field>& fields, const std::string& name);
 
