@@ -46,10 +46,6 @@ int check(const CheckOptions& options) {
   const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   const coupler::Entry document =
       coupler::load_document_of(coupler::DocumentKind::problem, options.case_file, options.settings);
-  if (the_case.dimension() == 3 && !options.picture.empty())
-    throw InputError(
-        {"", 0,
-         "--picture: bodies in space have no picture yet; run one step and open fields.pvd in ParaView"});
   // Each script and packing in an engine, before anything is said to be well.
   const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
   const Scene scene(the_case, document, packings);

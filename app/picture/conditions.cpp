@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
 #include "app/remarks/in_units.hpp"
@@ -11,80 +10,89 @@
 namespace polargrain::app {
 namespace {
 
-constexpr std::array<const char*, Cosserat<2>::dofs> kNames{"u1", "u2", "w"};
-
 void add(std::string& list, const std::string& text) {
   list += (list.empty() ? "" : "; ") + text;
 }
 
-void add_prescribed(PlaceConditions& place, const fem::PrescribedDof<2>& item, double end) {
-  const auto k = static_cast<std::size_t>(fem::place_of<2>(item.dof));
+template <int dim>
+void add_prescribed(PlaceConditions<dim>& place, const fem::PrescribedDof<dim>& item, double end) {
+  const int entry = fem::place_of<dim>(item.dof);
+  const auto k = static_cast<std::size_t>(entry);
+  const std::string_view name = fem::name_of<dim>(item.dof);
   if (item.value.largest_magnitude() == 0.0) {
     place.held[k] = true;
-    add(place.supports, fmt::format("{} held", kNames[k]));
+    add(place.supports, fmt::format("{} held", name));
     return;
   }
   place.moved[k] = true;
   const double way = item.value.at(end) - item.value.at(0.0);
-  if (item.dof != fem::Dof::w) place.movement(static_cast<Eigen::Index>(k)) = way;
   const std::string profile = item.profile ? " times a profile" : "";
-  add(place.supports, item.dof == fem::Dof::w
-                          ? fmt::format("w turned by {:.4g} rad{}", way, profile)
-                          : fmt::format("{} moved by {:.4g} mm{}", kNames[k], 1e3 * way, profile));
+  if (fem::is_rotation(item.dof)) {
+    add(place.supports, fmt::format("{} turned by {:.4g} rad{}", name, way, profile));
+    return;
+  }
+  place.movement(entry) = way;
+  add(place.supports, fmt::format("{} moved by {:.4g} mm{}", name, 1e3 * way, profile));
 }
 
-void add_loads(PlaceConditions& place, const fem::BoundaryLoad<2>& load, double time, std::string& words) {
+template <int dim>
+void add_loads(PlaceConditions<dim>& place, const fem::BoundaryLoad<dim>& load, double time,
+               std::string& words) {
   if (const double p = load.pressure.at(time); p != 0.0) {
     place.pressed = true;
     place.pressure_sign = p > 0.0 ? 1.0 : -1.0;
     add(words, fmt::format("pressure {}", pascals(p)));
   }
-  const Eigen::Vector2d traction(load.traction[0].at(time), load.traction[1].at(time));
+  typename PlaceConditions<dim>::Direction traction;
+  std::string components;
+  for (int i = 0; i < dim; ++i) {
+    traction(i) = load.traction[static_cast<std::size_t>(i)].at(time);
+    components += (i > 0 ? ", " : "") + pascals(traction(i));
+  }
   if (traction.norm() > 0.0) {
     place.pull = traction.normalized();
-    add(words, fmt::format("traction ({}, {})", pascals(traction.x()), pascals(traction.y())));
+    add(words, fmt::format("traction ({})", components));
   }
-  if (const double couple = load.couple_traction[0].at(time); couple != 0.0)
-    add(words, fmt::format("couple traction {:.4g} N/m", couple));
+  for (const fem::TimeTable& table : load.couple_traction)
+    if (const double couple = table.at(time); couple != 0.0)
+      add(words, fmt::format("couple traction {:.4g} N/m", couple));
 }
 
-void add_load(PlaceConditions& place, const fem::NodeLoad& load, double time, std::string& words) {
+template <int dim>
+void add_load(PlaceConditions<dim>& place, const fem::NodeLoad& load, double time, std::string& words) {
+  constexpr const char* kForce = dim == 2 ? "N/m" : "N";
+  constexpr const char* kMoment = dim == 2 ? "N" : "N m";
   const double value = load.value.at(time);
   if (value == 0.0) return;
-  if (load.dof == fem::Dof::w) {
-    add(words, fmt::format("moment of {:.4g} N at each node", value));
+  if (fem::is_rotation(load.dof)) {
+    add(words, fmt::format("moment of {:.4g} {} at each node", value, kMoment));
     return;
   }
-  place.pull = (place.pull + Eigen::Vector2d::Unit(fem::place_of<2>(load.dof)) * (value > 0.0 ? 1.0 : -1.0))
-                   .normalized();
-  add(words, fmt::format("force {} of {:.4g} N/m at each node",
-                         kNames[static_cast<std::size_t>(fem::place_of<2>(load.dof))], value));
+  using Direction = typename PlaceConditions<dim>::Direction;
+  place.pull =
+      (place.pull + Direction::Unit(fem::place_of<dim>(load.dof)) * (value > 0.0 ? 1.0 : -1.0)).normalized();
+  add(words, fmt::format("force {} of {:.4g} {} at each node", fem::name_of<dim>(load.dof), value, kForce));
 }
 
 }  // namespace
 
-bool PlaceConditions::is_free() const {
-  return supports.empty() && loads_at_start.empty() && loads_at_end.empty() && tied_to.empty();
-}
-
-std::vector<PlaceConditions> conditions_of(const Scene& scene) {
-  const fem::Problem<2>& problem = scene.problem();
-  const double end = scene.end_time().value_or(1.0);
+template <int dim>
+std::vector<PlaceConditions<dim>> conditions_of(const fem::Problem<dim>& problem, double end) {
   std::set<std::string> names;
-  for (const auto& [name, edges] : problem.mesh.boundaries) names.insert(name);
-  for (const fem::PrescribedDof<2>& item : problem.prescribed) names.insert(item.on);
+  for (const auto& [name, sides] : problem.mesh.boundaries) names.insert(name);
+  for (const fem::PrescribedDof<dim>& item : problem.prescribed) names.insert(item.on);
   for (const fem::NodeLoad& load : problem.node_loads) names.insert(load.on);
   for (const fem::Tie& tie : problem.ties) names.insert({tie.on, tie.to});
-  std::vector<PlaceConditions> places;
+  std::vector<PlaceConditions<dim>> places;
   for (const std::string& name : names) {
-    PlaceConditions place;
+    PlaceConditions<dim> place;
     place.name = name;
     place.is_boundary = problem.mesh.boundaries.contains(name);
     place.nodes = problem.mesh.nodes_on(name);
-    for (const fem::Dof dof : {fem::Dof::u1, fem::Dof::u2, fem::Dof::w})
-      for (const fem::PrescribedDof<2>& item : problem.prescribed)
+    for (const fem::Dof dof : fem::node_dofs<dim>())
+      for (const fem::PrescribedDof<dim>& item : problem.prescribed)
         if (item.on == name && item.dof == dof) add_prescribed(place, item, end);
-    for (const fem::BoundaryLoad<2>& load : problem.boundary_loads) {
+    for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads) {
       if (load.on != name) continue;
       add_loads(place, load, 0.0, place.loads_at_start);
       add_loads(place, load, end, place.loads_at_end);
@@ -103,5 +111,8 @@ std::vector<PlaceConditions> conditions_of(const Scene& scene) {
   }
   return places;
 }
+
+template std::vector<PlaceConditions<2>> conditions_of<2>(const fem::Problem<2>& problem, double end);
+template std::vector<PlaceConditions<3>> conditions_of<3>(const fem::Problem<3>& problem, double end);
 
 }  // namespace polargrain::app
