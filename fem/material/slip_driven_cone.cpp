@@ -5,8 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
+#include "common/error.hpp"
 #include "common/packed_values.hpp"
 
 namespace polargrain::fem {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/spread/spread_slip.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 

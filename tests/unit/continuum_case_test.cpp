@@ -11,6 +11,8 @@
 #include "fem/material/elastoplastic.hpp"
 #include "fem/material/local_material.hpp"
 #include "fem/material/slip_driven.hpp"
+#include "fem/solver/solver.hpp"
+#include "fem/spread/spread_slip.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -26,7 +28,7 @@ regions: {plate: steel, rest: sand}
 boundary:
   - {on: bottom, fix: [u1, u2]}
   - {on: [left, right], pressure: 100 kPa}
-  - {on: top, move: {u2: -10 mm}}
+  - {on: top, move: {u2: -30 mm}}
 steps: {count: 20}
 )";
 
@@ -69,6 +71,23 @@ TEST_F(ContinuumCase, spreads_the_slips_of_elastoplastic_materials_beside_elasti
             nullptr);
   EXPECT_EQ(std::dynamic_pointer_cast<fem::SlipDriven<2>>(found.materials.at("steel")->make(nullptr)),
             nullptr);
+}
+
+TEST_F(ContinuumCase, a_specimen_between_plates_slips_past_its_peak) {
+  Case found = read();
+  for (auto& [region, material] : found.problem.materials)
+    material = found.materials.at(found.regions.at(region))->make(nullptr);
+  fem::add_spread_slip(found.problem, {found.spread});
+  fem::Solver<2> solver(std::move(found.problem), found.solver);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  double peak = 0.0;
+  for (const StepTarget& step : found.plan) {
+    const fem::StepReport report = solver.advance(step.amount);
+    ASSERT_TRUE(report.converged) << report.message;
+    peak = std::max(peak, -solver.reaction("top")(1));
+  }
+  EXPECT_LT(-solver.reaction("top")(1), 0.97 * peak);
+  EXPECT_GT(peak, 3.0 * 100e3 * 0.2);  // (1 + sin 40) / (1 - sin 40) = 4.6, rough plates add to it
 }
 
 TEST_F(ContinuumCase, without_a_spread_it_is_the_case_of_before) {
