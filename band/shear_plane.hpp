@@ -48,7 +48,7 @@ struct PlaneSearch {
 };
 
 /// Looks for the band as find_band does in the plane: profiles for normals all over the half sphere, some six degrees apart,
-/// then a Gaussian band fitted to the shear of all samples by least squares. The same reasons for none.
+/// then a Gaussian band fitted to the shear of all samples by least squares. A missing plane has the same reasons.
 /// @param samples at least 50, else there is no band
 PlaneSearch find_plane(const SpaceSamples& samples, const BandOptions& options = {});
 

@@ -58,7 +58,7 @@ class StrengthReduction {
     if (fem::pore_water_of(case_.template problem_of<dim>()) != nullptr)
       faults.push_back(
           {case_.file.string(), 0,
-           "water: the factor of safety takes no pore water yet: while strength falls, none would flow; "
+           "water: the factor of safety takes no pore water yet: no water would flow while strength falls; "
            "leave out 'water'"});
     if (faults.empty() && !has_strength)
       faults.push_back(

@@ -89,7 +89,7 @@ struct Case {
   std::vector<Monitor> monitors;
   std::vector<Profile> profiles;
   std::filesystem::path
-      start_from;  ///< result directory of the run whose end this one starts from; empty: none
+      start_from;  ///< result directory of the run whose end this one starts from; empty: it starts by itself
   std::vector<std::string> table;  ///< monitors and built-in values shown at the end
   int output_every = 1;            ///< steps between two .vtu files
   bool output_points = true;       ///< whether there is one of the integration points beside each

@@ -8,7 +8,7 @@ namespace polargrain::coupler {
 /// @param entry null: a Cosserat continuum without spread slips
 void read_continuum(const Entry* entry, const Entry& document, CaseParts& parts);
 
-/// Behind the materials: each must take spread slips or have none, and one must have them.
+/// Behind the materials: each must take spread slips or be without slips, and one must have them.
 void check_spread_slips(const Entry& entry, CaseParts& parts);
 
 }  // namespace polargrain::coupler

@@ -71,7 +71,7 @@ std::vector<std::vector<double>> places_on(Section& section, CaseParts& parts) {
   return places;
 }
 
-/// A name of place_values; a fault at the key where there is none.
+/// A name of place_values; a fault at the key where the name is unknown.
 PlaceValue value_of(Section& section, const std::string& key, const std::string& name, CaseParts& parts) {
   const int dimension = parts.result.dimension();
   if (const PlaceValue* const value = place_value(name, dimension)) return *value;

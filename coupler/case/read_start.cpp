@@ -49,7 +49,7 @@ void check_materials(const Entry& start, const CaseIdentity& before, const CaseI
           model_before, run));
     } else if (!can_be_taken_over(model)) {
       fault(fmt::format(
-          "states of model '{}' cannot be taken over yet; those of elastic, elastoplastic and cell can",
+          "states of model '{}' cannot be taken over yet; states of elastic, elastoplastic and cell can",
           model));
     } else if (value_of(now.files, key + "packing") != value_of(before.files, key_before + "packing")) {
       fault(fmt::format("its boxes are of another packing in '{}'; name the packing of that run", run));

@@ -113,7 +113,7 @@ fem::PrescribedField<dim> given_pressure(const fem::TimeTable& value, std::optio
   return given;
 }
 
-/// Whether water flows anywhere. Where none does, all boundaries are closed.
+/// Whether water flows anywhere. If not, all boundaries are closed.
 bool flows(const WaterOfCase& water) {
   return std::ranges::any_of(water.regions, [](const auto& region) { return !region.second.undrained; });
 }

@@ -6,7 +6,7 @@
 
 namespace polargrain::fem {
 
-/// The places that the point of an element stands for (ElementType::averaged); none of elements with points of their own.
+/// The places that the point of an element stands for (ElementType::averaged); empty for elements with points of their own.
 /// @param nodes positions, a row a node
 template <int dim>
 std::vector<PointGeometry<dim>> averaged_places(const ElementType<dim>& type, const VectorRows<dim>& nodes);

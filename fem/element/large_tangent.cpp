@@ -114,7 +114,7 @@ Eigen::VectorXd change_of_shape(const PointGeometry<2>& end, const Eigen::Matrix
 }
 
 /// For a unit value of one displacement of node `a`, over the volume of the point.
-/// @param places that the point stands for; none: itself
+/// @param places that the point stands for; empty: itself
 template <int dim>
 Eigen::VectorXd change_of_shape(const PointGeometry<dim>& end, std::span<const PointGeometry<dim>> places,
                                 Eigen::Index a, Eigen::Index component,

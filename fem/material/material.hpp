@@ -94,7 +94,7 @@ class Material {
     throw RunError("this material cannot be read from a checkpoint");
   }
 
-  /// Takes states over from the archive of save of a material with points elsewhere: that of a run on another mesh.
+  /// Takes states over from the archive of save of a material with points elsewhere, of a run on another mesh.
   /// @param count of its points @param means of them, one for each point of this material
   /// @throws RunError when the archive holds something else, or this material cannot do it.
   virtual TakenOver take_over(ArchiveReader& archive, std::size_t count, std::span<const PointMean> means) {

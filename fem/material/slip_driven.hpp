@@ -28,7 +28,7 @@ class SlipDriven {
   virtual void set_slips(std::span<const double> increments) = 0;
   /// Of the last evaluation; behind commit and revert of the committed state. One a point.
   [[nodiscard]] virtual std::span<const SlipAnswer<dim>> slip_answers() const = 0;
-  /// -d drive / d slip of a law without hardening, Pa: what overstresses are measured by.
+  /// -d drive / d slip of a law without hardening, Pa: overstresses are measured by it.
   [[nodiscard]] virtual double slip_stiffness() const = 0;
 };
 

@@ -20,7 +20,7 @@ double outside_of(const ElementType<dim>& type, const typename Cosserat<dim>::Pl
   return std::max({-triangle.minCoeff(), triangle.sum() - 1.0, std::abs(reference(dim - 1)) - 1.0});
 }
 
-/// Newton's iteration for the reference coordinates of a place; nothing where it finds none.
+/// Newton's iteration for the reference coordinates of a place; nothing where it does not converge.
 template <int dim>
 std::optional<typename Cosserat<dim>::Place> reference_of(const ElementType<dim>& type,
                                                           const VectorRows<dim>& nodes,

@@ -23,7 +23,7 @@ struct NodalField {
   double tolerance = 1e-8;
   std::vector<double> initial = {};  ///< values at time 0, one a node of `nodes`; zero when empty
   bool tied = false;                 ///< whether a Tie joins its values too
-  /// Elements of the mesh whose corners carry it. A node is no unknown in a stage that has none of its elements; it keeps its last
+  /// Elements of the mesh whose corners carry it. A node is no unknown in a stage without its elements; it keeps its last
   /// value. Empty: every node is one in every stage.
   std::vector<int> elements = {};
 };

@@ -25,8 +25,8 @@ struct TrueMasses {
   double seconds = 0.0;    ///< safety times the critical step
 };
 
-/// Square of how fast each element would swing if it were made of one and the same material, in the shape that it has now: what
-/// the shape does to a stable time step. 0 for elements that are not there.
+/// Square of how fast each element would swing if it were made of one and the same material, in the shape that it has now: the
+/// effect of the shape on a stable time step. 0 for elements that are not there.
 template <int dim>
 std::vector<double> swings_of_shapes(const Discretisation<dim>& discretisation);
 

@@ -11,7 +11,7 @@
 namespace polargrain::fem {
 namespace {
 
-/// Young's modulus (plane strain: that of bending, E / (1 - nu^2)) of a tangent taken as isotropic, Pa.
+/// Young's modulus (plane strain: the modulus of bending, E / (1 - nu^2)) of a tangent taken as isotropic, Pa.
 template <int dim>
 double bending_modulus(const typename Cosserat<dim>::Matrix& tangent) {
   using Counts = Cosserat<dim>;

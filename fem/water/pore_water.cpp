@@ -343,7 +343,7 @@ std::vector<std::string> PoreWater<dim>::faults(const Problem<dim>& problem) con
     if (const auto life = problem.lifetimes.find(region);
         life != problem.lifetimes.end() && life->second.begin > 0)
       messages.push_back(fmt::format(
-          "'{}' comes in a later stage: what comes is dry; name the regions with water, without it", region));
+          "'{}' comes in a later stage and is then dry; name the regions with water, without it", region));
     bool twice = false;
     for (const int e : elements->second) {
       twice = !wet.insert(e).second || twice;

@@ -46,7 +46,7 @@ inline constexpr const char* kPorePressure = "pore_pressure";
 /// Saturated pores that water flows through (Biot): the stress of the mesh is the effective one, the total one less p on the
 /// normal stresses. Displacements are quadratic, p is linear on the same elements (Taylor and Hood); boundaries are closed
 /// where nothing is said. In large
-/// deformation on the moved mesh, fluxes through the undeformed areas. Regions with water may go in a stage, and their fluxes with them; what comes is dry. docs/theory/water.md
+/// deformation on the moved mesh, fluxes through the undeformed areas. Regions with water may go in a stage, and their fluxes with them; regions that come are dry. docs/theory/water.md
 template <int dim>
 class PoreWater final : public Contribution<dim> {
  public:
@@ -150,7 +150,7 @@ class PoreWater final : public Contribution<dim> {
   Eigen::VectorXd trial_outflow_;
   double duration_ = 0.0;  ///< of the last evaluation
   double change_ = 0.0;    ///< largest one of a pressure, of the last evaluation
-  double longest_ = 0.0;   ///< longest_step() by the last committed step; 0: there is none in this stage
+  double longest_ = 0.0;   ///< longest_step() by the last committed step; 0: no committed step in this stage
   double least_pressure_ = 0.0;  ///< of the last evaluation
   bool told_of_suction_ = false;
   bool tells_of_suction_ = false;
@@ -163,7 +163,7 @@ std::shared_ptr<PoreWater<dim>> add_pore_water(Problem<dim>& problem,
                                                std::map<std::string, WaterOfRegion> regions,
                                                const PoreWaterOptions& options);
 
-/// The water of a problem; null where it has none.
+/// The water of a problem; null without water.
 template <int dim>
 const PoreWater<dim>* pore_water_of(const Problem<dim>& problem);
 

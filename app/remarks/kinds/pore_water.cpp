@@ -83,7 +83,7 @@ class Look {
           "give the height of the water, 'level', and the saturated weight; or the submerged weight, some 10 kN/m3");
     } else if (!heavy && water_.options().table) {
       add(Rank::doubtful, 2.0, {"water", "level"},
-          "water: 'level' gives the water its weight, and the ground has none",
+          "water: 'level' gives the water its weight, and the ground has no weight",
           "give the saturated weight below 'body', or leave out 'level'");
     }
   }
