@@ -49,11 +49,13 @@ std::string where(const fem::Trouble& trouble, const fem::Mesh<dim>& mesh) {
   double share = 0.0;
   for (const fem::Trouble::Node& node : trouble.nodes) {
     const Lines places = places_of(mesh, node.number);
-    nodes.push_back(fmt::format("{}{}{}, of {} {}",
-                                at<dim>(mesh.nodes[static_cast<std::size_t>(node.number)]),
-                                places.empty() ? "" : " on ", fmt::join(places, " and "),
-                                elements_at(mesh, node.number).size() == 1 ? "element" : "elements",
-                                fmt::join(elements_at(mesh, node.number), ", ")));
+    const Lines elements = elements_at(mesh, node.number);
+    std::string of;
+    if (!elements.empty())  // nodes of beams and rigid walls have no element
+      of =
+          fmt::format(", of {} {}", elements.size() == 1 ? "element" : "elements", fmt::join(elements, ", "));
+    nodes.push_back(fmt::format("{}{}{}{}", at<dim>(mesh.nodes[static_cast<std::size_t>(node.number)]),
+                                places.empty() ? "" : " on ", fmt::join(places, " and "), of));
     share += node.share;
   }
   if (nodes.empty()) return {};

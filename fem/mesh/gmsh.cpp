@@ -366,9 +366,7 @@ template Mesh<2> read_gmsh<2>(const std::filesystem::path& file, std::string_vie
                               const std::vector<std::filesystem::path>& module_places);
 template Mesh<3> read_gmsh<3>(const std::filesystem::path& file, std::string_view chosen,
                               const std::vector<std::filesystem::path>& module_places);
-template Mesh<2> mesh_of<2>(const std::filesystem::path& file, GmshContent content,
-                            std::string_view chosen);
-template Mesh<3> mesh_of<3>(const std::filesystem::path& file, GmshContent content,
-                            std::string_view chosen);
+template Mesh<2> mesh_of<2>(const std::filesystem::path& file, GmshContent content, std::string_view chosen);
+template Mesh<3> mesh_of<3>(const std::filesystem::path& file, GmshContent content, std::string_view chosen);
 
 }  // namespace polargrain::fem

@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:18: steps: unknown key 'tolerence'; did you mean 'tolerance'?"},
         BadInput{
             "UnknownKeyFarFromAll", "  count: 4", "  count: 4\n  colour: red",
-            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, duration, method, cut, iterations, "
+            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, duration, first, method, cut, iterations, "
             "tolerance, moment_tolerance, noise, jumps, jump_residual, acceleration, largest_strain, line_search"},
         BadInput{"KeyByItsMeaning", "  count: 4", "  count: 4\n  tol: 1e-3",
                  "case.yaml:18: steps: unknown key 'tol'; did you mean 'tolerance'?"},
@@ -221,7 +221,8 @@ INSTANTIATE_TEST_SUITE_P(
             "case.yaml:7: materials: Gc is zero everywhere and no boundary fixes w, so nothing holds the "
             "micro-rotations; set 'continuum: cauchy', give Gc, or fix w"},
         BadInput{"UndampedBeyondOne", "lc: 10 mm", "lc: 10 mm, damping: 1.5",
-                 "case.yaml:7: material 'sand': damping: must be below 1, found '"},
+                 "case.yaml:7: material 'sand': damping: must be below 1, found '1.5': grains would creep "
+                 "to where they rest"},
         BadInput{"UnknownControlOfRotations", "lc: 10 mm", "lc: 10 mm, rotations: fixed",
                  "case.yaml:7: material 'sand': rotations: expected one of free, controlled, found 'fixed'"},
         BadInput{"CosseratPartTwice", "G: 40 MPa, Gc: 10 MPa, lc: 10 mm", "rotations: controlled, Gc: 10 MPa",
@@ -261,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{
             "BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
             "case.yaml:14: boundary item 3: has no support and no load; give fix, move, accelerate, pressure, traction, "
-            "node_force, tie or quiet"},
+            "node_force, tie or quiet, and with water drained, pore_pressure, water_level or flux"},
         BadInput{
             "TieToNothing", "on: top, move: {u2: -4 mm}", "on: left, tie: rihgt",
             "case.yaml:14: boundary item 3: tie: the mesh has no boundary or node set 'rihgt'; it has bottom, left, "
@@ -284,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(
             "MonitorOfNothing", "reaction: u2", "strain: u2",
             "case.yaml:20: monitor 'top_force': expected either 'reaction' or 'displacement', each one "
             "of u1, u2, w, or a formula\n"
-            "case.yaml:20: monitor 'top_force': unknown key 'strain'; known keys are interface, beam, anchor, on, reaction, "
+            "case.yaml:20: monitor 'top_force': unknown key 'strain'; known keys are interface, beam, anchor, at, water, on, reaction, "
             "displacement"},
         BadInput{
             "UnknownTableColumn", "table: [stress_ratio]", "table: [stress_ration]",

@@ -49,7 +49,10 @@ TEST_P(EveryElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
   for (const Eigen::Vector2d& place :
        std::vector<Eigen::Vector2d>{{0.3, 0.2}, {2.0, 1.0}, {0.0, 0.0}, {3.9, 2.95}, {1.7, 2.0}}) {
     const Vector7 stress = stress_at(solver, find_place(solver.problem().mesh, place));
-    const double vertical = -(10e3 + kWeight * (3.0 - place.y()));
+    // An element with one point has the stress of its middle everywhere.
+    const double height = GetParam() == "Q4R" ? std::floor(place.y()) + 0.5 : place.y();
+    if (GetParam() == "Q4R" && place.y() == std::floor(place.y())) continue;  // between two of them
+    const double vertical = -(10e3 + kWeight * (3.0 - height));
     EXPECT_NEAR(stress(k22), vertical, 1e-6) << place.transpose();
     EXPECT_NEAR(stress(k11), 0.5 * vertical, 1e-6);
   }

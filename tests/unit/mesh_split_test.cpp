@@ -76,7 +76,7 @@ TEST_P(EveryPlaneElement, a_curve_through_the_body_parts_it_in_two) {
   EXPECT_EQ(mesh.nodes.size(), before + on_curve);
   EXPECT_EQ(parts(mesh), 2u);
   EXPECT_EQ(mesh.nodes_on("joint").size(), 2 * on_curve);
-  EXPECT_EQ(mesh.nodes_on("left").size(), (GetParam() == "Q4" ? 5u : 9u) + 1u) << "both copies";
+  EXPECT_EQ(mesh.nodes_on("left").size(), (GetParam().starts_with("Q4") ? 5u : 9u) + 1u) << "both copies";
   expect_pairs_at_one_place(mesh, curves[0]);
   EXPECT_TRUE(distorted_elements(mesh).empty());
 }
