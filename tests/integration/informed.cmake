@@ -8,6 +8,10 @@ if(TARGET polargrain)
   target_compile_definitions(informed_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                           POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
   add_dependencies(informed_engine_test polargrain)
+  polargrain_test(water_engine_test integration integration/water_engine_test.cpp LIBS polargrain_coupler)
+  target_compile_definitions(water_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
+                                                       POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  add_dependencies(water_engine_test polargrain)
   polargrain_test(large_engine_test integration integration/large_engine_test.cpp LIBS polargrain_coupler)
   target_compile_definitions(large_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
                                                        POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
