@@ -8,7 +8,7 @@
 namespace polargrain::band {
 
 inline constexpr double kHalfMaximumWidth = 2.354820045;  // of a Gaussian, in standard deviations
-/// Of a profile: more has only what lies in few places far from each other.
+/// Of a profile. A profile with more values has its samples in few places far from each other.
 inline constexpr double kMostValues = 1e5;
 
 /// Sizes that the search goes by.

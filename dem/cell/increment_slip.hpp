@@ -18,7 +18,7 @@ struct SpaceSlip {
 };
 
 /// Part of an elastic spring that answers along the way on which it has given way by `slip` and then, by `unloaded`, come
-/// back from its limit: of a change of the whole way only what falls on its last piece. 1 without slip, 0 at the limit.
+/// back from its limit: the share of its last piece in a change of the whole way. 1 without slip, 0 at the limit.
 double spring_left_along(double slip, double unloaded);
 
 /// Part of it that answers across that way: while it slides, the spring turns towards the way with the length `limit`

@@ -12,9 +12,9 @@
 
 namespace polargrain::dem {
 
-/// Any combination of contact models of the engine between grains of a cell. It shows them the spins that the
-/// curvature of the cell makes of those of the grains, and it has an ear: while the recorder is on, every contact
-/// is taken down after all models have had their say. Without either it costs two predictable branches a contact.
+/// Any combination of contact models of the engine between grains of a cell. It adds the
+/// curvature of the cell to the spins of the grains that the models see. While the recorder is on, it writes down every
+/// contact after all models have added their forces. Without either it costs two predictable branches a contact.
 template <typename Model>
 class RecordedModel : public Model {
  public:

@@ -211,7 +211,7 @@ class Solver {
   StepReport equilibrate();
   /// Goes over to a stage of construction: regions come and go, supports and loads begin and end (Lifetime). Nothing moves;
   /// the forces of all that changes are held back, and steps let them go.
-  /// @throws RunError when what is there then cannot be computed
+  /// @throws RunError when the elements of the stage cannot be computed
   void begin_stage(int stage);
   /// After restore, where materials answer otherwise than those that were saved: evaluates them where they are, and lets go
   /// the imbalance in shares as equilibrate does. Not converged where no balance is found.
