@@ -7,9 +7,14 @@
 
 #include "common/packed_values.hpp"
 #include "fem/solver/discretisation.hpp"
+#include "fem/solver/solver.hpp"
 
 namespace polargrain::fem {
 namespace {
+
+/// Part of the elastic energy of the deformation in the patterns; two elements through a bent plate have a quarter, four 6 %.
+constexpr double kNoticeable = 0.1;
+constexpr double kRounding = 1e-10;  ///< strains of a body that nothing has moved
 
 /// Young's modulus (plane strain: the modulus of bending, E / (1 - nu^2)) of a tangent taken as isotropic, Pa.
 template <int dim>
@@ -106,6 +111,32 @@ std::string Stabilisation<dim>::evaluate(const NodalStep& step, NodalForces& for
   return {};
 }
 
+// Both parts are energies of elastic elements, whatever the material has become: this is a statement on the deformation.
+template <int dim>
+std::string Stabilisation<dim>::doubt(const Solver<dim>& solver) const {
+  double seen = 0.0;
+  double at_rest = 0.0;  // of strains that are rounding alone
+  std::size_t point = 0;
+  for (const OfElement& element : elements_) {
+    while (solver.element_of_point(point) != element.number) ++point;
+    typename Cosserat<dim>::Gradient strain;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        strain(i, j) = solver.state().strain[point](Cosserat<dim>::stress_place(i, j));
+    const double stiffness = 0.5 * element.displacement_modulus / share_ * solver.volume_of_point(point);
+    seen += stiffness * (0.5 * (strain + strain.transpose())).squaredNorm();
+    at_rest += stiffness * kRounding * kRounding;
+  }
+  const double unseen = energy_ / share_;
+  const double part = unseen / (seen + unseen);
+  if (unseen <= at_rest || part <= kNoticeable) return {};
+  return fmt::format(
+      "{:.0f} % of the deformation, by its elastic energy, are patterns that the points of elements with one point do "
+      "not see: springs resist these with {:.0f} % of the stiffness, so the body is too soft. Take more elements over "
+      "the thickness that bends, or elements with more points",
+      100.0 * part, 100.0 * share_);
+}
+
 template <int dim>
 Eigen::MatrixXd Stabilisation<dim>::tangent(std::size_t number) const {
   const OfElement& element = elements_[number];
@@ -141,7 +172,17 @@ void Stabilisation<dim>::restore(ArchiveReader& archive) {
   }
 }
 
+template <int dim>
+std::string doubt_of_one_point_elements(const Solver<dim>& solver) {
+  for (const auto& contribution : solver.problem().contributions)
+    if (const auto* const springs = dynamic_cast<const Stabilisation<dim>*>(contribution.get()))
+      return springs->doubt(solver);
+  return {};
+}
+
 template class Stabilisation<2>;
 template class Stabilisation<3>;
+template std::string doubt_of_one_point_elements<2>(const Solver<2>& solver);
+template std::string doubt_of_one_point_elements<3>(const Solver<3>& solver);
 
 }  // namespace polargrain::fem

@@ -9,6 +9,9 @@
 
 namespace polargrain::fem {
 
+template <int dim>
+class Solver;
+
 /// Springs against the hourglass patterns of elements with one integration point (hourglass.hpp), of displacements and of
 /// micro-rotations. Their energy is a square of nodal values counted from the mesh as it was made, so that rigid turns of any
 /// size leave it alone, and no state is needed. Their stiffness is a share of the tangent that the element has first.
@@ -30,6 +33,9 @@ class Stabilisation final : public Contribution<dim> {
   void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed) override;
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t element) const override;
+  /// Where springs hold a noticeable part of the deformation, with their small share of its stiffness, as where few elements bend:
+  /// the message for the user, empty elsewhere. @param solver of a problem that these springs are in
+  [[nodiscard]] std::string doubt(const Solver<dim>& solver) const;
   void commit() override { energy_ = trial_energy_; }
   void revert() override {}
   void save(ArchiveWriter& archive) const override;
@@ -55,5 +61,9 @@ class Stabilisation final : public Contribution<dim> {
   double energy_ = 0.0;        ///< J, committed
   double trial_energy_ = 0.0;  ///< of the last evaluation
 };
+
+/// Stabilisation::doubt of the springs of a problem; empty without springs.
+template <int dim>
+std::string doubt_of_one_point_elements(const Solver<dim>& solver);
 
 }  // namespace polargrain::fem

@@ -82,7 +82,7 @@ TEST(OnePoint, LeavesTheRigidMotionsAlone) {
 }
 
 /// A classical cantilever of length 4 and height 1 under a shear traction at its end: deflection of the end's middle.
-double deflection(const std::string& element, int high) {
+double deflection(const std::string& element, int high, std::string* doubt = nullptr) {
   Problem<3> problem;
   problem.mesh = box({{4.0, 1.0, 1.0}, {4 * high, high, high}}, element);
   problem.continuum = Continuum::cauchy;
@@ -98,6 +98,7 @@ double deflection(const std::string& element, int high) {
   EXPECT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_TRUE(report.converged) << report.message;
+  if (doubt != nullptr) *doubt = doubt_of_one_point_elements(solver);
   double sum = 0.0;
   for (const int node : end) sum += solver.state().displacement(entry_of<3>(node, Dof::u3));
   return sum / static_cast<double>(end.size());
@@ -283,6 +284,19 @@ TEST(OnePoint, BendsACantilever) {
   EXPECT_NEAR(deflection("H8", 2) / timoshenko, 0.9585, 1e-4);
   EXPECT_NEAR(deflection("H8R", 2) / timoshenko, 1.2434, 1e-4);
   EXPECT_NEAR(deflection("H8R", 4) / timoshenko, 1.0364, 1e-4);
+}
+
+// Of the energy of bending, N elements over the height leave 1 / N^2 to the springs: all of it, a quarter, a sixteenth.
+TEST(OnePoint, DoubtsABentPlateOfFewElements) {
+  std::string doubt;
+  deflection("H8R", 1, &doubt);
+  EXPECT_EQ(doubt.substr(0, 6), "100 % ") << doubt;
+  deflection("H8R", 2, &doubt);
+  EXPECT_EQ(doubt.substr(0, 5), "25 % ") << doubt;
+  deflection("H8R", 4, &doubt);
+  EXPECT_EQ(doubt, "");
+  deflection("H20R", 1, &doubt);
+  EXPECT_EQ(doubt, "");
 }
 
 // Means of gradients change otherwise than gradients do.
