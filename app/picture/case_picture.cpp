@@ -2,6 +2,7 @@
 #include "app/picture/case_picture.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -34,13 +35,18 @@ double extent_of(const fem::Mesh<3>& mesh, const std::string& name) {
 template <int dim>
 std::string places_table(const fem::Mesh<dim>& mesh, const std::vector<PlaceConditions<dim>>& places) {
   std::vector<TableRow> rows;
-  const auto or_free = [](const std::string& words) { return words.empty() ? std::string("free") : words; };
+  const auto support_of = [](const PlaceConditions<dim>& place) {
+    if (!place.supports.empty()) return place.supports;
+    if (place.elsewhere.empty()) return std::string("free");
+    return fmt::format("{} {}", place.all_elsewhere ? "see" : "free but for",
+                       fmt::join(place.elsewhere, ", "));
+  };
   const auto or_nothing = [](const std::string& words) { return words.empty() ? std::string("-") : words; };
   for (const PlaceConditions<dim>& place : places)
     rows.push_back(
         {{place.name,
           place.is_boundary ? fmt::format("{:.4g}", extent_of(mesh, place.name)) : std::string("nodes"),
-          fmt::format("{}", place.nodes.size()), or_free(place.supports), or_nothing(place.loads_at_start),
+          fmt::format("{}", place.nodes.size()), support_of(place), or_nothing(place.loads_at_start),
           or_nothing(place.loads_at_end)},
          place.is_free() ? "front" : ""});
   if (const double extent = extent_of(mesh, ""); extent > 0.0)

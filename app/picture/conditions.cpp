@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "app/remarks/in_units.hpp"
 
@@ -74,6 +78,32 @@ void add_load(PlaceConditions<dim>& place, const fem::NodeLoad& load, double tim
   add(words, fmt::format("force {} of {:.4g} {} at each node", fem::name_of<dim>(load.dof), value, kForce));
 }
 
+/// Looks for the sides of places without conditions in places that have some: 'bottom_patch' is held where 'bottom' is.
+template <int dim>
+void find_elsewhere(const fem::Mesh<dim>& mesh, std::vector<PlaceConditions<dim>>& places) {
+  using Side = std::pair<int, int>;
+  std::map<std::string, std::set<Side>> sides_with_conditions;
+  for (const PlaceConditions<dim>& place : places)
+    if (place.is_boundary && place.has_conditions())
+      for (const fem::BoundarySide& side : mesh.boundaries.at(place.name))
+        sides_with_conditions[place.name].insert({side.element, side.side});
+  for (PlaceConditions<dim>& place : places) {
+    if (!place.is_boundary || place.has_conditions()) continue;
+    std::set<Side> left;
+    for (const fem::BoundarySide& side : mesh.boundaries.at(place.name))
+      left.insert({side.element, side.side});
+    const std::set<Side> own = left;
+    for (const auto& [name, sides] : sides_with_conditions) {
+      std::set<Side> shared;
+      std::ranges::set_intersection(own, sides, std::inserter(shared, shared.end()));
+      if (shared.empty()) continue;
+      place.elsewhere.push_back(name);
+      for (const Side& side : shared) left.erase(side);
+    }
+    place.all_elsewhere = left.empty();
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -109,6 +139,7 @@ std::vector<PlaceConditions<dim>> conditions_of(const fem::Problem<dim>& problem
     if (!place.tied_to.empty()) add(place.supports, fmt::format("moves as '{}'", place.tied_to));
     places.push_back(std::move(place));
   }
+  find_elsewhere(problem.mesh, places);
   return places;
 }
 

@@ -27,9 +27,14 @@ struct PlaceConditions {
   std::string supports;                ///< in words
   std::string loads_at_start;          ///< in words
   std::string loads_at_end;            ///< in words
-  /// Neither support, movement, load nor tie.
-  [[nodiscard]] bool is_free() const {
-    return supports.empty() && loads_at_start.empty() && loads_at_end.empty() && tied_to.empty();
+  std::vector<std::string>
+      elsewhere;               ///< places with conditions that have sides of this one, which has no condition
+  bool all_elsewhere = false;  ///< they have all of its sides
+  /// Neither support, movement, load nor tie, under this name or others.
+  [[nodiscard]] bool is_free() const { return !has_conditions() && !all_elsewhere; }
+  /// Under this name.
+  [[nodiscard]] bool has_conditions() const {
+    return !(supports.empty() && loads_at_start.empty() && loads_at_end.empty() && tied_to.empty());
   }
 };
 

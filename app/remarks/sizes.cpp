@@ -19,8 +19,9 @@ constexpr double kStepsOfStrain = 120.0 / 1e-3;
 constexpr double kDefaultRate = 6e-4;
 constexpr double kSecondsOfDisc = 45e-9;
 constexpr double kSecondsOfSphere = 200e-9;
-/// Measured with 1,728 elements H20R of an elastic material, factors of the equations included.
-constexpr double kBytesOfElementInSpace = 1.5e6;
+/// Measured with H20R, H8 and H8R of an elastoplastic law, the solution of the equations included: 13 to 30 kB, directly and by
+/// iterations (bench/space_solve_bench.cpp).
+constexpr double kBytesOfUnknownInSpace = 25e3;
 
 std::string seconds(double s) {
   if (s < 120.0) return fmt::format("{:.0f} s", std::max(1.0, s));
@@ -112,13 +113,15 @@ std::string sizes_text(const Scene& scene) {
   if (scene.dimension() == 3) {
     std::size_t points = 0;
     std::size_t cells = 0;
+    const std::size_t nodes =
+        scene.with_problem([](const auto& problem) { return problem.mesh.nodes.size(); });
     for (const SceneRegion& region : scene.regions()) {
       points += scene.points_of(region);
       if (region.cell != nullptr) cells += scene.points_of(region);
     }
     text +=
         fmt::format("{} points, of which {} have boxes of grains; some {:.2g} GB for the elements\n", points,
-                    cells, 1e-9 * kBytesOfElementInSpace * static_cast<double>(scene.body().elements.size()));
+                    cells, 1e-9 * kBytesOfUnknownInSpace * Cosserat<3>::dofs * static_cast<double>(nodes));
   }
   return text;
 }

@@ -35,6 +35,7 @@
 #include "coupler/replay/replay.hpp"
 #include "fem/solver/automatic.hpp"
 #include "fem/solver/explicit_rate.hpp"
+#include "fem/solver/stabilisation.hpp"
 #include "fem/spread/spread_slip.hpp"
 
 namespace polargrain::app {
@@ -201,6 +202,7 @@ class Run {
                         "agitation too (hot_points in history.csv)",
                         100.0 * report.quasi_static.hot_points));
       if (!left_out_) left_out_ = warn_if(solver_->left_out());
+      if (!doubt_) doubt_ = warn_if(fem::doubt_of_one_point_elements(*solver_));
       if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
       observer_.end_step(report.time);
@@ -513,6 +515,7 @@ class Run {
   int step_ = 0;                       ///< that is taken now
   bool hot_ = false;                   ///< it was said that boxes do not come to rest
   bool left_out_ = false;              ///< it was said what small deformation leaves out
+  bool doubt_ = false;                 ///< it was said that one-point elements are too soft
   bool soft_contacts_ = false;         ///< it was said that contacts are soft for the stress
   coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;

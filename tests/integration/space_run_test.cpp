@@ -255,6 +255,27 @@ TEST_F(SpaceRun, ThePictureShowsFacesAndConditions) {
   EXPECT_NE(page.find("pressure 100 kPa"), std::string::npos);
 }
 
+// 'left_patch' is held where 'left' is: only places whose sides are free under all names are told to be free.
+TEST_F(SpaceRun, ThePictureKnowsConditionsUnderOtherNames) {
+  write(folder() / "case.yaml", R"(title: Parts of faces
+mesh: {box: {size: [1 m, 1 m, 1 m], elements: [2, 2, 2], patch: [0.5 m, 0.5 m, 1 m]}}
+materials: {soil: {model: elastic, E: 50 MPa, nu: 0.25, Gc: 20 MPa, lc: 5 mm}}
+regions: {patch: soil, rest: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2, u3]}
+  - {on: top_patch, move: {u3: -2 mm}}
+  - {on: top_rest, pressure: 20 kPa}
+  - {on: left_patch, pressure: 20 kPa}
+steps: {count: 1}
+)");
+  const Outcome check = run_in(folder(), kProgram + " check case.yaml --picture picture.html");
+  ASSERT_EQ(check.status, 0) << check.errors;
+  const std::string page = content(folder() / "picture.html");
+  for (const char* const words : {">see bottom<", ">see top_patch, top_rest<", ">free but for left_patch<"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_NE(page.find("#222'>bottom_patch</text>"), std::string::npos);  // in the colour of what is not free
+}
+
 // One element of boxes of spheres: the same bytes with one and two workers, and for a run that was killed.
 TEST_F(SpaceRun, BoxesOfSpheresGiveTheSameBytes) {
   make_spheres(folder());
