@@ -44,6 +44,11 @@ std::vector<std::vector<double>> places_between(Section& section, CaseParts& par
   const std::vector<double> to = read_place(section, "to", parts);
   const int points = section.whole_or("points", 2, 51);
   std::vector<std::vector<double>> places{from};
+  if (from == to)
+    section.fault(
+        "to",
+        "to: the same place as 'from'; give the other end of the line, or read one place by a monitor "
+        "with 'at'");
   if (points > kMostPoints) {
     section.fault("points", fmt::format("points: at most {}", kMostPoints));
     return places;

@@ -57,6 +57,24 @@ void check_materials(const Entry& start, const CaseIdentity& before, const CaseI
   }
 }
 
+/// Pore pressures carry a share of the loads: they neither vanish nor appear.
+void check_water(const Entry& start, const CaseIdentity& before, const CaseIdentity& now,
+                 const std::string& run, CaseParts& parts) {
+  const auto has_water = [](const CaseIdentity& identity) {
+    return std::ranges::any_of(identity.values,
+                               [](const auto& value) { return value.first.starts_with("water."); });
+  };
+  if (has_water(before) == has_water(now)) return;
+  parts.faults.push_back(start.fault(
+      has_water(now)
+          ? fmt::format("start_from: '{}' has no pore water to start with; give 'water' to that run, or "
+                        "leave it out here",
+                        run)
+          : fmt::format("start_from: '{}' has pore water, and its pressures would be lost; give this "
+                        "case 'water' too",
+                        run)));
+}
+
 }  // namespace
 
 void read_start(Section& top, CaseParts& parts) {
@@ -86,7 +104,9 @@ void read_start(Section& top, CaseParts& parts) {
   try {
     const Checkpoint end = read_checkpoint(directory / "checkpoint.h5");
     if (end.step < 1) fault(fmt::format("'{}' has taken no step yet; run it to its end", name));
-    check_materials(start, end.identity, identity_of(top.entry(), parts.directory), name, parts);
+    const CaseIdentity now = identity_of(top.entry(), parts.directory);
+    check_materials(start, end.identity, now, name, parts);
+    check_water(start, end.identity, now, name, parts);
   } catch (const InputError& of_file) {
     fault(of_file.what());
   }

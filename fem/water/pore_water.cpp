@@ -17,6 +17,14 @@ double porosity(double void_ratio) {
   return void_ratio / (1.0 + void_ratio);
 }
 
+/// det(1 + gradient) - 1 by the invariants: a difference of two volumes would leave no digit of small strains.
+template <int dim>
+double volume_change(const Eigen::Matrix<double, dim, dim>& gradient) {
+  const double trace = gradient.trace();
+  const double second = 0.5 * (trace * trace - (gradient * gradient).trace());
+  return trace + second + (dim == 3 ? gradient.determinant() : 0.0);
+}
+
 }  // namespace
 
 template <int dim>
@@ -210,17 +218,19 @@ Eigen::VectorXd PoreWater<dim>::squeeze(ElementOfWater& element, const NodalStep
   // Water flows and is stored where the step begins, pushes where it ends, and leaves what has gone of the volume.
   place(element, positions(element, step.start));
   refresh(element);
-  std::vector<double> before;
-  for (const Point& point : element.points) before.push_back(point.volume);
-  place(element, positions(element, step.start + step.increment));
   Eigen::VectorXd squeezed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(element.pressed.size()));
+  const Eigen::VectorXd moved = step.increment(element.moved);
   const Eigen::VectorXd pressures = step.end(element.pressed);
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    Point& point = element.points[i];
-    squeezed += (point.volume - before[i]) * point.shape.value;
-    point.trial_void_ratio = (1.0 + point.void_ratio) * point.volume / before[i] - 1.0;
+  for (Point& point : element.points) {
+    const Eigen::Matrix<double, dim, dim> gradient =
+        moved.reshaped(dim, element.type->nodes) *
+        point.divergence.reshaped(dim, element.type->nodes).transpose();
+    const double change = volume_change<dim>(gradient);
+    squeezed += point.volume * change * point.shape.value;
+    point.trial_void_ratio = point.void_ratio + (1.0 + point.void_ratio) * change;
     point.trial_pressure = point.shape.value.dot(pressures);
   }
+  place(element, positions(element, step.start + step.increment));
   return squeezed;
 }
 

@@ -86,6 +86,10 @@ TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
   EXPECT_EQ(fault("from: [1 m, 0], to: [1 m, 1 m]", "from: [3 m, 0], to: [3 m, 1 m]"),
             "13: profile 'axis': no point of this line lies in the body; give 'from' and 'to' on the "
             "mesh as it is made");
+  EXPECT_EQ(
+      fault("to: [1 m, 1 m]", "to: [1 m, 0]"),
+      "13: profile 'axis': to: the same place as 'from'; give the other end of the line, or read one place by "
+      "a monitor with 'at'");
   EXPECT_NE(
       fault("values: [s22, u2]", "values: [s22, u4]").find("13: profile 'axis': values: expected one of u1"),
       std::string::npos);
@@ -121,6 +125,17 @@ TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
       "15: start_from: region 'all': 'first' has no region of this name; it has lower. Give the region a name of "
       "that run, or 'place' it in a stage");
   end_.identity.values = {{"materials.soil.model", "elastic"}, {"regions.all", "soil"}};
+  keep();
+  EXPECT_EQ(
+      fault("start_from: first\nsteps: {count: 1}",
+            "water: {undrained: true}\nstart_from: first\nsteps: {duration: 1 d, count: 1}"),
+      "16: start_from: 'first' has no pore water to start with; give 'water' to that run, or leave it out here");
+  end_.identity.values["water.undrained"] = "true";
+  keep();
+  EXPECT_EQ(
+      fault(),
+      "15: start_from: 'first' has pore water, and its pressures would be lost; give this case 'water' too");
+  end_.identity.values.erase("water.undrained");
   end_.step = 0;
   keep();
   EXPECT_EQ(fault(), "15: case: start_from: 'first' has taken no step yet; run it to its end");
