@@ -7,6 +7,10 @@ namespace polargrain::app {
 /// An element may be so many internal lengths wide where a band is to be resolved (docs/settings.md).
 inline constexpr double kMostElementOverLength = 2.5;
 inline constexpr double kMostLengthOverBody = 0.25;
+/// An element may be half as wide as slips are spread (tests/verification/spread_band_test.cpp).
+inline constexpr double kMostElementOverSpread = 0.5;
+/// Boundaries are mirrors: in a body of less than two spreads a band and its images overlap.
+inline constexpr double kMostSpreadOverBody = 0.5;
 inline constexpr double kMostPlasticOverLength = 10.0;
 /// Of the mean diameter of grains.
 inline constexpr double kLeastLengthOverGrain = 0.05;

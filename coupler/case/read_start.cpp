@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "coupler/case/parts.hpp"
+#include "coupler/case/quantity.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
 
 namespace polargrain::coupler {
@@ -96,6 +97,8 @@ void read_start(Section& top, CaseParts& parts) {
   }
   if (parts.result.is_explicit() || parts.result.is_automatic() || parts.result.real_time)
     fault("it begins with a balanced step; leave out 'method'");
+  if (parts.result.spread > 0.0)
+    fault("slips that are spread begin at zero and take no run over yet; leave out 'spread' or this key");
   parts.result.with_problem([&](const auto& problem) {
     if (!problem.initial_stresses.empty())
       fault("the run brings its stress; leave out 'initial_stress', or keep it and leave out this key");
@@ -104,6 +107,11 @@ void read_start(Section& top, CaseParts& parts) {
   try {
     const Checkpoint end = read_checkpoint(directory / "checkpoint.h5");
     if (end.step < 1) fault(fmt::format("'{}' has taken no step yet; run it to its end", name));
+    const auto spread = end.identity.values.find("continuum.spread");
+    if (spread != end.identity.values.end() &&
+        parse_quantity(spread->second, Dimension::length).value_or(0.0) > 0.0)
+      fault(fmt::format("'{}' spreads slips over {}, which no run takes over yet; take a run without spread",
+                        name, spread->second));
     const CaseIdentity now = identity_of(top.entry(), parts.directory);
     check_materials(start, end.identity, now, name, parts);
     check_water(start, end.identity, now, name, parts);

@@ -199,6 +199,46 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
     [](const auto& info) { return info.param.name; });
 
+/// Slips that are spread over twice an element; the strength falls from 42 to 30 degrees.
+const std::string kSpread = R"(title: Compression of a sand whose slips are spread
+continuum: {kind: cauchy, spread: 50 mm}
+mesh: {rectangle: {size: [0.2 m, 0.4 m], elements: [8, 16]}}
+materials:
+  sand: {model: elastoplastic, E: 30 MPa, nu: 0.3, confining: 100 kPa, friction_angle: [42 deg, 30 deg], dilatancy_angle: 10 deg, cohesion: 0.1 kPa}
+regions: {all: sand}
+boundary:
+  - {on: bottom, fix: [u2]}
+  - {on: bottom_left, fix: [u1]}
+  - {on: top, fix: [u1], move: {u2: -16 mm}}
+  - {on: [left, right], pressure: 100 kPa}
+steps: {count: 40}
+monitors: {top_force: {on: top, reaction: u2}}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    SpreadSlips, CarelessFeatures,
+    ::testing::Values(
+        Careless{"SpreadBelowTwoElements", kSpread, "spread: 50 mm", "spread: 40 mm",
+                 "the elements of region 'all' measure 25 mm, 0.625 times the spread (at most 0.5)",
+                 Rank::doubtful},
+        Careless{"SpreadInMicrometres", kSpread, "spread: 50 mm", "spread: 50 um", "500 times the spread",
+                 Rank::doubtful},
+        Careless{"SpreadWithoutUnit", kSpread, "spread: 50 mm", "spread: 50",
+                 "spread is 5e+04 mm, 125 times the larger side of the body (400 mm; at most 0.5)",
+                 Rank::wrong},
+        Careless{"SpreadInCentimetres", kSpread, "spread: 50 mm", "spread: 300 mm",
+                 "0.75 times the larger side of the body", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(SpreadSlips, OddFeatures,
+                         ::testing::Values(Careless{"OverTwoElements", kSpread, "", ""},
+                                           Careless{"NothingSoftens", kSpread, "[42 deg, 30 deg]", "42 deg"},
+                                           Careless{"ColumnOfOneRow",
+                                                    replaced(kSpread, "[0.2 m, 0.4 m], elements: [8, 16]",
+                                                             "[10 mm, 0.4 m], elements: [1, 40]"),
+                                                    "-16 mm", "-0.9 mm"}),
+                         [](const auto& info) { return info.param.name; });
+
 /// On 2 s of the column on a base that moves after quake.csv.
 app::Remarks remarks_on_motion_of(const Scratch& scratch) {
   write(scratch.path() / "case.yaml",
@@ -216,6 +256,16 @@ app::Remarks remarks_on_motion(int rows, double amplitude) {
     table += fmt::format("{},{}\n", 0.01 * row, amplitude * std::sin(0.12 * row));
   write(scratch.path() / "quake.csv", table);
   return remarks_on_motion_of(scratch);
+}
+
+TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
+  const Scratch scratch("careless_quiet");
+  write(scratch.path() / "case.yaml",
+        replaced(replaced(kColumn, "{on: bottom, fix: [u1, u2]}", "{on: bottom, fix: [u1, u2], quiet: true}"),
+                 "monitors:\n", "monitors:\n  base: {on: bottom, displacement: u1}\n"));
+  const app::Remarks remarks =
+      app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
+  EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
 }
 
 TEST(Motions, ThatGoOnBehindTheRunAreTold) {

@@ -97,6 +97,20 @@ TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
   EXPECT_NE(fault("on: top, values", "on: tap, values").find("14: profile 'trough': on"), std::string::npos);
 }
 
+TEST_F(ProfilesCase, SpreadSlipsTakeNoRunOver) {
+  const std::string strength = ", friction_angle: 40 deg, dilatancy_angle: 5 deg, cohesion: 1 kPa";
+  std::string text = kCase;
+  const auto change = [&](const std::string& good, const std::string& bad) {
+    text.replace(text.find(good), good.size(), bad);
+  };
+  change("continuum: cauchy", "continuum: {kind: cauchy, spread: 50 cm}");
+  change("model: elastic, E: 20 MPa, nu: 0.3", "model: elastoplastic, E: 20 MPa, nu: 0.3" + strength);
+  EXPECT_EQ(
+      fault(kCase, text),
+      "15: case: start_from: slips that are spread begin at zero and take no run over yet; leave out 'spread' "
+      "or this key");
+}
+
 TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
   EXPECT_EQ(
       fault("start_from: first", "start_from: frist"),
@@ -136,6 +150,13 @@ TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
       fault(),
       "15: start_from: 'first' has pore water, and its pressures would be lost; give this case 'water' too");
   end_.identity.values.erase("water.undrained");
+  end_.identity.values["continuum.spread"] = "50 mm";
+  keep();
+  EXPECT_EQ(
+      fault(),
+      "15: case: start_from: 'first' spreads slips over 50 mm, which no run takes over yet; take a run without "
+      "spread");
+  end_.identity.values.erase("continuum.spread");
   end_.step = 0;
   keep();
   EXPECT_EQ(fault(), "15: case: start_from: 'first' has taken no step yet; run it to its end");

@@ -76,9 +76,41 @@ void controlled_rotations(const Scene& scene, const SceneRegion& region, Remarks
        "smaller elements where bands are expected, or 'rotations: free' with an lc that the mesh resolves"});
 }
 
+/// Slips that are spread: bands have the width that is given only where elements and body leave room for it.
+void spread_of_slips(const Scene& scene, Remarks& remarks) {
+  const double spread = scene.the_case().spread;
+  if (spread <= 0.0) return;
+  const coupler::Entry& place = scene.place({"continuum", "spread"});
+  const double body = *std::ranges::max_element(scene.body().sides);  // a column may be one element wide
+  if (spread > kMostSpreadOverBody * body)
+    remarks.push_back(
+        {spread > body ? Rank::wrong : Rank::doubtful, spread / (kMostSpreadOverBody * body),
+         place.fault(fmt::format(
+             "continuum: spread is {:.3g} mm, {:.3g} times the larger side of the body ({:.3g} mm; "
+             "at most {:g}): slips are alike all over it, and no band has room",
+             1e3 * spread, spread / body, 1e3 * body, kMostSpreadOverBody)),
+         "give the width that bands of the sand have, some ten mean diameters of its grains; check its unit"});
+  for (const SceneRegion& region : scene.regions()) {
+    const double element = usual_element(scene, region);
+    const double ratio = element / spread;
+    constexpr double kRounding = 1.02;  // of a spread written with two digits
+    if (region.elements.size() == 1 || !softens(scene, region)) continue;
+    if (ratio <= kRounding * kMostElementOverSpread) continue;
+    remarks.push_back(
+        {Rank::doubtful, ratio / kMostElementOverSpread,
+         place.fault(fmt::format(
+             "continuum: the elements of region '{}' measure {:.3g} mm, {:.3g} times the spread (at most {:g}): bands of "
+             "slip are as wide as the elements, and the curve behind a peak depends on the mesh",
+             region.name, 1e3 * element, ratio, kMostElementOverSpread)),
+         fmt::format("elements of {:.4g} mm where bands are expected, or 'spread: {:.3g} mm' and more",
+                     1e3 * kMostElementOverSpread * spread, 1e3 * element / kMostElementOverSpread)});
+  }
+}
+
 }  // namespace
 
 void internal_length(const Scene& scene, Remarks& remarks) {
+  spread_of_slips(scene, remarks);
   if (scene.is_classical()) return;
   for (const SceneRegion& region : scene.regions()) {
     controlled_rotations(scene, region, remarks);

@@ -14,7 +14,7 @@ const char* name_of(fem::Dof dof) {
   return dof == fem::Dof::u1 ? "u1" : dof == fem::Dof::u2 ? "u2" : "w";
 }
 
-/// Nodes at which a degree of freedom is prescribed, and those where the value changes from zero.
+/// Nodes at which a degree of freedom is prescribed, and those that move all the same: the value is not zero, or the boundary quiet.
 struct Given {
   std::set<int> held;
   std::set<int> moved;
@@ -29,6 +29,9 @@ Given given(const fem::Problem<2>& problem, fem::Dof dof) {
       if (item.value.largest_magnitude() > 0.0) nodes.moved.insert(node);
     }
   }
+  // In real time they are let go once the start is balanced.
+  for (const std::string& boundary : problem.quiet)
+    for (const int node : problem.mesh.nodes_on(boundary)) nodes.moved.insert(node);
   return nodes;
 }
 
