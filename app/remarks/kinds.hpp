@@ -51,6 +51,7 @@ void held_sides(const Scene& scene, Remarks& remarks);
 void shape_of_elements(const Scene& scene, Remarks& remarks);
 void open_seams(const Scene& scene, Remarks& remarks);
 void pore_water(const Scene& scene, Remarks& remarks);
+void end_of_run_before(const Scene& scene, Remarks& remarks);
 void output(const Scene& scene, Remarks& remarks);
 void cost(const Scene& scene, Remarks& remarks);
 /// Adds to the other kinds: only where they have no remark on time zero.

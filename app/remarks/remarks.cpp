@@ -67,7 +67,8 @@ constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {loads_of_stages, Bodies::both},
                             {densities, Bodies::both},
                             {motions, Bodies::both},
-                            {pore_water, Bodies::both}};
+                            {pore_water, Bodies::both},
+                            {end_of_run_before, Bodies::both}};
 
 /// The kinds that weigh loads against the stress of the skeleton alone.
 constexpr RemarkKind kOfDryGround[] = {loads_at_start, loads_at_start_in_space, weight_at_once,

@@ -91,9 +91,9 @@ void clear(const fs::path& directory) {
     fs::rename(directory / kCheckpointFile, directory / kOldCheckpointFile);
   }
   // The log last: it tells that the directory is ours, should this be interrupted.
-  for (const char* file :
-       {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "points.pvd", "summary.json",
-        "sample.h5", "report.html", "fields", kCellPathsFolder, kGrainsFolder, "logs", "replay", "run.log"}) {
+  for (const char* file : {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "points.pvd",
+                           "summary.json", "sample.h5", "report.html", "fields", "profiles", kCellPathsFolder,
+                           kGrainsFolder, "logs", "replay", "run.log"}) {
     fs::remove_all(directory / file);
   }
 }

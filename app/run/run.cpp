@@ -541,6 +541,19 @@ int go(const RunOptions& options, coupler::Case the_case, const std::filesystem:
   return done ? 0 : 1;
 }
 
+/// A run that starts from its own result directory would erase its start.
+void check_start_is_elsewhere(const RunOptions& options, const coupler::Case& the_case,
+                              const std::filesystem::path& directory) {
+  std::error_code error;
+  if (the_case.start_from.empty() || !std::filesystem::equivalent(the_case.start_from, directory, error))
+    return;
+  throw InputError(
+      {options.case_file.string(), 0,
+       fmt::format("start_from: {} is the result directory of this run too, which would erase it; "
+                   "give another one with -o DIR",
+                   directory.string())});
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -558,6 +571,7 @@ int run(const RunOptions& options) {
   Remarks remarks = remarks_before(options, the_case);
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
+  check_start_is_elsewhere(options, the_case, directory);
   stop_if_interrupted("before anything was written");
   const auto lock = prepare_result_directory(directory, options.resume);
   std::unique_ptr<coupler::Checkpoint> from;

@@ -55,6 +55,10 @@ std::filesystem::path points_file(int step) {
   return std::filesystem::path("fields") / fmt::format("points-{:05}.vtu", step);
 }
 
+std::filesystem::path profile_file(const std::string& name, int step) {
+  return std::filesystem::path("profiles") / fmt::format("{}-{:05}.csv", name, step);
+}
+
 /// Gives what cells show the units that their record tells; other fields of materials are pure numbers.
 void name_units(std::vector<fem::Field>& fields) {
   static const std::vector<Column> of_cells = columns_of<CellDiagnostics>();
@@ -100,6 +104,8 @@ void RunFiles::go_on(const coupler::Checkpoint& from) {
   for (int step = from.step; step <= case_.steps() && from.step < case_.steps(); ++step) {
     std::filesystem::remove(directory_ / fields_file(step), error);
     std::filesystem::remove(directory_ / points_file(step), error);
+    for (const coupler::Profile& profile : case_.profiles)
+      std::filesystem::remove(directory_ / profile_file(profile.name, step), error);
   }
 }
 
@@ -183,7 +189,7 @@ void RunFiles::write_fields(int step, const fem::Solver<dim>& solver) {
   write_structures(directory_ / "fields", step, solver);
   if (!case_.profiles.empty()) std::filesystem::create_directory(directory_ / "profiles", error);
   for (const coupler::Profile& profile : case_.profiles)
-    write_profile(directory_ / "profiles" / fmt::format("{}-{:05}.csv", profile.name, step), profile, solver);
+    write_profile(directory_ / profile_file(profile.name, step), profile, solver);
   if (!case_.output_points) return;
   fem::PlacedFields at_points = fem::collect_point_fields(solver);
   name_units(at_points.fields);

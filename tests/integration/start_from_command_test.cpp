@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A run that starts from the end of another, by the program: directories, profiles, runs that have not come to their end.
+#include <gtest/gtest.h>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::string kProgram = POLARGRAIN;
+
+std::string block(const std::string& load, const std::string& more = "") {
+  return "title: A block\n"
+         "continuum: cauchy\n"
+         "mesh: {rectangle: {size: [1 m, 1 m], elements: [2, 2]}}\n"
+         "materials: {soil: {model: elastoplastic, E: 30 MPa, nu: 0.3, friction_angle: 30 deg, dilatancy_angle: 2 deg, "
+         "cohesion: 10 kPa}}\n"
+         "regions: {all: soil}\n"
+         "boundary: [{on: bottom, fix: [u1, u2]}, {on: top, pressure: " +
+         load +
+         "}]\n"
+         "steps: {count: 4, tolerance: 1e-8, cut: 2}\n"
+         "monitors: {top: {on: top, displacement: u2}}\n"
+         "profiles: {axis: {from: [0.5 m, 0], to: [0.5 m, 1 m], points: 3, values: [s22]}}\n"
+         "output: {every: 1}\n" +
+         more;
+}
+
+class StartFromCommand : public ::testing::Test {
+ protected:
+  StartFromCommand() : scratch_("start_from_command") {
+    write(scratch_.path() / "first.yaml", block("[[0, 0], [1, 20 kPa]]"));
+    write(scratch_.path() / "second.yaml", block("[[0, 20 kPa], [1, 25 kPa]]", "start_from: first\n"));
+  }
+  Outcome program(const std::string& line) { return run_in(scratch_.path(), kProgram + " " + line); }
+
+  Scratch scratch_;
+};
+
+TEST_F(StartFromCommand, DoesNotEraseItsStart) {
+  ASSERT_EQ(program("run first.yaml -o first --quiet").status, 0);
+  const std::string before = content(scratch_.path() / "first/history.csv");
+  const Outcome refused = program("run second.yaml -o ./first/ --quiet");
+  EXPECT_EQ(refused.status, 2) << refused.errors;
+  EXPECT_NE(refused.errors.find("second.yaml: start_from: ./first/ is the result directory of this run too"),
+            std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(content(scratch_.path() / "first/history.csv"), before);
+  EXPECT_EQ(program("run second.yaml -o second --quiet").status, 0);
+}
+
+TEST_F(StartFromCommand, ARunThatFailedIsRemarked) {
+  write(scratch_.path() / "first.yaml", block("[[0, 0], [1, 2000 kPa]]"));
+  ASSERT_EQ(program("run first.yaml -o first --quiet").status, 1);
+  const std::string remark = "the run in 'first' has not come to its end";
+  EXPECT_NE(program("check second.yaml").out.find(remark + " (status 'failed')"), std::string::npos);
+  std::filesystem::remove(scratch_.path() / "first/summary.json");  // as of a killed run
+  EXPECT_NE(program("check second.yaml").out.find(remark + ": "), std::string::npos);
+  write(scratch_.path() / "first.yaml", block("[[0, 0], [1, 20 kPa]]"));
+  ASSERT_EQ(program("run first.yaml -o first --quiet").status, 0);
+  EXPECT_EQ(program("check second.yaml").out.find(remark), std::string::npos);
+}
+
+TEST_F(StartFromCommand, ProfilesOfAnEarlierRunAreGone) {
+  ASSERT_EQ(program("run first.yaml -o first --quiet --set steps.count=6").status, 0);
+  ASSERT_TRUE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00006.csv"));
+  ASSERT_EQ(program("run first.yaml -o first --quiet").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00006.csv"));
+  EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00004.csv"));
+}
+
+}  // namespace
+}  // namespace polargrain::testing
