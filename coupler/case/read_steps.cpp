@@ -105,6 +105,8 @@ void read_steps(const Entry& entry, CaseParts& parts) {
       steps.fault("method",
                   "method: stages in which parts come or go are computed by newton alone; remove the method");
     read_explicit(steps, method == "automatic", parts);
+  } else if (!parts.water && steps.choice_or("time", {"loading", "real"}, "loading") == "real") {
+    steps.fault("time", "time: real time has explicit steps alone; write 'method: explicit'");
   }
   fem::SolverOptions& solver = parts.result.solver;
   solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);

@@ -258,6 +258,21 @@ app::Remarks remarks_on_motion(int rows, double amplitude) {
   return remarks_on_motion_of(scratch);
 }
 
+TEST(RealTime, NeedsExplicitSteps) {
+  const Scratch scratch("careless_method");
+  for (const char* const method : {"", "method: newton, ", "method: automatic, "}) {
+    write(scratch.path() / "case.yaml", replaced(kColumn, "method: explicit, ", method));
+    try {
+      (void)coupler::read_case(scratch.path() / "case.yaml");
+      ADD_FAILURE() << method;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.faults().front().line, 12);
+      EXPECT_EQ(error.faults().front().message,
+                "steps: time: real time has explicit steps alone; write 'method: explicit'");
+    }
+  }
+}
+
 TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
   const Scratch scratch("careless_quiet");
   write(scratch.path() / "case.yaml",
