@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:18: steps: unknown key 'tolerence'; did you mean 'tolerance'?"},
         BadInput{
             "UnknownKeyFarFromAll", "  count: 4", "  count: 4\n  colour: red",
-            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, duration, first, method, cut, iterations, "
+            "case.yaml:18: steps: unknown key 'colour'; known keys are stages, count, duration, first, method, time, cut, iterations, "
             "tolerance, moment_tolerance, noise, jumps, jump_residual, acceleration, largest_strain, line_search"},
         BadInput{"KeyByItsMeaning", "  count: 4", "  count: 4\n  tol: 1e-3",
                  "case.yaml:18: steps: unknown key 'tol'; did you mean 'tolerance'?"},

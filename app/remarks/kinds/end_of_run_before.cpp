@@ -15,7 +15,9 @@ void end_of_run_before(const Scene& scene, Remarks& remarks) {
   // Without a summary the run was ended from outside, or is at work.
   std::ifstream file(directory / "summary.json");
   const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
-  const std::string status = summary.is_object() ? summary.value("status", "") : "";
+  const auto found = summary.find("status");  // anybody may have written the file
+  const std::string status =
+      found != summary.end() && found->is_string() ? found->get<std::string>() : std::string();
   if (status == "done") return;
   remarks.push_back(
       {Rank::doubtful, 1.0,
