@@ -273,7 +273,8 @@ steps: {count: 1}
   const std::string page = content(folder() / "picture.html");
   for (const char* const words : {">see bottom<", ">see top_patch, top_rest<", ">free but for left_patch<"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
-  EXPECT_NE(page.find("#222'>bottom_patch</text>"), std::string::npos);  // in the colour of what is not free
+  EXPECT_NE(page.find("#222' stroke='#fff' stroke-width='4' paint-order='stroke'>bottom_patch<"),
+            std::string::npos);  // in the colour of what is not free
 }
 
 // One element of boxes of spheres: the same bytes with one and two workers, and for a run that was killed.

@@ -50,7 +50,7 @@ TEST_F(StartFromCommand, DoesNotEraseItsStart) {
 }
 
 TEST_F(StartFromCommand, ARunThatFailedIsRemarked) {
-  write(scratch_.path() / "first.yaml", block("[[0, 0], [1, 2000 kPa]]"));
+  write(scratch_.path() / "first.yaml", block("[[0, 0], [1, 60 kPa]]"));
   ASSERT_EQ(program("run first.yaml -o first --quiet").status, 1);
   const std::string remark = "the run in 'first' has not come to its end";
   EXPECT_NE(program("check second.yaml").out.find(remark + " (status 'failed')"), std::string::npos);
