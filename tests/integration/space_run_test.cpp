@@ -274,7 +274,7 @@ steps: {count: 1}
   for (const char* const words : {">see bottom<", ">see top_patch, top_rest<", ">free but for left_patch<"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_NE(page.find("#222' stroke='#fff' stroke-width='4' paint-order='stroke'>bottom_patch<"),
-            std::string::npos);  // in the colour of what is not free
+            std::string::npos);  // in the colour of a held face
 }
 
 // One element of boxes of spheres: the same bytes with one and two workers, and for a run that was killed.
