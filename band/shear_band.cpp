@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "band/shear_band.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
 
+#include "band/layer_in_samples.hpp"
 #include "band/least_squares.hpp"
-#include "band/profile.hpp"
 #include "common/elementary_functions.hpp"
 
 namespace polargrain::band {
@@ -25,88 +22,45 @@ Eigen::Vector2d across(double inclination) {
   return {-sine(inclination), cosine(inclination)};
 }
 
-Scales scales_of(const Samples& samples) {
-  Scales scales;
-  double area = 0.0;
-  Eigen::Vector2d low = samples.front().position;
-  Eigen::Vector2d high = low;
+SampleColumns<2> columns_of(const Samples& samples) {
+  SampleColumns<2> columns;
   for (const Sample& sample : samples) {
-    area += sample.area;
-    scales.mean_shear += sample.area * sample.shear;
-    low = low.cwiseMin(sample.position);
-    high = high.cwiseMax(sample.position);
+    columns.positions.push_back(sample.position);
+    columns.sizes.push_back(sample.area);
+    columns.shears.push_back(sample.shear);
   }
-  scales.mean_shear /= area;
-  scales.spacing = std::sqrt(area / static_cast<double>(samples.size()));
-  scales.kernel = 0.5 * scales.spacing;
-  scales.chord = 0.5 * (high - low).minCoeff();
-  scales.extent = (high - low).norm();
-  return scales;
-}
-
-/// The samples as a profile takes them.
-struct Columns {
-  std::vector<double> areas;
-  std::vector<double> shears;
-
-  explicit Columns(const Samples& samples) {
-    for (const Sample& sample : samples) {
-      areas.push_back(sample.area);
-      shears.push_back(sample.shear);
-    }
-  }
-};
-
-Profile profile_of(const Samples& samples, const Columns& columns, const Scales& scales, double inclination) {
-  const Eigen::Vector2d normal = across(inclination);
-  std::vector<double> distances;
-  distances.reserve(samples.size());
-  for (const Sample& sample : samples) distances.push_back(normal.dot(sample.position));
-  return profile_of(distances, columns.areas, columns.shears, scales);
+  return columns;
 }
 
 /// Band of one inclination, from its profile.
-BandSearch measure(const Samples& samples, const Columns& columns, const Scales& scales, double inclination) {
-  const Profile profile = profile_of(samples, columns, scales, inclination);
-  const std::optional<std::size_t> peak = peak_of(profile);
-  if (!peak) return {std::nullopt, "the samples span no area"};
-  Band band;
-  band.inclination = inclination;
-  band.resolution = kHalfMaximumWidth * scales.kernel;
-  band.peak = profile.values[*peak];
-  band.background = background_of(profile);
-  const double half = 0.5 * (band.peak + band.background);
-  const std::optional<double> low = crossing(profile, *peak, half, -1);
-  const std::optional<double> high = crossing(profile, *peak, half, +1);
-  if (!low || !high) return {std::nullopt, "the shear does not fall to half its maximum on both sides"};
-  band.thickness = *high - *low;
-  const double middle = 0.5 * (*low + *high);
-  // The point of the middle line that is nearest to the middle of the samples in the band.
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  double area = 0.0;
-  for (const Sample& sample : samples)
-    if (std::abs(across(inclination).dot(sample.position) - middle) <= 0.5 * band.thickness) {
-      mean += sample.area * sample.position;
-      area += sample.area;
-    }
-  if (area == 0.0) return {std::nullopt, "no sample lies in the band: it is thinner than they are apart"};
-  mean /= area;
-  band.centre = mean + (middle - across(inclination).dot(mean)) * across(inclination);
-  return {band, ""};
+BandSearch measure(const SampleColumns<2>& columns, double inclination) {
+  const LayerSearch<2> search = measure_layer<2>(columns, across(inclination));
+  if (!search.layer) return {std::nullopt, search.reason};
+  const Layer<2>& layer = *search.layer;
+  return {Band{layer.centre, inclination, layer.thickness, layer.peak, layer.background, layer.resolution},
+          ""};
 }
 
-double starting_inclination(const Samples& samples, const Columns& columns, const Scales& scales) {
+double starting_inclination(const SampleColumns<2>& columns) {
   double best = 0.0;
   double greatest = -std::numeric_limits<double>::infinity();
   for (int degree = -89; degree <= 90; ++degree) {
-    const Profile profile = profile_of(samples, columns, scales, degree * kDegree);
-    const std::optional<std::size_t> peak = peak_of(profile);
-    if (peak && profile.prominence(*peak) > greatest) {
-      greatest = profile.prominence(*peak);
-      best = degree * kDegree;
+    const double inclination = degree * kDegree;
+    const double prominence = prominence_of(profile_of(columns.distances_along(across(inclination)),
+                                                       columns.sizes, columns.shears, columns.scales));
+    if (prominence > greatest) {
+      greatest = prominence;
+      best = inclination;
     }
   }
   return best;
+}
+
+std::vector<double> distances_from(const Samples& samples, const Band& band) {
+  std::vector<double> distances;
+  distances.reserve(samples.size());
+  for (const Sample& sample : samples) distances.push_back(band.distance(sample.position));
+  return distances;
 }
 
 /// Line of the Gaussian band A exp(-s^2 / (2 w^2)) + B whose sum of squared differences from the shear,
@@ -150,60 +104,29 @@ double Band::distance(const Eigen::Vector2d& position) const {
 
 BandSearch find_band(const Samples& samples, const BandOptions& options) {
   if (samples.size() < 20) return {std::nullopt, "fewer than 20 samples"};
-  for (const Sample& sample : samples)
-    if (!(sample.area > 0.0) || !std::isfinite(sample.area + sample.shear) || !sample.position.allFinite())
-      return {std::nullopt, "a sample has no area, or no strain"};
-  const Scales scales = scales_of(samples);
-  if (!(scales.extent / scales.kernel < kMostValues)) return {std::nullopt, "the samples span no area"};
-  const Columns columns(samples);
-  BandSearch search = measure(samples, columns, scales, starting_inclination(samples, columns, scales));
+  SampleColumns<2> columns = columns_of(samples);
+  std::string reason;
+  if (!columns.scale(reason)) return {std::nullopt, reason};
+  BandSearch search = measure(columns, starting_inclination(columns));
   if (!search.band) return search;
   const std::optional<double> inclination = inclination_by_least_squares(samples, *search.band);
   if (!inclination) return {std::nullopt, "the fit of a line does not settle: no straight band"};
-  search = measure(samples, columns, scales, folded(*inclination));
+  search = measure(columns, folded(*inclination));
   if (!search.band) return search;
   const Band& band = *search.band;
-  const auto has_sample = [&](auto is_there) {
-    return std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
-      return is_there(std::abs(band.distance(sample.position)));
-    });
-  };
-  if (!has_sample([&](double distance) { return distance <= 0.5 * band.thickness; }) ||
-      !has_sample([&](double distance) { return distance > band.thickness; }))
-    return {std::nullopt, "no sample lies on one side of the band's edge"};
-  if (band.peak < options.contrast * band.background)
-    return {std::nullopt, fmt::format("the shear at its greatest is only {:.2f} times the background",
-                                      band.peak / band.background)};
-  std::vector<double> distances;
-  for (const Sample& sample : samples) distances.push_back(band.distance(sample.position));
-  if (band.peak - band.background <
-      5.0 * standard_error(distances, columns.shears, band.thickness, band.resolution))
-    return {std::nullopt, "the shear at its greatest is within the scatter of the samples"};
-  return search;
+  reason = doubt_of_band(distances_from(samples, band), columns.shears, band.thickness, band.resolution,
+                         band.peak, band.background, options.contrast);
+  return reason.empty() ? search : BandSearch{std::nullopt, reason};
 }
 
 InsideOutside means(const Samples& samples, const Band& band, double Sample::*value) {
-  InsideOutside sums;
-  InsideOutside areas;
-  for (const Sample& sample : samples) {
-    const double distance = std::abs(band.distance(sample.position));
-    if (distance <= 0.5 * band.thickness) {
-      sums.inside += sample.area * sample.*value;
-      areas.inside += sample.area;
-    } else if (distance > band.thickness) {
-      sums.outside += sample.area * sample.*value;
-      areas.outside += sample.area;
-    }
-  }
-  if (areas.inside == 0.0 || areas.outside == 0.0)
-    throw std::invalid_argument("no sample lies on one side of the band's edge");
-  return {sums.inside / areas.inside, sums.outside / areas.outside};
+  std::vector<double> values;
+  for (const Sample& sample : samples) values.push_back(sample.*value);
+  return means_beside(distances_from(samples, band), columns_of(samples).sizes, values, band.thickness);
 }
 
 double localisation(const Samples& samples, const Band& band) {
-  const InsideOutside shear = means(samples, band, &Sample::shear);
-  if (shear.inside == shear.outside) return 1.0;  // also where nothing deforms
-  return shear.inside / shear.outside;
+  return localisation_of(means(samples, band, &Sample::shear));
 }
 
 std::optional<double> onset_strain(const std::vector<double>& strains,

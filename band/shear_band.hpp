@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "band/layer_in_samples.hpp"
 #include "band/sample.hpp"
 
 namespace polargrain::band {
@@ -50,10 +51,6 @@ BandSearch find_band(const Samples& samples, const BandOptions& options = {});
 double localisation(const Samples& samples, const Band& band);
 
 /// Means of a value inside and outside of a band, as localisation() takes them.
-struct InsideOutside {
-  double inside = 0.0;
-  double outside = 0.0;
-};
 InsideOutside means(const Samples& samples, const Band& band, double Sample::*value);
 
 /// The strain where a band begins: where the localisation of the increments rises above `threshold` for the

@@ -42,10 +42,10 @@ output: {{every: 100, table: [pressure, shear]}}
 
 # How the grains are loaded and when a step is balanced: as in cases/biaxial, and where the stress falls far below
 # that of the packing (docs/hard_cells.md). A share of 100 kPa would be no tolerance there: a cell a point.
-USUAL = {"element": "Q8R", "grains": "tolerance: 2 %", "balance": "tolerance: 1e-2"}
+USUAL = {"element": "Q8R", "grains": "adaptive: {tolerance: 2 %}", "balance": "tolerance: 1e-2"}
 LOW_STRESS = {
     "element": "Q8R",
-    "grains": "tolerance: 0, damping: 0.06, least_steps: 950, unbalanced_force_ratio: 1e-4,\n"
+    "grains": "adaptive: {tolerance: 0}, damping: 0.06, least_steps: 950, unbalanced_force_ratio: 1e-4,\n"
     "    unbalanced_moment_ratio: 1e-4, most_relaxation_steps: 200000",
     "balance": "tolerance: 3e-4, largest_strain: 1e-3",
 }
@@ -63,7 +63,7 @@ CASES = [
     ("shear to a displacement of 30 % of the height", "dense", 60,
      SUPPORTS + "  - {on: top, move: {u1: 30 mm}, fix: [u2]}\n", USUAL),
     ("unloading from 100 to 1 kPa, then an axial stress of 2.5 kPa", "dense", 40, UNLOADING, LOW_STRESS),
-    ("the same, loaded as usual", "dense", 40, UNLOADING, {**LOW_STRESS, "grains": "tolerance: 0"}),
+    ("the same, loaded as usual", "dense", 40, UNLOADING, {**LOW_STRESS, "grains": "adaptive: {tolerance: 0}"}),
     # A bilinear element: all its nodes are moved, so that the strain is given everywhere.
     ("loose, contracting, constant volume, 3 %", "loose", 30, CONSTANT_VOLUME,
      {**LOW_STRESS_MOVED, "element": "Q4"}),

@@ -102,14 +102,14 @@ def acceleration():
 
 def adaptivity(case, material, curve, tolerances):
     name = os.path.basename(os.path.dirname(case))
-    rows, full = run(f"{name}_0", case, [f"materials.{material}.model=adaptive", f"materials.{material}.tolerance=0",
-                                         f"materials.{material}.audit=0"])
+    rows, full = run(f"{name}_0", case, [f"materials.{material}.model=adaptive", f"materials.{material}.adaptive.tolerance=0",
+                                         f"materials.{material}.adaptive.audit=0"])
     reference = [row[curve] for row in rows]
     table = [["`tolerance`", "error of the curve", "times fewer DEM steps", "cells", "cell runs", "iterations",
               "audits: mean error / bound", "worked with"]]
     for tolerance in tolerances:
         rows, summary = run(f"{name}_{tolerance}", case, [f"materials.{material}.model=adaptive",
-                                                         f"materials.{material}.tolerance={tolerance} %"])
+                                                         f"materials.{material}.adaptive.tolerance={tolerance} %"])
         errors = [abs(row[curve] - expected) for row, expected in zip(rows, reference)]
         relative = max(error / abs(expected) for error, expected in zip(errors, reference))
         figures = next(iter(summary["materials"].values()))

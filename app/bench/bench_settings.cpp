@@ -98,8 +98,8 @@ class Grid {
       overrides.insert(overrides.end(), rates.begin(), rates.end());
       for (const auto& material : materials_) {
         if (material.model != "adaptive") continue;
-        overrides.push_back(fmt::format("materials.{}.tolerance=0", material.name));
-        overrides.push_back(fmt::format("materials.{}.audit=0", material.name));
+        overrides.push_back(fmt::format("materials.{}.adaptive.tolerance=0", material.name));
+        overrides.push_back(fmt::format("materials.{}.adaptive.audit=0", material.name));
       }
       label = fmt::format("unbalanced ratio {}, inertial number {}, a cell a point", ratio, rate);
     }
@@ -131,7 +131,7 @@ class Grid {
       for (const auto& material : materials_) {
         if (material.model != "cell" && material.model != "adaptive") continue;
         overrides.push_back(fmt::format("materials.{}.model=adaptive", material.name));
-        overrides.push_back(fmt::format("materials.{}.tolerance={}", material.name, tolerance));
+        overrides.push_back(fmt::format("materials.{}.adaptive.tolerance={}", material.name, tolerance));
       }
       if (!overrides.empty()) add("adaptivity", fmt::format("tolerance {}", tolerance), overrides);
     }

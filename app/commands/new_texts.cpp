@@ -231,7 +231,7 @@ std::string resolved_length(double element) {
 std::string materials_text(const NewCase& what, const std::string& length) {
   const std::string keys =
       what.scheme == "adaptive"
-          ? "    tolerance: 3 %                  # error in stress of a point, of the pressure of the packing\n"
+          ? "    adaptive: {tolerance: 3 %}      # error in stress of a point, of the pressure of the packing\n"
           : "";
   return filled(kMaterialText, {{"SCHEME", what.scheme},
                                 {"SCHEME_MEANING", meaning_of(what.scheme)},

@@ -20,17 +20,20 @@ enum class Bodies { plane, space, both };
 struct Kind {
   RemarkKind look;
   Bodies bodies;
+  /// It weighs loads against the stress of the skeleton alone, as if there were no water.
+  bool of_dry_ground = false;
 };
 
 /// The kinds that look at loads and stresses at time zero, one by one.
-constexpr Kind kAtTimeZero[] = {{loads_at_start, Bodies::plane},  {loads_at_start_in_space, Bodies::space},
-                                {weight_in_boxes, Bodies::plane}, {load_on_held, Bodies::plane},
-                                {plain_loads, Bodies::plane},     {tension, Bodies::plane},
-                                {ground_stress, Bodies::plane},   {weight, Bodies::both},
-                                {free_sides, Bodies::plane},      {stiffness_of_laws, Bodies::plane}};
+constexpr Kind kAtTimeZero[] = {
+    {loads_at_start, Bodies::plane, true}, {loads_at_start_in_space, Bodies::space, true},
+    {weight_in_boxes, Bodies::plane},      {load_on_held, Bodies::plane},
+    {plain_loads, Bodies::plane},          {tension, Bodies::plane},
+    {ground_stress, Bodies::plane},        {weight, Bodies::both},
+    {free_sides, Bodies::plane},           {stiffness_of_laws, Bodies::plane}};
 
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
-constexpr Kind kBalance[] = {{balance_at_start, Bodies::plane}};
+constexpr Kind kBalance[] = {{balance_at_start, Bodies::plane, true}};
 
 constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {times_of_loads, Bodies::both},
@@ -56,12 +59,14 @@ constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {cost, Bodies::both},
                             {moduli, Bodies::both},
                             {node_forces, Bodies::plane},
-                            {weight_at_once, Bodies::plane},
+                            {weight_at_once, Bodies::plane, true},
                             {pulled_apart, Bodies::plane},
                             {carried_along, Bodies::plane},
                             {held_sides, Bodies::plane},
+                            {narrow_plates, Bodies::plane},
                             {shape_of_elements, Bodies::plane},
                             {places_of_monitors, Bodies::plane},
+                            {ends_of_profiles, Bodies::both},
                             {structures, Bodies::plane},
                             {weight_of_parts, Bodies::plane},
                             {loads_of_stages, Bodies::both},
@@ -70,17 +75,12 @@ constexpr Kind kOthers[] = {{movement, Bodies::both},
                             {pore_water, Bodies::both},
                             {end_of_run_before, Bodies::both}};
 
-/// The kinds that weigh loads against the stress of the skeleton alone.
-constexpr RemarkKind kOfDryGround[] = {loads_at_start, loads_at_start_in_space, weight_at_once,
-                                       balance_at_start};
-
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
   const Bodies here = scene.dimension() == 3 ? Bodies::space : Bodies::plane;
   const bool is_wet = scene.find({"water"}) != nullptr;
   for (const Kind& kind : kinds) {
-    if (kind.bodies != here && kind.bodies != Bodies::both) continue;
-    if (!is_wet || std::ranges::find(kOfDryGround, kind.look) == std::end(kOfDryGround))
-      kind.look(scene, remarks);
+    const bool is_of_body = kind.bodies == here || kind.bodies == Bodies::both;
+    if (is_of_body && !(is_wet && kind.of_dry_ground)) kind.look(scene, remarks);
   }
 }
 

@@ -41,11 +41,14 @@ std::vector<Kind> kinds(double error) {
            [](const QuasiStatic& row) { return row.hot_points; }}};
 }
 
-std::string remedy_of(const std::string& name) {
+/// @param slower the change below `steps` that loads more slowly
+std::string remedy_of(const std::string& name, const std::string& slower) {
   if (name == "hot_points")
-    return "the grains there press by their agitation; halve `pace` below `steps`, and where that does not help raise the "
-           "`damping` of the material";
-  return "halve `pace` below `steps`, or allow more by `error`";
+    return fmt::format(
+        "the grains there press by their agitation; {} below `steps`, and where that does not help raise the "
+        "`damping` of the material",
+        slower);
+  return fmt::format("{} below `steps`, or allow more by `error`", slower);
 }
 
 }  // namespace
@@ -102,12 +105,13 @@ std::string quasi_static_text(const coupler::Case& the_case, const RunRecord& re
 
 std::vector<std::string> quasi_static_remarks(const coupler::Case& the_case, const RunRecord& record) {
   std::vector<std::string> remarks;
+  const char* const slower = the_case.gives_explicit_steps ? "double `explicit_steps`" : "halve `pace`";
   for (const QuasiStaticMeasure& measure : quasi_static_measures(the_case, record)) {
     if (measure.steps_beyond == 0) continue;
     remarks.push_back(
         fmt::format("explicit steps: {}: up to {:.3g} % in step {}, beyond {:.3g} % in {} of {} steps; {}",
                     measure.meaning, 100.0 * measure.largest, measure.worst_step, 100.0 * measure.tolerance,
-                    measure.steps_beyond, measure.steps, remedy_of(measure.name)));
+                    measure.steps_beyond, measure.steps, remedy_of(measure.name, slower)));
   }
   return remarks;
 }

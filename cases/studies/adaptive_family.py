@@ -261,7 +261,7 @@ def make(scene, results, program, tolerances, seconds, fingerprint):
     packing_of(scene, results, program)
     (results / f"{scene.name}.msh").write_text(scene.mesh())
     runs = {"full": "model: cell", "again": "model: cell, unbalanced_force_ratio: 4e-3"}
-    runs |= {f"{t}": f"model: adaptive, tolerance: {t} %" for t in tolerances}
+    runs |= {f"{t}": f"model: adaptive, adaptive: {{tolerance: {t} %}}" for t in tolerances}
     for label, model in runs.items():
         case, directory = results / f"{scene.name}-{label}.yaml", results / f"{scene.name}-{label}"
         text = scene.case(model)

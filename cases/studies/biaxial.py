@@ -103,7 +103,7 @@ def closed_form():
                 ("lc3", ("materials.sand.lc=3 mm", "materials.weak_sand.lc=3 mm")), ("lc1", ()), ("cauchy", ("continuum=cauchy",)))]
 
 
-SWEEP = {"drift0": ("drift_shear: 0",), "drift0.003": ("drift_shear: 0.003",), "drift0.03": ("drift_shear: 0.03",),
+SWEEP = {"drift0": ("informed: {drift_shear: 0}",), "drift0.003": ("informed: {drift_shear: 0.003}",), "drift0.03": ("informed: {drift_shear: 0.03}",),
          "unbalanced1e-3": ("unbalanced_force_ratio: 1e-3", "unbalanced_moment_ratio: 1e-3"), "inertial1e-4": ("inertial_number: 1e-4",)}
 
 
@@ -263,7 +263,7 @@ class Study:
                     f"mesh.rectangle.patch=[{max(0.05, 0.2 / run.across):.6g} m, {max(0.05, 0.2 / run.across):.6g} m]"]
         if run.large:
             settings.append("deformation=large")
-        words = {"controlled": ["model: cell", "rotations: controlled"], "fixed_point": ["model: informed", "update: fixed_point"]}.get(
+        words = {"controlled": ["model: cell", "rotations: controlled"], "fixed_point": ["model: informed", "informed: {update: fixed_point}"]}.get(
             run.scheme, [f"model: {run.scheme}"])
         if run.scheme != "controlled":
             words.append(f"lc: {run.lc:g} mm")

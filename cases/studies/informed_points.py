@@ -21,7 +21,7 @@ from intervals import table
 HERE = pathlib.Path(__file__).resolve().parent
 KINDS = {"rolling": "hooke_rolling", "sliding": "hooke_radii"}
 SCHEMES = {"cell": ["material.model=cell"], "frozen": ["material.model=informed"],
-           "fixed_point": ["material.model=informed", "material.update=fixed_point"]}
+           "fixed_point": ["material.model=informed", "material.informed.update=fixed_point"]}
 AMPLITUDES = {"0.02 %": "cycles0.02", "0.1 %": "cycles0.1", "0.5 %": "cycles0.5", "2 %": "cycles2"}
 CYCLES, ROWS = 5, 80
 PACKING = ("title: 100 dense discs\ngrains: 100\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\n"

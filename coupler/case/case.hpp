@@ -83,9 +83,10 @@ struct Case {
   fem::ExplicitOptions explicit_options;  ///< of rows whose fields are written; others do not come to rest
   int effort =
       0;  ///< iterations that a step may take before explicit steps go on; 0: the method is not automatic
-  bool real_time = false;        ///< explicit steps of true masses; the loading time is in s
-  bool rate_follows = false;     ///< the rate of explicit steps, so that explicit_error holds
-  double explicit_error = 0.02;  ///< error of the reactions that is allowed in explicit steps
+  bool real_time = false;             ///< explicit steps of true masses; the loading time is in s
+  bool gives_explicit_steps = false;  ///< their number, in the place of a pace
+  bool rate_follows = false;          ///< the rate of explicit steps, so that explicit_error holds
+  double explicit_error = 0.02;       ///< error of the reactions that is allowed in explicit steps
   std::vector<Monitor> monitors;
   std::vector<Profile> profiles;
   std::filesystem::path

@@ -32,7 +32,8 @@ struct WaterOfCase {
 struct CaseParts {
   std::filesystem::path directory;  ///< of the case file
   Case result;
-  bool has_mesh = false;  ///< while it is false, names of boundaries and regions cannot be checked
+  /// The mesh, with the nodes of its structures; while it is false, names of boundaries and regions cannot be checked.
+  bool has_mesh = false;
   Faults& faults;
   bool builds = false;  ///< parts come or go in some stage
 

@@ -75,6 +75,10 @@ class CaseReader {
     Section materials(entry, "materials", faults_);
     std::vector<std::string> models;
     for (const MaterialModel& model : material_models()) models.push_back(model.name);
+    const bool one_point = case_.with_problem([](const auto& problem) {
+      return std::ranges::any_of(problem.mesh.elements,
+                                 [](const auto& element) { return !element.type->averaged.empty(); });
+    });
     for (const Entry::Member& member : entry.members) {
       materials.find(member.key);
       Section section(member.value, fmt::format("material '{}'", member.key), faults_);
@@ -82,10 +86,11 @@ class CaseReader {
       material_lines_[member.key] = &member;
       for (const MaterialModel& model : material_models()) {
         if (model.name != name) continue;
-        std::unique_ptr<MaterialRecipe> recipe = model.read(
-            member.key, section, faults_,
-            CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), iterates(document_),
-                      ask_every_of(document_), case_.dimension(), !is_classical(), case_.spread > 0.0});
+        std::unique_ptr<MaterialRecipe> recipe =
+            model.read(member.key, section, faults_,
+                       CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), iterates(document_),
+                                 ask_every_of(document_), case_.dimension(), !is_classical(),
+                                 case_.spread > 0.0, one_point});
         const double density = section.quantity_or("density", Dimension::density, Limit::positive, 0.0);
         if (recipe) recipe->given_density = density;
         case_.materials[member.key] = std::move(recipe);

@@ -129,6 +129,7 @@ void read_explicit(Section& steps, bool automatic, CaseParts& parts) {
   double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
   steps.require_below("pace", 0.01, "a boundary would run into its elements like a hammer");
   const int given = steps.whole_or("explicit_steps", 0, 0);
+  result.gives_explicit_steps = given > 0;
   if (given > 0 && steps.find("pace") != nullptr)
     steps.fault("pace", "pace: `explicit_steps` says it already; leave one of them out");
   result.explicit_error =

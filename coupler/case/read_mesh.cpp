@@ -133,6 +133,22 @@ void make_regions(const Entry& entry, CaseParts& parts) {
   }
 }
 
+/// Whether an end of a line lies inside of a side, so that the line would be shorter or longer than it was given.
+/// @param axis along the line
+bool ends_within_side(const fem::Mesh<2>& mesh, const std::vector<int>& nodes, const Corners& corners,
+                      int axis, double near) {
+  double least = HUGE_VAL;
+  double largest = -HUGE_VAL;
+  for (const int node : nodes) {
+    const Eigen::Vector2d& x = mesh.nodes[static_cast<std::size_t>(node)];
+    if (std::abs(x(1 - axis) - corners.low(1 - axis)) > near) return false;
+    least = std::min(least, x(axis));
+    largest = std::max(largest, x(axis));
+  }
+  const auto is_within = [&](double end) { return end > least + near && end < largest - near; };
+  return is_within(corners.low(axis)) || is_within(corners.high(axis));
+}
+
 /// Makes boundaries of the sides of elements along lines; those inside of the body may become boundaries when one of their
 /// sides is removed.
 void make_lines(const Entry& entry, CaseParts& parts) {
@@ -148,8 +164,10 @@ void make_lines(const Entry& entry, CaseParts& parts) {
     const Corners corners = read_corners(lines, member.key);
     if ((corners.high - corners.low).minCoeff() > near)
       lines.fault(member.key, fmt::format("{}: lines of a rectangle are level or upright", member.key));
+    const int axis = corners.high.x() - corners.low.x() > near ? 0 : 1;
     std::vector<fem::BoundarySide> sides;
     std::set<std::vector<int>> seen;
+    bool is_cut = false;
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
       for (std::size_t k = 0; k < mesh.elements[e].type->sides.size(); ++k) {
         const fem::BoundarySide side{static_cast<int>(e), static_cast<int>(k)};
@@ -158,11 +176,16 @@ void make_lines(const Entry& entry, CaseParts& parts) {
           const Eigen::Vector2d& x = mesh.nodes[static_cast<std::size_t>(node)];
           return ((x - corners.low).array() > -near).all() && ((corners.high - x).array() > -near).all();
         });
+        is_cut = is_cut || ends_within_side(mesh, nodes, corners, axis, near);
         std::ranges::sort(nodes);
         if (on_line && seen.insert(nodes).second) sides.push_back(side);
       }
     }
-    if (sides.empty())
+    if (is_cut)
+      lines.fault(
+          member.key,
+          fmt::format("{}: it ends between two corners of elements; let it end at corners", member.key));
+    else if (sides.empty())
       lines.fault(member.key, fmt::format("{}: no side of an element lies on it", member.key));
     mesh.boundaries[member.key] = std::move(sides);
   }

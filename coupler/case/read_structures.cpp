@@ -28,6 +28,7 @@ class StructuresReader {
         if (entry != nullptr)
           parts_.faults.push_back(entry->fault(
               "interfaces, beams and anchors are of small deformation; set 'deformation: small'"));
+      parts_.has_mesh = false;
       return;
     }
     const std::size_t faults_before = parts_.faults.size();
@@ -36,7 +37,9 @@ class StructuresReader {
     if (interfaces != nullptr)
       each(*interfaces, "interfaces",
            [&](Section& section, Curve& curve) { read_interface(section, curve); });
-    if (parts_.faults.size() == faults_before && parts_.has_mesh) build();
+    // Without structures that are not understood their nodes are missing: names of these would be faults that only follow.
+    if (parts_.faults.size() > faults_before) parts_.has_mesh = false;
+    if (parts_.has_mesh) build();
     if (anchors != nullptr) read_anchors(*anchors);
   }
 

@@ -74,6 +74,8 @@ class Section {
 
   [[nodiscard]] const Entry& entry() const { return entry_; }
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Keys that have been asked for.
+  [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }
 
  private:
   /// A number of a dimension as it was written.

@@ -52,8 +52,8 @@ TEST_F(KillsTest, KilledWorkersChangeNoDecisionOfAnAdaptiveRun) {
   int kills = 0;
   for (int steps = 100; kills < 30 && steps <= kLongestRun; steps *= 3) {
     Beside run(prepare(steps,
-                       " --set materials.sand.model=adaptive --set materials.sand.tolerance=0.01"
-                       " --set materials.sand.audit=0.5 --set steps.tolerance=1e-6"));
+                       " --set materials.sand.model=adaptive --set materials.sand.adaptive.tolerance=0.01"
+                       " --set materials.sand.adaptive.audit=0.5 --set steps.tolerance=1e-6"));
     kills = kill_workers(run, history(), 30, 3.0, 20250103);
     EXPECT_EQ(run.wait(), 0);
     EXPECT_EQ(result("disturbed/history.csv"), result("quiet/history.csv"));

@@ -235,10 +235,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "stresses themselves; leave lp out, or set 'rotations: free'"},
         BadInput{"PlasticLengthBelowNothing", "lc: 10 mm", "lc: 10 mm, lp: -1 mm",
                  "case.yaml:7: material 'sand': lp: must be greater than zero, found '-1 mm'"},
-        BadInput{"LimitOfCouplesTwice", "model: cell",
-                 "model: informed, lp: 10 mm, invariants: [0.25, 0.25, 0.1]",
-                 "case.yaml:7: material 'sand': invariants: their third number limits the couple stress, and "
-                 "so does lp; leave one of the two out"},
+        BadInput{
+            "LimitOfCouplesTwice", "model: cell",
+            "model: informed, lp: 10 mm, informed: {invariants: [0.25, 0.25, 0.1]}",
+            "case.yaml:7: material 'sand': informed: invariants: their third number limits the couple stress, and "
+            "so does lp; leave one of the two out"},
         BadInput{"UnknownRegion", "  all: sand", "  all: sand\n  core: sand",
                  "case.yaml:11: regions: the mesh has no region 'core'; it has all"},
         BadInput{

@@ -193,7 +193,7 @@ TEST_F(GrainsCommand, WithControlledRotationsTheSkewStressIsOfTheGrains) {
 }
 
 TEST_F(GrainsCommand, PointsThatShareACellShowTheGrainsThatTheyGoBy) {
-  run_case(case_text("model: adaptive, tolerance: 0.2 %, lc: 8 mm" + kDiscs));
+  run_case(case_text("model: adaptive, adaptive: {tolerance: 0.2 %}, lc: 8 mm" + kDiscs));
   show("--point 0 --point 6");
   for (const std::size_t point : {0u, 6u})
     for (const int step : {2, 4}) {
@@ -254,7 +254,7 @@ TEST_F(GrainsCommand, SpheresInSpaceInAllThreeSchemes) {
 }
 
 TEST_F(GrainsCommand, ARunThatWasKilledKeepsTheSameBytes) {
-  run_case(case_text("model: adaptive, tolerance: 1 %, lc: 8 mm" + kDiscs));
+  run_case(case_text("model: adaptive, adaptive: {tolerance: 1 %}, lc: 8 mm" + kDiscs));
   std::filesystem::rename(folder() / "out", folder() / "whole");
   {
     RunningProgram program(folder(), "run case.yaml -o out -w 1 --quiet --checkpoint-minutes 0");
@@ -274,7 +274,7 @@ TEST_F(GrainsCommand, ARunThatWasKilledKeepsTheSameBytes) {
 }
 
 TEST_F(GrainsCommand, ARunShowsThePointsThatItsCaseNames) {
-  const std::string material = "model: adaptive, tolerance: 1 %, lc: 8 mm" + kDiscs;
+  const std::string material = "model: adaptive, adaptive: {tolerance: 1 %}, lc: 8 mm" + kDiscs;
   run_case(case_text(material, "output: {every: 2, grains: [all]}\n"));
   for (const char* file : {"logs/grains.log", "grains/engine.log"})
     EXPECT_EQ(content(folder() / "out" / file), "") << file;

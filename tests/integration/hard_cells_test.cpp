@@ -20,7 +20,7 @@ const std::string kUnloading =
     "  - {on: [left, right, top], pressure: [[0, 100 kPa], [0.4, 25 kPa], [0.7, 5 kPa], [1, 1 kPa]]}\n";
 /// Ramps longer than soft networks take to settle, less damping, a tighter equilibrium: docs/hard_cells.md.
 const std::string kLowStress =
-    "tolerance: 0, damping: 0.06, least_steps: 950, unbalanced_force_ratio: 1e-4, "
+    "adaptive: {tolerance: 0}, damping: 0.06, least_steps: 950, unbalanced_force_ratio: 1e-4, "
     "unbalanced_moment_ratio: 1e-4, most_relaxation_steps: 200000";
 
 class HardCells : public ::testing::Test {
@@ -70,14 +70,14 @@ class HardCells : public ::testing::Test {
 };
 
 TEST_F(HardCells, ShearToLargeStrainHolds) {
-  write_case("tolerance: 2 %", "count: 60, tolerance: 1e-2",
+  write_case("adaptive: {tolerance: 2 %}", "count: 60, tolerance: 1e-2",
              "  - {on: bottom, fix: [u1, u2]}\n  - {on: top, move: {u1: 30 mm}, fix: [u2]}\n");
   const Outcome outcome = run();
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
 }
 
 TEST_F(HardCells, CyclesHold) {
-  write_case("tolerance: 2 %", "count: 20, tolerance: 1e-2",
+  write_case("adaptive: {tolerance: 2 %}", "count: 20, tolerance: 1e-2",
              kSmooth +
                  "  - {on: top, move: {u2: [[0, 0], [0.25, -0.5 mm], [0.5, 0], [0.75, -0.5 mm], [1, 0]]}}\n"
                  "  - {on: [left, right], pressure: 100 kPa}\n");
@@ -92,7 +92,8 @@ TEST_F(HardCells, UnloadingHoldsDownToOneKilopascal) {
 }
 
 TEST_F(HardCells, UnloadingWithTooShortRampsStopsWhereStressesJump) {
-  write_case("tolerance: 0", "count: 20, tolerance: 3e-4, largest_strain: 1e-3, jumps: 0", kUnloading);
+  write_case("adaptive: {tolerance: 0}", "count: 20, tolerance: 3e-4, largest_strain: 1e-3, jumps: 0",
+             kUnloading);
   expect_stop(run(), "the stresses jump here, however small the strain");
 }
 

@@ -24,12 +24,13 @@ class InformedCaseTest : public ::testing::Test {
           "    G: 40 MPa\n"
           "    Gc: 10 MPa\n"
           "    lc: 20 mm\n"
-          "    nu: 0.25\n"
-          "    update: frozen\n"
-          "    mismatch_limit: 40 %\n"
-          "    beyond_mismatch: tell\n"
-          "    drift_shear: 0.02\n"
-          "    cohesion: 50 Pa\n"
+          "    informed:\n"
+          "      nu: 0.25\n"
+          "      update: frozen\n"
+          "      mismatch_limit: 40 %\n"
+          "      beyond_mismatch: tell\n"
+          "      drift_shear: 0.02\n"
+          "      cohesion: 50 Pa\n"
           "regions: {all: sand}\n"
           "boundary:\n"
           "  - {on: bottom, fix: [u2]}\n"
@@ -51,7 +52,7 @@ TEST_F(InformedCaseTest, OneWordChangesTheScheme) {
   EXPECT_EQ(polargrain("check case.yaml").status, 0);
   EXPECT_EQ(polargrain("check case.yaml --set materials.sand.model=cell").errors, "");
   EXPECT_EQ(polargrain("check case.yaml --set materials.sand.model=cell").status, 0);
-  EXPECT_EQ(polargrain("check case.yaml --set materials.sand.update=fixed_point").status, 0);
+  EXPECT_EQ(polargrain("check case.yaml --set materials.sand.informed.update=fixed_point").status, 0);
 }
 
 TEST_F(InformedCaseTest, EveryFaultOfItsKeysHasItsLine) {
@@ -71,13 +72,13 @@ TEST_F(InformedCaseTest, EveryFaultOfItsKeysHasItsLine) {
     EXPECT_EQ(outcome.status, 2);
     for (
         const char* fault :
-        {"case.yaml:11: material 'sand': nu: must be above -1 and below 0.5",
-         "case.yaml:12: material 'sand': update: expected one of frozen, fixed_point, found 'froze'; did "
+        {"case.yaml:12: material 'sand': informed: nu: must be above -1 and below 0.5",
+         "case.yaml:13: material 'sand': informed: update: expected one of frozen, fixed_point, found 'froze'; did "
          "you mean 'frozen'?",
-         "case.yaml:13: material 'sand': window: is no key any more, its value is always 5 increments; leave it out",
-         "case.yaml:14: material 'sand': beyond_mismatch: 'stop' is no choice any more; write tell",
-         "case.yaml:15: material 'sand': initial_friction: is no key any more, its value is always 5 deg; leave it out",
-         "case.yaml:16: material 'sand': cohesion: "}) {
+         "case.yaml:14: material 'sand': informed: window: is no key any more, its value is always 5 increments; leave it out",
+         "case.yaml:15: material 'sand': informed: beyond_mismatch: 'stop' is no choice any more; write tell",
+         "case.yaml:16: material 'sand': informed: initial_friction: is no key any more, its value is always 5 deg; leave it out",
+         "case.yaml:17: material 'sand': informed: cohesion: "}) {
       EXPECT_NE(outcome.errors.find(fault), std::string::npos) << fault << "\n" << outcome.errors;
     }
   }
@@ -85,7 +86,7 @@ TEST_F(InformedCaseTest, EveryFaultOfItsKeysHasItsLine) {
 
 TEST_F(InformedCaseTest, AnyNumberOfWorkersWritesTheSameHistory) {
   for (const char* update : {"frozen", "fixed_point"}) {
-    const std::string options = std::string("--quiet --set materials.sand.update=") + update;
+    const std::string options = std::string("--quiet --set materials.sand.informed.update=") + update;
     const Outcome one = polargrain("run case.yaml -o one -w 1 " + options);
     ASSERT_EQ(one.status, 0) << one.errors;
     const Outcome three = polargrain("run case.yaml -o three -w 3 " + options);
@@ -101,13 +102,29 @@ TEST_F(InformedCaseTest, AnyNumberOfWorkersWritesTheSameHistory) {
   }
 }
 
+TEST_F(InformedCaseTest, AKeyOfASchemeStandsInTheMapOfItsName) {
+  for (const char* model : {"informed", "cell"}) {
+    const Outcome outcome =
+        polargrain(std::string("check case.yaml --set materials.sand.model=") + model +
+                   " --set materials.sand.update=frozen --set materials.sand.tolerance='3 %'");
+    EXPECT_EQ(outcome.status, 2);
+    for (const char* fault :
+         {"update: is a key of the scheme 'informed'; write informed: {update: frozen}",
+          "tolerance: is a key of the scheme 'adaptive'; write adaptive: {tolerance: 3 %}"})
+      EXPECT_NE(outcome.errors.find(fault), std::string::npos) << outcome.errors;
+  }
+  const Outcome unknown = polargrain("check case.yaml --set materials.sand.adaptive.tolerence='3 %'");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.errors.find("did you mean 'tolerance'"), std::string::npos) << unknown.errors;
+}
+
 TEST_F(InformedCaseTest, PointsThatGoByTheirCellsWriteTheSameWithAnyNumberOfWorkers) {
   for (const char* update : {"frozen", "fixed_point"}) {
     const std::string options =
-        std::string("--set materials.sand.update=") + update +
+        std::string("--set materials.sand.informed.update=") + update +
         // A law that does not yield, and softer than it is ever taken to be (unloading.hpp).
-        " --set materials.sand.cohesion='1 MPa' --set materials.sand.G='4 MPa'"
-        " --set materials.sand.beyond_mismatch=cell --set materials.sand.mismatch_limit='1 %'";
+        " --set materials.sand.informed.cohesion='1 MPa' --set materials.sand.G='4 MPa'"
+        " --set materials.sand.informed.beyond_mismatch=cell --set materials.sand.informed.mismatch_limit='1 %'";
     const Outcome one = polargrain("run case.yaml -o one -w 1 " + options);
     ASSERT_EQ(one.status, 0) << one.errors;
     EXPECT_NE((one.out + one.errors).find("go by the stress of their cells"), std::string::npos)
@@ -123,7 +140,7 @@ TEST_F(InformedCaseTest, PointsThatGoByTheirCellsWriteTheSameWithAnyNumberOfWork
 }
 
 TEST_F(InformedCaseTest, WhatFollowsAMismatchIsCheckedBeforeTheRun) {
-  const std::string check = "check case.yaml --set materials.sand.";
+  const std::string check = "check case.yaml --set materials.sand.informed.";
   EXPECT_EQ(polargrain(check + "beyond_mismatch=cell").status, 0);
   const Outcome word = polargrain(check + "beyond_mismatch=cells");
   EXPECT_EQ(word.status, 2);

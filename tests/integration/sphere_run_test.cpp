@@ -152,7 +152,7 @@ TEST_F(SphereRun, AnInformedLawOfSpheresIsAsStrongAsItsCell) {
 
 TEST_F(SphereRun, PointsThatHaveLeftTheirLawGoOnToTheSameBytes) {
   write(folder() / "case.yaml",
-        case_text("model: informed, beyond_mismatch: cell, mismatch_limit: 5 %, lc: 20 mm"));
+        case_text("model: informed, informed: {beyond_mismatch: cell, mismatch_limit: 5 %}, lc: 20 mm"));
   expect_resumed_alike("left_law_");
   EXPECT_EQ(content(folder() / "left_law_whole/summary.json").find("\"stress_of_cell\": 0.0"),
             std::string::npos);

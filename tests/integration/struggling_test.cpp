@@ -17,7 +17,7 @@ const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
 const std::string kCase = R"(title: A wall pushed 2 mm into ground of grains
 mesh: {file: wall.msh, element: Q8R}
 materials:
-  sand: {model: adaptive, script: cell.in, packing: grains.h5, lc: 1.4 mm, tolerance: 1 %}
+  sand: {model: adaptive, script: cell.in, packing: grains.h5, lc: 1.4 mm, adaptive: {tolerance: 1 %}}
 regions: {ground: sand}
 boundary:
   - {on: base, fix: [u1, u2]}

@@ -63,6 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
               "E: '1e20 GPa' is larger than any such quantity"},
         Fault{"LengthOfTheSolarSystem", kGround, "lc: 20 cm", "lc: 1e9 km",
               "lc: '1e9 km' is larger than any such quantity"},
+        Fault{"OnePointAndNoLength",
+              replaced(kGround, "elements: [20, 10]}", "elements: [20, 10]}\n  element: Q4R"), "lc: 20 cm",
+              "lc: 0", "lc: must be above zero with Q4R"},
         Fault{"ExplicitTooFast", kGrains, "{count: 20, tolerance: 1e-2}",
               "{count: 20, method: explicit, pace: 1e-2}",
               "a boundary would run into its elements like a hammer"},
@@ -84,6 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(CarelessFaults, WhatIsRightHasNone) {
   EXPECT_EQ(faults_of(kGrains, false), "no fault");
   EXPECT_EQ(faults_of(kGround, false), "no fault");
+  EXPECT_EQ(faults_of(replaced(kGround, "lc: 20 cm", "lc: 0"), false), "no fault");
   EXPECT_EQ(faults_of(kPacking, true), "no fault");
   EXPECT_EQ(faults_of("---\n" + kGrains + "...\n# the end\n", false), "no fault");
   EXPECT_EQ(faults_of(replaced(kGrains, "100 kPa}", "100 kN/m2}"), false), "no fault");

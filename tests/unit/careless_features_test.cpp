@@ -172,6 +172,51 @@ INSTANTIATE_TEST_SUITE_P(
                                "a density of 2 kg/m3"}),
     [](const auto& info) { return info.param.name; });
 
+/// Half of a strip footing 2 m wide, its edge in the middle of the surface.
+const std::string kFooting = R"(title: A strip footing on clay
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [16, 8], lines: {footing: [0, 2 m, 1 m, 2 m], apron: [1 m, 2 m, 4 m, 2 m]}}}
+materials:
+  clay: {model: elastoplastic, E: 10 MPa, nu: 0.45, friction_angle: 0 deg, dilatancy_angle: 0 deg, cohesion: 20 kPa}
+regions: {all: clay}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: [left, right], fix: [u1]}
+  - {on: footing, move: {u2: -40 mm}}
+  - {on: apron, pressure: 10 kPa}
+initial_stress: [{stress: [-10 kPa, -10 kPa, -10 kPa, 0]}]
+steps: {count: 20, tolerance: 1e-5}
+monitors: {force: {on: footing, reaction: u2}}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Plates, CarelessFeatures,
+    ::testing::Values(
+        Careless{"FootingOnTwoElements", kFooting, "elements: [16, 8]", "elements: [8, 4]",
+                 "'footing' is moved and measures 2 elements: where it ends the stress has no bound, and the "
+                 "load of failure is up to 8 % too high",
+                 Rank::doubtful},
+        Careless{"FootingWithTwoEnds",
+                 replaced(kFooting, "{on: apron, pressure", "{on: [apron, court], pressure"),
+                 "footing: [0, 2 m, 1 m, 2 m], apron: [1 m, 2 m, 4 m, 2 m]",
+                 "footing: [1 m, 2 m, 2 m, 2 m], apron: [2 m, 2 m, 4 m, 2 m], court: [0, 2 m, 1 m, 2 m]",
+                 "measures 4 elements", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+const std::string kReadAlong = "monitors: {base: {on: bottom, reaction: u2}}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Profiles, CarelessFeatures,
+    ::testing::Values(
+        Careless{"FromInMillimetres", kBank, kReadAlong,
+                 kReadAlong + "profiles: {axis: {from: [4, 0], to: [4, 120], values: [s22]}}\n",
+                 "profile 'axis': it ends outside of the body: 46 of its 51 points have no values",
+                 Rank::doubtful},
+        Careless{"DownwardsFromTheSurface", kBank, kReadAlong,
+                 kReadAlong + "profiles: {axis: {from: [4 m, 0], to: [4 m, -10 m], values: [u2]}}\n",
+                 "50 of its 51 points have no values", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
 class OddFeatures : public ::testing::TestWithParam<Careless> {};
 
 TEST_P(OddFeatures, StayWithoutARemark) {
@@ -194,6 +239,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
         Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
                  "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
+        Careless{"AFooting", kFooting, "", ""},
+        Careless{"ALineAcrossAHole", kBank, kReadAlong,
+                 kReadAlong + "profiles: {slope: {from: [2 m, 9 m], to: [12 m, 12 m], values: [u2]}}\n"},
         Careless{"TrafficThatGoesAgain", kBank, "pressure: 10 kPa",
                  "pressure: [[2, 0], [2.5, 10 kPa], [3, 0]]"},
         Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),

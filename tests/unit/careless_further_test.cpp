@@ -45,8 +45,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 Careless with_reference(const std::string& name, const std::string& pressure, const std::string& message,
                         Rank rank) {
-  return {name,    kGrains, "model: cell", "model: adaptive, tolerance: 2 %, reference_pressure: " + pressure,
-          message, rank};
+  return {name,          kGrains,
+          "model: cell", "model: adaptive, adaptive: {tolerance: 2 %, reference_pressure: " + pressure + "}",
+          message,       rank};
 }
 
 INSTANTIATE_TEST_SUITE_P(

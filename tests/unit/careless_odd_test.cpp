@@ -97,10 +97,10 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"TableBeyondTheMeasure", replaced(kGrains, "{u2: -8 mm}", "{u2: [[0, 0], [10, -80 mm]]}"),
                  "count: 20,",
                  "stages: [{measure: {on: top, from: bottom, displacement: u2}, grow: -8 mm, count: 20}],"},
-        Careless{
-            "ToleranceOfTheDeepest",
-            replaced(kGrains, "model: cell", "model: adaptive, tolerance: 1 %, reference_pressure: 300 kPa"),
-            "-8 mm", "-4 mm"},
+        Careless{"ToleranceOfTheDeepest",
+                 replaced(kGrains, "model: cell",
+                          "model: adaptive, adaptive: {tolerance: 1 %, reference_pressure: 300 kPa}"),
+                 "-8 mm", "-4 mm"},
         Careless{"AnchorThatIsPulled", kGround, "{on: top, pressure: [[0, 10 kPa], [1, 60 kPa]]}",
                  "{on: top, pressure: 10 kPa}\n  - {on: top_right, node_force: {u2: [[0, 0], [1, 5 kN/m]]}}"},
         Careless{

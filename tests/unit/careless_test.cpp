@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "up to 100 times as long as wide (at most 20)", Rank::doubtful},
         Careless{"FrictionOfSixtyDegrees", kGround, "friction_angle: 30 deg", "friction_angle: 60 deg",
                  "a friction angle of 60 deg", Rank::doubtful},
-        Careless{"ErrorOfAThird", kGrains, "model: cell,", "model: adaptive, tolerance: 0.3,",
+        Careless{"ErrorOfAThird", kGrains, "model: cell,", "model: adaptive, adaptive: {tolerance: 0.3},",
                  "tolerance: 0.3 of the pressure", Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 

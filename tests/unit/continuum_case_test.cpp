@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The kind of continuum and spread slips as a case file has them.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "common/error.hpp"
-#include "coupler/case/case.hpp"
 #include "fem/material/elastoplastic.hpp"
 #include "fem/material/local_material.hpp"
 #include "fem/material/slip_driven.hpp"
 #include "fem/solver/solver.hpp"
 #include "fem/spread/spread_slip.hpp"
+#include "tests/support/edited_case.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -32,33 +27,9 @@ boundary:
 steps: {count: 20}
 )";
 
-class ContinuumCase : public testing::Test {
+class ContinuumCase : public polargrain::testing::EditedCase {
  protected:
-  ContinuumCase()
-      : directory_(std::filesystem::temp_directory_path() / ("continuum_case." + std::to_string(getpid()))) {
-    std::filesystem::create_directories(directory_);
-  }
-  ~ContinuumCase() override { std::filesystem::remove_all(directory_); }
-
-  /// The case with a piece of its text replaced.
-  Case read(const std::string& good = "", const std::string& bad = "") {
-    std::string text = kCase;
-    if (!good.empty()) text.replace(text.find(good), good.size(), bad);
-    std::ofstream(directory_ / "case.yaml") << text;
-    return read_case(directory_ / "case.yaml");
-  }
-  /// "LINE: message" of the first fault.
-  std::string fault(const std::string& good, const std::string& bad) {
-    try {
-      (void)read(good, bad);
-    } catch (const InputError& error) {
-      return std::to_string(error.faults().front().line) + ": " + error.faults().front().message;
-    }
-    return "no fault";
-  }
-
- private:
-  std::filesystem::path directory_;
+  ContinuumCase() : EditedCase("continuum_case", kCase) {}
 };
 
 using Local = fem::LocalMaterial<fem::ElastoplasticLaw<2>>;

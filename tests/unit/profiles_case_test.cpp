@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Values at places, along lines, and the start from another run as a case file has them: faults with line and remedy.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "common/error.hpp"
-#include "coupler/case/case.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "tests/support/edited_case.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -32,37 +27,17 @@ start_from: first
 steps: {count: 1}
 )";
 
-class ProfilesCase : public testing::Test {
+class ProfilesCase : public polargrain::testing::EditedCase {
  protected:
-  ProfilesCase()
-      : directory_(std::filesystem::temp_directory_path() / ("profiles_case." + std::to_string(getpid()))) {
-    std::filesystem::create_directories(directory_ / "first");
+  ProfilesCase() : EditedCase("profiles_case", kCase) {
+    std::filesystem::create_directories(directory() / "first");
     end_.identity.values = {{"materials.soil.model", "elastic"}, {"regions.all", "soil"}};
     end_.step = 3;
     keep();
   }
-  ~ProfilesCase() override { std::filesystem::remove_all(directory_); }
 
-  void keep() { write_checkpoint(directory_ / "first/checkpoint.h5", end_); }
+  void keep() { write_checkpoint(directory() / "first/checkpoint.h5", end_); }
 
-  Case read(const std::string& good = "", const std::string& bad = "") {
-    std::string text = kCase;
-    if (!good.empty()) text.replace(text.find(good), good.size(), bad);
-    std::ofstream(directory_ / "case.yaml") << text;
-    return read_case(directory_ / "case.yaml");
-  }
-  /// "LINE: message" of the first fault.
-  std::string fault(const std::string& good = "", const std::string& bad = "") {
-    try {
-      (void)read(good, bad);
-    } catch (const InputError& error) {
-      const Fault& first = error.faults().front();
-      return std::to_string(first.line) + ": " + first.message;
-    }
-    return "none";
-  }
-
-  std::filesystem::path directory_;
   Checkpoint end_;
 };
 
@@ -73,7 +48,7 @@ TEST_F(ProfilesCase, IsReadWhole) {
   EXPECT_EQ(the_case.profiles[0].places[1], (std::vector<double>{1.0, 0.25}));
   EXPECT_EQ(the_case.profiles[1].places.size(), 9U);  // the nodes of four sides
   EXPECT_EQ(the_case.monitors[0].component.unit, "Pa");
-  EXPECT_EQ(the_case.start_from, directory_ / "first");
+  EXPECT_EQ(the_case.start_from, directory() / "first");
 }
 
 TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
@@ -116,7 +91,7 @@ TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
       fault("start_from: first", "start_from: frist"),
       "15: case: start_from: there is no folder 'frist'; give the result directory of a run, as seen from the "
       "case file");
-  std::filesystem::create_directories(directory_ / "empty");
+  std::filesystem::create_directories(directory() / "empty");
   EXPECT_EQ(
       fault("start_from: first", "start_from: empty"),
       "15: case: start_from: 'empty' holds no checkpoint.h5; give the result directory of a run that has come to "
@@ -160,7 +135,7 @@ TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
   end_.step = 0;
   keep();
   EXPECT_EQ(fault(), "15: case: start_from: 'first' has taken no step yet; run it to its end");
-  std::ofstream(directory_ / "first/checkpoint.h5") << "no checkpoint";
+  std::ofstream(directory() / "first/checkpoint.h5") << "no checkpoint";
   EXPECT_NE(fault().find("15: case: start_from: "), std::string::npos);
 }
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Stages of construction as a case file has them.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "common/error.hpp"
-#include "coupler/case/case.hpp"
+#include "tests/support/edited_case.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -40,33 +35,9 @@ steps:
     - {name: pull, count: 5, boundary: [{on: right, move: {u1: 2 mm}, name: side}]}
 )";
 
-class StagesCase : public testing::Test {
+class StagesCase : public polargrain::testing::EditedCase {
  protected:
-  StagesCase()
-      : directory_(std::filesystem::temp_directory_path() / ("stages_case." + std::to_string(getpid()))) {
-    std::filesystem::create_directories(directory_);
-  }
-  ~StagesCase() override { std::filesystem::remove_all(directory_); }
-
-  /// The case with a piece of its text replaced.
-  Case read(const std::string& good = "", const std::string& bad = "") {
-    std::string text = kCase;
-    if (!good.empty()) text.replace(text.find(good), good.size(), bad);
-    std::ofstream(directory_ / "case.yaml") << text;
-    return read_case(directory_ / "case.yaml");
-  }
-  /// "LINE: message" of the first fault.
-  std::string fault(const std::string& good, const std::string& bad) {
-    try {
-      (void)read(good, bad);
-    } catch (const InputError& error) {
-      return std::to_string(error.faults().front().line) + ": " + error.faults().front().message;
-    }
-    return "no fault";
-  }
-
- private:
-  std::filesystem::path directory_;
+  StagesCase() : EditedCase("stages_case", kCase) {}
 };
 
 TEST_F(StagesCase, is_one_list_of_steps_and_of_what_comes_and_goes) {
@@ -132,6 +103,14 @@ TEST_F(StagesCase, finds_a_load_on_a_boundary_that_is_not_there_yet) {
       fault("{name: rest, count: 2}", "{name: rest, count: 2, boundary: [{on: floor, pressure: 20 kPa}]}");
   EXPECT_EQ(found.substr(0, 70), "21: stage 'rest': the load on 'floor' begins here, where 'floor' is no")
       << found;
+}
+
+TEST_F(StagesCase, finds_a_line_that_ends_between_corners) {
+  const std::string end = "; let it end at corners";
+  EXPECT_EQ(fault("wall: [4 m, 6 m,", "wall: [4 m, 6.5 m,").substr(0, 63), "X");
+  EXPECT_NE(fault("wall: [4 m, 6 m,", "wall: [4 m, 6.2 m,").find(end), std::string::npos);
+  EXPECT_NE(fault("floor: [0, 6 m, 4 m, 6 m]", "floor: [0, 6 m, 3 m, 6 m]").find(end), std::string::npos);
+  EXPECT_EQ(fault("wall: [4 m, 6 m,", "wall: [4 m, 7 m,"), "no fault");
 }
 
 TEST_F(StagesCase, of_the_old_kind_are_read_as_ever) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -68,6 +69,18 @@ TEST(StructuresCase, AWallOfBeamsHasAnInterfaceOnEachSide) {
   ASSERT_EQ(the_case.problem.fields.size(), 1U);
   EXPECT_EQ(the_case.problem.fields[0].nodes.size(), 5U);
   EXPECT_EQ(the_case.problem.mesh.nodes_on("joint").size(), 10U) << "the ground's copies alone";
+}
+
+TEST(StructuresCase, AWrongKeyIsOneFault) {
+  const std::string rest =
+      "beams: {plate: {on: joint, EA: 100 MN/m, EI: 1 MNm2/m, clamped: [plate_left]}}\n"
+      "anchors: {tie: {from: plate_right, to: [3 m, 1 m], EA: 20 MN/m}}\n"
+      "monitors: {M: {beam: plate, value: moment}, F: {anchor: tie}, below: {interface: skin below, value: pressure}}\n";
+  const std::string supports = "  - {on: plate_left, fix: [u1, u2]}\n";
+  EXPECT_EQ(faults_of("interfaces: {skin: {on: joint, friction: 20 deg}}\n" + rest, supports), "");
+  const std::string fault = faults_of("interfaces: {skin: {on: joint, friction: 95 deg}}\n" + rest, supports);
+  EXPECT_NE(fault.find("friction: must be below 80 deg"), std::string::npos) << fault;
+  EXPECT_EQ(std::ranges::count(fault, '\n'), 0) << fault;
 }
 
 TEST(StructuresCase, FaultsNamePlaceAndRemedy) {

@@ -36,8 +36,10 @@ constexpr Bound kOfMaterials[] = {
      "6e-4, at most 2e-3; where a step fails, more steps help, not a higher rate"},
     {"unbalanced_force_ratio", 0.05, "of a contact force may be out of balance at read-out", "5e-3"},
     {"unbalanced_moment_ratio", 0.05, "of a contact force may be out of balance at read-out", "5e-3"},
-    {"damping", 0.5, "of the critical damping: grains creep to where they rest", "0.12"},
-    {"tolerance", 0.2, "of the pressure may the stress of a point be off", "1 to 5 %"}};
+    {"damping", 0.5, "of the critical damping: grains creep to where they rest", "0.12"}};
+
+constexpr Bound kOfAdaptive = {"tolerance", 0.2, "of the pressure may the stress of a point be off",
+                               "1 to 5 %"};
 
 void look_at(const Scene& scene, const Scene::Path& section, const Bound& bound, Remarks& remarks) {
   Scene::Path path = section;
@@ -55,7 +57,7 @@ void look_at(const Scene& scene, const Scene::Path& section, const Bound& bound,
 void look_at_reference(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
   constexpr double kMost = 10.0;    // times the largest stress of the scene
   constexpr double kLeast = 0.001;  // of it
-  const Scene::Path path = {"materials", region.material, "reference_pressure"};
+  const Scene::Path path = {"materials", region.material, "adaptive", "reference_pressure"};
   const auto reference = scene.quantity(path, coupler::Dimension::pressure);
   const double stress = std::max(stress_scale(scene), Scene::pressure_of(region));
   if (!reference || stress <= 0.0) return;
@@ -79,8 +81,10 @@ void tolerances(const Scene& scene, Remarks& remarks) {
   look_at(scene, {"steps"}, scene.has_cells() ? kOfBoxes : kOfLaws, remarks);
   for (const Bound& bound : kOfSteps) look_at(scene, {"steps"}, bound, remarks);
   for (const auto& [name, material] : scene.the_case().materials)
-    if (material->needs_workers())
+    if (material->needs_workers()) {
       for (const Bound& bound : kOfMaterials) look_at(scene, {"materials", name}, bound, remarks);
+      look_at(scene, {"materials", name, "adaptive"}, kOfAdaptive, remarks);
+    }
   for (const SceneRegion& region : scene.regions())
     if (region.cell != nullptr) look_at_reference(scene, region, remarks);
 }

@@ -46,8 +46,8 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
-  AdaptivityOptions options = read_adaptivity_options(section);
-  check_informed_parameters(section, files.dimension);  // checked, and no more: see there
+  AdaptivityOptions options = read_adaptivity_options(section, faults);
+  check_informed_parameters(section, files.dimension, faults);  // of another scheme: checked, and no more
   if (definition.control.tangent == CellTangent::voigt) {
     section.fault(
         "tangent",
@@ -62,7 +62,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
 }  // namespace
 
 MaterialModel adaptive_model() {
-  return {"adaptive", "boxes of grains as `cell` has them, no more than `tolerance` asks for", read};
+  return {"adaptive", "boxes of grains as `cell` has them, no more than a tolerance asks for", read};
 }
 
 }  // namespace polargrain::coupler

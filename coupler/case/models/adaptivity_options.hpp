@@ -5,8 +5,7 @@
 
 namespace polargrain::coupler {
 
-/// Reads tolerance, reference_pressure, audit and seed of `adaptive`; all have defaults. `cell` and `informed` read
-/// them too and make no use of them, so that a case changes from one to the other by one word.
-AdaptivityOptions read_adaptivity_options(Section& section);
+/// Reads the map `adaptive` of a material with cells: tolerance, reference_pressure, audit and seed, all with defaults.
+AdaptivityOptions read_adaptivity_options(Section& material, Faults& faults);
 
 }  // namespace polargrain::coupler

@@ -63,8 +63,9 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
-  check_informed_parameters(section, files.dimension);  // these two checked, and no more: see there
-  read_adaptivity_options(section);
+  // Of the other schemes: checked, and no more.
+  check_informed_parameters(section, files.dimension, faults);
+  read_adaptivity_options(section, faults);
   // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
   std::optional<Residents> residents;
   if (files.dem_steps > 0)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <fmt/format.h>
+
 #include "coupler/case/cell_script.hpp"
 #include "coupler/case/section.hpp"
 #include "fem/material/elastic.hpp"
@@ -15,14 +17,17 @@ void read_cosserat_moduli(Section& section, const CaseFiles& files, fem::Elastic
   };
   parameters.cosserat_shear_modulus = value("Gc", Dimension::pressure);
   parameters.internal_length = value("lc", Dimension::length);
-  if (dim == 2 || !files.cosserat) return;
-  parameters.couple_trace_ratio = section.quantity_or("alpha", Dimension::number, Limit::any, 0.0);
-  parameters.couple_transpose_ratio = section.quantity_or("beta", Dimension::number, Limit::any, 0.0);
-  if (section.find("lc") != nullptr && parameters.internal_length == 0.0)
+  if (!files.cosserat) return;
+  if ((dim == 3 || files.one_point) && section.find("lc") != nullptr && parameters.internal_length == 0.0)
     section.fault(
         "lc",
-        "lc: must be above zero in space: without couple stiffness elements with fewer points than their nodes "
-        "have motions that cost no energy; give lc, or set 'continuum: cauchy'");
+        fmt::format(
+            "lc: must be above zero {}: without couple stiffness elements with fewer points than their nodes "
+            "have motions that cost no energy; give lc, or set 'continuum: cauchy'",
+            dim == 3 ? "in space" : "with Q4R"));
+  if (dim == 2) return;
+  parameters.couple_trace_ratio = section.quantity_or("alpha", Dimension::number, Limit::any, 0.0);
+  parameters.couple_transpose_ratio = section.quantity_or("beta", Dimension::number, Limit::any, 0.0);
 }
 
 /// Reads E, nu, Gc, lc and the isotropic initial stress `confining`.

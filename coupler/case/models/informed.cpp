@@ -9,6 +9,7 @@
 #include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
+#include "coupler/case/models/scheme_section.hpp"
 #include "coupler/cells/gathered_material.hpp"
 #include "coupler/cells/informed_material.hpp"
 
@@ -88,17 +89,19 @@ std::unique_ptr<MaterialRecipe> read_for(const std::string& material, Section& s
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
-  InformedParameters<dim> parameters = read_informed_parameters<dim>(section);
+  SchemeSection informed(section, "informed", faults);
+  InformedParameters<dim> parameters = read_informed_parameters<dim>(informed.keys());
   if (cosserat && cosserat->plastic_length.value && parameters.weights) {
     // Given, or what `lc: measured` comes with.
-    section.fault(
+    informed.keys().fault(
         "invariants",
         fmt::format("invariants: their third number limits the couple stress, and so does {}; leave one of "
                     "the two out",
                     section.find("lp") != nullptr ? "lp" : "the lp that comes with 'lc: measured'"));
   }
-  read_adaptivity_options(section);  // checked, and no more: see there
-  refuse_asking_each_step(section, parameters, files);
+  read_adaptivity_options(section, faults);  // of another scheme: checked, and no more
+  refuse_asking_each_step(informed.keys(), parameters, files);
+  informed.finish();
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
   return std::make_unique<InformedRecipe<dim>>(std::move(definition), parameters, cosserat, files.ask_every);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "coupler/case/models/cone_match.hpp"
+#include "coupler/case/models/scheme_section.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -64,12 +65,14 @@ InformedParameters<dim> read_informed_parameters(Section& section) {
 template InformedParameters<2> read_informed_parameters<2>(Section&);
 template InformedParameters<3> read_informed_parameters<3>(Section&);
 
-void check_informed_parameters(Section& section, int dimension) {
+void check_informed_parameters(Section& material, int dimension, Faults& faults) {
+  SchemeSection informed(material, "informed", faults);
   if (dimension == 3) {
-    read_informed_parameters<3>(section);
+    read_informed_parameters<3>(informed.keys());
   } else {
-    read_informed_parameters<2>(section);
+    read_informed_parameters<2>(informed.keys());
   }
+  informed.finish();
 }
 
 }  // namespace polargrain::coupler

@@ -6,12 +6,11 @@
 
 namespace polargrain::coupler {
 
-/// Reads the options of `informed` beside its cells and G, Gc, lc: nu, update, mismatch_limit,
-/// beyond_mismatch, drift_shear, match, cohesion, invariants; all have defaults. `cell` and `adaptive` read them too and make no use of
-/// them, so that a case changes from one to the other by one word. The moduli are left open.
+/// Reads the keys of the map `informed` of a material with cells: nu, update, mismatch_limit, beyond_mismatch, drift_shear, match,
+/// cohesion, invariants; all have defaults. The moduli are left open.
 template <int dim>
-InformedParameters<dim> read_informed_parameters(Section& section);
-/// Reads them for their faults alone.
-void check_informed_parameters(Section& section, int dimension);
+InformedParameters<dim> read_informed_parameters(Section& informed);
+/// Reads the map for its faults alone.
+void check_informed_parameters(Section& material, int dimension, Faults& faults);
 
 }  // namespace polargrain::coupler
