@@ -202,7 +202,7 @@ TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
   };
   const Refusal refusals[] = {
       {"triangle -o new",
-       "there is no kind 'triangle'; one of biaxial, footing, slope, excavation, element, triaxial, triaxial3d, footing3d, mesh"},
+       "there is no kind 'triangle'; one of biaxial, footing, slope, excavation, quay, element, triaxial, triaxial3d, footing3d, mesh"},
       {"biaxial -o full", "-o full: the folder has files in it"},
       {"biaxial -o full/mine.txt", "-o full/mine.txt: this is a file"},
       {"biaxial -o new --pressure 100kg", "--pressure 100kg: expected a pressure in Pa"},
