@@ -47,6 +47,11 @@ constexpr const char* kExcavationHead =
     "# A pit behind an anchored sheet pile. Names of regions and lines are those of the mesh; each stage names its changes.\n"
     "# SI units unless a unit is written. All keys: docs/user_guide.md\n";
 
+constexpr const char* kQuayHead =
+    "# A quay wall in water: at rest, wall and anchor, dredged in cuts, low water, load. Each stage names its changes.\n"
+    "# 'sea' presses on the bare wall and the bed; below 'interfaces' is how tight the wall is.\n"
+    "# SI units unless a unit is written. All keys: docs/user_guide.md\n";
+
 const std::vector<NewKind>& new_kinds() {
   static const std::vector<NewKind> kinds = [] {
     NewCase sparing;
@@ -76,6 +81,7 @@ const std::vector<NewKind>& new_kinds() {
         {"excavation",
          "a pit behind an anchored sheet pile, dug in stages, in ground of a law, no grains",
          {}},
+        {"quay", "an anchored quay wall in water, dredged in stages, at low water, in ground of a law", {}},
         {"element", "a laboratory test of one box of grains, for polargrain element", with({})},
         {"triaxial", "a triaxial test of one box of spheres, for polargrain element", with({}), in_space},
         {"triaxial3d", "compression of a square column of spheres between rough plates, in space",
@@ -91,7 +97,7 @@ const std::vector<NewKind>& new_kinds() {
 
 /// Whether it is a ready case of a law, without a packing.
 bool is_of_law(const NewKind& kind) {
-  return kind.name == "slope" || kind.name == "excavation";
+  return kind.name == "slope" || kind.name == "excavation" || kind.name == "quay";
 }
 
 /// Whether it is a test of one box of grains and no case.
@@ -189,8 +195,9 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
     files.front().text = kSlopeHead + files.front().text;
     return files;
   }
-  if (kind.name == "excavation")
-    return {{"case.yaml", kExcavationHead + brought_file("cases/excavation/case.yaml")}};
+  if (kind.name == "excavation" || kind.name == "quay")
+    return {{"case.yaml", (kind.name == "quay" ? kQuayHead : kExcavationHead) +
+                              brought_file("cases/" + kind.name + "/case.yaml")}};
   std::vector<NewFile> files;
   if (kind.name == "biaxial") files.push_back({"case.yaml", biaxial_text(what)});
   if (is_test(kind)) files.push_back({"test.yaml", element_text(what)});

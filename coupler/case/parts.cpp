@@ -69,8 +69,8 @@ void CaseParts::check_places(Section& section, const std::string& key, const std
 
 CaseParts::Counts CaseParts::counts() const {
   return result.with_problem([](const auto& problem) {
-    return Counts{problem.prescribed.size(), problem.boundary_loads.size(), problem.node_loads.size(),
-                  problem.body_loads.size(), problem.prescribed_fields.size()};
+    return Counts{problem.prescribed.size(), problem.boundary_loads.size(),    problem.node_loads.size(),
+                  problem.body_loads.size(), problem.prescribed_fields.size(), problem.contributions.size()};
   });
 }
 

@@ -11,6 +11,7 @@
 #include "coupler/case/case.hpp"
 #include "coupler/case/section.hpp"
 #include "fem/water/pore_water.hpp"
+#include "fem/water/water_across.hpp"
 
 namespace polargrain::coupler {
 
@@ -26,6 +27,13 @@ struct WaterOfCase {
   const Entry* entry;
   std::map<std::string, fem::WaterOfRegion> regions;
   fem::PoreWaterOptions options;
+};
+
+/// How water passes an interface, as its section says.
+struct PassageOfInterface {
+  const Entry* entry;
+  fem::WaterAcrossOptions options;
+  bool is_given = false;  ///< and no default
 };
 
 /// The common data of the readers of the parts of a case.
@@ -46,8 +54,8 @@ struct CaseParts {
   Now now = {};
 
   /// The items of the problem that an item of `boundary` or `body` has made: from, and up to, so many of prescribed,
-  /// boundary_loads, node_loads, body_loads and prescribed_fields.
-  using Counts = std::array<std::size_t, 5>;
+  /// boundary_loads, node_loads, body_loads, prescribed_fields and contributions.
+  using Counts = std::array<std::size_t, 6>;
   struct Made {
     Counts from, to;
   };
@@ -65,6 +73,7 @@ struct CaseParts {
       in(problem.node_loads, 2);
       in(problem.body_loads, 3);
       in(problem.prescribed_fields, 4);
+      for (std::size_t k = made.from[5]; k < made.to[5]; ++k) visit(*problem.contributions[k]);
     });
   }
   /// Interfaces against rigid bodies, by their names, which name the nodes of the bodies too; and rotations of nodes without
@@ -72,6 +81,7 @@ struct CaseParts {
   std::vector<std::pair<std::string, const Entry*>> rigid_bodies = {};
   std::vector<std::pair<std::string, fem::Dof>> own_rotations = {};
   std::optional<WaterOfCase> water = {};
+  std::map<std::string, PassageOfInterface> passages = {};  ///< by the name of the interface
 
   /// Of the loading time: with water it is physical.
   [[nodiscard]] Dimension time() const { return water ? Dimension::duration : Dimension::number; }
@@ -117,6 +127,13 @@ bool read_water_boundary(Section& item, const std::vector<std::string>& places, 
                          const TableReader& table);
 /// Gives the problem its pore pressures, when the boundary has been read.
 void add_water(CaseParts& parts);
+/// Reads `water` and `resistance` of an interface.
+void read_passage(Section& section, const std::string& interface, CaseParts& parts);
+/// Lets the pore water press on the faces of interfaces and pass them: behind add_pore_water.
+void add_water_at_interfaces(CaseParts& parts);
+/// Lets free water press on boundaries and walls. @param level of the water @returns those that are boundaries
+std::vector<std::string> add_free_water(Section& item, const std::vector<std::string>& places,
+                                        const fem::TimeTable& level, CaseParts& parts);
 /// @returns false, with nothing read, when it is a monitor of something else
 bool read_water_monitor(Section& section, CaseParts& parts, Monitor& monitor);
 void read_boundary(const Entry& entry, CaseParts& parts);

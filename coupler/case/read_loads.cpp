@@ -231,7 +231,7 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
     parts.faults.push_back(entry.fault(
         name +
         ": has no support and no load; give fix, move, accelerate, pressure, traction, node_force, tie or quiet, and "
-        "with water drained, pore_pressure, water_level or flux"));
+        "with water drained, pore_pressure, water_level, free_water or flux"));
   }
 }
 

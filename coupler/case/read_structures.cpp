@@ -132,6 +132,7 @@ class StructuresReader {
     if (here.holds_rotation && problem_.continuum == fem::Continuum::cauchy)
       section.fault("rotation",
                     "rotation: the classical continuum has no micro-rotation to hold; leave it out");
+    read_passage(section, name_, parts_);
     curve.interface = std::move(here);
   }
 

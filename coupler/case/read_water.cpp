@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "coupler/case/parts.hpp"
 #include "coupler/case/water_values.hpp"
@@ -131,6 +132,31 @@ void prescribe(const std::vector<std::string>& places, const fem::TimeTable& val
   parts.result.with_problem(add);
 }
 
+/// The level of free water over the time, where it is above the lowest place of a boundary: a bed that falls dry has no suction.
+fem::TimeTable above_bed(Section& item, const fem::TimeTable& level, const std::string& boundary,
+                         CaseParts& parts) {
+  const double bed = parts.result.with_problem([&](const auto& problem) {
+    double lowest = HUGE_VAL;
+    for (const int node : problem.mesh.nodes_on(boundary))
+      lowest = std::min(lowest, problem.mesh.nodes[static_cast<std::size_t>(node)].template tail<1>()(0));
+    return lowest;
+  });
+  if (item.find("free_water")->kind != Entry::Kind::sequence)
+    return fem::TimeTable::constant(std::max(level.at(0.0), bed));
+  std::vector<fem::TimeTable::Point> points;
+  for (const auto& [time, height] : item.pairs("free_water", parts.time(), Dimension::length, Limit::any)) {
+    // Between two rows on either side of the bed: where it falls dry.
+    if (!points.empty() && (points.back().value - bed) * (height - bed) < 0.0) {
+      const fem::TimeTable::Point& before = points.back();
+      points.push_back(
+          {before.time + (time - before.time) * (bed - before.value) / (height - before.value), bed});
+    }
+    points.push_back({time, height});
+  }
+  for (fem::TimeTable::Point& point : points) point.value = std::max(point.value, bed);
+  return points.empty() ? level : fem::TimeTable(std::move(points));
+}
+
 }  // namespace
 
 void read_water(const Entry& entry, CaseParts& parts) {
@@ -157,7 +183,8 @@ void read_water(const Entry& entry, CaseParts& parts) {
 
 bool read_water_boundary(Section& item, const std::vector<std::string>& places, CaseParts& parts,
                          const TableReader& table) {
-  static const std::vector<std::string> kKeys{"drained", "pore_pressure", "water_level", "flux"};
+  static const std::vector<std::string> kKeys{"drained", "pore_pressure", "water_level", "free_water",
+                                              "flux"};
   std::vector<std::string> found;
   for (const std::string& key : kKeys)
     if (item.find(key) != nullptr) found.push_back(key);
@@ -182,12 +209,19 @@ bool read_water_boundary(Section& item, const std::vector<std::string>& places, 
     for (const std::string& place : places) parts.water->options.fluxes.push_back({place, value});
   } else if (key == "pore_pressure") {
     prescribe(places, table(key, Dimension::pressure), {}, parts);
-  } else if (key == "water_level") {
+  } else if (key == "water_level" || key == "free_water") {
     if (!options.table)
       item.fault(
           key,
-          "water_level: without 'level' below 'water', the level at the start, pressures are those in excess of water at rest; give it, or 'pore_pressure'");
-    prescribe(places, table(key, Dimension::length), options.unit_weight, parts);
+          key +
+              ": without 'level' below 'water', the level at the start, pressures are those in excess of water at rest; give it, or 'pore_pressure'");
+    const fem::TimeTable level = table(key, Dimension::length);
+    if (key == "water_level") {
+      prescribe(places, level, options.unit_weight, parts);
+    } else {
+      for (const std::string& boundary : add_free_water(item, places, level, parts))
+        prescribe({boundary}, above_bed(item, level, boundary, parts), options.unit_weight, parts);
+    }
   } else if (is_yes(item.choice_or(key, kYesOrNo, "no"))) {
     if (options.table) {
       prescribe(places, fem::TimeTable::constant(*options.table), options.unit_weight, parts);
@@ -199,18 +233,17 @@ bool read_water_boundary(Section& item, const std::vector<std::string>& places, 
 }
 
 void add_water(CaseParts& parts) {
-  if (!parts.water || !parts.has_mesh || !parts.faults.empty()) return;
+  if (!parts.water || !parts.has_mesh || !parts.faults.empty()) {
+    add_water_at_interfaces(parts);
+    return;
+  }
   const auto add = [&]<int dim>(fem::Problem<dim>& problem) {
-    const bool joined = std::ranges::any_of(problem.contributions,
-                                            [](const auto& one) { return !one->joined_nodes().empty(); });
-    if (joined)
-      parts.faults.push_back(parts.water->entry->fault(
-          "water: water does not pass interfaces yet, nor press on them; leave out 'water' or 'interfaces'"));
     const auto water = fem::add_pore_water<dim>(problem, parts.water->regions, parts.water->options);
     for (const std::string& message : water->faults(problem))
       parts.faults.push_back(parts.water->entry->fault("water: " + message));
   };
   parts.result.with_problem(add);
+  add_water_at_interfaces(parts);
 }
 
 bool read_water_monitor(Section& section, CaseParts& parts, Monitor& monitor) {

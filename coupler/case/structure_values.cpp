@@ -16,6 +16,7 @@ template <int dim>
 double value_of(const fem::Interface<dim>& interface, const std::string& value) {
   if (value == "lever") return interface.lever();
   double pressure = 0.0;
+  double water = 0.0;
   Eigen::Matrix<double, dim - 1, 1> shear = Eigen::Matrix<double, dim - 1, 1>::Zero();
   double slip = 0.0;
   double gap = 0.0;
@@ -23,6 +24,7 @@ double value_of(const fem::Interface<dim>& interface, const std::string& value) 
   typename Cosserat<dim>::Place in_face = Cosserat<dim>::Place::Zero();
   for (const fem::InterfacePointResult<dim>& point : interface.results()) {
     pressure -= point.geometry.area * point.traction(dim - 1);
+    water += point.geometry.area * point.pore_pressure;
     shear += point.geometry.area * point.traction.template head<dim - 1>();
     in_face += point.geometry.area * (point.geometry.axes.template topRows<dim - 1>().transpose() *
                                       point.traction.template head<dim - 1>());
@@ -31,6 +33,7 @@ double value_of(const fem::Interface<dim>& interface, const std::string& value) 
     mobilised = std::max(mobilised, point.mobilised);
   }
   if (value == "pressure") return pressure;
+  if (value == "water") return water;
   if (value == "shear") return dim == 2 ? shear(0) : in_face.norm();
   if (value == "slip") return slip;
   return value == "gap" ? gap : mobilised;
@@ -48,8 +51,8 @@ double value_of(const fem::Beam& beam, const std::string& value) {
 }  // namespace
 
 const std::vector<std::string>& values_of_structure(const std::string& kind) {
-  static const std::vector<std::string> of_interface{"pressure", "shear", "lever",
-                                                     "slip",     "gap",   "mobilised"};
+  static const std::vector<std::string> of_interface{"pressure", "shear",     "lever", "slip",
+                                                     "gap",      "mobilised", "water"};
   static const std::vector<std::string> of_beam{"moment", "axial", "shear"};
   static const std::vector<std::string> of_anchor{"force"};
   return kind == "interface" ? of_interface : kind == "beam" ? of_beam : of_anchor;

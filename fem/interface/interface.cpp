@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "common/packed_values.hpp"
 #include "fem/element/dofs.hpp"
 #include "fem/solver/discretisation.hpp"
 #include "fem/solver/problem.hpp"
@@ -75,16 +76,20 @@ std::vector<int> Interface<dim>::all_entries(const InterfaceFace<dim>& face) {
 }
 
 template <int dim>
+int Interface<dim>::place_of(Element& element, int entry) {
+  const auto place = std::ranges::find(element.entries, entry);
+  const auto number = static_cast<int>(place - element.entries.begin());
+  if (place == element.entries.end()) element.entries.push_back(entry);
+  return number;
+}
+
+template <int dim>
 Interface<dim>::Interface(const Mesh<dim>& mesh, InterfaceSettings settings,
                           std::vector<InterfaceFace<dim>> faces)
     : settings_(std::move(settings)) {
   for (InterfaceFace<dim>& face : faces) {
     Element& element = elements_.emplace_back();
-    for (const int entry : all_entries(face)) {
-      const auto place = std::ranges::find(element.entries, entry);
-      element.places.push_back(static_cast<int>(place - element.entries.begin()));
-      if (place == element.entries.end()) element.entries.push_back(entry);
-    }
+    for (const int entry : all_entries(face)) element.places.push_back(place_of(element, entry));
     VectorRows<dim> positions(static_cast<Eigen::Index>(face.nodes_a.size()), dim);
     for (std::size_t a = 0; a < face.nodes_a.size(); ++a)
       positions.row(static_cast<Eigen::Index>(a)) =
@@ -187,10 +192,12 @@ std::string Interface<dim>::evaluate(const NodalStep& step, NodalForces& forces)
     for (Point& point : element.points) {
       point.jump = jump_at(element, point, values);
       point.answer = respond<dim>(point.parameters, point.committed, point.jump);
+      point.pressure = pressure_at(element, point, values);
     }
     const Eigen::VectorXd own = forces_of(element, values);
     forces.internal(element.entries) += own;
     forces.parts(element.entries) += own.cwiseAbs();
+    add_water(element, step, forces);
   }
   return {};
 }
@@ -267,6 +274,7 @@ Eigen::MatrixXd Interface<dim>::tangent(std::size_t e) const {
               point.geometry.area * element.rotation_stiffness * signed_shape(point, a) *
               signed_shape(point, b);
   }
+  add_water_tangent(element, tangent);
   return tangent;
 }
 
@@ -278,6 +286,7 @@ void Interface<dim>::commit() {
       point.committed = point.answer.state;
       point.committed_answer = point.answer;
       point.committed_jump = point.jump;
+      point.committed_pressure = point.pressure;
       if (told_slip_ || point.committed.slip <= 0.5 * element.size) continue;
       told_slip_ = true;
       notes_.push_back(
@@ -294,6 +303,7 @@ void Interface<dim>::revert() {
     for (Point& point : element.points) {
       point.answer = point.committed_answer;
       point.jump = point.committed_jump;
+      point.pressure = point.committed_pressure;
     }
   }
 }
@@ -315,6 +325,11 @@ void Interface<dim>::save(ArchiveWriter& archive) const {
     }
   }
   archive.write("points", std::span<const double>(values));
+  if (is_dry()) return;
+  std::vector<double> pressures;
+  for (const Element& element : elements_)
+    for (const Point& point : element.points) pressures.push_back(point.committed_pressure);
+  archive.write("pressures", std::span<const double>(pressures));
 }
 
 template <int dim>
@@ -347,6 +362,12 @@ void Interface<dim>::restore(ArchiveReader& archive) {
     element.rotation_stiffness =
         element.points.front().parameters.shear_stiffness * element.size * element.size;
     element.knows_stiffness = element.rotation_stiffness > 0.0;
+  }
+  if (!is_dry()) {
+    const std::vector<double> pressures = read_lists(archive, "pressures", points, 1);
+    auto pressure = pressures.begin();
+    for (Element& element : elements_)
+      for (Point& point : element.points) point.committed_pressure = *pressure++;
   }
   revert();
 }
@@ -382,7 +403,8 @@ std::vector<InterfacePointResult<dim>> Interface<dim>::results() const {
       const InterfaceAnswer<dim>& answer = point.committed_answer;
       all.push_back({point.geometry, e, answer.traction, point.committed_jump,
                      gap<dim>(point.parameters, answer, point.committed_jump), point.committed.slip,
-                     mobilised_share<dim>(point.parameters, answer), answer.contact});
+                     mobilised_share<dim>(point.parameters, answer), answer.contact,
+                     point.committed_pressure});
     }
   }
   return all;

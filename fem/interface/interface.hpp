@@ -52,11 +52,13 @@ struct InterfacePointResult {
   double slip;               ///< way of sliding so far, m
   double mobilised;          ///< share of the strength
   Contact contact;
+  double pore_pressure = 0.0;  ///< of the water between the sides, Pa, compression positive
 };
 
 /// Friction between two sides of a curve (in space a surface): an interface of zero thickness. Small deformation.
 /// Its faces come and go with the elements beside them. A face that comes with fill is free of stress; one that a stage places into
 /// the ground carries the stress that the ground had there.
+/// Its law knows effective stresses. Water between the sides pushes them apart (interface_water.cpp).
 /// An open point keeps kOpenStiffness of its stiffness in the tangent alone, so that a body that only the interface holds
 /// does not make it singular.
 template <int dim>
@@ -85,7 +87,12 @@ class Interface : public Contribution<dim> {
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
   [[nodiscard]] std::vector<std::string> take_notes() override;
 
+  /// The pore water of a problem (add_pore_water) presses on the faces from now on, and fills the gap between them. Before the
+  /// solver is made.
+  void take_water(const Problem<dim>& problem);
+
   [[nodiscard]] const InterfaceSettings& settings() const { return settings_; }
+  [[nodiscard]] const InterfaceFace<dim>& face(std::size_t e) const { return elements_[e].face; }
   [[nodiscard]] std::vector<InterfacePointResult<dim>> results() const;
   /// Force of side a on side b, N (in the plane N/m), along the axes of the mesh.
   [[nodiscard]] typename Cosserat<dim>::Place force() const;
@@ -101,6 +108,9 @@ class Interface : public Contribution<dim> {
     InterfaceAnswer<dim> committed_answer;
     FaceVector<dim> jump;
     FaceVector<dim> committed_jump;
+    double pressure = 0.0;  ///< of the water
+    double committed_pressure = 0.0;
+    Eigen::VectorXd wet_shape;  ///< share of each of Element::pressures
   };
   struct Element {
     InterfaceFace<dim> face;
@@ -111,6 +121,8 @@ class Interface : public Contribution<dim> {
     double rotation_stiffness = 0.0;  ///< of relative rotation, N/m^2 (per area): kt size^2
     bool active = true;               ///< in the stage
     bool knows_stiffness = false;     ///< that is not given, by its neighbours at rest
+    std::vector<int> pressures;       ///< in `entries`: of the corners with water, of a, of b
+    Eigen::MatrixXd push;  ///< internal forces of displacements of a, of b, per pressure, m^2; empty: dry
   };
 
   [[nodiscard]] static std::vector<int> all_entries(const InterfaceFace<dim>& face);
@@ -120,6 +132,15 @@ class Interface : public Contribution<dim> {
   [[nodiscard]] static FaceVector<dim> jump_at(const Element& element, const Point& point,
                                                const Eigen::VectorXd& values);
   static void forget(Point& point);
+  [[nodiscard]] bool is_dry() const;
+  /// Number in the entries of an element, added where it is not among them.
+  [[nodiscard]] static int place_of(Element& element, int entry);
+  /// Pressure at a point: the mean of the sides that have water. @param values of the element's entries
+  [[nodiscard]] static double pressure_at(const Element& element, const Point& point,
+                                          const Eigen::VectorXd& values);
+  /// Forces of the water on the faces, and what the gap takes in.
+  static void add_water(const Element& element, const NodalStep& step, NodalForces& forces);
+  static void add_water_tangent(const Element& element, Eigen::MatrixXd& tangent);
   /// Stress vector of the ground at the points of faces that are born in it, along the axes of the mesh.
   void carry_stress_of_ground(const StageBegin<dim>& now, const std::vector<std::size_t>& born);
 

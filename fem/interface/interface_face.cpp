@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "fem/element/corner_shape.hpp"
+
 namespace polargrain::fem {
 namespace {
 
@@ -67,6 +69,7 @@ std::vector<InterfacePoint<dim>> interface_points(const ElementType<dim - 1>& ty
     InterfacePoint<dim>& point = points.emplace_back();
     point.place = positions.transpose() * shape.value;
     point.shape = shape.value;
+    point.corner_shape = corner_shape_functions<dim - 1>(type, at.position).value;
     set_axes(positions.transpose() * shape.derivative, point);
     point.area *= at.weight;
   }

@@ -14,6 +14,7 @@ struct InterfacePoint {
   typename Cosserat<dim>::Place place;   ///< m
   double area;                           ///< m^2; in the plane m
   Eigen::VectorXd shape;                 ///< N of the nodes of one side
+  Eigen::VectorXd corner_shape;          ///< N of its corners alone, linear along edges: of pore pressures
   Eigen::Matrix<double, dim, dim> axes;  ///< a row an axis: tangents first, the normal from side a to b last
 };
 

@@ -68,11 +68,19 @@ void Interface<dim>::carry_stress_of_ground(const StageBegin<dim>& now,
   using Place = typename Cosserat<dim>::Place;
   if constexpr (dim == 2) {
     std::map<int, double> area;
-    for (const std::size_t e : born)
+    std::map<int, Place> water;  // what it pushes a node with: the forces of the ground are total ones
+    for (const std::size_t e : born) {
+      const Eigen::VectorXd values = now.nodal(elements_[e].entries);
       for (const Point& point : elements_[e].points)
-        for (std::size_t a = 0; a < elements_[e].face.nodes_a.size(); ++a)
-          area[elements_[e].face.nodes_a[a]] +=
-              point.geometry.shape(static_cast<Eigen::Index>(a)) * point.geometry.area;
+        for (std::size_t a = 0; a < elements_[e].face.nodes_a.size(); ++a) {
+          const int node = elements_[e].face.nodes_a[a];
+          const double share = point.geometry.shape(static_cast<Eigen::Index>(a)) * point.geometry.area;
+          area[node] += share;
+          Place& pushed = water.try_emplace(node, Place::Zero()).first->second;
+          pushed +=
+              share * pressure_at(elements_[e], point, values) * point.geometry.axes.row(dim - 1).transpose();
+        }
+    }
     const auto stress_at = [&](int node) -> std::optional<Place> {
       if (settings_.single_nodes.contains(node)) return {};
       Place force;
@@ -81,7 +89,7 @@ void Interface<dim>::carry_stress_of_ground(const StageBegin<dim>& now,
         if (now.given[static_cast<std::size_t>(entry)] != 0) return {};
         force(i) = -now.unbalanced(entry);
       }
-      return Place(force / area.at(node));
+      return Place((force + water.at(node)) / area.at(node));
     };
     for (const std::size_t e : born) {
       Element& element = elements_[e];

@@ -2,10 +2,12 @@
 #include "fem/solver/constraints.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "fem/element/dofs.hpp"
 #include "fem/solver/solver.hpp"
+#include "fem/solver/ties_entries.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -83,12 +85,20 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       }
     }
   }
+  std::vector<std::size_t> tied;
   for (const auto& contribution : problem.contributions) {
     for (const auto& [one, other] : contribution->tied_nodes(stage)) {
       has_ties_ = true;
       for (const Dof dof : node_dofs<dim>())
         join(entry_of<dim>(static_cast<std::size_t>(one), dof),
              entry_of<dim>(static_cast<std::size_t>(other), dof));
+    }
+    const auto* const ties = dynamic_cast<const TiesEntries*>(contribution.get());
+    if (ties == nullptr) continue;
+    for (const auto& [one, other] : ties->tied_entries(stage)) {
+      has_ties_ = true;
+      join(static_cast<std::size_t>(one), static_cast<std::size_t>(other));
+      tied.insert(tied.end(), {static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
     }
   }
   for (const EqualDof& equal : problem.equal_dofs) {
@@ -99,6 +109,17 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
   }
   leader_.resize(equation_.size());
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) leader_[entry] = find(entry);
+  // Entries that share a value with one that is given are given it too.
+  std::map<std::size_t, Given> given_at;  // by leader, the first one
+  if (!tied.empty())
+    for (const Given& item : given_) given_at.try_emplace(leader_[item.entry], item);
+  for (const std::size_t entry : tied) {
+    const auto given = given_at.find(leader_[entry]);
+    if (given == given_at.end() || equation_[entry] < 0) continue;
+    equation_[entry] = -1;
+    given_.push_back(given->second);
+    given_.back().entry = entry;
+  }
   if (const std::vector<char> there = elements_in_stage(problem, stage);
       !there.empty() || has_absent_contributions(problem, stage, there)) {
     // An unknown that no element knows: neither at its own node nor at those tied to it.

@@ -168,7 +168,6 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
   // Smaller parts are what rounding leaves of moved bodies and of pressures without gradient.
   constexpr double kRounding = 1e-6;
   const double theta = options_.theta;
-  const Eigen::VectorXd of_others = forces.internal.segment(first_entry_, outflow_.size());
   duration_ = step.duration();
   least_pressure_ = 0.0;
   change_ = 0.0;
@@ -208,8 +207,8 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
       forces.parts(flux.entries[k]) += std::abs(brought * flux.values[k]);
     }
   }
-  // The rows of free pressures vanish.
-  trial_outflow_ = outflow_ + forces.internal.segment(first_entry_, outflow_.size()) - of_others;
+  // The rows of free pressures vanish, with what interfaces have added before.
+  trial_outflow_ = outflow_ + forces.internal.segment(first_entry_, outflow_.size());
   return {};
 }
 

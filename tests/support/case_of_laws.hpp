@@ -15,6 +15,7 @@
 #include "common/error.hpp"
 #include "common/memory_archive.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/case/structure_values.hpp"
 #include "coupler/case/water_values.hpp"
 
 namespace polargrain::testing {
@@ -87,6 +88,8 @@ class RunOfLaws {
       const auto dof = fem::place_of<dim>(monitor.dof);
       if (monitor.kind == coupler::Monitor::Kind::water)
         row[monitor.name] = coupler::value_of_water(solver, monitor.on, monitor.value);
+      if (monitor.kind == coupler::Monitor::Kind::structure)
+        row[monitor.name] = coupler::value_of_structure(solver.problem(), monitor.structure, monitor.value);
       if (monitor.kind == coupler::Monitor::Kind::displacement)
         row[monitor.name] = solver.mean_displacement(monitor.on)[dof];
       if (monitor.kind == coupler::Monitor::Kind::reaction)

@@ -154,8 +154,13 @@ TEST(WaterInACase, FaultsOfWhatItDoesNotTake) {
           {"steps", "steps: {count: 4, first: 0.1}"}},
          "first");
   expect({{"boundary", "boundary: [{on: [bottom, slip], fix: [u1, u2]}, {on: top, drained: true}]"},
-          {"", "interfaces: {slip: {on: left, friction: 20 deg}}"}},
-         "does not pass interfaces");
+          {"", "interfaces: {slip: {on: left, friction: 20 deg, water: leaky}}"}},
+         "resistance");
+  expect({{"water", "water: {permeability: 1e-5 m/s}"},
+          {"boundary", "boundary: [{on: bottom, fix: [u1, u2]}, {on: top, free_water: 3 m}]"}},
+         "free_water: without 'level' below 'water'");
+  expect({{"boundary", "boundary: [{on: bottom, fix: [u1, u2]}, {on: top, drained: true, free_water: 3 m}]"}},
+         "free_water: beside 'drained'");
   expect(
       {{"mesh",
         "mesh: {element: Q4, rectangle: {size: [2 m, 2 m], elements: [2, 4], regions: {low: [0, 0, 2 m, 1 m]}}}"}},

@@ -24,4 +24,5 @@ polargrain_test(water_plane_test verification verification/water_plane_test.cpp 
 polargrain_test(water_large_test verification verification/water_large_test.cpp LIBS polargrain_fem)
 polargrain_test(water_space_test verification verification/water_space_test.cpp LIBS polargrain_fem)
 polargrain_test(water_case_test verification verification/water_case_test.cpp LIBS polargrain_coupler)
+polargrain_test(water_at_walls_test verification verification/water_at_walls_test.cpp LIBS polargrain_coupler)
 polargrain_test(water_undrained_test verification verification/water_undrained_test.cpp LIBS polargrain_fem)

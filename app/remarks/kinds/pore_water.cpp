@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/remarks/kinds.hpp"
+#include "fem/water/free_water.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -93,6 +94,9 @@ class Look {
     std::set<std::string> loaded;
     for (const auto& load : problem_.boundary_loads) loaded.insert(load.on);
     for (const auto& support : problem_.prescribed) loaded.insert(support.on);
+    for (const auto& contribution : problem_.contributions)
+      if (const auto* const free = dynamic_cast<const fem::FreeWater<dim>*>(contribution.get()))
+        loaded.insert(free->on());
     for (const auto& given : problem_.prescribed_fields) {
       if (!problem_.mesh.boundaries.contains(given.on) || loaded.contains(given.on)) continue;
       double largest = 0.0;
@@ -106,7 +110,7 @@ class Look {
             fmt::format(
                 "boundary: the water at '{}' has a pressure of up to {:.3g} kPa, and no load acts there",
                 given.on, 1e-3 * largest),
-            "water outside presses on the ground: give it 'pressure' too");
+            "water outside presses on the ground: 'free_water' instead of 'water_level', or 'pressure' too");
     }
   }
 

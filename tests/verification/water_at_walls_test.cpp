@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Water at interfaces, walls and bare faces, through the language of cases, against statics and closed forms.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/support/case_of_laws.hpp"
+
+using polargrain::testing::RunOfLaws;
+
+namespace {
+
+constexpr double kWeight = 10e3;  // of the water, N/m3
+
+/// A wall of 3 m, held at its foot, on the left of ground that is held all over and slides along it without friction: nothing but
+/// water loads the wall.
+std::string cantilever(const std::string& boundary) {
+  return "title: A wall that water alone loads\n"
+         "continuum: cauchy\n"
+         "mesh: {rectangle: {size: [2 m, 3 m], elements: [2, 3]}}\n"
+         "materials: {sand: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
+         "regions: {all: sand}\n"
+         "water: {unit_weight: 10 kN/m3, permeability: 1e-4 m/s, level: 3 m}\n"
+         "interfaces: {skin: {on: left, friction: 0 deg, normal_stiffness: 1e-3 Pa/m, shear_stiffness: 1e-3 Pa/m}}\n"
+         "beams: {sheet: {on: left, EA: 3000 MN/m, EI: 20 MNm2/m, clamped: sheet_bottom}}\n"
+         "boundary:\n"
+         "  - {on: all, fix: [u1, u2]}\n"
+         "  - {on: sheet, fix: [u2]}\n"
+         "  - {on: sheet_bottom, fix: [u1, u2]}\n"
+         "  - {on: right, drained: true}\n" +
+         boundary +
+         "steps: {duration: 1 a, count: 1, tolerance: 1e-8}\n"
+         "monitors: {moment: {beam: sheet, value: moment}, shear: {beam: sheet, value: shear},\n"
+         "           push: {interface: skin, value: water}, p: {on: left, water: pressure}}\n";
+}
+
+// gw h^3 / 6, gw h^2 / 2: the loads of nodes are consistent, so the foot of a cantilever has all digits.
+TEST(WaterAtWalls, ThePoresLoadAWallHydrostatically) {
+  const RunOfLaws run(cantilever(""));
+  EXPECT_NEAR(std::abs(run.last("moment")), kWeight * 27.0 / 6.0, 1e-9 * kWeight * 27.0);
+  EXPECT_NEAR(std::abs(run.last("shear")), kWeight * 9.0 / 2.0, 1e-9 * kWeight * 9.0);
+  EXPECT_NEAR(run.last("push"), kWeight * 9.0 / 2.0, 1e-9 * kWeight * 9.0);
+  EXPECT_NEAR(run.last("p"), kWeight * 1.5, 1e-6 * kWeight);
+}
+
+// Free water on the other side, its level in the middle of a side of an element, takes its part away.
+TEST(WaterAtWalls, FreeWaterLoadsTheOtherSideUpToItsLevel) {
+  for (const double level : {0.4, 1.0, 2.37, 3.0, 3.5}) {
+    const RunOfLaws run(cantilever(fmt::format("  - {{on: sheet, free_water: {} m}}\n", level)));
+    // Above the wall the water stands over it: a trapezium.
+    const double above = std::max(level - 3.0, 0.0);
+    const double wet = std::min(level, 3.0);
+    const double moment = kWeight * (27.0 / 6.0 - wet * wet * wet / 6.0 - above * wet * wet / 2.0);
+    EXPECT_NEAR(std::abs(run.last("moment")), std::abs(moment), 1e-9 * kWeight * 27.0) << level;
+  }
+}
+
+/// A wall between two grounds of 2 m x 3 m, held all over, with water levels on its far sides.
+RunOfLaws two_levels(const std::string& passage, const std::string& element = "Q8R") {
+  return RunOfLaws(
+      "title: Two levels of water\n"
+      "continuum: cauchy\n"
+      "mesh: {element: " +
+      element +
+      ", rectangle: {size: [4 m, 3 m], elements: [4, 3], lines: {line: [2 m, 0 m, 2 m, 3 m]}}}\n"
+      "materials: {sand: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
+      "regions: {all: sand}\n"
+      "water: {unit_weight: 10 kN/m3, permeability: 1e-4 m/s, level: 3 m}\n"
+      "interfaces: {skin: {on: line, friction: 0 deg, normal_stiffness: 1e-3 Pa/m, shear_stiffness: 1e-3 Pa/m, "
+      "water: " +
+      passage +
+      "}}\n"
+      "beams: {sheet: {on: line, EA: 3000 MN/m, EI: 20 MNm2/m, clamped: sheet_bottom}}\n"
+      "boundary:\n"
+      "  - {on: all, fix: [u1, u2]}\n"
+      "  - {on: sheet, fix: [u2]}\n"
+      "  - {on: sheet_bottom, fix: [u1, u2]}\n"
+      "  - {on: left, water_level: 3 m}\n"
+      "  - {on: right, water_level: 5 m}\n"
+      "steps: {duration: 1 a, count: 1, tolerance: 1e-9}\n"
+      "monitors: {moment: {beam: sheet, value: moment}, in: {on: right, water: flow}, out: {on: left, water: flow},\n"
+      "           left: {interface: skin left, value: water}, right: {interface: skin right, value: water}}\n");
+}
+
+TEST(WaterAtWalls, AnImperviousWallCarriesTheDifferenceOfTwoLevels) {
+  for (const std::string element : {"Q8R", "T6"}) {
+    const RunOfLaws run = two_levels("impervious", element);
+    EXPECT_NEAR(run.last("left"), kWeight * 4.5, 1e-7 * kWeight) << element;
+    EXPECT_NEAR(run.last("right"), kWeight * (4.5 + 6.0), 1e-7 * kWeight) << element;
+    EXPECT_NEAR(std::abs(run.last("moment")), kWeight * 2.0 * 9.0 / 2.0, 1e-7 * kWeight) << element;
+    EXPECT_NEAR(run.last("in"), 0.0, 1e-12) << element;
+  }
+}
+
+// Darcy through 4 m and through the wall: q = k dh / L where it is open, dh / (L/k + R) where it leaks.
+TEST(WaterAtWalls, ResistancesInSeriesAdd) {
+  const RunOfLaws open = two_levels("permeable");
+  EXPECT_NEAR(-open.last("in"), 1e-4 * 2.0 / 4.0 * 3.0, 1e-10);
+  EXPECT_NEAR(open.last("left"), open.last("right"), 1e-7 * kWeight);
+  EXPECT_NEAR(open.last("moment"), 0.0, 1e-7 * kWeight);
+  for (const double resistance : {1e2, 4e4, 1e7}) {
+    const RunOfLaws leaky = two_levels(fmt::format("leaky, resistance: {} s", resistance));
+    const double flow = 2.0 / (4.0 / 1e-4 + resistance);
+    EXPECT_NEAR(leaky.last("out"), 3.0 * flow, 1e-6 * 3.0 * flow) << resistance;
+    EXPECT_NEAR(leaky.last("right") - leaky.last("left"), kWeight * 3.0 * flow * resistance,
+                1e-6 * kWeight * 6.0);
+  }
+}
+
+// The same between two bodies in space, without a wall.
+TEST(WaterAtWalls, ALeakyJointInSpace) {
+  for (const std::string element : {"H20R", "T10"}) {
+    const RunOfLaws run(
+        "title: A joint that leaks\n"
+        "continuum: cauchy\n"
+        "mesh: {element: " +
+        element +
+        ", box: {size: [1 m, 1 m, 2 m], elements: [1, 1, 2], levels: {joint: 1 m}}}\n"
+        "materials: {sand: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
+        "regions: {all: sand}\n"
+        "water: {unit_weight: 10 kN/m3, permeability: 1e-4 m/s}\n"
+        "interfaces: {joint: {on: joint, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: leaky, resistance: "
+        "1e4 s}}\n"
+        "boundary:\n"
+        "  - {on: [left, right], fix: [u1]}\n"
+        "  - {on: [front, back], fix: [u2]}\n"
+        "  - {on: bottom, fix: [u3], drained: true}\n"
+        "  - {on: top, pore_pressure: 30 kPa}\n"
+        "steps: {duration: 1 a, count: 2, tolerance: 1e-8}\n"
+        "monitors: {out: {on: bottom, water: flow}, top: {on: top, displacement: u3}}\n");
+    EXPECT_NEAR(run.last("out"), 3.0 / (2.0 / 1e-4 + 1e4), 1e-9) << element;
+  }
+}
+
+/// A strip load on saturated ground with a curve in it that a stage behind the last one would part.
+std::string consolidating(const std::string& interface, const std::string& more_stages) {
+  return "title: A strip on ground with a joint\n"
+         "continuum: cauchy\n"
+         "mesh: {rectangle: {size: [6 m, 3 m], elements: [6, 3], lines: {line: [2 m, 1 m, 2 m, 3 m], strip: [0, 3 m, 1 "
+         "m, 3 m]}}}\n"
+         "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
+         "regions: {all: clay}\n"
+         "water: {unit_weight: 10 kN/m3, permeability: 1e-8 m/s}\n" +
+         interface +
+         "boundary:\n"
+         "  - {on: [left, right], fix: [u1]}\n"
+         "  - {on: bottom, fix: [u1, u2]}\n"
+         "  - {on: top, drained: true}\n"
+         "  - {on: strip, pressure: 100 kPa}\n"
+         "steps:\n"
+         "  tolerance: 1e-11\n"
+         "  stages:\n"
+         "    - {name: load, until: 1 d, count: 4}\n" +
+         more_stages +
+         "monitors:\n"
+         "  strip: {on: strip, displacement: u2}\n"
+         "  bottom: {on: bottom, water: pressure}\n"
+         "  side: {on: right, water: pressure}\n"
+         "  out: {on: top, water: outflow}\n";
+}
+
+// Until it is placed, a curve is no curve, for water and ground; and a permeable joint that is placed moves nothing.
+TEST(WaterAtWalls, AJointThatIsTiedLeavesTheDigitsOfTheBody) {
+  const RunOfLaws whole(consolidating("", ""));
+  for (const std::string passage : {"permeable", "impervious", "leaky, resistance: 1e9 s"}) {
+    const RunOfLaws tied(consolidating(
+        "interfaces: {skin: {on: line, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: " + passage +
+            "}}\n",
+        "    - {name: joint, place: skin, until: 2 d, count: 2}\n"));
+    for (const std::string monitor : {"strip", "bottom", "side", "out"})
+      for (std::size_t step = 0; step <= 4; ++step)
+        EXPECT_NEAR(tied.value(monitor, step), whole.value(monitor, step),
+                    1e-9 * std::abs(whole.last(monitor)))
+            << passage << ' ' << monitor << ' ' << step;
+  }
+}
+
+// A permeable joint between equal grounds is no joint as its stiffness grows: the difference falls with it.
+TEST(WaterAtWalls, AStiffPermeableJointIsNoJoint) {
+  const RunOfLaws whole(consolidating("", ""));
+  double before = 0.0;
+  for (const double stiffness : {1e11, 1e12}) {
+    const RunOfLaws joint(consolidating(
+        fmt::format("interfaces: {{skin: {{on: line, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, "
+                    "normal_stiffness: {0} Pa/m, shear_stiffness: {0} Pa/m}}}}\n",
+                    stiffness),
+        ""));
+    const double difference = std::abs(joint.last("bottom") / whole.last("bottom") - 1.0);
+    EXPECT_LT(difference, 2e-4 * 1e11 / stiffness);
+    if (before > 0.0) EXPECT_NEAR(difference / before, 0.1, 0.01);
+    before = difference;
+    EXPECT_NEAR(joint.last("strip"), whole.last("strip"), 1e-3 * std::abs(whole.last("strip")));
+  }
+}
+
+// The pile parts the water by its interfaces alone: K'/2K of sin(pi s / 2T) = 1/2 at half the depth of the layer.
+TEST(WaterAtWalls, FlowPassesUnderASheetPile) {
+  const RunOfLaws run(
+      "title: Flow under a sheet pile\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [4 m, 1 m], elements: [64, 16], regions: {before: [0, 0, 2 m, 1 m]}, lines: {pile: [2 m, "
+      "0.5 m, 2 m, 1 m], inlet: [2 m, 1 m, 4 m, 1 m], outlet: [0, 1 m, 2 m, 1 m]}}}\n"
+      "materials: {sand: {model: elastic, E: 100 MPa, nu: 0.25}}\n"
+      "regions: {before: sand, rest: sand}\n"
+      "water: {unit_weight: 10 kN/m3, permeability: 1e-4 m/s}\n"
+      "interfaces: {skin: {on: pile, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: impervious}}\n"
+      "beams: {sheet: {on: pile, EA: 3000 MN/m, EI: 20 MNm2/m}}\n"
+      "boundary:\n"
+      "  - {on: [left, right], fix: [u1]}\n"
+      "  - {on: bottom, fix: [u1, u2]}\n"
+      "  - {on: inlet, pore_pressure: 10 kPa}\n"
+      "  - {on: outlet, drained: true}\n"
+      "steps: {duration: 1 a, count: 1, tolerance: 1e-8}\n"
+      "monitors: {in: {on: inlet, water: flow}, out: {on: outlet, water: flow}}\n");
+  EXPECT_NEAR(run.last("in"), -run.last("out"), 1e-6 * run.last("out"));
+  // The toe is a singularity: elements of T/16 are 1.3 % high.
+  EXPECT_NEAR(run.last("out") / 1e-4, 0.5, 0.01);
+}
+
+/// Ground of 12 m x 6 m under water at its surface, with a wall at 4 m and a pit before it.
+std::string pit(const std::string& stages, const std::string& passage = "impervious") {
+  return "title: A pit in water\n"
+         "continuum: cauchy\n"
+         "mesh: {rectangle: {size: [12 m, 6 m], elements: [12, 6], regions: {pit: [0, 4 m, 4 m, 6 m]}, lines: {pile: [4 m, "
+         "2 m, 4 m, 6 m], floor: [0, 4 m, 4 m, 4 m]}}}\n"
+         "materials: {sand: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
+         "regions: {pit: sand, rest: sand}\n"
+         "water: {permeability: 1e-4 m/s, level: 6 m, unit_weight: 10 kN/m3}\n"
+         "interfaces: {skin: {on: pile, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: " +
+         passage +
+         "}}\n"
+         "beams: {sheet: {on: pile, EA: 3000 MN/m, EI: 20 MNm2/m}}\n"
+         "boundary:\n"
+         "  - {on: [left, right], fix: [u1]}\n"
+         "  - {on: bottom, fix: [u1, u2]}\n"
+         "  - {on: right, water_level: 6 m}\n"
+         "body: [{unit_weight: 20 kN/m3}]\n"
+         "initial_stress: [{surface: 6 m, unit_weight: 20 kN/m3, K0: 0.5}]\n"
+         "steps:\n"
+         "  tolerance: 1e-9\n"
+         "  stages:\n"
+         "    - {name: wall, place: sheet, until: 1 d, count: 1}\n" +
+         stages +
+         "monitors:\n"
+         "  base: {on: bottom, reaction: u2}\n"
+         "  left: {on: left, reaction: u1}\n"
+         "  right: {on: right, reaction: u1}\n"
+         "  foot: {on: bottom, reaction: u1}\n"
+         "  floor: {on: floor, displacement: u2}\n"
+         "  head: {on: sheet_top, displacement: u1}\n"
+         "  moment: {beam: sheet, value: moment}\n"
+         "  earth: {interface: skin right, value: pressure}\n"
+         "  water: {interface: skin right, value: water}\n"
+         "  in: {on: right, water: flow}\n"
+         "  out: {on: floor, water: flow}\n";
+}
+
+// A wall that comes where water is takes over the effective stress of the ground, and nothing moves.
+TEST(WaterAtWalls, AWallComesIntoWetGroundAtRest) {
+  const RunOfLaws run(pit(""));
+  EXPECT_NEAR(run.last("head"), 0.0, 1e-12);
+  EXPECT_NEAR(run.last("moment"), 0.0, 1e-3);
+  EXPECT_NEAR(run.last("water"), 10e3 * 8.0, 1e-4);
+  // K0 times the submerged weight; the toe has the stress of the node above it.
+  EXPECT_NEAR(run.last("earth"), 0.5 * 10e3 * 8.0, 0.5 * 10e3 * 8.0 * 5e-3);
+}
+
+// What stands on the base is ground, the water in it, and the free water in the pit.
+TEST(WaterAtWalls, APitIsDugUnderWaterAndPumpedDry) {
+  const std::string dig =
+      "    - {name: dig, remove: pit, until: 2 d, count: 2, boundary: [{name: sea, on: [floor, sheet], free_water: [[0 d, 6 "
+      "m], [2 d, 6 m], [3 d, 4.5 m], [4 d, 3 m]]}]}\n";
+  const std::string pump = "    - {name: pump, until: 4 d, count: 4}\n";
+  const RunOfLaws run(pit(dig + pump));
+  const double ground = 20e3 * (12 * 6 - 4 * 2);
+  EXPECT_NEAR(run.value("base", 1), 20e3 * 12 * 6, 1e-6 * ground);
+  EXPECT_NEAR(run.value("base", 3), ground + 10e3 * 4 * 2, 1e-6 * ground);
+  EXPECT_NEAR(run.value("base", 5), ground + 10e3 * 4 * 0.5, 1e-6 * ground);
+  EXPECT_NEAR(run.last("base"), ground, 1e-6 * ground);
+  EXPECT_GT(run.value("floor", 3), 0.0);  // the ground below the pit rises
+  // Forces along 1 balance: there is no load but water, which stands on the wall as on the ground left of it.
+  EXPECT_NEAR(run.last("left") + run.last("right") + run.last("foot"), 0.0, 1e-6 * ground);
+  EXPECT_GT(std::abs(run.last("moment")), 1e3);
+  // Water comes in from the right and leaves by the floor: Darcy's order, 2 m over some 10 m.
+  EXPECT_LT(run.last("in"), -1e-5);
+  EXPECT_NEAR(run.last("in"), -run.last("out"), 1e-4 * std::abs(run.last("out")));
+
+  for (const int interrupted : {1, 2, 5}) {
+    const RunOfLaws again(pit(dig + pump), interrupted);
+    for (const std::string monitor : {"base", "head", "moment", "earth", "water", "out"})
+      EXPECT_EQ(again.last(monitor), run.last(monitor)) << monitor << interrupted;
+  }
+}
+
+TEST(WaterAtWalls, FaultsNameTheRemedy) {
+  const auto fault_of = [](const std::string& stages, const std::string& passage = "impervious") {
+    return polargrain::testing::faults_of(pit(stages, passage));
+  };
+  const auto expect = [](const std::string& faults, const std::string& part) {
+    EXPECT_NE(faults.find(part), std::string::npos) << faults;
+    EXPECT_NE(faults.find("yaml:"), std::string::npos) << "a line: " << faults;
+  };
+  expect(fault_of("", "open"), "permeable");
+  expect(fault_of("", "leaky"), "resistance");
+  expect(fault_of("", "permeable, resistance: 1 d"), "write 'water: leaky' too");
+  const std::string sea =
+      "    - {name: sea, until: 2 d, count: 1, boundary: [{on: PLACE, free_water: 6 m}]}\n";
+  const auto on = [&](const std::string& place) {
+    return std::string(sea).replace(sea.find("PLACE"), 5, place);
+  };
+  expect(fault_of(on("floor")), "'floor' presses on nothing, as ground lies all along it");
+  expect(fault_of(on("sheet")), "'sheet' presses on nothing");
+  expect(fault_of(on("sheet_top")), "free water needs a boundary");
+  std::string dry = pit("");
+  dry.erase(dry.find("water: {perm"), dry.find("interfaces:") - dry.find("water: {perm"));
+  expect(polargrain::testing::faults_of(dry), "interface 'skin': water: the case has no water");
+  std::string edge = cantilever("");
+  edge.replace(edge.find("friction: 0 deg"), 15, "friction: 0 deg, water: permeable");
+  expect(polargrain::testing::faults_of(edge), "ground lies on one side alone");
+}
+
+}  // namespace
