@@ -18,7 +18,7 @@ constexpr const char* kLeaky = "leaky";
 template <int dim>
 using Interfaces = std::vector<std::shared_ptr<fem::Interface<dim>>>;
 
-/// Those of one name: one, or one on each side of a wall of beams.
+/// The interfaces of one name: one, or one on each side of a wall of beams.
 template <int dim>
 Interfaces<dim> interfaces_of(const fem::Problem<dim>& problem, const CaseParts::Structure& structure) {
   Interfaces<dim> found;

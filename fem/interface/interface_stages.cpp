@@ -68,7 +68,7 @@ void Interface<dim>::carry_stress_of_ground(const StageBegin<dim>& now,
   using Place = typename Cosserat<dim>::Place;
   if constexpr (dim == 2) {
     std::map<int, double> area;
-    std::map<int, Place> water;  // what it pushes a node with: the forces of the ground are total ones
+    std::map<int, Place> water;  // pushes nodes: the forces of the ground are total ones
     for (const std::size_t e : born) {
       const Eigen::VectorXd values = now.nodal(elements_[e].entries);
       for (const Point& point : elements_[e].points)

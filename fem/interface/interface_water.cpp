@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pore water at interfaces: the law takes the effective stress, and the water between the sides pushes both of them. What it does
+// Pore water at interfaces: the law takes the effective stress, and the water between the sides pushes both of them. Its flow
 // across a curve is WaterAcross (fem/water).
 #include <algorithm>
 
