@@ -149,7 +149,7 @@ class Run {
       material = recipe.make_for<dim>(pool_ ? &*pool_ : nullptr);
       if (const std::string note = recipe.note(); !note.empty()) warn(note);
     }
-    if (case_.spread > 0.0) fem::add_spread_slip<dim>(problem(), {case_.spread});
+    if (case_.spread > 0.0) add_spread();
     solver_.emplace(problem(), case_.solver);
     solver_->set_observer(&observer_);
     observer_.on_struggle = [this](const fem::Trouble& trouble) {
@@ -161,6 +161,13 @@ class Run {
     observer_.go_on(solver_->state().time);
     checkpoints_.keep(std::move(from_));
     if (!record_.steps.empty()) files_.write(record_.steps.back(), *solver_);
+  }
+
+  /// Slips of cells are known no better than their stresses are balanced.
+  void add_spread() {
+    fem::SpreadOptions options{.width = case_.spread};
+    if (case_.needs_workers()) options.tolerance = case_.solver.force_tolerance;
+    fem::add_spread_slip<dim>(problem(), options);
   }
 
   /// @returns whether all steps were committed

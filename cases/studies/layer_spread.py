@@ -42,6 +42,7 @@ ACCEPTED = (0.03, 0.03, 0.03, 0.1, 0.3, 1.0)  # of the normal stress, when no it
 VISCOSITY = 1e-3      # of the stiffness, on an increment of slip: what is spread leaves fast oscillations of the slips undetermined
 FURTHEST = 0.01       # shear or rise by which an iteration may change a cell
 SOFTEST = 0.1         # of the packing's stiffness at rest: below that iterations overshoot
+WIDTHS = {1: 2.0 * math.log(2.0), 2: 3.35669398}  # of (1 - l^2 lap)^-1 once and twice, l
 WAYS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)   # past the peak, d
 
 
@@ -49,10 +50,12 @@ def weights(places, spacing, length, kernel):
     """@returns W: columns and rows add up to 1"""
     if length == 0.0:
         return numpy.eye(places)
-    if kernel == "helmholtz":  # that of the finite elements (docs/theory/spread.md)
-        apart = length / (2.0 * math.log(2.0)) / spacing
+    if kernel.startswith("helmholtz"):  # helmholtz2: that of the finite elements (docs/theory/spread.md)
+        times = 2 if kernel.endswith("2") else 1
+        apart = length / WIDTHS[times] / spacing
         neighbours = numpy.roll(numpy.eye(places), 1, axis=0) + numpy.roll(numpy.eye(places), -1, axis=0)
-        return numpy.linalg.inv((1.0 + 2.0 * apart**2) * numpy.eye(places) - apart**2 * neighbours)
+        once = numpy.linalg.inv((1.0 + 2.0 * apart**2) * numpy.eye(places) - apart**2 * neighbours)
+        return numpy.linalg.matrix_power(once, times)
     apart = numpy.abs(numpy.subtract.outer(numpy.arange(places), numpy.arange(places)))
     apart = numpy.minimum(apart, places - apart) * spacing
     kernel = numpy.cosh(numpy.minimum(2.0 * math.acosh(math.sqrt(2.0)) * apart / length, 300.0)) ** -2.0
@@ -227,7 +230,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", type=pathlib.Path, required=True)
     arguments.add_argument("--lengths", type=float, nargs="+", default=[0.0, 4.0, 5.0, 6.0, 8.0])
-    arguments.add_argument("--kernel", choices=["sech2", "helmholtz"], default="sech2")
+    arguments.add_argument("--kernel", choices=["sech2", "helmholtz", "helmholtz2"], default="sech2")
     arguments.add_argument("--columns", type=int, default=5)
     arguments.add_argument("--places", type=int, default=20)
     arguments.add_argument("--grains", type=int, default=100, help="of a cell")

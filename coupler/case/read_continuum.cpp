@@ -36,7 +36,7 @@ void read_continuum(const Entry* entry, const Entry& document, CaseParts& parts)
     const Entry* const spread = section.find("spread");
     if (spread != nullptr && spread->text.ends_with("d50")) {
       parts.faults.push_back(spread->fault(
-          "continuum: spread: multiples of d50 belong to cells, which do not spread slips yet; give a length, "
+          "continuum: spread: the spread is one of the whole body, not of the grains of one material; give a length, "
           "such as '5 mm'"));
     } else {
       parts.result.spread = section.quantity_or("spread", Dimension::length, Limit::not_negative, 0.0);
@@ -59,8 +59,8 @@ void check_spread_slips(const Entry& entry, CaseParts& parts) {
     any = any || recipe->slips() == Slips::spread;
     if (recipe->slips() == Slips::own)
       parts.faults.push_back(entry.fault(fmt::format(
-          "continuum: spread: the model of material '{}' cannot spread its slips yet; elastic and elastoplastic "
-          "ones can",
+          "continuum: spread: the model of material '{}' cannot spread its slips yet; elastic, elastoplastic, "
+          "cell and informed ones can",
           name)));
   }
   if (!any)

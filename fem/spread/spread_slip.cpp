@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "common/error.hpp"
@@ -10,9 +11,16 @@
 #include "fem/element/dofs.hpp"
 
 namespace polargrain::fem {
+namespace {
+
+/// Full width at half maximum of (1 + |x|/l) exp(-|x|/l) over l: twice the root of (1 + x) exp(-x) = 1/2.
+constexpr double kWidthOverLength = 3.356693980033321;
+constexpr int kFields = static_cast<int>(std::size(kSpreadFields));
+
+}  // namespace
 
 template <int dim>
-SpreadSlip<dim>::SpreadSlip(const Problem<dim>& problem, std::size_t slip, std::size_t overstress,
+SpreadSlip<dim>::SpreadSlip(const Problem<dim>& problem, std::size_t field,
                             const std::map<std::string, std::shared_ptr<SlipDriven<dim>>>& materials,
                             SpreadOptions options)
     : options_(options) {
@@ -24,29 +32,28 @@ SpreadSlip<dim>::SpreadSlip(const Problem<dim>& problem, std::size_t slip, std::
     while (batch < batches_.size() && batches_[batch].material != material) ++batch;
     if (batch == batches_.size()) batches_.push_back({material, {}});
     for (const int e : problem.mesh.regions.at(region)) batch_of_element[e] = batch;
-    stiffness_ = std::max(stiffness_, material->slip_stiffness());
   }
-  for (const auto& [e, batch] : batch_of_element) add_element(problem, places, slip, overstress, e, batch);
+  for (const auto& [e, batch] : batch_of_element) add_element(problem, places, field, e, batch);
 }
 
 template <int dim>
 void SpreadSlip<dim>::add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places,
-                                  std::size_t slip, std::size_t overstress, int number, std::size_t batch) {
+                                  std::size_t field, int number, std::size_t batch) {
   const Element<dim>& element = problem.mesh.elements[static_cast<std::size_t>(number)];
   const int corners = element.type->corners;
-  const double length = options_.width / (2.0 * std::log(2.0));
+  const double length = options_.width / kWidthOverLength;
   Part& part = elements_.emplace_back();
   part.batch = batch;
   part.first = batches_[batch].slips.size();
   for (const int node : element.nodes)
     for (const Dof dof : node_dofs<dim>()) part.entries.push_back(entry_of<dim>(node, dof));
-  for (int a = 0; a < corners; ++a) {
-    const int node = element.nodes[static_cast<std::size_t>(a)];
-    part.slips.push_back(places.entry(slip, node));
-    part.overstresses.push_back(places.entry(overstress, node));
+  std::vector<int>* const kinds[] = {&part.slips, &part.overstresses, &part.slips_between,
+                                     &part.overstresses_between};
+  for (std::size_t kind = 0; kind < kFields; ++kind) {
+    for (int a = 0; a < corners; ++a)
+      kinds[kind]->push_back(places.entry(field + kind, element.nodes[static_cast<std::size_t>(a)]));
+    part.entries.insert(part.entries.end(), kinds[kind]->begin(), kinds[kind]->end());
   }
-  part.entries.insert(part.entries.end(), part.slips.begin(), part.slips.end());
-  part.entries.insert(part.entries.end(), part.overstresses.begin(), part.overstresses.end());
 
   const VectorRows<dim> nodes = problem.mesh.element_positions(number);
   const auto points = point_geometries<dim>(*element.type, nodes);
@@ -65,9 +72,12 @@ void SpreadSlip<dim>::add_element(const Problem<dim>& problem, const FieldPlaces
 
 template <int dim>
 void SpreadSlip<dim>::learn(const Discretisation<dim>&, std::span<const Response<dim>>) {
+  double stiffness = 0.0;
+  for (const Batch& batch : batches_) stiffness = std::max(stiffness, batch.material->slip_stiffness());
+  stiffness_ = stiffness;
   for (Part& part : elements_) {
     const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
-    double strength = 1e-6 * stiffness_;  // a point without strength has some overstress too
+    double strength = 1e-4 * stiffness_;  // a point without strength has some overstress too
     for (std::size_t i = 0; i < part.points.size(); ++i) strength = std::max(strength, answers[i].scale);
     part.resistance = options_.overstress * strength / stiffness_;
   }
@@ -88,24 +98,47 @@ template <int dim>
 std::string SpreadSlip<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   for (Part& part : elements_) {
     const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
-    const Eigen::VectorXd growth = step.increment(part.slips);
     const Eigen::VectorXd overstress = step.end(part.overstresses);
-    forces.internal(part.slips) += stiffness_ * (part.spread * overstress);
-    forces.parts(part.slips) += stiffness_ * (part.spread.cwiseAbs() * overstress.cwiseAbs());
+    const Eigen::VectorXd felt = step.end(part.overstresses_between);
+    const Eigen::VectorXd fed = step.increment(part.slips_between);
+    forces.internal(part.slips) += stiffness_ * (part.spread * felt);
+    forces.parts(part.slips) += stiffness_ * (part.spread.cwiseAbs() * felt.cwiseAbs());
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const Point& point = part.points[i];
       forces.internal(part.slips) -= (point.volume * answers[i].drive) * point.shape;
-      forces.parts(part.slips) += (point.volume * answers[i].scale) * point.shape;
+      const Eigen::VectorXd scale = (point.volume * answers[i].scale) * point.shape;
+      forces.parts(part.slips) += scale;
+      forces.parts(part.slips_between) += scale;
+      // A drive that is zero without slip rounds: slips are measured by the elastic strain at the strength too.
+      forces.parts(part.overstresses) += scale;
+      forces.parts(part.overstresses_between) += scale;
     }
     part.slipping = (overstress.array() > 0.0).template cast<double>();
     const Eigen::VectorXd source =
         part.mass.cwiseProduct(part.slipping).cwiseProduct(overstress) / part.resistance;
-    forces.internal(part.overstresses) += stiffness_ * (part.spread * growth - source);
+    forces.internal(part.overstresses) += stiffness_ * (part.spread * fed - source);
     // At rest, too, a slip is measured by the strain that the yield condition is away.
-    forces.parts(part.overstresses) += stiffness_ * (part.spread.cwiseAbs() * growth.cwiseAbs() + source +
+    forces.parts(part.overstresses) += stiffness_ * (part.spread.cwiseAbs() * fed.cwiseAbs() + source +
                                                      part.mass.cwiseProduct(overstress.cwiseAbs()));
+    evaluate_between(part, step, forces);
   }
   return {};
+}
+
+template <int dim>
+void SpreadSlip<dim>::evaluate_between(const Part& part, const NodalStep& step, NodalForces& forces) const {
+  const Eigen::VectorXd growth = step.increment(part.slips), fed = step.increment(part.slips_between);
+  const Eigen::VectorXd overstress = step.end(part.overstresses), felt = step.end(part.overstresses_between);
+  const Eigen::MatrixXd absolute = part.spread.cwiseAbs();
+  forces.internal(part.overstresses_between) +=
+      stiffness_ * (part.spread * growth - part.mass.cwiseProduct(fed));
+  forces.parts(part.overstresses_between) +=
+      stiffness_ *
+      (absolute * growth.cwiseAbs() + part.mass.cwiseProduct(fed.cwiseAbs() + overstress.cwiseAbs()));
+  forces.internal(part.slips_between) +=
+      stiffness_ * (part.spread * overstress - part.mass.cwiseProduct(felt));
+  forces.parts(part.slips_between) +=
+      stiffness_ * (absolute * overstress.cwiseAbs() + part.mass.cwiseProduct(felt.cwiseAbs()));
 }
 
 template <int dim>
@@ -113,8 +146,8 @@ Eigen::MatrixXd SpreadSlip<dim>::tangent(std::size_t e) const {
   const Part& part = elements_[e];
   const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
   const auto corners = static_cast<Eigen::Index>(part.slips.size());
-  const auto moved = static_cast<Eigen::Index>(part.entries.size()) - 2 * corners;
-  const auto size = moved + 2 * corners;
+  const auto size = static_cast<Eigen::Index>(part.entries.size());
+  const auto moved = size - kFields * corners;
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const auto& [volume, shape, strain] = part.points[i];
@@ -126,10 +159,19 @@ Eigen::MatrixXd SpreadSlip<dim>::tangent(std::size_t e) const {
     tangent.block(moved, moved, corners, corners) -=
         (volume * answer.drive_by_slip) * shape * shape.transpose();
   }
-  tangent.block(moved, moved + corners, corners, corners) = stiffness_ * part.spread;
-  tangent.block(moved + corners, moved, corners, corners) = stiffness_ * part.spread;
-  tangent.bottomRightCorner(corners, corners).diagonal() =
-      (-stiffness_ / part.resistance) * part.mass.cwiseProduct(part.slipping);
+  const auto block = [&](int row, int column) {
+    return tangent.block(moved + row * corners, moved + column * corners, corners, corners);
+  };
+  block(1, 1).diagonal() = (-stiffness_ / part.resistance) * part.mass.cwiseProduct(part.slipping);
+  // By kind: slips, overstresses, slips and overstresses between.
+  const auto spread = [&](int row, int column) {
+    block(row, column) = stiffness_ * part.spread;
+    block(column, row) = stiffness_ * part.spread;
+  };
+  spread(0, 3);
+  spread(1, 2);
+  block(2, 3).diagonal() = -stiffness_ * part.mass;
+  block(3, 2).diagonal() = -stiffness_ * part.mass;
   return tangent;
 }
 
@@ -158,13 +200,14 @@ std::shared_ptr<SpreadSlip<dim>> add_spread_slip(Problem<dim>& problem, const Sp
   }
   if (materials.empty()) throw RunError("no material has a slip that can be spread");
   const std::vector<int> nodes(corners.begin(), corners.end());
-  for (const auto& [name, unit] : {std::pair{kSlip, ""}, std::pair{kOverstress, ""}}) {
-    NodalField field{name, unit, nodes};
+  const std::size_t first = problem.fields.size();
+  for (const char* const name : kSpreadFields) {
+    NodalField field{name, "", nodes};
     field.tied = true;
+    field.tolerance = options.tolerance;
     problem.fields.push_back(std::move(field));
   }
-  const std::size_t last = problem.fields.size() - 1;
-  auto spread = std::make_shared<SpreadSlip<dim>>(problem, last - 1, last, materials, options);
+  auto spread = std::make_shared<SpreadSlip<dim>>(problem, first, materials, options);
   problem.contributions.push_back(spread);
   return spread;
 }

@@ -13,30 +13,36 @@
 namespace polargrain::fem {
 
 struct SpreadOptions {
-  /// Full width at half maximum of the slip that one line of slipping material spreads over, m; the operator
-  /// (1 - l^2 lap)^-1 has l = width / (2 ln 2).
+  /// Full width at half maximum of the slip that one line of slipping material spreads over, m.
   double width = 0.0;
   /// Overstress that a step needs for a growth of the source of 1, over the strength at its start (SlipAnswer::scale). It decides
   /// where neighbouring lines could slip alike; the smaller the steps, the smaller the overstress.
-  double overstress = 0.001;
+  double overstress = 0.01;
+  /// Of the rows of both fields (NodalField::tolerance).
+  double tolerance = 1e-8;
 };
 
-/// Names of the fields: the slip, and the overstress over SlipDriven::slip_stiffness.
+/// Names of the fields: the slip, the overstress over SlipDriven::slip_stiffness, and what stands between the two operators.
 inline constexpr const char* kSlip = "slip";
 inline constexpr const char* kOverstress = "overstress";
+inline constexpr const char* kSlipBetween = "slip_between";
+inline constexpr const char* kOverstressBetween = "overstress_between";
+/// All of them are given as zero (PrescribedField) where a rough plate holds slips: a source there would have no slip to feed.
+inline constexpr const char* kSpreadFields[] = {kSlip, kOverstress, kSlipBetween, kOverstressBetween};
 
 /// Slips that are spread over a length, which gives bands a thickness (docs/theory/spread.md). The source of slip lambda never
-/// goes back, and slips spread from it, no slip leaving through boundaries:
+/// goes back, and slips spread from it:
 ///
-///     lambda = g - l^2 lap g,   mu - l^2 lap mu = F(strain, g),   d lambda = <mu> / r,
+///     lambda = A A g,   A A mu = F(strain, g),   d lambda = <mu> / r,   A = 1 - l^2 lap,
 ///
-/// with the drive F of the law, its spread overstress mu, and a small r. Materials answer at the slip g (SlipDriven). Slip and
+/// with the drive F of the law, its spread overstress mu, and a small r. One line of sources slips by (1 + |x|/l) exp(-|x|/l). A once
+/// would have a cusp, which sources on the staircase of nodes along an inclined band cut off (docs/theory/spread.md). Materials answer at the slip g (SlipDriven). Slip and
 /// overstress have values at the corners of elements. Small deformation.
 template <int dim>
 class SpreadSlip final : public Contribution<dim> {
  public:
-  /// @param slip, overstress numbers of the fields @param materials SlipDriven ones of the problem, by region
-  SpreadSlip(const Problem<dim>& problem, std::size_t slip, std::size_t overstress,
+  /// @param field number of the first of its fields @param materials SlipDriven ones of the problem, by region
+  SpreadSlip(const Problem<dim>& problem, std::size_t field,
              const std::map<std::string, std::shared_ptr<SlipDriven<dim>>>& materials, SpreadOptions options);
 
   [[nodiscard]] std::string name() const override { return "spread slips"; }
@@ -62,8 +68,8 @@ class SpreadSlip final : public Contribution<dim> {
   struct Part {  ///< an element
     std::size_t batch;
     std::size_t first;         ///< its first point among those of the material
-    std::vector<int> entries;  ///< displacements and micro-rotations, slips, overstresses
-    std::vector<int> slips, overstresses;
+    std::vector<int> entries;  ///< displacements and micro-rotations, slips, overstresses, and those between
+    std::vector<int> slips, overstresses, slips_between, overstresses_between;
     std::vector<Point> points;
     Eigen::VectorXd mass;      ///< lumped
     Eigen::MatrixXd spread;    ///< A = mass + l^2 of the gradients
@@ -74,11 +80,14 @@ class SpreadSlip final : public Contribution<dim> {
     std::shared_ptr<SlipDriven<dim>> material;
     std::vector<double> slips;
   };
-  void add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t slip,
-                   std::size_t overstress, int number, std::size_t batch);
+  void add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field, int number,
+                   std::size_t batch);
+  /// The rows between the drive and the overstress, and between the source and the slip.
+  void evaluate_between(const Part& part, const NodalStep& step, NodalForces& forces) const;
 
   SpreadOptions options_;
-  double stiffness_ = 0.0;  ///< by which rows and values of the overstress are measured, Pa
+  double stiffness_ =
+      1.0;  ///< by which rows and values of the overstress are measured, Pa; of the first answers
   std::vector<Batch> batches_;
   std::vector<Part> elements_;
 };

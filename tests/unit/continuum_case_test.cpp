@@ -73,9 +73,9 @@ TEST_F(ContinuumCase, without_a_spread_it_is_the_case_of_before) {
 }
 
 TEST_F(ContinuumCase, faults_say_where_slips_are_not_spread) {
-  EXPECT_NE(
-      fault("spread: 50 mm", "spread: 5 d50").find("2: continuum: spread: multiples of d50 belong to cells"),
-      std::string::npos);
+  EXPECT_NE(fault("spread: 50 mm", "spread: 5 d50")
+                .find("2: continuum: spread: the spread is one of the whole body"),
+            std::string::npos);
   EXPECT_NE(fault("steps: {count: 20}", "steps: {count: 20, method: explicit}")
                 .find("2: continuum: spread: explicit steps"),
             std::string::npos);

@@ -9,6 +9,7 @@
 #include "coupler/cells/automatic_cells.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/resident_material.hpp"
+#include "coupler/cells/slip_driven_cells.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -26,23 +27,40 @@ class CellRecipe : public MaterialRecipe {
  public:
   /// @param residents nothing: no steps are explicit
   CellRecipe(CellDefinition definition, const std::optional<CosseratChoice>& cosserat,
-             const std::optional<Residents>& residents, bool iterates)
-      : definition_(std::move(definition)), cosserat_(cosserat), residents_(residents), iterates_(iterates) {}
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return made<2>(*pool); }
+             const std::optional<Residents>& residents, const CaseFiles& files)
+      : definition_(std::move(definition)),
+        cosserat_(cosserat),
+        residents_(residents),
+        iterates_(files.iterates),
+        spreads_(files.spreads_slips) {}
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
+    if (!spreads_) return made<2>(*pool);
+    std::string note;
+    return std::make_shared<SlipDrivenCells>(cells<2>(*pool, cosserat(*pool, note), note));
+  }
   [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
     return made<3>(*pool);
   }
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
   [[nodiscard]] const CellDefinition* cell() const override { return &definition_; }
+  [[nodiscard]] Slips slips() const override { return spreads_ ? Slips::spread : Slips::own; }
 
  private:
+  [[nodiscard]] std::optional<CosseratParameters> cosserat(Pool& pool, std::string& note) const {
+    if (!cosserat_) return {};
+    return resolved(*cosserat_, pool, definition_, note);
+  }
+  template <int dim>
+  [[nodiscard]] std::shared_ptr<CellMaterial<dim>> cells(Pool& pool,
+                                                         const std::optional<CosseratParameters>& cosserat,
+                                                         const std::string& note) const {
+    return std::make_shared<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, note);
+  }
   template <int dim>
   [[nodiscard]] std::shared_ptr<fem::Material<dim>> made(Pool& pool) const {
-    std::optional<CosseratParameters> cosserat;
     std::string note;
-    if (cosserat_) cosserat = resolved(*cosserat_, pool, definition_, note);
-    if (!residents_)
-      return std::make_shared<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, std::move(note));
+    const std::optional<CosseratParameters> cosserat = this->cosserat(pool, note);
+    if (!residents_) return cells<dim>(pool, cosserat, note);
     CellDefinition moving = definition_;
     moving.control.damping = residents_->damping;
     auto boxes = std::make_unique<ResidentMaterial<dim>>(pool, pool.define(std::move(moving)), cosserat,
@@ -56,6 +74,7 @@ class CellRecipe : public MaterialRecipe {
   std::optional<CosseratChoice> cosserat_;
   std::optional<Residents> residents_;
   bool iterates_;
+  bool spreads_;  ///< its slips follow those of the nodes
 };
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
@@ -73,7 +92,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
                  section.find("damping") == nullptr ? kDampingOfResidents : definition.control.damping};
   if (residents && !files.iterates) definition.control.damping = residents->damping;
   if (faults.size() != faults_before) return nullptr;
-  return std::make_unique<CellRecipe>(std::move(definition), cosserat, residents, files.iterates);
+  return std::make_unique<CellRecipe>(std::move(definition), cosserat, residents, files);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "coupler/case/models/scheme_section.hpp"
 #include "coupler/cells/gathered_material.hpp"
 #include "coupler/cells/informed_material.hpp"
+#include "coupler/cells/slip_driven_cells.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -20,8 +21,9 @@ template <int dim>
 class InformedRecipe : public MaterialRecipe {
  public:
   InformedRecipe(CellDefinition definition, const InformedParameters<dim>& parameters,
-                 const std::optional<CosseratChoice>& cosserat, int ask_every)
-      : ask_every_(ask_every),
+                 const std::optional<CosseratChoice>& cosserat, const CaseFiles& files)
+      : ask_every_(files.ask_every),
+        spreads_(files.spreads_slips),
         definition_(std::move(definition)),
         tangent_(definition_.control.tangent),
         parameters_(parameters),
@@ -36,6 +38,7 @@ class InformedRecipe : public MaterialRecipe {
   }
   [[nodiscard]] bool knows_s33() const override { return true; }  // the law's
   [[nodiscard]] const CellDefinition* grains() const override { return &definition_; }
+  [[nodiscard]] Slips slips() const override { return spreads_ ? Slips::spread : Slips::own; }
 
  private:
   template <int wanted>
@@ -53,6 +56,8 @@ class InformedRecipe : public MaterialRecipe {
       }
       auto material = std::make_shared<InformedMaterial<dim>>(calls_of<dim>(pool, pool.define(definition_)),
                                                               parameters, note, std::move(with_tangent));
+      if constexpr (wanted == 2)
+        if (spreads_) return std::make_shared<SlipDrivenCells>(material);
       if (ask_every_ == 0) return material;
       return std::make_shared<GatheredMaterial<dim>>(std::move(material), ask_every_);
     } else {
@@ -61,6 +66,7 @@ class InformedRecipe : public MaterialRecipe {
   }
 
   int ask_every_;  ///< explicit steps after which the cells follow; 0: Newton's method
+  bool spreads_;   ///< its slips follow those of the nodes
   CellDefinition definition_;
   CellTangent tangent_;  ///< of the case: for points that go by their cells
   InformedParameters<dim> parameters_;
@@ -104,7 +110,7 @@ std::unique_ptr<MaterialRecipe> read_for(const std::string& material, Section& s
   informed.finish();
   if (faults.size() != faults_before) return nullptr;
   if (!cosserat) parameters.mean_diameter = 2.0 * definition.packing.mean_radius();
-  return std::make_unique<InformedRecipe<dim>>(std::move(definition), parameters, cosserat, files.ask_every);
+  return std::make_unique<InformedRecipe<dim>>(std::move(definition), parameters, cosserat, files);
 }
 
 std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,

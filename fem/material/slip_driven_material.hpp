@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/material/material.hpp"
+#include "fem/material/slip_driven.hpp"
+
+namespace polargrain::fem {
+
+/// Any material of the plane, whose slip is given from outside, although it is known by its answers alone (docs/theory/spread.md).
+/// It feels the whole strain and answers with a stress s. Along a direction n of shear the body bears another shear stress, which
+/// is elastic but for the slip g:
+///
+///     T = s + 2 F n,   dF = G (2 n:d eps - sqrt(3) dg) - n:ds,   n:n = 1/2,
+///
+/// with G of the first tangent, that at rest. sqrt(3) F is the drive (q and its slip, as of a cone): where it vanishes T is s. All
+/// other parts of T are those of s, so that dilation comes with the strain. n is the deviator of the strain since the start, so that
+/// no shear of a band is left to s alone; or that of s, where the two are far apart (n:n' of less than 0.35). Where the deviator
+/// of s is below a tenth of the mean stress n is not known, and F is 0. Small deformation.
+class SlipDrivenMaterial : public Material<2>, public SlipDriven<2> {
+ public:
+  /// @param material not null
+  explicit SlipDrivenMaterial(std::shared_ptr<Material<2>> material);
+
+  void allocate(std::size_t points) override;
+  void set_initial_stress(std::size_t point, const Vector7& stress) override;
+  [[nodiscard]] bool can_turn() const override { return false; }
+  [[nodiscard]] double moment_length() const override { return material_->moment_length(); }
+  void expect(const Asking& asking) override { material_->expect(asking); }
+  void evaluate(std::span<const Increment<2>> increments, std::span<Response<2>> responses) override;
+  [[nodiscard]] bool confirm() override { return material_->confirm(); }
+  void commit() override;
+  void revert() override;
+  void save(ArchiveWriter& archive) const override;
+  void restore(ArchiveReader& archive) override;
+  /// The names of the material end with given_slip (g) and drive, which is over the sum of its absolute terms: from -1 to about 0.
+  [[nodiscard]] std::vector<std::string> field_names() const override;
+  void fields(std::size_t point, std::span<double> values) const override;
+  [[nodiscard]] std::vector<Figure> figures() const override { return material_->figures(); }
+  [[nodiscard]] std::string doubt() const override { return material_->doubt(); }
+  [[nodiscard]] std::vector<std::string> take_notes() override { return material_->take_notes(); }
+
+  void set_slips(std::span<const double> increments) override;
+  [[nodiscard]] std::span<const SlipAnswer<2>> slip_answers() const override { return trial_answers_; }
+  /// 3 G at rest; 0 before the first evaluation.
+  [[nodiscard]] double slip_stiffness() const override;
+
+ private:
+  struct State {
+    Vector7 stress = Vector7::Zero();  ///< s, Pa
+    Vector7 strain = Vector7::Zero();  ///< since the start
+    double overstress = 0.0;           ///< F, Pa
+    double slip = 0.0;                 ///< g
+    double stiffness = 0.0;            ///< G, Pa
+  };
+  void answer(std::size_t point, const Vector7& strain, Response<2>& response);
+
+  std::shared_ptr<Material<2>> material_;
+  bool is_at_rest_ = true;  ///< nothing was evaluated yet
+  std::vector<State> committed_, trial_;
+  std::vector<SlipAnswer<2>> answers_, trial_answers_;
+  std::vector<double> slips_;  ///< growth over the step
+};
+
+}  // namespace polargrain::fem

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Slips of cells that are spread, by the whole program: uniform states, workers, a run that is killed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/csv_table.hpp"
+#include "tests/faults/checkpoint_runs.hpp"
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+const std::filesystem::path kSource = POLARGRAIN_SOURCE_DIRECTORY;
+
+/// Three elements of one cell each between smooth plates: all alike, so that nothing is there to be spread.
+class SpreadCells : public ::testing::Test {
+ protected:
+  SpreadCells() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    std::filesystem::copy(kSource / "cases/footing_cells/packing100.h5", scratch_.path());
+  }
+
+  void write_case(const std::string& continuum, const std::string& model) const {
+    write(scratch_.path() / "case.yaml",
+          "title: Cells that slip together\ncontinuum: " + continuum +
+              "\nmesh: {rectangle: {size: [0.1 m, 0.3 m], elements: [1, 3]}, element: Q4R}\n"
+              "materials:\n  sand: {model: " +
+              model +
+              ", script: cells/hooke_li_chu.in, packing: packing100.h5}\n"
+              "regions: {all: sand}\n"
+              "boundary:\n"
+              "  - {on: bottom, fix: [u2]}\n"
+              "  - {on: bottom_left, fix: [u1]}\n"
+              "  - {on: top, move: {u2: -6 mm}}\n"
+              "  - {on: [left, right], pressure: 100 kPa}\n"
+              "steps: {count: 8, tolerance: 5e-3, noise: 2}\n"
+              "monitors: {top_force: {on: top, reaction: u2}}\n");
+  }
+  std::vector<double> forces(const std::string& name) const {
+    const Outcome run = run_in(scratch_.path(), POLARGRAIN " run case.yaml -w 2 --quiet -o " + name);
+    EXPECT_EQ(run.status, 0) << run.errors;
+    return CsvTable(scratch_.path() / name / "history.csv").numbers("top_force");
+  }
+
+  Scratch scratch_;
+};
+
+constexpr const char* kSpread = "{kind: cauchy, spread: 0.2 m}";
+
+TEST_F(SpreadCells, AUniformSpecimenBearsWhatItsCellsBear) {
+  for (const char* model : {"cell", "informed"}) {
+    write_case("cauchy", model);
+    const std::vector<double> local = forces(std::string("local_") + model);
+    write_case(kSpread, model);
+    const std::vector<double> spread = forces(std::string("spread_") + model);
+    ASSERT_EQ(spread.size(), local.size());
+    // Both are balanced to 0.5 % of the forces of all supports.
+    for (std::size_t k = 0; k < local.size(); ++k)
+      EXPECT_NEAR(spread[k], local[k], 0.01 * std::abs(local[k])) << model << " " << k;
+    EXPECT_GT(local.back() / local.front(), 2.0) << model;
+  }
+}
+
+TEST_F(SpreadCells, WorkersAndResumptionsChangeNoByte) {
+  write_case(kSpread, "cell");
+  const std::string run = "run case.yaml --quiet --checkpoint-minutes 0";
+  ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " " + run + " -w 1 -o one").status, 0);
+  const std::string expected = results_of(scratch_.path() / "one");
+  const auto check = [&](int status, const std::filesystem::path& result) {
+    EXPECT_EQ(status, 0) << content(scratch_.path() / "program.out");
+    EXPECT_TRUE(results_of(result) == expected);
+    std::filesystem::remove_all(result);
+  };
+  const Kills done = kill_again_and_again(scratch_.path(), "run case.yaml --quiet", 2, 20260104, check);
+  EXPECT_EQ(done.kills, 2);
+}
+
+TEST_F(SpreadCells, RefusesWhatHasNoSlipsToSpread) {
+  write_case(kSpread, "adaptive");
+  const Outcome run = run_in(scratch_.path(), POLARGRAIN " check case.yaml");
+  EXPECT_NE(run.status, 0);
+  EXPECT_NE(run.errors.find(
+                "case.yaml:2: continuum: spread: the model of material 'sand' cannot spread its slips yet; "
+                "elastic, elastoplastic, cell and informed ones can"),
+            std::string::npos)
+      << run.errors;
+}
+
+}  // namespace
+}  // namespace polargrain::testing
