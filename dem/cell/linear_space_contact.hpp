@@ -92,8 +92,7 @@ void SpaceContactParts::open(const Strain& strains, Forces<Strains>& opening) co
   };
   opening.template topRows<3>() = by_branch(0);
   opening.template bottomRows<3>() = by_branch(9);
-  opening.template topRows<3>() +=
-      polar_ * lever_.lazyProduct(opening.template bottomRows<3>());
+  opening.template topRows<3>() += polar_ * lever_.lazyProduct(opening.template bottomRows<3>());
 }
 
 template <int Strains>
