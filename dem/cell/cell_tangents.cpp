@@ -39,12 +39,15 @@ Matrix7 CellTangents<2>::of(const GrainBox<2>& box, std::span<const double> weig
                         : voigt_tangent(network.contacts, network.frame, network.volume);
   };
   if (control_.tangent == CellTangent::voigt) return voigt();
-  if (control_.tangent == CellTangent::condensed && !controlled())
-    return condensed_.classical(network).value_or(voigt());
+  if (control_.tangent == CellTangent::condensed && !controlled()) {
+    const auto found = condensed_.classical(network);
+    return found ? *found : voigt();
+  }
   // Grains that have no neighbours but one each have no mean rotation that could be held.
   std::optional<Matrix7> condensed;
   if (!weights.empty()) condensed = condensed_.cosserat(network, weights);
-  return condensed.value_or(voigt_cosserat_tangent(network.contacts, network.frame, network.volume));
+  if (condensed) return *condensed;
+  return voigt_cosserat_tangent(network.contacts, network.frame, network.volume);
 }
 
 template <>
@@ -63,11 +66,13 @@ Matrix18 CellTangents<3>::of(const GrainBox<3>& box, std::span<const double> wei
     return controlled() ? voigt_cosserat_space_tangent(network) : voigt_space_tangent(network);
   };
   if (control_.tangent == CellTangent::voigt) return voigt();
-  if (control_.tangent == CellTangent::condensed && !controlled())
-    return condensed_.classical(network).value_or(voigt());
+  if (control_.tangent == CellTangent::condensed && !controlled()) {
+    const auto found = condensed_.classical(network);
+    return found ? *found : voigt();
+  }
   std::optional<Matrix18> condensed;
   if (!weights.empty()) condensed = condensed_.cosserat(network, weights);
-  return condensed.value_or(voigt_cosserat_space_tangent(network));
+  return condensed ? *condensed : voigt_cosserat_space_tangent(network);
 }
 
 template class CellTangents<2>;

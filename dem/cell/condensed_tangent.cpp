@@ -10,8 +10,9 @@ template <int Strains>
 std::optional<Eigen::Matrix<double, 7, Strains>> CondensedTangent::stresses(
     const ContactNetwork& network, std::span<const double> weights,
     const Eigen::Matrix<double, 7, Strains>& strains) {
-  return network_.stresses<Strains>(network, weights, strains, [&network](std::size_t c) {
-    return LinearContact(network.contacts[c], network.frame, network.strain);
+  return network_.stresses<Strains>(network, weights, strains, [&network](std::size_t c, double arm) {
+    return WholeContact<LinearContact, 1>(LinearContact(network.contacts[c], network.frame, network.strain),
+                                          arm);
   });
 }
 

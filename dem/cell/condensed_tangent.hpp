@@ -53,7 +53,7 @@ class CondensedTangent {
                                                             std::span<const double> weights,
                                                             const Eigen::Matrix<double, 7, Strains>& strains);
 
-  RelaxedNetwork<LinearContact, PlaneNetworkSolver, kPlaneMotions, 7> network_;
+  RelaxedNetwork<WholeContact<LinearContact, 1>, PlaneNetworkSolver, kPlaneMotions, 7> network_;
   int fallbacks_ = 0;
 };
 

@@ -15,6 +15,7 @@ namespace polargrain::dem {
 /// makes the law non-symmetric. Along an increment contacts near a limit do so in part (near_limit.hpp). The rolling stiffness of models that do not tell it (all but li_chu
 /// and epsd2) counts as zero.
 struct LinearContact {
+  static constexpr int kMotions = 3;  ///< of a grain, as many as openings
   Eigen::Matrix3d stiffness;  ///< N/m, N; N, N m/rad
   Eigen::Matrix<double, 3, 6>
       motions;  ///< opening from (u1, u2, rotation) of the first, then the second grain

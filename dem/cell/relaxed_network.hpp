@@ -12,12 +12,54 @@
 
 namespace polargrain::dem {
 
+/// One contact in a network by the whole matrices of its law. Spheres have products of its parts (SpaceContactParts).
+///
+/// @tparam Law `stiffness`, `motions` and `affine` as in LinearContact, rotations last
+template <class Law, int Rotations>
+class WholeContact {
+ public:
+  static constexpr int kMotions = Law::kMotions;
+  template <int Strains>
+  using Sides = Eigen::Matrix<double, 2 * kMotions, Strains>;
+  template <int Strains>
+  using Forces = Eigen::Matrix<double, kMotions, Strains>;
+
+  /// @param arm m: rotations of grains count as arc lengths of it
+  WholeContact(const Law& law, double arm) : law_(law), arm_(arm) {
+    law_.motions.template middleCols<Rotations>(kMotions - Rotations) /= arm;
+    law_.motions.template middleCols<Rotations>(2 * kMotions - Rotations) /= arm;
+  }
+
+  /// Its share in the equations of the grains' motions, with what the strains leave out of balance.
+  template <int Strains, class Strain, class Equations>
+  void share(const Strain& strains, Equations& added) const {
+    const Eigen::Matrix<double, 2 * kMotions, kMotions> forces = law_.motions.transpose() * law_.stiffness;
+    added.stiffness.noalias() = forces * law_.motions;
+    added.right_sides.template leftCols<Strains>().noalias() = -forces * (law_.affine * strains);
+  }
+  /// @param motion of both grains @param stresses their sum over the contacts, times the volume: added to @param on_grains forces
+  /// @param affine_forces without the motion, N
+  template <int Strains, class Strain>
+  void relax(const Sides<Strains>& motion, const Strain& strains, Strain& stresses, Sides<Strains>& on_grains,
+             Forces<Strains>& affine_forces) const {
+    const Forces<Strains> affine = law_.affine * strains;
+    const Forces<Strains> forces = law_.stiffness * (law_.motions * motion + affine);
+    stresses.noalias() += law_.affine.transpose() * forces;
+    on_grains = law_.motions.transpose() * forces;
+    affine_forces = law_.stiffness * affine;
+    affine_forces.template bottomRows<Rotations>() /= arm_;
+  }
+
+ private:
+  Law law_;
+  double arm_;
+};
+
 /// A network of contacts to first order whose grains find their own equilibrium under strains: the common part of condensed
 /// tangents of discs and of spheres (docs/theory/grains.md, C.7 (ii)). An object keeps memory between calls, never a
 /// result.
 ///
-/// @tparam Law of one contact: `stiffness`, `motions` and `affine` as in LinearContact, with as many openings as a grain has
-/// motions, rotations last
+/// @tparam Law of one contact: WholeContact or SpaceContactParts
 /// @tparam Components of a strain, and of a stress
 template <class Law, class Solver, int Motions, int Components>
 class RelaxedNetwork {
@@ -32,7 +74,7 @@ class RelaxedNetwork {
   /// balance.
   /// @param network contacts, grains, volume, hold as in ContactNetwork; there is a contact at least
   /// @param weights one a grain: the weighted means of the rotations are held at zero; empty: they are free
-  /// @param law_of law_of(c) returns the Law of contacts[c]
+  /// @param law_of law_of(c, arm) returns the Law of contacts[c], rotations as arc lengths of an arm
   template <int Strains, class Network, class LawOf>
   std::optional<Columns<Strains>> stresses(const Network& network, std::span<const double> weights,
                                            const Columns<Strains>& strains, const LawOf& law_of);
@@ -75,11 +117,7 @@ auto RelaxedNetwork<Law, Solver, Motions, Components>::stresses(const Network& n
   // pivots can be compared.
   const double arm = contacts.front().arm_first;
   laws_.clear();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    Law& law = laws_.emplace_back(law_of(c));
-    law.motions.template middleCols<kAxes>(kFirstAxis) /= arm;
-    law.motions.template middleCols<kAxes>(Motions + kFirstAxis) /= arm;
-  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) laws_.push_back(law_of(c, arm));
   const double spring = network.hold * mean_normal_stiffness(contacts);
   if (!find_fluctuations<Strains>(contacts, network.grains, weights, strains, spring)) return std::nullopt;
   const bool held = !weights.empty();
@@ -94,18 +132,15 @@ auto RelaxedNetwork<Law, Solver, Motions, Components>::stresses(const Network& n
   using Forces = Eigen::Matrix<double, Motions, Strains>;
   Columns<Strains> stresses = Columns<Strains>::Zero();
   Forces largest = Forces::Zero();
+  Forces affine_forces;
+  Eigen::Matrix<double, 2 * Motions, Strains> on_grains;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Law& law = laws_[c];
     Eigen::Matrix<double, 2 * Motions, Strains> motion;
     motion << fluctuation<Strains>(contacts[c].first), fluctuation<Strains>(contacts[c].second);
-    const Forces affine = law.affine * strains;
-    const Forces forces = law.stiffness * (law.motions * motion + affine);
-    stresses.noalias() += law.affine.transpose() * forces;
-    const Eigen::Matrix<double, 2 * Motions, Strains> on_grains = law.motions.transpose() * forces;
+    law.template relax<Strains>(motion, strains, stresses, on_grains, affine_forces);
     unbalanced(contacts[c].first) += on_grains.template topRows<Motions>();
     unbalanced(contacts[c].second) += on_grains.template bottomRows<Motions>();
-    Forces affine_forces = law.stiffness * affine;
-    affine_forces.template bottomRows<kAxes>() /= arm;
     largest = largest.cwiseMax(affine_forces.cwiseAbs());
   }
   const Eigen::RowVector<double, Strains> allowed = Solver::kLargestUnbalance * largest.colwise().maxCoeff();
@@ -127,11 +162,8 @@ bool RelaxedNetwork<Law, Solver, Motions, Components>::find_fluctuations(std::sp
                                                                          const Columns<Strains>& strains,
                                                                          double spring) {
   const auto equations = [this, &strains](int c) {
-    const Law& law = laws_[static_cast<std::size_t>(c)];
-    const Eigen::Matrix<double, 2 * Motions, Motions> forces = law.motions.transpose() * law.stiffness;
     typename Solver::Equations added;
-    added.stiffness.noalias() = forces * law.motions;
-    added.right_sides.template leftCols<Strains>().noalias() = -forces * (law.affine * strains);
+    laws_[static_cast<std::size_t>(c)].template share<Strains>(strains, added);
     added.right_sides.template middleCols<kAxes>(Strains).setZero();
     return added;
   };

@@ -5,42 +5,12 @@
 #include <span>
 
 #include "common/cell_response.hpp"
-#include "dem/cell/increment_slip.hpp"
+#include "dem/cell/linear_space_contact.hpp"
 #include "dem/cell/network_solver.hpp"
 #include "dem/cell/relaxed_network.hpp"
-#include "dem/contact/contact_recorder.hpp"
+#include "dem/cell/space_network.hpp"
 
 namespace polargrain::dem {
-
-/// The law of one contact of spheres linearised where it stands (docs/theory/grains.md, C.9): from the opening (three
-/// components of the displacement of the second surface against the first, and the rotation vector of the second grain
-/// against the first) to the change of force and moment on the first grain.
-///
-/// Of a spring that has given way over the increment the rest along and across its way acts
-/// (spring_left_along, spring_left_across), and it changes with the normal force by the rest of its share in it: a contact
-/// that slides to the end of the increment keeps |f_t| = mu f_n, one at its rolling limit |M| = (limit / f_n) f_n. The
-/// torsion spring acts where the law has one (li_chu), and the rolling stiffness of models that do not tell it counts as
-/// zero.
-struct LinearSpaceContact {
-  Eigen::Matrix<double, 6, 6> stiffness;  ///< N/m, N; N, N m/rad
-  Eigen::Matrix<double, 6, 12> motions;   ///< opening from (u, rotation) of the first, then the second grain
-  Eigen::Matrix<double, 6, 18>
-      affine;  ///< opening from a Cosserat strain; transposed: V stress from the force
-
-  /// @param frame turns vectors of the contact into the frame of the strain
-  LinearSpaceContact(const Contact& contact, const Eigen::Matrix3d& frame, const SpaceSlip& slip = {});
-};
-
-/// A cell of spheres as its tangents see it; see ContactNetwork.
-struct SpaceNetwork {
-  std::span<const Contact> contacts;
-  int grains = 0;         ///< contacts refer to 0 .. grains - 1
-  Eigen::Matrix3d frame;  ///< turns vectors of the contacts into the frame of the tangent
-  double volume = 0.0;    ///< m^3
-  double hold = 0.0;      ///< spring on each grain, over the mean normal stiffness
-  /// Of the contacts over the increment that the tangent is the derivative by; empty: by a further one, infinitely small.
-  std::span<const SpaceSlip> slips = {};
-};
 
 // Tangents d stress / d strain of a cell of spheres; rows and columns as in CellResponse::tangent. The classical ones are
 // those of free rotations: the stress symmetrised in shear, a shear strain acting through its symmetric part, no couple
@@ -79,8 +49,8 @@ class CondensedSpaceTangent {
       const SpaceNetwork& network, std::span<const double> weights,
       const Eigen::Matrix<double, 18, Strains>& strains);
 
-  RelaxedNetwork<LinearSpaceContact, SpaceNetworkSolver, kSpaceMotions, 18> network_;
-  RelaxedNetwork<LinearSpaceContact, QuickSpaceNetworkSolver, kSpaceMotions, 18> quick_;
+  RelaxedNetwork<SpaceContactParts, SpaceNetworkSolver, kSpaceMotions, 18> network_;
+  RelaxedNetwork<SpaceContactParts, QuickSpaceNetworkSolver, kSpaceMotions, 18> quick_;
   EliminationDigits digits_;
   int repeated_ = 0;
 };
