@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "element/stiffness.hpp"
+
 namespace polargrain::element {
 namespace {
 
@@ -28,30 +30,6 @@ constexpr double kLargestStep = 2.0;
 constexpr double kGoodShare = 0.5;
 /// Steps without loading that bring the stress back after a jump.
 constexpr int kCorrections = 6;
-
-/// Column 3i + j of the cell's tangent is of eps_ij: a gradient h_kl (k <= l) without rotation is half of two of them.
-Matrix6 slopes(const CellResponse& response) {
-  Matrix6 result;
-  for (int row = 0; row < 6; ++row) {
-    const auto [i, j] = kIndices[static_cast<std::size_t>(row)];
-    for (int column = 0; column < 6; ++column) {
-      const auto [k, l] = kIndices[static_cast<std::size_t>(column)];
-      const auto& c = response.tangent;
-      result(row, column) = 0.25 * (c(3 * i + j, 3 * k + l) + c(3 * i + j, 3 * l + k) +
-                                    c(3 * j + i, 3 * k + l) + c(3 * j + i, 3 * l + k));
-    }
-  }
-  return result;
-}
-
-Matrix3d gradient_of(const Vector6& strain) {
-  Matrix3d h = Matrix3d::Zero();
-  for (int place = 0; place < 6; ++place) {
-    const auto [i, j] = kIndices[static_cast<std::size_t>(place)];
-    h(i, j) = strain(place);
-  }
-  return h;
-}
 
 Vector6 upper(const Matrix3d& h) {
   Vector6 values;
@@ -128,15 +106,12 @@ double Follower::volume_of(const Vector6& strain) const {
 }
 
 CellIncrement Follower::increment_to(const Vector6& strain) const {
-  CellIncrement increment;
-  Matrix3d& h = increment.displacement_gradient;
-  h = gradient_of(strain - strain_);
+  Matrix3d h = gradient_of(strain - strain_);
   if (point_.is_large()) {
     const Matrix3d at_start = Matrix3d::Identity() + gradient_of(strain_);
     h = Matrix3d(h * at_start.inverse()).triangularView<Eigen::Upper>();
   }
-  increment.rotation << 0.5 * (h(2, 1) - h(1, 2)), 0.5 * (h(0, 2) - h(2, 0)), 0.5 * (h(1, 0) - h(0, 1));
-  return increment;
+  return increment_over(h);
 }
 
 double Follower::value(const Constraint& constraint, const Vector6& stress, const Vector6& strain) const {
@@ -184,7 +159,7 @@ std::string Follower::worst(const Vector& residuals) const {
 
 Matrix Follower::jacobian(const CellResponse& response, const Vector6& strain) const {
   const auto size = static_cast<Eigen::Index>(free_.size());
-  const Matrix6 of_stress = slopes(response);
+  const Matrix6 of_stress = stiffness_of(response);
   const Matrix3d at_start_inverse = point_.is_large()
                                         ? Matrix3d((Matrix3d::Identity() + gradient_of(strain_)).inverse())
                                         : Matrix3d::Identity();

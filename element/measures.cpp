@@ -15,6 +15,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The measures that depend on the largest and the least principal stress alone.
 void take_extremes(StressMeasures& measures, double largest, double least) {
+  measures.largest = largest;
+  measures.least = least;
   const bool compressed = least > 0.0;
   measures.ratio = compressed ? largest / least : std::numeric_limits<double>::infinity();
   measures.friction_angle = compressed ? arc_sine((largest - least) / (largest + least)) : kNone;

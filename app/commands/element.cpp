@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <sstream>
 
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "app/element/element_page.hpp"
+#include "app/element/envelope.hpp"
 #include "app/element/run_element.hpp"
+#include "app/element/undrained_figures.hpp"
 #include "app/pack/made_packings.hpp"
 #include "common/regular_file.hpp"
 #include "common/standard_streams.hpp"
@@ -47,6 +50,17 @@ void put(coupler::Entry& document, const std::string& key, coupler::Entry value)
   document.members.push_back({key, 0, std::move(value)});
 }
 
+/// One pressure, or a list with commas.
+coupler::Entry pressures_of(const std::string& text) {
+  if (text.find(',') == std::string::npos) return word(text, "--pressure");
+  coupler::Entry list;
+  list.kind = coupler::Entry::Kind::sequence;
+  list.file = "--pressure";
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ',');) list.items.push_back(word(item, "--pressure"));
+  return list;
+}
+
 /// The specification file, or one made of packings and a script; then what the options say.
 coupler::Entry document_of(const ElementOptions& options) {
   coupler::Entry document;
@@ -67,7 +81,7 @@ coupler::Entry document_of(const ElementOptions& options) {
     put(document, "script", word(options.files.back(), document.file));
   }
   if (!options.test.empty()) put(document, "test", word(options.test, "--test"));
-  if (!options.pressure.empty()) put(document, "pressure", word(options.pressure, "--pressure"));
+  if (!options.pressure.empty()) put(document, "pressure", pressures_of(options.pressure));
   for (const std::string& setting : options.settings) apply_setting(document, setting);
   return document;
 }
@@ -78,31 +92,101 @@ std::filesystem::path with_ending(const std::filesystem::path& output, const std
   return file;
 }
 
-std::string table_of(const ElementResult& result) {
-  std::vector<std::string> titles{"packing"};
-  titles.insert(titles.end(), result.columns.begin(), result.columns.end());
-  std::string text = csv_row(titles);
-  for (const ElementCurve& curve : result.curves) {
-    for (const std::vector<double>& row : curve.rows) {
-      std::vector<std::string> cells{curve.name};
-      for (const double value : row) cells.push_back(exact(value));
-      text += csv_row(cells);
-    }
+/// The tests under the pressures of a specification: the same but for the pressure.
+struct Tests {
+  std::vector<double> pressures;  ///< Pa
+  std::vector<ElementResult> results;
+  std::vector<ElementMean> means;
+  /// Under several pressures all tables say which, and there is an envelope.
+  [[nodiscard]] bool are_several() const { return pressures.size() > 1; }
+};
+
+/// A document for each pressure of a list.
+std::vector<coupler::Entry> by_pressure(const coupler::Entry& document) {
+  const coupler::Entry* const pressures = document.find("pressure");
+  if (pressures == nullptr || pressures->kind != coupler::Entry::Kind::sequence || pressures->items.empty())
+    return {document};
+  std::vector<coupler::Entry> documents;
+  for (const coupler::Entry& pressure : pressures->items) {
+    documents.push_back(document);
+    put(documents.back(), "pressure", pressure);
   }
+  return documents;
+}
+
+std::string table_of(const Tests& tests) {
+  std::vector<std::string> titles{"packing"};
+  if (tests.are_several()) titles.emplace_back("pressure_Pa");
+  const std::vector<std::string>& columns = tests.results.front().columns;
+  titles.insert(titles.end(), columns.begin(), columns.end());
+  std::string text = csv_row(titles);
+  for (std::size_t k = 0; k < tests.results.size(); ++k)
+    for (const ElementCurve& curve : tests.results[k].curves)
+      for (const std::vector<double>& row : curve.rows) {
+        std::vector<std::string> cells{curve.name};
+        if (tests.are_several()) cells.push_back(exact(tests.pressures[k]));
+        for (const double value : row) cells.push_back(exact(value));
+        text += csv_row(cells);
+      }
   return text;
 }
 
-std::string table_of(const std::vector<std::string>& columns, const ElementMean& mean) {
-  std::string text = "n";
-  for (const std::string& name : columns) text += fmt::format(",{0},{0}_half_95", name);
-  text += '\n';
-  for (std::size_t k = 0; k < mean.mean.size(); ++k) {
-    text += std::to_string(mean.count[k]);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      text += "," + exact(mean.mean[k][c]) + "," + exact(mean.half_width[k][c]);
-    text += '\n';
+/// Empty: no two specimens came anywhere.
+std::string table_of_means(const Tests& tests) {
+  const std::vector<std::string>& columns = tests.results.front().columns;
+  std::string titles = tests.are_several() ? "n,pressure_Pa" : "n";
+  for (const std::string& name : columns) titles += fmt::format(",{0},{0}_half_95", name);
+  std::string text;
+  for (std::size_t t = 0; t < tests.means.size(); ++t) {
+    const ElementMean& mean = tests.means[t];
+    for (std::size_t k = 0; k < mean.mean.size(); ++k) {
+      text += std::to_string(mean.count[k]);
+      if (tests.are_several()) text += "," + exact(tests.pressures[t]);
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        text += "," + exact(mean.mean[k][c]) + "," + exact(mean.half_width[k][c]);
+      text += '\n';
+    }
   }
+  return text.empty() ? text : titles + '\n' + text;
+}
+
+/// The page of all tests: under several pressures the curves of the specimens, named with theirs, and no mean over pressures.
+std::string page_of(const std::string& title, const Tests& tests) {
+  const std::vector<std::string>& columns = tests.results.front().columns;
+  if (!tests.are_several())
+    return element_page(title, columns, tests.results.front().curves, tests.means.front());
+  std::vector<ElementCurve> curves;
+  for (std::size_t k = 0; k < tests.results.size(); ++k)
+    for (ElementCurve curve : tests.results[k].curves) {
+      curve.name += fmt::format(" at {:.4g} kPa", 1e-3 * tests.pressures[k]);
+      curves.push_back(std::move(curve));
+    }
+  return element_page(title, columns, curves, {}, envelope_charts(tests.results, tests.pressures));
+}
+
+std::string summary_of(const Tests& tests) {
+  std::string text;
+  for (std::size_t k = 0; k < tests.results.size(); ++k) {
+    if (tests.are_several()) text += fmt::format("under {:.4g} kPa\n", 1e-3 * tests.pressures[k]);
+    text += summary_of(tests.results[k]) + undrained_summary(tests.results[k]);
+  }
+  if (tests.are_several()) text += envelope_summary(tests.results, tests.pressures);
   return text;
+}
+
+/// @returns whether all tests came to their end
+bool tell_failures(const Tests& tests) {
+  bool is_whole = true;
+  for (std::size_t k = 0; k < tests.results.size(); ++k)
+    for (const ElementCurve& curve : tests.results[k].curves) {
+      if (curve.failure.empty()) continue;
+      is_whole = false;
+      const std::string where =
+          tests.are_several() ? fmt::format("{} under {:.4g} kPa", curve.name, 1e-3 * tests.pressures[k])
+                              : curve.name;
+      tell(stderr, "error: {}: {}\n", where, curve.failure);
+    }
+  return is_whole;
 }
 
 int run_test(const ElementOptions& options, const PackingTools& tools) {
@@ -112,36 +196,36 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
                                               : std::filesystem::current_path();
   const coupler::PrivateDirectory scratch;
   const auto read = [&](const PackingsOf& packings_of) {
-    return read_element_specification(with_made_packings(document, directory, options.scripts, packings_of),
-                                      directory, options.scripts);
+    std::vector<ElementSpecification> specifications;
+    for (const coupler::Entry& one : by_pressure(document))
+      specifications.push_back(read_element_specification(
+          with_made_packings(one, directory, options.scripts, packings_of), directory, options.scripts));
+    return specifications;
   };
   // All faults are found before the first packing is made.
   read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
-  for (const char* const ending : {".csv", "_mean.csv", ".html"}) {
+  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv", ".html"}) {
     if (const std::string reason = why_no_output(with_ending(options.output, ending)); !reason.empty())
       throw InputError({"", 0, fmt::format("-o {}: {}", options.output.string(), reason)});
   }
-  ElementSpecification specification = read([&](const MadePackings& asked) {
+  const std::vector<ElementSpecification> specifications = read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
       if (!options.quiet) tell(stderr, "{}\n", line);
     });
   });
-  const ElementResult result =
-      run_elements({&specification, 1}, options.workers, options.scripts.trusted).front();
-  const ElementMean mean = mean_of(result.curves);
-  write_file(with_ending(options.output, ".csv"), table_of(result));
-  if (!mean.mean.empty())
-    write_file(with_ending(options.output, "_mean.csv"), table_of(result.columns, mean));
-  const std::string title = specification.title.empty() ? "Element test" : specification.title;
-  write_file(with_ending(options.output, ".html"), element_page(title, result.columns, result.curves, mean));
-  if (!options.quiet) tell(stdout, "{}", summary_of(result));
-  bool is_whole = true;
-  for (const ElementCurve& curve : result.curves) {
-    if (curve.failure.empty()) continue;
-    is_whole = false;
-    tell(stderr, "error: {}: {}\n", curve.name, curve.failure);
-  }
-  return is_whole ? 0 : 1;
+  Tests tests;
+  for (const ElementSpecification& one : specifications) tests.pressures.push_back(one.pressure);
+  tests.results = run_elements(specifications, options.workers, options.scripts.trusted);
+  for (const ElementResult& result : tests.results) tests.means.push_back(mean_of(result.curves));
+  write_file(with_ending(options.output, ".csv"), table_of(tests));
+  if (const std::string means = table_of_means(tests); !means.empty())
+    write_file(with_ending(options.output, "_mean.csv"), means);
+  if (tests.are_several())
+    write_file(with_ending(options.output, "_envelope.csv"), envelope_table(tests.results, tests.pressures));
+  const std::string& title = specifications.front().title;
+  write_file(with_ending(options.output, ".html"), page_of(title.empty() ? "Element test" : title, tests));
+  if (!options.quiet) tell(stdout, "{}", summary_of(tests));
+  return tell_failures(tests) ? 0 : 1;
 }
 
 std::string description() {
@@ -169,8 +253,10 @@ Command add_element(CLI::App& program, const Grains& grains) {
   command.add_option("FILES", options->files, "Specification (YAML); or packings, then their script")
       ->required();
   command.add_option("--test", options->test, "Named test")->type_name("NAME");
-  command.add_option("--pressure", options->pressure, "All-round pressure before the test, with its unit")
-      ->type_name("100kPa");
+  command
+      .add_option("--pressure", options->pressure,
+                  "All-round pressure before the test, with its unit; of several an envelope")
+      ->type_name("100kPa[,200kPa]");
   command.add_option("-o,--output", options->output, "Files to write: NAME.csv, NAME.html [element]")
       ->type_name("NAME");
   command

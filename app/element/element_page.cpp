@@ -88,7 +88,8 @@ class Charts {
 }  // namespace
 
 std::string element_page(const std::string& title, const std::vector<std::string>& columns,
-                         const std::vector<ElementCurve>& curves, const ElementMean& mean) {
+                         const std::vector<ElementCurve>& curves, const ElementMean& mean,
+                         const std::string& before) {
   const Charts charts(columns, curves, mean);
   const bool shears = charts.largest("e12") > charts.largest("e22");
   const std::string strain = shears ? "e12" : "axial_strain";
@@ -114,6 +115,7 @@ std::string element_page(const std::string& title, const std::vector<std::string
     if (!curve.failure.empty())
       body +=
           fmt::format("<p>{}: ended before its end: {}</p>\n", escaped(curve.name), escaped(curve.failure));
+  body += before;
   for (const Picture& picture : pictures) body += charts.html(picture);
   return page(title, body);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/remarks/given_stress.hpp"
+
 namespace polargrain::app {
 
 Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings)
@@ -82,16 +84,13 @@ double Scene::pressure_of(const SceneRegion& region) {
 std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
                                              const Eigen::Vector2d& position) const {
   if (region.comes_later) return {};
-  if (region.packing != nullptr) return region.packing->stress;
+  if (const auto given = given_stress(*this, region, position)) return given;
   Vector7 stress = Vector7::Zero();
+  if (region.packing != nullptr) return region.packing->stress;
   if (region.cell != nullptr) {
     for (const int i : {k11, k22, k33}) stress(i) = -region.cell->packing.pressure;
     return stress;
   }
-  std::optional<Vector7> given;
-  for (const fem::InitialStress<2>& item : problem().initial_stresses)
-    if (item.region.empty() || item.region == region.name) given = item.stress(position);
-  if (given) return given;
   const auto confining = quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure);
   if (!confining || *confining == 0.0) return {};
   for (const int i : {k11, k22, k33}) stress(i) = -*confining;

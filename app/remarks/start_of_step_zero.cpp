@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/remarks/given_stress.hpp"
 #include "common/error.hpp"
 #include "fem/material/elastic.hpp"
 #include "fem/material/local_material.hpp"
@@ -93,6 +94,10 @@ StartOfStepZero judged(fem::Solver<2>& solver, const Scene& scene) {
 std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
   if (scene.mesh().elements.size() > kMostElements) return {};
   fem::Problem<2> problem = scene.problem();
+  for (fem::InitialStress<2>& item : problem.initial_stresses)
+    item.stress = [&scene, named = item.region](const Eigen::Vector2d& place) {
+      return given_stress(scene, SceneRegion{named, ""}, place).value_or(Vector7::Zero());
+    };
   problem.deformation = fem::Deformation::small;
   for (auto& [name, material] : problem.materials) {
     material = elastic_material(scene, name);

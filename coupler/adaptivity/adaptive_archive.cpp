@@ -47,6 +47,7 @@ void AdaptiveMaterial<dim>::save(ArchiveWriter& archive) const {
   archive.write("followed_states", std::span<const StatePointer>(states));
   archive.write("history_errors", std::span<const double>(errors_.all()));
   at_limits_.save(archive);
+  ground_.save(archive);
 }
 
 template <int dim>
@@ -70,6 +71,7 @@ void AdaptiveMaterial<dim>::restore(ArchiveReader& archive) {
   }
   errors_ = MeasuredErrors(archive.doubles("history_errors"));
   at_limits_.restore(archive);
+  ground_.restore(archive);
   tightening_ = bounds[0];
   bounds_ = {bounds[1], bounds[2], bounds[3], bounds[4]};
   step_ = counts[1];

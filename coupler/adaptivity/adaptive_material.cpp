@@ -92,6 +92,44 @@ void AdaptiveMaterial<dim>::allocate(std::size_t points) {
 }
 
 template <int dim>
+void AdaptiveMaterial<dim>::begin_in_ground() {
+  if (!ground_.is_due()) return;
+  ground_.lead(calls_);
+  cells_.clear();
+  for (const CellReply& box : ground_.levels().boxes) {
+    cells_.push_back({of_dimension<dim>(box), {}});
+    if (!measure_.controlled()) keep_symmetric(cells_.back().answer.response);
+  }
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    points_[point].cell = static_cast<std::uint32_t>(ground_.level_of(point));
+    points_[point].offset = ground_.offset_of(point);
+    points_[point].cosserat = packing_.part_of(cells_[points_[point].cell].answer);
+  }
+  std::vector<std::size_t> alone;
+  for (const Followed& followed : followed_) alone.push_back(followed.point);
+  const std::vector<CellReply> boxes = ground_.boxes(calls_, alone);
+  for (std::size_t k = 0; k < boxes.size(); ++k) followed_[k].state = boxes[k].state;
+  take_stress_of_ground();
+  for (std::string& note : ground_.notes()) notes_.push_back(std::move(note));
+}
+
+template <int dim>
+void AdaptiveMaterial<dim>::take_stress_of_ground() {
+  const std::vector<Increment<dim>> none(points_.size());
+  std::vector<Response<dim>> responses(points_.size());
+  do {
+    evaluate(none, responses);
+    for (const Response<dim>& response : responses)
+      if (response.quality == Quality::failed)
+        throw RunError(
+            fmt::format("a box cannot begin under the weight of the ground: {}", response.message));
+  } while (!confirm());
+  for (std::size_t point = 0; point < points_.size(); ++point)
+    ground_.judge(point, symmetric_part<dim>(responses[point].stress));
+  commit();
+}
+
+template <int dim>
 void AdaptiveMaterial<dim>::begin_step() {
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
     Branch unmoved{cell};

@@ -12,8 +12,10 @@
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
+#include "coupler/cells/ground_start.hpp"
 #include "coupler/cells/packing_at_start.hpp"
 #include "coupler/cells/points_at_limits.hpp"
+#include "fem/material/begins_in_ground.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {
@@ -62,7 +64,7 @@ constexpr Choices choices_of(Source) {
 /// error of all points (error_bound.hpp), and a step whose bound exceeds the tolerance is answered anew, with a
 /// smaller tolerance for estimates, before it is committed.
 template <int dim>
-class AdaptiveMaterial : public fem::Material<dim>, public GrainsOfPoints {
+class AdaptiveMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>, public GrainsOfPoints {
  public:
   /// @param calls must live as long as the material
   /// @param cosserat of cells with free rotations; nothing: they are controlled, and options.mean_diameter is that of
@@ -72,6 +74,11 @@ class AdaptiveMaterial : public fem::Material<dim>, public GrainsOfPoints {
                    const AdaptivityOptions& options, const std::string& note = {});
 
   void allocate(std::size_t points) override;
+  /// Of level ground: cells begin at its levels, and each point beside one (GroundStart).
+  void set_ground_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
+    ground_.set(point, stress);
+  }
+  void begin_in_ground() override;
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   /// Brings all estimates within the tolerance and measures the error of the step; where its bound exceeds the tolerance,
   /// tightens the one that estimates are held to, as long as that helps.
@@ -146,6 +153,8 @@ class AdaptiveMaterial : public fem::Material<dim>, public GrainsOfPoints {
   };
 
   void begin_step();
+  /// Commits the stresses of the ground. @throws RunError when a cell cannot go there
+  void take_stress_of_ground();
   /// Runs branches until the estimate of every point is within `allowed` (Pa). @returns false when a cell has failed
   bool settle(double allowed);
   [[nodiscard]] double estimate(std::size_t point, const Branch& branch) const;
@@ -204,6 +213,7 @@ class AdaptiveMaterial : public fem::Material<dim>, public GrainsOfPoints {
   std::optional<CosseratParameters> cosserat_;
   PointsAtLimits at_limits_;
   PackingAtStart<dim> packing_;
+  GroundStart<dim> ground_;
   AdaptivityOptions options_;
   GrainMeasure<dim> measure_;
   double reference_ = 0.0;  ///< the pressure that errors are shares of, Pa

@@ -55,7 +55,7 @@ class CaseReader {
     if (const Entry* entry = top.find("body")) read_body_loads(*entry, parts_);
     if (const Entry* entry = top.find("initial_stress")) {
       read_initial_stress(*entry, parts_);
-      check_initial_stress(*entry);
+      for (const Entry& item : entry->items) check_initial_stress(item);
     }
     if (const Entry* entry = top.require("steps", "a map with at least 'count'")) read_steps(*entry, parts_);
     give_densities();
@@ -166,23 +166,28 @@ class CaseReader {
     }
   }
 
-  /// A cell brings the stress of its packing.
-  void check_initial_stress(const Entry& entry) {
-    case_.with_problem([&](const auto& problem) {
-      for (const auto& initial : problem.initial_stresses) check_initial_stress(entry, initial.region);
-    });
-  }
-
-  void check_initial_stress(const Entry& entry, const std::string& initial_region) {
-    {
-      for (const auto& [region, material] : case_.regions) {
-        const auto recipe = case_.materials.find(material);
-        if (recipe == case_.materials.end() || !recipe->second || !recipe->second->needs_workers()) continue;
-        if (!initial_region.empty() && initial_region != region) continue;
-        faults_.push_back(entry.fault(fmt::format(
-            "initial_stress: region '{}' is made of cells, which bring the stress of their packing; "
-            "name another region",
-            region)));
+  /// An item against the materials of its region.
+  void check_initial_stress(const Entry& item) {
+    const bool is_ground = item.find("surface") != nullptr;
+    const Entry* const ratio = item.find("K0");
+    const bool is_measured = ratio != nullptr && ratio->text == "measured";
+    const Entry* const of_region = item.find("region");
+    for (const auto& [region, material] : case_.regions) {
+      if (of_region != nullptr && of_region->text != region) continue;
+      const auto recipe = case_.materials.find(material);
+      if (recipe == case_.materials.end() || !recipe->second) continue;
+      const auto fault = [&, &name = region](const std::string& text) {
+        faults_.push_back(item.fault(fmt::format("initial_stress: region '{}' is made of {}", name, text)));
+      };
+      if (!recipe->second->needs_workers()) {
+        if (is_measured) fault("a law, which has no K0 of its own; give a number");
+      } else if (material_lines_[material]->value.find("model")->text == "informed") {
+        fault(
+            "'informed', whose law begins at the stress of the packing; take 'cell' or 'adaptive', or name another region");
+      } else if (!is_ground) {
+        fault(
+            "cells, which are led to the stress of level ground alone; give surface, unit_weight and K0, or name another "
+            "region");
       }
     }
   }

@@ -308,7 +308,10 @@ void read_initial_stress_item(const Entry& entry, const std::string& name, CaseP
     fem::Ground level;
     level.surface_height = item.quantity("surface", Dimension::length, Limit::any);
     level.unit_weight = item.quantity("unit_weight", Dimension::unit_weight, Limit::not_negative);
-    level.earth_pressure_ratio = item.quantity("K0", Dimension::number, Limit::not_negative);
+    // No number: the stresses across are those of the material.
+    level.earth_pressure_ratio =
+        item.quantity_or_word("K0", Dimension::number, Limit::not_negative, {"measured"})
+            .value_or(std::nan(""));
     level.surcharge = item.quantity_or("surcharge", Dimension::pressure, Limit::any, 0.0);
     // Stress is effective where the pores hold water, so regions with and without water have items of their own.
     const bool wets = parts.water && parts.water->options.table;

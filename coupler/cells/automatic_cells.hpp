@@ -14,12 +14,16 @@ namespace polargrain::coupler {
 /// ask, a ResidentMaterial while explicit steps do. Where the method changes, each point and its grains pass from one
 /// to the other; boxes begin without motion, and iterations begin from the grains as they were read out.
 template <int dim>
-class AutomaticCells : public fem::Material<dim>, public GrainsOfPoints {
+class AutomaticCells : public fem::Material<dim>, public fem::BeginsInGround<dim>, public GrainsOfPoints {
  public:
   /// Both must be of the same packing, script and Cosserat part, and not allocated.
   AutomaticCells(std::unique_ptr<CellMaterial<dim>> cells, std::unique_ptr<ResidentMaterial<dim>> residents);
 
   void allocate(std::size_t points) override;
+  void set_ground_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
+    cells_->set_ground_stress(point, stress);
+  }
+  void begin_in_ground() override { cells_->begin_in_ground(); }
   /// Passes the points on where the method changes.
   void expect(const fem::Asking& asking) override;
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override {

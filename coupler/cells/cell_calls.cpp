@@ -26,7 +26,14 @@ CellCalls<dim> calls_of(Pool& pool, std::uint32_t definition) {
               replies.push_back(of_dimension<dim>(std::move(reply)));
             return replies;
           },
-          [&pool](std::span<const StatePointer> states) { return pool.collect(states); }};
+          [&pool](std::span<const StatePointer> states) { return pool.collect(states); },
+          [&pool, definition] { return pool.initial(definition); },
+          [&pool, definition](std::span<const CellRequest> cells, std::span<const std::size_t> points) {
+            std::vector<PoolRequest> requests;
+            for (std::size_t k = 0; k < cells.size(); ++k)
+              requests.push_back({definition, cells[k], points[k]});
+            return pool.evaluate(requests);
+          }};
 }
 
 PlaneReply in_plane(const PointReply<3>& reply) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupler/cells/cell_material.hpp"
 
+#include <numeric>
+
 #include "common/record_archive.hpp"
 #include "coupler/cells/cell_fields.hpp"
 #include "coupler/cells/cell_increment.hpp"
@@ -25,6 +27,33 @@ void CellMaterial<dim>::allocate(std::size_t points) {
   start.cosserat = packing_.part();
   committed_.assign(points, start);
   trial_ = committed_;
+}
+
+template <int dim>
+void CellMaterial<dim>::begin_in_ground() {
+  if (!ground_.is_due()) return;
+  ground_.lead(calls_);
+  std::vector<std::size_t> points(committed_.size());
+  std::iota(points.begin(), points.end(), std::size_t{0});
+  std::vector<CellReply> boxes = ground_.boxes(calls_, points);
+  for (std::size_t point = 0; point < boxes.size(); ++point) {
+    committed_[point].cell = of_dimension<dim>(std::move(boxes[point]));
+    committed_[point].cosserat = packing_.part_of(committed_[point].cell);
+    ground_.judge(point, committed_[point].cell.response.stress);
+  }
+  std::vector<StatePointer*> states;
+  for (PointState& point : committed_) states.push_back(&point.cell.state);
+  collect(calls_, states);
+  trial_ = committed_;
+  for (std::string& note : ground_.notes()) notes_.push_back(std::move(note));
+}
+
+template <int dim>
+std::vector<fem::Figure> CellMaterial<dim>::figures() const {
+  std::vector<fem::Figure> figures = at_limits_.figures();
+  const std::vector<fem::Figure> of_start = ground_.figures();
+  figures.insert(figures.end(), of_start.begin(), of_start.end());
+  return figures;
 }
 
 template <int dim>
@@ -85,6 +114,7 @@ template <int dim>
 void CellMaterial<dim>::save(ArchiveWriter& archive) const {
   write_records(archive, "points", std::span<const PointState>(committed_));
   at_limits_.save(archive);
+  ground_.save(archive);
 }
 
 template <int dim>
@@ -92,6 +122,7 @@ void CellMaterial<dim>::restore(ArchiveReader& archive) {
   committed_ = read_records<PointState>(archive, "points", committed_.size());
   trial_ = committed_;
   at_limits_.restore(archive);
+  ground_.restore(archive);
 }
 
 template <int dim>

@@ -9,9 +9,11 @@
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
+#include "coupler/cells/ground_start.hpp"
 #include "coupler/cells/packing_at_start.hpp"
 #include "coupler/cells/points_at_limits.hpp"
 #include "coupler/pool/pool.hpp"
+#include "fem/material/begins_in_ground.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {
@@ -21,7 +23,7 @@ namespace polargrain::coupler {
 /// with free rotations give the symmetric stress; skew stress and couple stresses are those of the Cosserat
 /// part (cosserat_part.hpp). Cells with controlled rotations give everything.
 template <int dim>
-class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
+class CellMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -31,6 +33,11 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
 
   /// Asks for the packing at rest, once; every point starts from it.
   void allocate(std::size_t points) override;
+  /// Of level ground: the boxes are led there (GroundStart).
+  void set_ground_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
+    ground_.set(point, stress);
+  }
+  void begin_in_ground() override;
   /// Sends the increments of all points to the pool at once. A point whose increment is zero keeps its
   /// committed answer: nothing has happened to its grains.
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
@@ -49,7 +56,7 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
   /// Remarks of the engine on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   void fields(std::size_t point, std::span<double> values) const override;
-  [[nodiscard]] std::vector<fem::Figure> figures() const override { return at_limits_.figures(); }
+  [[nodiscard]] std::vector<fem::Figure> figures() const override;
   [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
   [[nodiscard]] StatePointer grains_of(std::size_t point) const override {
     return committed_[point].cell.state;
@@ -69,6 +76,7 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
   /// The committed points, and the same given; nothing may be on trial.
   [[nodiscard]] const std::vector<PointState>& committed() const { return committed_; }
   void take_over(std::vector<PointState> points, const PointsAtLimits& at_limits);
+  [[nodiscard]] const GroundStart<dim>& ground() const { return ground_; }
   [[nodiscard]] const PointsAtLimits& points_at_limits() const { return at_limits_; }
 
  private:
@@ -78,6 +86,7 @@ class CellMaterial : public fem::Material<dim>, public GrainsOfPoints {
   std::optional<CosseratParameters> cosserat_;
   PointsAtLimits at_limits_;
   PackingAtStart<dim> packing_;
+  GroundStart<dim> ground_;
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> committed_;

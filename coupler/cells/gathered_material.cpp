@@ -30,6 +30,7 @@ template <int dim>
 GatheredMaterial<dim>::GatheredMaterial(std::shared_ptr<fem::Material<dim>> material, int steps)
     : material_(std::move(material)),
       grains_(dynamic_cast<const GrainsOfPoints*>(material_.get())),
+      led_(dynamic_cast<fem::BeginsInGround<dim>*>(material_.get())),
       steps_(steps) {
   if (grains_ == nullptr) throw RunError("only steps of materials that show grains are taken together");
   if (steps < 1) throw RunError("at least one step must be taken together");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "coupler/cells/grains_of_points.hpp"
+#include "fem/material/begins_in_ground.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {
@@ -12,7 +13,7 @@ namespace polargrain::coupler {
 /// several together: its answer is that to the way since it committed last, and it commits after so many
 /// steps, and whenever results are written. In between it goes to and fro without loss, however it yields.
 template <int dim>
-class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
+class GatheredMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>, public GrainsOfPoints {
  public:
   /// @param material not null, shows grains (GrainsOfPoints) @param steps that are taken together, at least 1
   /// @throws RunError without points, or when the material shows no grains
@@ -33,6 +34,13 @@ class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
   void set_initial_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
     material_->set_initial_stress(point, stress);
   }
+  void set_ground_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
+    if (led_ == nullptr) return set_initial_stress(point, stress);
+    led_->set_ground_stress(point, stress);
+  }
+  void begin_in_ground() override {
+    if (led_ != nullptr) led_->begin_in_ground();
+  }
   [[nodiscard]] bool can_turn() const override { return material_->can_turn(); }
   [[nodiscard]] double moment_length() const override { return material_->moment_length(); }
   [[nodiscard]] std::vector<std::string> field_names() const override { return material_->field_names(); }
@@ -47,7 +55,8 @@ class GatheredMaterial : public fem::Material<dim>, public GrainsOfPoints {
 
  private:
   std::shared_ptr<fem::Material<dim>> material_;
-  const GrainsOfPoints* grains_;  ///< the same
+  const GrainsOfPoints* grains_;   ///< the same
+  fem::BeginsInGround<dim>* led_;  ///< the same, where it can be led to a stress; else null
   int steps_;
   bool gathers_ = true;                ///< the steps are explicit
   bool was_dropped_ = false;           ///< the step that was evaluated last

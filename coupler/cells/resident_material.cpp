@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/error.hpp"
 #include "common/record_archive.hpp"
@@ -44,6 +45,33 @@ void ResidentMaterial<dim>::allocate(std::size_t points) {
   points_.assign(points,
                  {at_rest_.response.stress, at_rest_.diagnostics, at_rest_.state, {}, packing_.part()});
   start();
+}
+
+template <int dim>
+void ResidentMaterial<dim>::begin_in_ground() {
+  if (!ground_.is_due()) return;
+  ground_.lead(calls_);
+  std::vector<std::size_t> points(points_.size());
+  std::iota(points.begin(), points.end(), std::size_t{0});
+  const std::vector<CellReply> boxes = ground_.boxes(calls_, points);
+  std::vector<StatePointer*> states;
+  for (std::size_t point = 0; point < boxes.size(); ++point) {
+    const PointReply<dim> box = of_dimension<dim>(boxes[point]);
+    points_[point] = {box.response.stress, box.diagnostics, box.state, {}, packing_.part_of(box)};
+    states.push_back(&points_[point].state);
+    ground_.judge(point, box.response.stress);
+  }
+  collect(calls_, states);
+  for (std::string& note : ground_.notes()) notes_.push_back(std::move(note));
+  start();
+}
+
+template <int dim>
+std::vector<fem::Figure> ResidentMaterial<dim>::figures() const {
+  std::vector<fem::Figure> figures = at_limits_.figures();
+  const std::vector<fem::Figure> of_start = ground_.figures();
+  figures.insert(figures.end(), of_start.begin(), of_start.end());
+  return figures;
 }
 
 template <int dim>
@@ -182,6 +210,7 @@ void ResidentMaterial<dim>::save(ArchiveWriter& archive) const {
   if (!is_settled_) throw RunError("resident boxes must be read out (settle) before they are saved");
   write_records(archive, "points", std::span<const PointState>(points_));
   at_limits_.save(archive);
+  ground_.save(archive);
 }
 
 template <int dim>
@@ -190,6 +219,7 @@ void ResidentMaterial<dim>::restore(ArchiveReader& archive) {
   for (const PointState& point : points_)
     if (!point.state) throw RunError("'points' lacks the state of a resident box");
   at_limits_.restore(archive);
+  ground_.restore(archive);
   start();
 }
 

@@ -9,11 +9,13 @@
 #include "coupler/cells/cell_calls.hpp"
 #include "coupler/cells/cosserat_part.hpp"
 #include "coupler/cells/grains_of_points.hpp"
+#include "coupler/cells/ground_start.hpp"
 #include "coupler/cells/packing_at_start.hpp"
 #include "coupler/cells/points_at_limits.hpp"
 #include "coupler/cells/resident_cells.hpp"
 #include "coupler/pool/pool.hpp"
 #include "coupler/protocol/resident_records.hpp"
+#include "fem/material/begins_in_ground.hpp"
 #include "fem/material/material.hpp"
 
 namespace polargrain::coupler {
@@ -27,7 +29,7 @@ namespace polargrain::coupler {
 /// Diagnostics and states are those of the last settle, but for contacts, coordination_number and
 /// unbalanced_force_ratio, which are of the present.
 template <int dim>
-class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
+class ResidentMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>, public GrainsOfPoints {
  public:
   /// @param pool must outlive the material @param definition from Pool::define, for this material alone
   /// @param cosserat nothing: the answer of the cells is taken whole (CellRotations::controlled)
@@ -38,6 +40,11 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
 
   /// Asks for the packing at rest, once; every box starts from it.
   void allocate(std::size_t points) override;
+  /// As those of CellMaterial<dim>.
+  void set_ground_stress(std::size_t point, const typename Cosserat<dim>::Vector& stress) override {
+    ground_.set(point, stress);
+  }
+  void begin_in_ground() override;
   /// In real time: as many DEM steps a step as have its duration, at least two.
   void expect(const fem::Asking& asking) override;
   /// All boxes go on, each along its increment. When all increments are zero, as for the stress at the start, nobody is
@@ -60,7 +67,7 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
   /// Remarks of the engine on the packing and its script, once.
   [[nodiscard]] std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   void fields(std::size_t point, std::span<double> values) const override;
-  [[nodiscard]] std::vector<fem::Figure> figures() const override { return at_limits_.figures(); }
+  [[nodiscard]] std::vector<fem::Figure> figures() const override;
   [[nodiscard]] std::string at_limits() const override { return at_limits_.text(); }
   [[nodiscard]] StatePointer grains_of(std::size_t point) const override { return points_[point].state; }
 
@@ -105,6 +112,7 @@ class ResidentMaterial : public fem::Material<dim>, public GrainsOfPoints {
   PointsAtLimits at_limits_;
   PointReply<dim> at_rest_;  ///< the packing
   PackingAtStart<dim> packing_;
+  GroundStart<dim> ground_;
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
   std::vector<PointState> points_;

@@ -29,6 +29,7 @@ class CellPoint : public element::MaterialPoint {
   CellResponse initial() override { return committed_.response; }
   CellResponse evaluate(const CellIncrement& increment) override;
   void commit() override { committed_ = trial_; }
+  [[nodiscard]] const CellReply& committed() const { return committed_; }
   /// The diagnostics of the cell.
   [[nodiscard]] std::vector<std::string> field_names() const override;
   [[nodiscard]] std::vector<double> fields() const override;

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
+#include "fem/material/begins_in_ground.hpp"
 
 namespace polargrain::fem {
 
@@ -49,7 +50,11 @@ void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem,
       for (std::size_t i = 0; i < batch.points.size(); ++i) {
         const std::size_t point = batch.points[i];
         if (here[static_cast<std::size_t>(discretisation.element_of_point(point))] == 0) continue;
-        batch.material->set_initial_stress(i, item.stress(discretisation.point(point).position));
+        const typename Cosserat<dim>::Vector stress = item.stress(discretisation.point(point).position);
+        if (auto* const led = dynamic_cast<BeginsInGround<dim>*>(batch.material.get()))
+          led->set_ground_stress(i, stress);
+        else
+          batch.material->set_initial_stress(i, stress);
       }
     }
   }
@@ -57,6 +62,8 @@ void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem,
 
 template <int dim>
 void PointMaterials<dim>::expect(const Asking& asking) {
+  for (Batch& batch : batches_)
+    if (auto* const led = dynamic_cast<BeginsInGround<dim>*>(batch.material.get())) led->begin_in_ground();
   for (Batch& batch : batches_) batch.material->expect(asking);
 }
 

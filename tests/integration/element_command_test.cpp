@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The command `element` with cells that are linear (fake_engine.hpp), and what it says of bad input.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,6 +90,62 @@ TEST_F(ElementCommand, SeveralPackingsHaveAMeanAndItsInterval) {
   EXPECT_NEAR(half[3], 4.303 / std::sqrt(3.0) * 0.5 * (-100e3 - stress[3]), 1e-4 * half[3]);
   EXPECT_GT(step, 0.0);
   EXPECT_NE(one.out.find("mean of 3, 95 %"), std::string::npos) << one.out;
+}
+
+TEST_F(ElementCommand, SeveralPressuresHaveAnEnvelope) {
+  const Outcome outcome = run_text(R"(pressure: [50 kPa, 100 kPa, 200 kPa]
+material: {model: elastoplastic, E: 50 MPa, nu: 0.3, Gc: 10 MPa, lc: 1 mm, match: triaxial_compression,
+           friction_angle: 35 deg, dilatancy_angle: 5 deg, cohesion: 5 kPa}
+test: triaxial
+axial_strain: 4 %
+rows: 8
+tolerance: 1e-9
+)");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const CsvTable envelope(scratch.path() / "element_envelope.csv");
+  ASSERT_EQ(envelope.rows(), 6u);  // at the peak and at the end
+  // The cone has this strength in triaxial compression; lateral stresses are met to 1e-9 of the pressure.
+  EXPECT_NEAR(envelope.numbers("friction_angle_deg")[0], 35.0, 1e-6);
+  EXPECT_NEAR(envelope.numbers("cohesion_Pa")[0], 5e3, 1e-2);
+  EXPECT_DOUBLE_EQ(envelope.numbers("pressure_Pa")[2], 200e3);
+  EXPECT_NEAR(envelope.numbers("least_Pa")[2], 200e3, 1e-3);
+  EXPECT_EQ(CsvTable(scratch.path() / "element.csv").rows(), 3u * 11u);
+  EXPECT_DOUBLE_EQ(CsvTable(scratch.path() / "element.csv").numbers("pressure_Pa")[12], 100e3);
+  EXPECT_NE(content(scratch.path() / "element.html").find("Mohr's circles at the peak"), std::string::npos);
+  expect_fault(
+      "pressure: [50 kPa, 100]\nmaterial: {model: elastic, E: 5 MPa, nu: 0.3, Gc: 1 MPa, lc: 1 mm}\n"
+      "test: triaxial\n",
+      "'100' has no unit");
+}
+
+TEST_F(ElementCommand, EnvelopesOfSeveralPackingsHaveAMeanAndItsInterval) {
+  for (const int mass : {1, 2, 3})
+    write(scratch.path() / ("p" + std::to_string(mass) + ".csv"),
+          "# cell xx=1 xy=0 yx=0 yy=1 z=0.1\nid,x,y,r,mass,Izz\n1,0.5,0.5,0.4," + std::to_string(mass) +
+              ",0.08\n");
+  write(scratch.path() / "mass.in", "young_of_mass 100e6\n");
+  const std::string test =
+      "--test biaxial --pressure 100kPa,200kPa --set axial_strain=0.1% --set rows=2 --set tolerance=1e-9 p1.csv p2.csv p3.csv "
+      "mass.in ";
+  const Outcome one = run(test + "-w 1 -o one");
+  ASSERT_EQ(one.status, 0) << one.errors;
+  ASSERT_EQ(run(test + "-w 3 -o three").status, 0);
+  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv", ".html"})
+    EXPECT_EQ(content(scratch.path() / (std::string("one") + ending)),
+              content(scratch.path() / (std::string("three") + ending)))
+        << ending;
+  // Linear cells have the same circle under any pressure, of a size that goes with the modulus: no angle, and a cohesion.
+  const CsvTable envelope(scratch.path() / "one_envelope.csv");
+  ASSERT_EQ(envelope.rows(), 12u);
+  const std::vector<double> cohesion = envelope.numbers("cohesion_Pa");
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(envelope.numbers("friction_angle_deg")[k], 0.0, 1e-6);
+  EXPECT_NEAR(cohesion[2] / cohesion[0], 2.0, 1e-6);
+  EXPECT_NEAR(cohesion[4] / cohesion[0], 3.0, 1e-6);
+  // Standard deviation of 1, 2, 3 is 1; t of two degrees of freedom 4.303.
+  const std::string mean =
+      fmt::format("{:.3f} +- {:.3f}", 2e-3 * cohesion[0], 4.3027e-3 / std::sqrt(3.0) * cohesion[0]);
+  EXPECT_NE(one.out.find("peak, mean of 3, 95 %"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find(mean), std::string::npos) << mean << "\n" << one.out;
 }
 
 TEST_F(ElementCommand, StagesOfALaw) {

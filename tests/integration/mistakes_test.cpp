@@ -175,8 +175,12 @@ std::vector<Mistake> mistakes() {
        "lc: with 'rotations: controlled' the grains give the skew stress and the couple stresses themselves; leave lc "
        "out, or set 'rotations: free'"},
       {"InitialStressOfCells", "regions: {all: sand}",
-       "regions: {all: sand}\ninitial_stress: [{surface: 1 m, unit_weight: 18 kN/m3, K0: 0.5}]",
-       "region 'all' is made of cells, which bring the stress of their packing; name another region"},
+       "regions: {all: sand}\ninitial_stress: [{stress: [-100 kPa, -100 kPa, -100 kPa, 0]}]",
+       "region 'all' is made of cells, which are led to the stress of level ground alone; give surface, unit_weight and "
+       "K0, or name another region"},
+      {"MeasuredRatioOfALaw", "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
+       std::string(kLaw) + "\ninitial_stress: [{surface: 1 m, unit_weight: 18 kN/m3, K0: measured}]",
+       "region 'all' is made of a law, which has no K0 of its own; give a number"},
       {"DilatancyAboveFriction", "{model: cell, script: cell.in, packing: grains.h5, lc: 8 mm}",
        std::string(kLaw).replace(kLaw.find("10 deg"), 6, "45 deg"),
        "plastic flow would create energy; lower the dilatancy"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ground of boxes of grains whose pores hold water.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,29 +77,47 @@ TEST_P(WaterEngine, ConsolidatesToTheDryState) {
 INSTANTIATE_TEST_SUITE_P(Models, WaterEngine, ::testing::Values("cell", "adaptive, tolerance: 2 %"),
                          [](const auto& info) { return std::string(info.index == 0 ? "cell" : "adaptive"); });
 
-/// A closed element that is compressed is an undrained test.
+/// A closed element that is compressed is an undrained test. Both see the same only where all their definitions are the same: the
+/// sides are free of shear, the strains are large, water does not yield, grains rest and forces balance to rounding, and both
+/// begin at the stress of the packing. (Straight sides under the shear stress that a box has differ by some 0.4 kPa, small
+/// strains and the compressible water by 0.02 and 0.07 kPa.)
 TEST(WaterEngineUndrained, AClosedElementIsAnUndrainedTest) {
   const Scratch scratch("water_undrained");
-  const Outcome point =
-      run_in(scratch.path(), POLARGRAIN
-                                 " element --test biaxial --pressure 100kPa --set drainage=undrained "
-                                 "--set axial_strain=0.3% --set rows=6 --set tolerance=1e-4 " +
-                                 kPacking + " cells/hooke_radii.in -w 1");
-  ASSERT_EQ(point.status, 0) << point.errors;
+  const std::string rest =
+      "unbalanced_force_ratio: 1e-10, unbalanced_moment_ratio: 1e-10, most_relaxation_steps: 2000000";
+  const Outcome settled = run_in(
+      scratch.path(), POLARGRAIN " pack --settle " + kPacking +
+                          " cells/hooke_radii.in -o isotropic.h5 --quiet --set pressure_tolerance=1e-9 "
+                          "--set unbalanced_force_ratio=1e-10");
+  ASSERT_EQ(settled.status, 0) << settled.errors;
+  const auto test_under = [&](const std::string& pressure) {
+    write(scratch.path() / "point.yaml",
+          "{packing: isotropic.h5, script: cells/hooke_radii.in, " + rest + ", pressure: " + pressure +
+              " Pa, tolerance: 1e-9, iterations: 40,\n"
+              " stages: [{e22: -0.3 %, volume: hold, s12: 0 kPa, rows: 6}]}\n");
+    const Outcome outcome = run_in(scratch.path(), POLARGRAIN " element point.yaml -w 1 --quiet");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return CsvTable(scratch.path() / "element.csv");
+  };
+  // The packing is at rest to some Pa of its pressure. Both begin there.
+  const std::string pressure = fmt::format("{:.9f}", -test_under("100e3").numbers("s11_Pa").front());
+  const CsvTable of_point = test_under(pressure);
   write(scratch.path() / "case.yaml",
         "title: one element\n"
         "mesh: {rectangle: {size: [10 mm, 10 mm], elements: [1, 1]}}\n"
-        "materials: {sand: {model: cell, script: cells/hooke_radii.in, packing: " +
-            kPacking + R"(, lc: 8 mm}}
+        "continuum: cauchy\n"
+        "deformation: large\n"
+        "materials: {sand: {model: cell, script: cells/hooke_radii.in, packing: isotropic.h5, " +
+            rest + R"(}}
 regions: {all: sand}
 water: {bulk_modulus: 9e4 GPa, undrained: true}
 boundary:
   - {on: bottom, fix: [u2]}
-  - {on: left, fix: [u1]}
-  - {on: all, fix: [w]}
+  - {on: bottom_left, fix: [u1]}
   - {on: top, move: {u2: [[0 s, 0 mm], [1 s, -0.03 mm]]}}
-  - {on: right, pressure: 100 kPa}
-steps: {duration: 1 s, count: 6, tolerance: 1e-4, line_search: 3, acceleration: 5}
+  - {on: [left, right], pressure: )" +
+            pressure + R"( Pa}
+steps: {duration: 1 s, count: 6, tolerance: 1e-11, line_search: 3, acceleration: 5, iterations: 60}
 monitors:
   force: {on: top, reaction: u2}
   p: {on: all, water: pressure}
@@ -106,23 +125,24 @@ output: {every: 100}
 )");
   const Outcome mesh = run_in(scratch.path(), POLARGRAIN " run case.yaml -o out -w 1 --quiet");
   ASSERT_EQ(mesh.status, 0) << mesh.errors;
-  const CsvTable of_point(scratch.path() / "element.csv");
   const CsvTable of_mesh(scratch.path() / "out/history.csv");
-  double worst_pressure = 0.0;
-  double worst_stress = 0.0;
+  double before = 0.0;  // until contacts slide
+  double behind = 0.0;
   for (std::size_t step = 1; step <= 6; ++step) {
     const std::size_t row = of_point.rows() - 7 + step;
     const std::size_t of_history = of_mesh.rows() - 7 + step;
     const double p = of_mesh.numbers("p")[of_history];
-    const double effective = of_mesh.numbers("force")[of_history] / 10e-3 + p;
-    worst_pressure = std::max(worst_pressure, std::abs(p - of_point.numbers("pore_pressure_Pa")[row]));
-    worst_stress = std::max(worst_stress, std::abs(effective - of_point.numbers("s22_Pa")[row]));
+    const double width = 10e-3 / (1.0 - 0.003 * static_cast<double>(step) / 6.0);
+    const double effective = of_mesh.numbers("force")[of_history] / width + p;
+    const double off = std::max(std::abs(p - of_point.numbers("pore_pressure_Pa")[row]),
+                                std::abs(effective - of_point.numbers("s22_Pa")[row]));
+    (step <= 2 ? before : behind) = std::max(step <= 2 ? before : behind, off);
   }
-  std::cout << "[figure] closed element against an undrained test: pressure " << worst_pressure
-            << " Pa, axial stress " << worst_stress << " Pa\n";
-  // The test is in large deformation, the mesh in small: strains of 0.3 % differ by their square.
-  EXPECT_LT(worst_pressure, 3e3);
-  EXPECT_LT(worst_stress, 3e3);
+  std::cout << "[figure] closed element against an undrained test: " << before << " Pa to 0.1 %, " << behind
+            << " Pa to 0.3 % of strain\n";
+  EXPECT_LT(before, 1e-6 * 100e3);
+  // Where contacts slide and part, differences of rounding grow.
+  EXPECT_LT(behind, 3e-5 * 100e3);
 }
 
 }  // namespace

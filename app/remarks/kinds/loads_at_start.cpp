@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "app/remarks/given_stress.hpp"
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 
@@ -20,11 +21,11 @@ constexpr double kFar = 0.3;  // of the pressure: the grains rearrange before th
 
 /// Mean over a boundary at time zero, tension positive, Pa.
 struct Mismatch {
-  double carried = 0.0;  ///< pressure of the loads along the normal
-  double behind = 0.0;   ///< pressure of the stress behind it
-  double along = 0.0;    ///< shear traction that nothing carries, magnitude
-  double scale = 0.0;    ///< pressure there
-  bool has_cells = false;
+  double carried = 0.0;    ///< pressure of the loads along the normal
+  double behind = 0.0;     ///< pressure of the stress behind it
+  double along = 0.0;      ///< shear traction that nothing carries, magnitude
+  double scale = 0.0;      ///< pressure there
+  bool has_cells = false;  ///< whose stress is that of their packing
   const SceneRegion* region = nullptr;
 };
 
@@ -118,7 +119,7 @@ std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
     sum.carried += edge.length * (pushed - out.dot(n));
     sum.along += edge.length * std::abs(out.x() * n.y() - out.y() * n.x());
     sum.scale += edge.length * std::max(-0.5 * (s(k11) + s(k22)), 0.0);
-    sum.has_cells = sum.has_cells || region.cell != nullptr;
+    sum.has_cells = sum.has_cells || (region.cell != nullptr && !has_given_stress(scene, region));
     sum.region = &region;
     length += edge.length;
   }
@@ -127,7 +128,10 @@ std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
   return sum;
 }
 
-std::string remedy_of(const Mismatch& m, const std::string& boundary, bool loaded) {
+std::string remedy_of(const Mismatch& m, const std::string& boundary, bool loaded, bool has_weight) {
+  if (!loaded && has_weight && m.has_cells)
+    return "level ground with weight: initial_stress: [{surface: HEIGHT, unit_weight: ..., K0: measured}] leads the boxes to "
+           "their depths; else give it 'pressure', or hold it";
   if (!loaded && boundary.empty())
     return fmt::format(
         "give that part of the outline a name in the mesh and 'pressure: {}' below boundary, or hold it",
@@ -141,8 +145,12 @@ std::string remedy_of(const Mismatch& m, const std::string& boundary, bool loade
                        pascals(m.behind));
   return fmt::format(
       "settle the packing to {0} (polargrain pack --settle PACKING SCRIPT -o NEW.h5 --set pressure='{0}'), or begin where the "
-      "packing is: pressure: [[0, {1}], [1, {0}]]",
-      pascals(m.carried), pascals(m.behind));
+      "packing is: pressure: [[0, {1}], [1, {0}]]{2}",
+      pascals(m.carried), pascals(m.behind),
+      has_weight
+          ? "; level ground with weight begins under its own stress: initial_stress: [{surface: HEIGHT, "
+            "unit_weight: ..., K0: measured, surcharge: ...}]"
+          : "");
 }
 
 void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
@@ -176,7 +184,7 @@ void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
       {off > kFar ? Rank::wrong : Rank::doubtful, std::max(1.0, ratio),
        place.fault(
            fmt::format("{}: the first step, 0, has to take up {:.0f} % of that pressure", seen, 100.0 * off)),
-       remedy_of(*m, boundary, loaded)});
+       remedy_of(*m, boundary, loaded, !scene.problem().body_loads.empty())});
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ bool has_other_loads(const fem::Problem<3>& problem) {
   const auto pulls = [](const fem::BoundaryLoad<3>& load) {
     return std::ranges::any_of(load.traction, [](const fem::TimeTable& t) { return t.at(0.0) != 0.0; });
   };
-  return !problem.ties.empty() || !problem.node_loads.empty() || !problem.body_loads.empty() ||
-         std::ranges::any_of(problem.boundary_loads, pulls);
+  return !problem.initial_stresses.empty() || !problem.ties.empty() || !problem.node_loads.empty() ||
+         !problem.body_loads.empty() || std::ranges::any_of(problem.boundary_loads, pulls);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/remarks/given_stress.hpp"
 #include "app/remarks/kinds.hpp"
 
 namespace polargrain::app {
@@ -29,7 +30,8 @@ double height_of(const Scene& scene, const SceneRegion& region) {
 void weight_in_boxes(const Scene& scene, Remarks& remarks) {
   for (const SceneRegion& region : scene.regions()) {
     const double pressure = Scene::pressure_of(region);
-    if (region.cell == nullptr || region.comes_later || pressure <= 0.0) continue;
+    if (region.cell == nullptr || region.comes_later || pressure <= 0.0 || has_given_stress(scene, region))
+      continue;
     double weight = 0.0;
     for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
       if (load.region.empty() || load.region == region.name)
@@ -43,8 +45,8 @@ void weight_in_boxes(const Scene& scene, Remarks& remarks) {
              "body: the weight of {:.3g} m of region '{}' adds {:.4g} kPa from top to bottom at time zero, and all its boxes of "
              "grains are packed under {:.4g} kPa",
              height, region.name, 1e-3 * weight * height, 1e-3 * pressure)),
-         "divide the ground into layers, each a region with a packing of its own pressure, or let the weight grow over "
-         "steps: factor: [[0, 0], [1, 1]]"});
+         "level ground: initial_stress: [{surface: HEIGHT, unit_weight: ..., K0: measured}] leads the boxes to their depths; "
+         "else let the weight grow over steps: factor: [[0, 0], [1, 1]]"});
   }
 }
 

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "app/element/envelope.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/commands/csv_file.hpp"
+#include "app/page/page.hpp"
+#include "common/elementary_functions.hpp"
+#include "common/mean_and_interval.hpp"
+#include "element/measures.hpp"
+
+namespace polargrain::app {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Of a row of the table of columns.
+StressCircle circle_of(const std::vector<std::string>& columns, const std::vector<double>& row) {
+  element::Vector6 stress = element::Vector6::Zero();
+  bool is_plane = true;
+  for (int place = 0; place < 6; ++place) {
+    const std::string name = std::string("s") + element::kPlaceNames[static_cast<std::size_t>(place)] + "_Pa";
+    const auto found = std::ranges::find(columns, name);
+    if (found == columns.end()) continue;
+    stress(place) = row[static_cast<std::size_t>(found - columns.begin())];
+    if (place == element::k33) is_plane = false;
+  }
+  const element::StressMeasures measures =
+      element::measures_of(stress, is_plane ? element::Room::discs : element::Room::space);
+  return {measures.largest, measures.least};
+}
+
+const std::vector<double>& row_at(const ElementResult& result, const ElementCurve& curve,
+                                  FailureState state) {
+  if (state == FailureState::end) return curve.rows.back();
+  const auto column = static_cast<std::size_t>(std::ranges::find(result.columns, "friction_angle_deg") -
+                                               result.columns.begin());
+  const auto angle = [column](const std::vector<double>& row) {
+    return std::isnan(row[column]) ? -HUGE_VAL : row[column];
+  };
+  return *std::ranges::max_element(curve.rows, {}, angle);
+}
+
+const char* name_of(FailureState state) {
+  return state == FailureState::peak ? "peak" : "end";
+}
+
+struct Lines {
+  std::vector<double> angles;     ///< degrees
+  std::vector<double> cohesions;  ///< Pa
+};
+
+Lines lines_of(const std::vector<EnvelopeOfSpecimen>& envelopes) {
+  Lines lines;
+  for (const EnvelopeOfSpecimen& envelope : envelopes) {
+    if (!envelope.line) continue;
+    lines.angles.push_back(envelope.line->friction_angle / kDegree);
+    lines.cohesions.push_back(envelope.line->cohesion);
+  }
+  return lines;
+}
+
+/// Half of the circle, in kPa.
+ChartSeries half_circle(const std::string& name, const StressCircle& circle) {
+  constexpr int kSides = 48;
+  ChartSeries series;
+  series.name = name;
+  series.line = true;
+  for (int k = 0; k <= kSides; ++k) {
+    const auto [sine, cosine] = sine_and_cosine(std::numbers::pi * k / kSides);
+    series.points.emplace_back(1e-3 * (circle.centre() + circle.radius() * cosine),
+                               1e-3 * circle.radius() * sine);
+  }
+  return series;
+}
+
+ChartSeries line_until(const std::string& name, const FailureLine& line, double sigma) {
+  ChartSeries series;
+  series.name = name;
+  series.line = true;
+  series.dashed = true;
+  series.colour = "text";
+  for (const double at : {0.0, sigma})
+    series.points.emplace_back(1e-3 * at, 1e-3 * (line.cohesion + at * std::tan(line.friction_angle)));
+  return series;
+}
+
+}  // namespace
+
+std::optional<FailureLine> failure_line(std::span<const StressCircle> circles) {
+  const auto count = static_cast<double>(circles.size());
+  double centre = 0.0;
+  double radius = 0.0;
+  for (const StressCircle& circle : circles) {
+    centre += circle.centre() / count;
+    radius += circle.radius() / count;
+  }
+  double square = 0.0;
+  double product = 0.0;
+  for (const StressCircle& circle : circles) {
+    square += (circle.centre() - centre) * (circle.centre() - centre);
+    product += (circle.centre() - centre) * (circle.radius() - radius);
+  }
+  if (circles.size() < 2 || !(square > 0.0)) return {};
+  const double sine = product / square;
+  if (!(std::abs(sine) < 1.0)) return {};
+  FailureLine line;
+  line.friction_angle = arc_sine(sine);
+  line.cohesion = (radius - sine * centre) / std::sqrt(1.0 - sine * sine);
+  double sum = 0.0;
+  for (const StressCircle& circle : circles) {
+    const double off = circle.radius() - radius - sine * (circle.centre() - centre);
+    sum += off * off;
+  }
+  line.off = std::sqrt(sum / count);
+  return line;
+}
+
+std::vector<EnvelopeOfSpecimen> envelopes_of(std::span<const ElementResult> results,
+                                             std::span<const double> pressures, FailureState state) {
+  std::vector<EnvelopeOfSpecimen> envelopes;
+  for (std::size_t specimen = 0; specimen < results.front().curves.size(); ++specimen) {
+    EnvelopeOfSpecimen& envelope = envelopes.emplace_back();
+    envelope.name = results.front().curves[specimen].name;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const ElementCurve& curve = results[k].curves[specimen];
+      if (!curve.failure.empty() || curve.rows.empty()) continue;
+      envelope.pressures.push_back(pressures[k]);
+      envelope.circles.push_back(circle_of(results[k].columns, row_at(results[k], curve, state)));
+    }
+    envelope.line = failure_line(envelope.circles);
+  }
+  return envelopes;
+}
+
+std::string envelope_summary(std::span<const ElementResult> results, std::span<const double> pressures) {
+  std::string text = fmt::format("envelope over {} pressures\n{:<32} {:>16} {:>18} {:>14}\n",
+                                 pressures.size(), "", "angle, deg", "cohesion, kPa", "off, kPa");
+  for (const FailureState state : {FailureState::peak, FailureState::end}) {
+    const std::vector<EnvelopeOfSpecimen> envelopes = envelopes_of(results, pressures, state);
+    for (const EnvelopeOfSpecimen& envelope : envelopes) {
+      const std::string name =
+          fmt::format("{}, {} of {}", name_of(state), envelope.circles.size(), envelope.name);
+      if (envelope.line)
+        text += fmt::format("{:<32} {:>16.2f} {:>18.3f} {:>14.3f}\n", name,
+                            envelope.line->friction_angle / kDegree, 1e-3 * envelope.line->cohesion,
+                            1e-3 * envelope.line->off);
+      else
+        text += fmt::format("{:<32} {:>16}\n", name, "no line");
+    }
+    const auto [angles, cohesions] = lines_of(envelopes);
+    if (angles.size() < 2) continue;
+    const auto [angle, half_angle] = mean_and_interval(angles);
+    const auto [cohesion, half_cohesion] = mean_and_interval(cohesions);
+    text += fmt::format("{:<32} {:>16} {:>18}\n",
+                        fmt::format("{}, mean of {}, 95 %", name_of(state), angles.size()),
+                        fmt::format("{:.2f} +- {:.2f}", angle, half_angle),
+                        fmt::format("{:.3f} +- {:.3f}", 1e-3 * cohesion, 1e-3 * half_cohesion));
+  }
+  return text;
+}
+
+std::string envelope_table(std::span<const ElementResult> results, std::span<const double> pressures) {
+  std::string text = csv_row({"packing", "state", "pressure_Pa", "largest_Pa", "least_Pa",
+                              "friction_angle_deg", "cohesion_Pa", "off_Pa"});
+  for (const FailureState state : {FailureState::peak, FailureState::end})
+    for (const EnvelopeOfSpecimen& envelope : envelopes_of(results, pressures, state))
+      for (std::size_t k = 0; k < envelope.circles.size(); ++k) {
+        const FailureLine line = envelope.line.value_or(FailureLine{NAN, NAN, NAN});
+        text += csv_row({envelope.name, name_of(state), exact(envelope.pressures[k]),
+                         exact(envelope.circles[k].largest), exact(envelope.circles[k].least),
+                         exact(line.friction_angle / kDegree), exact(line.cohesion), exact(line.off)});
+      }
+  return text;
+}
+
+std::string envelope_charts(std::span<const ElementResult> results, std::span<const double> pressures) {
+  std::string html;
+  for (const FailureState state : {FailureState::peak, FailureState::end}) {
+    std::vector<ChartSeries> series;
+    for (const EnvelopeOfSpecimen& envelope : envelopes_of(results, pressures, state)) {
+      double largest = 0.0;
+      for (std::size_t k = 0; k < envelope.circles.size(); ++k) {
+        series.push_back(
+            half_circle(fmt::format("{} at {:.4g} kPa", envelope.name, 1e-3 * envelope.pressures[k]),
+                        envelope.circles[k]));
+        largest = std::max(largest, envelope.circles[k].largest);
+      }
+      if (envelope.line)
+        series.push_back(
+            line_until(fmt::format("{}: {:.4g} deg, {:.3g} kPa", envelope.name,
+                                   envelope.line->friction_angle / kDegree, 1e-3 * envelope.line->cohesion),
+                       *envelope.line, largest));
+    }
+    html += fmt::format("<h2>Mohr's circles at the {}</h2>\n", name_of(state)) +
+            chart({.title = "effective normal stress, kPa"}, {.title = "shear stress, kPa"}, series, true);
+  }
+  return html;
+}
+
+}  // namespace polargrain::app

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <string>
+
+#include "app/element/run_element.hpp"
+
+namespace polargrain::app {
+
+/// The figures of an undrained stage of a curve, pressures in Pa. The stage is the last one with pore pressure.
+struct UndrainedFigures {
+  bool is_undrained = false;
+  double largest_pore_pressure = 0.0;
+  double least_mean_stress = 0.0;  ///< effective
+  double strain_at_least = 0.0;    ///< axial (or shear) strain there
+  /// Phase transformation: the mean stress falls, then rises again by more than a hundredth of its start. Mobilised angle there,
+  /// degrees; NaN without one.
+  double transformation_angle = 0.0;
+  bool flows = false;  ///< less than a hundredth of the mean stress at the start is left
+};
+
+UndrainedFigures undrained_figures(const ElementResult& result, const ElementCurve& curve);
+
+/// For the terminal, the specimens, their mean and its 95 % interval; empty: no test is undrained.
+std::string undrained_summary(const ElementResult& result);
+
+}  // namespace polargrain::app

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <optional>
+
+#include "app/remarks/scene.hpp"
+
+namespace polargrain::app {
+
+/// The stress that `initial_stress` of the case gives a place of a region; nothing where it gives none. Where boxes measure K0,
+/// across with an estimate of it.
+std::optional<Vector7> given_stress(const Scene& scene, const SceneRegion& region,
+                                    const Eigen::Vector2d& place);
+
+/// Whether it gives the region a stress.
+bool has_given_stress(const Scene& scene, const SceneRegion& region);
+
+}  // namespace polargrain::app
