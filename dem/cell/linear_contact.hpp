@@ -16,7 +16,7 @@ namespace polargrain::dem {
 /// and epsd2) counts as zero.
 struct LinearContact {
   static constexpr int kMotions = 3;  ///< of a grain, as many as openings
-  Eigen::Matrix3d stiffness;  ///< N/m, N; N, N m/rad
+  Eigen::Matrix3d stiffness;          ///< N/m, N; N, N m/rad
   Eigen::Matrix<double, 3, 6>
       motions;  ///< opening from (u1, u2, rotation) of the first, then the second grain
   Eigen::Matrix<double, 3, 7>
