@@ -67,7 +67,6 @@ FIGURES = [
     ("docs/settings.md", "1e-3 saves a quarter of the DEM steps", bench("loading rate", "DEM steps"), 0.7, 0.8),
     ("docs/settings.md", "raises the error of the curve by a quarter", bench("loading rate", "error of stress_ratio"), 1.2, 1.3),
     ("docs/settings.md", "at most 2.5 `lc`", code("app/remarks/lengths.hpp", r"kMostElementOverLength = ([\d.]+)"), 2.5, 2.5),
-    ("docs/howto/wall.md", "at most 2.5 `lc`", code("app/remarks/lengths.hpp", r"kMostElementOverLength = ([\d.]+)"), 2.5, 2.5),
     ("docs/howto/cyclic.md", "a multiple of 4; the default is 40 per cycle", code("app/element/read_stage.cpp", r"kRowsOfCycle = (\d+)"), 40, 40),
     ("docs/howto/experiment.md", "a band at 45 degrees", code("docs/howto/experiment.md", r'\)" (\d+) 0\.03'), 45, 45),
     ("docs/howto/no-convergence.md", "`jumps` (50 with cells)", code("coupler/case/read_steps.cpp", r"needs_workers\(\) \? (\d+)"), 50, 50),
@@ -99,7 +98,6 @@ CHOSEN = {
     "docs/howto/point.md": ["scale factor 1,", "from 1 to 1,"],
     "docs/howto/stiffness-and-steps.md": ["Take 100 grains to learn and 400 to show", "about 1e-3", "1e-3 with `cell`, 5e-3 with `adaptive`, and 1e-8"],
     "docs/howto/sweep.md": ["count from 0"],
-    "docs/howto/wall.md": ["step 5 of the"],
 }
 
 

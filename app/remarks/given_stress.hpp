@@ -6,7 +6,7 @@
 
 namespace polargrain::app {
 
-/// The stress that `initial_stress` of the case gives a place of a region; nothing where it gives none. Where boxes measure K0,
+/// The stress that `initial_stress` of the case gives a place of a region, if it gives one. Where boxes measure K0,
 /// across with an estimate of it.
 std::optional<Vector7> given_stress(const Scene& scene, const SceneRegion& region,
                                     const Eigen::Vector2d& place);

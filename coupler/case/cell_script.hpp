@@ -19,7 +19,7 @@ struct CaseFiles {
   int dimension = 2;           ///< of the elements, 2 or 3
   bool cosserat = true;        ///< false: a classical continuum, which asks for no Gc and no lc
   bool spreads_slips = false;  ///< laws take their slip from the nodes (Case::spread)
-  bool one_point = false;      ///< some elements have one point, which does not see all patterns of their nodes
+  bool one_point = false;  ///< some elements have one point, which does not see all patterns of their nodes
 };
 
 /// The text of a script with the included files in their place (paths from the including file), marked with the origin of each

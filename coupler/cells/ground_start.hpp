@@ -17,8 +17,8 @@ namespace polargrain::coupler {
 /// packing (docs/theory/solver.md, boxes in level ground).
 ///
 /// The packing goes along the stresses of the ground once, and is kept at a table of levels. A point takes the level nearest to its
-/// stress by ratio, and some strains along the tangent lead it to its own. Points of one depth share a box. These strains are
-/// none of the mesh. The stress of a point is what its box says.
+/// stress by ratio, and some strains along the tangent lead it to its own. Points of one depth share a box. The mesh
+/// does not move for these strains. The stress of a point is what its box says.
 ///
 /// Order of calls: set for all points, then lead, then the others.
 template <int dim>
@@ -47,16 +47,16 @@ class GroundStart {
   [[nodiscard]] Increment<dim> offset_of(std::size_t point) const;
 
   /// start_levels, start_K0_least and _largest, start_stress_off (largest |s - target|, Pa), start_stress_off_share (of the
-  /// vertical stress, where the table reaches), start_points_above_table; none where the points begin at the packing.
+  /// vertical stress, where the table reaches), start_points_above_table. The list is empty where the points begin at the packing.
   [[nodiscard]] std::vector<fem::Figure> figures() const;
-  /// What a user should read of them; empty: nothing.
+  /// Texts for the user on these figures; empty where all is well.
   [[nodiscard]] std::vector<std::string> notes() const;
   void save(ArchiveWriter& archive) const;
   void restore(ArchiveReader& archive);
 
  private:
   static constexpr int kUp = dim == 2 ? element::k22 : element::k33;
-  /// The stress that a point is led to, Pa: that of the lowest level where the table does not reach.
+  /// The stress that a point is led to, Pa: the stress of the lowest level where the table does not reach.
   [[nodiscard]] double reached(double vertical) const;
 
   std::vector<double> vertical_;  ///< by point, Pa, compression positive

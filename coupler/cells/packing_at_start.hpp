@@ -35,7 +35,7 @@ struct PackingAtStart {
     part.pressures = pressures;
     return part;
   }
-  /// That of a point whose cell begins elsewhere.
+  /// The same of a point whose cell begins elsewhere.
   [[nodiscard]] CosseratPart<dim> part_of(const PointReply<dim>& cell) const {
     CosseratPart<dim> part;
     part.pressures = pressures_of<dim>(cell.response.stress);
