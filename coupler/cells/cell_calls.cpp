@@ -32,7 +32,12 @@ CellCalls<dim> calls_of(Pool& pool, std::uint32_t definition) {
             std::vector<PoolRequest> requests;
             for (std::size_t k = 0; k < cells.size(); ++k)
               requests.push_back({definition, cells[k], points[k]});
-            return pool.evaluate(requests);
+            std::vector<CellReply> replies = pool.evaluate(requests);
+            std::vector<StatePointer> states;
+            for (const CellReply& reply : replies) states.push_back(reply.state);
+            states = pool.collect(states);
+            for (std::size_t k = 0; k < replies.size(); ++k) replies[k].state = states[k];
+            return replies;
           }};
 }
 

@@ -21,7 +21,8 @@ struct CellCalls {
   /// The same states with their bytes, which a reply need not bring (State::is_here). To be called for the states
   /// committed. Empty: all replies bring them.
   std::function<std::vector<StatePointer>(std::span<const StatePointer>)> collect = {};
-  /// The same cells in space, whatever the dimension of the points. Empty where boxes are not led to a start of their own.
+  /// The same cells in space, whatever the dimension of the points, with the bytes of their states. Empty where boxes are not led
+  /// to a start of their own.
   std::function<CellReply()> initial_box = {};
   std::function<std::vector<CellReply>(std::span<const CellRequest>, std::span<const std::size_t> points)>
       ask_boxes = {};

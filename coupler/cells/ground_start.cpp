@@ -125,7 +125,8 @@ void GroundStart<dim>::lead(const CellCalls<dim>& calls) {
 
 template <int dim>
 double GroundStart<dim>::reached(double vertical) const {
-  return std::max(vertical, vertical_stress(levels_.boxes.front().response, kUp));
+  const double lowest = vertical_stress(levels_.boxes.front().response, kUp);
+  return vertical >= (1.0 - kFarOff) * lowest ? vertical : lowest;
 }
 
 template <int dim>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/elementary_functions.hpp"
 #include "common/error.hpp"
 #include "element/driver.hpp"
 #include "element/stiffness.hpp"
@@ -51,10 +52,10 @@ std::string lead(CellPoint& point, double vertical, const GroundPath& path) {
 /// Vertical stresses from `start` to `end`, the start left out.
 std::vector<double> between(double start, double end) {
   const double ratio = end / start;
-  const int count = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / std::log(kLevel)));
+  const int count = static_cast<int>(std::ceil(std::abs(logarithm(ratio)) / logarithm(kLevel)));
   std::vector<double> levels;
   for (int k = 1; k <= count; ++k)
-    levels.push_back(k == count ? end : start * std::pow(ratio, static_cast<double>(k) / count));
+    levels.push_back(k == count ? end : start * power(ratio, static_cast<double>(k) / count));
   return levels;
 }
 
@@ -90,10 +91,18 @@ element::Vector6 GroundPath::strain_to(const CellResponse& box, double vertical,
       places.push_back(place);
   const element::Vector6 wanted = stress(vertical) - element::six(box.stress);
   const element::Matrix6 stiffness = element::stiffness_of(box);
-  const Eigen::VectorXd strain =
-      Eigen::MatrixXd(stiffness(places, places)).fullPivLu().solve(Eigen::VectorXd(wanted(places)));
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd part(count, count);
+  Eigen::VectorXd missing(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    missing(i) = wanted(places[static_cast<std::size_t>(i)]);
+    for (Eigen::Index j = 0; j < count; ++j)
+      part(i, j) = stiffness(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]);
+  }
+  const Eigen::VectorXd strain = part.fullPivLu().solve(missing);
   element::Vector6 all = element::Vector6::Zero();
-  if (strain.allFinite()) all(places) = strain;
+  if (!strain.allFinite()) return all;
+  for (Eigen::Index i = 0; i < count; ++i) all(places[static_cast<std::size_t>(i)]) = strain(i);
   return all;
 }
 
@@ -111,7 +120,7 @@ double GroundPath::ratio_of(const CellResponse& box) const {
 
 std::size_t StressLevels::nearest(double vertical, int up) const {
   const auto distance = [&](const CellReply& box) {
-    return std::abs(std::log(vertical / vertical_stress(box.response, up)));
+    return std::abs(logarithm(vertical / vertical_stress(box.response, up)));
   };
   return static_cast<std::size_t>(std::ranges::min_element(boxes, {}, distance) - boxes.begin());
 }

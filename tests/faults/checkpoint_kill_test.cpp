@@ -52,8 +52,9 @@ TEST_P(KilledCoordinators, LeaveRunsThatGoOnToTheSameBytes) {
 INSTANTIATE_TEST_SUITE_P(Models, KilledCoordinators,
                          ::testing::Values(KilledCase{"cell", "fail_beyond 4.5e-4", "cell", 30},
                                            KilledCase{"adaptive", "softening 0.05",
-                                                      "adaptive, tolerance: 1 %, audit: 20 %", 30},
-                                           KilledCase{"informed", "", "informed, nu: 0.25", 30}),
+                                                      "adaptive, adaptive: {tolerance: 1 %, audit: 20 %}",
+                                                      30},
+                                           KilledCase{"informed", "", "informed, informed: {nu: 0.25}", 30}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

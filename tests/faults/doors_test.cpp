@@ -323,7 +323,7 @@ TEST_F(Doors, ARatioOfWhatIsZeroYetIsNoFault) {
 // The note of a material stands in the log and, unless the run is quiet, on the terminal, with the step of the run.
 TEST_F(Doors, NotesHaveTheStepOfTheRunAndQuietIsQuiet) {
   write_case(scratch_.path(), {"softening 3", "[4, 8]", "count: 10, tolerance: 1e-3",
-                               "adaptive, tolerance: 1e-2, audit: 0.1"});
+                               "adaptive, adaptive: {tolerance: 1e-2, audit: 0.1}"});
   const Outcome quiet = polargrain("run case.yaml -o out -w 1 --quiet");
   EXPECT_EQ(quiet.status, 0);
   EXPECT_EQ(quiet.out + quiet.errors, "");

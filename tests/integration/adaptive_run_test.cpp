@@ -16,7 +16,7 @@ class AdaptiveRunTest : public ::testing::Test {
     write(directory() / "fake.in", "softening 0.05\n");
     write(directory() / "grains.csv",
           "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n");
-    write_case("adaptive, tolerance: 1 %, audit: 5 %");
+    write_case("adaptive, adaptive: {tolerance: 1 %, audit: 5 %}");
   }
 
   void write_case(const std::string& model) {
@@ -74,7 +74,7 @@ TEST_F(AdaptiveRunTest, IsCloseToTheFullRunForAFractionOfItsEvaluations) {
 
 // A tolerance far above what carrying makes is met; without audits nobody can say so, and the run says that.
 TEST_F(AdaptiveRunTest, WhatCannotBeVouchedForIsSaidInTheTableTheSummaryAndTheExitMessage) {
-  write_case("adaptive, tolerance: 1 %, audit: 0");
+  write_case("adaptive, adaptive: {tolerance: 1 %, audit: 0}");
   const Outcome outcome = polargrain("run case.yaml -o blind -w 2");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const std::string words = "the error of its stresses is unknown";
@@ -94,7 +94,7 @@ TEST_F(AdaptiveRunTest, AToleranceIsAShareOfTheReferencePressure) {
   // Shares of twice the pressure; the fake's packing carries 100 kPa but for rounding.
   EXPECT_NEAR(figure("stated", "error_bound"), 0.5 * figure("own", "error_bound"),
               1e-9 * figure("own", "error_bound"));
-  write_case("adaptive, reference_pressure: 0");
+  write_case("adaptive, adaptive: {reference_pressure: 0}");
   EXPECT_NE(polargrain("check case.yaml").errors.find("reference_pressure: "), std::string::npos);
 }
 
@@ -109,7 +109,7 @@ TEST_F(AdaptiveRunTest, OneAndTwoWorkersDecideAlike) {
 }
 
 TEST_F(AdaptiveRunTest, FaultsOfItsKeysAreToldWithTheirLine) {
-  write_case("adaptive, tolerance: -1, audit: 2, tangent: voigt");
+  write_case("adaptive, adaptive: {tolerance: -1, audit: 2}, tangent: voigt");
   const Outcome outcome = polargrain("check case.yaml");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.errors.find("case.yaml:4: "), std::string::npos) << outcome.errors;

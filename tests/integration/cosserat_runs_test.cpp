@@ -63,7 +63,7 @@ class CosseratRunsTest : public ::testing::Test {
 
 TEST_F(CosseratRunsTest, AdaptiveAndInformedRunsStayNearTheFullOne) {
   const Result full = result_of("cell", "full");
-  const Result zero = result_of("adaptive, tolerance: 0", "zero");
+  const Result zero = result_of("adaptive, adaptive: {tolerance: 0}", "zero");
   // A cell a point: the same grains, but that answers are carried along the tangent while the cell stands still.
   EXPECT_NEAR(zero.force / full.force, 1.0, 1e-3);
   const auto compare = [&](const std::string& name, const Result& run) {
@@ -72,20 +72,20 @@ TEST_F(CosseratRunsTest, AdaptiveAndInformedRunsStayNearTheFullOne) {
               << " of the full run's, " << full.dem_steps / run.dem_steps << " times fewer DEM steps\n";
   };
   compare("tolerance 0", zero);
-  const Result adaptive = result_of("adaptive, tolerance: 2 %, audit: 0", "adaptive");
+  const Result adaptive = result_of("adaptive, adaptive: {tolerance: 2 %, audit: 0}", "adaptive");
   compare("tolerance 2 %", adaptive);
   EXPECT_NEAR(adaptive.force / full.force, 1.0, 0.02);
   EXPECT_NEAR(adaptive.shear / full.shear, 1.0, 0.03);
   EXPECT_NEAR(adaptive.moment / full.moment, 1.0, 0.05);
   EXPECT_GT(full.dem_steps / adaptive.dem_steps, 2.0);
-  const Result informed = result_of("informed, update: fixed_point", "informed");
+  const Result informed = result_of("informed, informed: {update: fixed_point}", "informed");
   compare("informed", informed);
   EXPECT_NEAR(informed.force / full.force, 1.0, 0.15);
 }
 
 TEST_F(CosseratRunsTest, WorkersKillsAndResumptionsChangeNoByte) {
-  for (const char* model :
-       {"adaptive, tolerance: 2 %, audit: 5 %", "informed", "informed, update: fixed_point"}) {
+  for (const char* model : {"adaptive, adaptive: {tolerance: 2 %, audit: 5 %}", "informed",
+                            "informed, informed: {update: fixed_point}"}) {
     write_case(model);
     const std::string name = std::to_string(std::char_traits<char>::length(model));
     const std::string run = "run case.yaml --quiet --checkpoint-minutes 0";

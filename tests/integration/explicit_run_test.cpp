@@ -177,7 +177,7 @@ TEST_F(ExplicitRunTest, MistakesAreFaults) {
   expect_in(errors_of("method: explicit, rest_at_output: maybe"), "rest_at_output");
   expect_in(errors_of("method: explicit, ask_every: 0"), "ask_every");
   for (const char* const key : {"update: fixed_point", "beyond_mismatch: cell"})
-    expect_in(errors_of("method: explicit", std::string("lc: 50 mm, ") + key, "informed"),
+    expect_in(errors_of("method: explicit", std::string("lc: 50 mm, informed: {") + key + "}", "informed"),
               "in explicit steps");
 }
 

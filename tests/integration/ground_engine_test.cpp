@@ -65,7 +65,7 @@ TEST_F(GroundEngine, BeginsAtRestInsteadOfSettlingInStepZero) {
 }
 
 TEST_F(GroundEngine, AdaptiveBoxesBeginWithinTheirTolerance) {
-  run("shared", "adaptive, tolerance: 2 %", kGround, "-w 2");
+  run("shared", "adaptive, adaptive: {tolerance: 2 %}", kGround, "-w 2");
   EXPECT_LT(figure("shared", "start_stress_off"), 0.05 * 100e3);
   EXPECT_LT(figure("shared", "cells"), 12.0);
 }

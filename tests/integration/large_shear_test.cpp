@@ -46,7 +46,7 @@ class LargeShear : public ::testing::Test {
 TEST_F(LargeShear, AdaptiveGoesThroughTenPercentAsCellDoes) {
   const Outcome full = run("full", "cell");
   ASSERT_EQ(full.status, 0) << full.errors;
-  const Outcome adaptive = run("adaptive", "adaptive, tolerance: 2 %");
+  const Outcome adaptive = run("adaptive", "adaptive, adaptive: {tolerance: 2 %}");
   ASSERT_EQ(adaptive.status, 0) << adaptive.errors;
 
   // Behind 4 % the path of a box of 100 grains hangs on the last digits: cells with a tolerance of 1e-4 in place of 1e-2

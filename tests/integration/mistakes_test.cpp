@@ -270,8 +270,8 @@ const std::string kMaterial = "model: cell, script: cell.in, packing: grains.h5,
 
 std::string all_keys_of_schemes(const std::string& model) {
   return "model: " + model +
-         ", script: cell.in, packing: grains.h5, lc: 8 mm, tolerance: 2 %, audit: 0, seed: 2, nu: 0.25, update: frozen, "
-         "drift_shear: 0.02, mismatch_limit: 20 %, cohesion: 50 Pa";
+         ", script: cell.in, packing: grains.h5, lc: 8 mm, adaptive: {tolerance: 2 %, audit: 0, seed: 2}, informed: {nu: 0.25, update: frozen, "
+         "drift_shear: 0.02, mismatch_limit: 20 %, cohesion: 50 Pa}";
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -59,7 +59,8 @@ TEST_F(OwnWeight, AColumnFromAlmostZeroStressIsWithinAStatedTolerance) {
   ASSERT_EQ(polargrain("pack packing.yaml --trust-scripts --quiet -o packing.h5").status, 0);
   const Outcome full = run("full", "cell");
   ASSERT_EQ(full.status, 0) << full.errors;
-  const Outcome adaptive = run("adaptive", "adaptive, tolerance: 1 %, reference_pressure: 100 kPa");
+  const Outcome adaptive =
+      run("adaptive", "adaptive, adaptive: {tolerance: 1 %, reference_pressure: 100 kPa}");
   ASSERT_EQ(adaptive.status, 0) << adaptive.errors;
 
   const std::vector<double> weight = column("adaptive", "base");

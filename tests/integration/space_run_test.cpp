@@ -140,7 +140,7 @@ TEST_F(SpaceRun, AdaptiveAndInformedBoxesInSpace) {
     return last_force(name);
   };
   const double whole = force_of("cell", "cell", " -w 2");
-  for (const std::string model : {"adaptive, tolerance: 5 %", "informed"}) {
+  for (const std::string model : {"adaptive, adaptive: {tolerance: 5 %}", "informed"}) {
     const std::string name = model.substr(0, 8);
     const double one = force_of(model, name + "1", " -w 1");
     force_of(model, name + "2", " -w 2");

@@ -74,7 +74,8 @@ TEST_P(WaterEngine, ConsolidatesToTheDryState) {
   EXPECT_NEAR(wet.numbers("out").back() / (-0.1 * wet.numbers("top").back()), 1.0, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, WaterEngine, ::testing::Values("cell", "adaptive, tolerance: 2 %"),
+INSTANTIATE_TEST_SUITE_P(Models, WaterEngine,
+                         ::testing::Values("cell", "adaptive, adaptive: {tolerance: 2 %}"),
                          [](const auto& info) { return std::string(info.index == 0 ? "cell" : "adaptive"); });
 
 /// A closed element that is compressed is an undrained test. Both see the same only where all their definitions are the same: the

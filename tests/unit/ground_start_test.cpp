@@ -120,7 +120,9 @@ TEST(GroundStart, BoxesHaveTheStressOfTheirDepthAbovePackingAndBelow) {
       // Corrections stop within 1e-4 of the vertical stress.
       EXPECT_NEAR(boxes[k].response.stress(1, 1), -vertical[k], 1e-4 * vertical[k]);
       EXPECT_NEAR(boxes[k].response.stress(0, 0), -0.6 * vertical[k], 1e-4 * vertical[k]);
-      if (!discs) EXPECT_NEAR(boxes[k].response.stress(2, 2), -0.6 * vertical[k], 1e-4 * vertical[k]);
+      if (!discs) {
+        EXPECT_NEAR(boxes[k].response.stress(2, 2), -0.6 * vertical[k], 1e-4 * vertical[k]);
+      }
     }
     EXPECT_LE(figure(start, "start_stress_off_share"), 1e-4);
     EXPECT_EQ(figure(start, "start_points_above_table"), 0.0);

@@ -58,7 +58,7 @@ TEST(WaterAtWalls, FreeWaterLoadsTheOtherSideUpToItsLevel) {
 /// A wall between two grounds of 2 m x 3 m, held all over, with water levels on its far sides.
 RunOfLaws two_levels(const std::string& passage, const std::string& element = "Q8R") {
   return RunOfLaws(
-      "title: Two levels of water\n"
+      "title: Two levels of water\n"  // in the first year the gap of the wall, which bends, fills
       "continuum: cauchy\n"
       "mesh: {element: " +
       element +
@@ -77,7 +77,7 @@ RunOfLaws two_levels(const std::string& passage, const std::string& element = "Q
       "  - {on: sheet_bottom, fix: [u1, u2]}\n"
       "  - {on: left, water_level: 3 m}\n"
       "  - {on: right, water_level: 5 m}\n"
-      "steps: {duration: 1 a, count: 1, tolerance: 1e-9}\n"
+      "steps: {duration: 2 a, count: 2, tolerance: 1e-9}\n"
       "monitors: {moment: {beam: sheet, value: moment}, in: {on: right, water: flow}, out: {on: left, water: flow},\n"
       "           left: {interface: skin left, value: water}, right: {interface: skin right, value: water}}\n");
 }
@@ -104,31 +104,6 @@ TEST(WaterAtWalls, ResistancesInSeriesAdd) {
     EXPECT_NEAR(leaky.last("out"), 3.0 * flow, 1e-6 * 3.0 * flow) << resistance;
     EXPECT_NEAR(leaky.last("right") - leaky.last("left"), kWeight * 3.0 * flow * resistance,
                 1e-6 * kWeight * 6.0);
-  }
-}
-
-// The same between two bodies in space, without a wall.
-TEST(WaterAtWalls, ALeakyJointInSpace) {
-  for (const std::string element : {"H20R", "T10"}) {
-    const RunOfLaws run(
-        "title: A joint that leaks\n"
-        "continuum: cauchy\n"
-        "mesh: {element: " +
-        element +
-        ", box: {size: [1 m, 1 m, 2 m], elements: [1, 1, 2], levels: {joint: 1 m}}}\n"
-        "materials: {sand: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
-        "regions: {all: sand}\n"
-        "water: {unit_weight: 10 kN/m3, permeability: 1e-4 m/s}\n"
-        "interfaces: {joint: {on: joint, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: leaky, resistance: "
-        "1e4 s}}\n"
-        "boundary:\n"
-        "  - {on: [left, right], fix: [u1]}\n"
-        "  - {on: [front, back], fix: [u2]}\n"
-        "  - {on: bottom, fix: [u3], drained: true}\n"
-        "  - {on: top, pore_pressure: 30 kPa}\n"
-        "steps: {duration: 1 a, count: 2, tolerance: 1e-8}\n"
-        "monitors: {out: {on: bottom, water: flow}, top: {on: top, displacement: u3}}\n");
-    EXPECT_NEAR(run.last("out"), 3.0 / (2.0 / 1e-4 + 1e4), 1e-9) << element;
   }
 }
 
@@ -187,7 +162,9 @@ TEST(WaterAtWalls, AStiffPermeableJointIsNoJoint) {
         ""));
     const double difference = std::abs(joint.last("bottom") / whole.last("bottom") - 1.0);
     EXPECT_LT(difference, 2e-4 * 1e11 / stiffness);
-    if (before > 0.0) EXPECT_NEAR(difference / before, 0.1, 0.01);
+    if (before > 0.0) {
+      EXPECT_NEAR(difference / before, 0.1, 0.01);
+    }
     before = difference;
     EXPECT_NEAR(joint.last("strip"), whole.last("strip"), 1e-3 * std::abs(whole.last("strip")));
   }
@@ -243,9 +220,7 @@ std::string pit(const std::string& stages, const std::string& passage = "impervi
          stages +
          "monitors:\n"
          "  base: {on: bottom, reaction: u2}\n"
-         "  left: {on: left, reaction: u1}\n"
-         "  right: {on: right, reaction: u1}\n"
-         "  foot: {on: bottom, reaction: u1}\n"
+         "  sides: {on: [left, right, bottom], reaction: u1}\n"
          "  floor: {on: floor, displacement: u2}\n"
          "  head: {on: sheet_top, displacement: u1}\n"
          "  moment: {beam: sheet, value: moment}\n"
@@ -261,8 +236,8 @@ TEST(WaterAtWalls, AWallComesIntoWetGroundAtRest) {
   EXPECT_NEAR(run.last("head"), 0.0, 1e-12);
   EXPECT_NEAR(run.last("moment"), 0.0, 1e-3);
   EXPECT_NEAR(run.last("water"), 10e3 * 8.0, 1e-4);
-  // K0 times the submerged weight; the toe has the stress of the node above it.
-  EXPECT_NEAR(run.last("earth"), 0.5 * 10e3 * 8.0, 0.5 * 10e3 * 8.0 * 5e-3);
+  // K0 times the submerged weight; the toe, a sixth of the last side of 1 m, has the stress of the node 0.5 m above it.
+  EXPECT_NEAR(run.last("earth"), 0.5 * 10e3 * (8.0 - 0.5 / 6.0), 1e-4);
 }
 
 // What stands on the base is ground, the water in it, and the free water in the pit.
@@ -279,7 +254,7 @@ TEST(WaterAtWalls, APitIsDugUnderWaterAndPumpedDry) {
   EXPECT_NEAR(run.last("base"), ground, 1e-6 * ground);
   EXPECT_GT(run.value("floor", 3), 0.0);  // the ground below the pit rises
   // Forces along 1 balance: there is no load but water, which stands on the wall as on the ground left of it.
-  EXPECT_NEAR(run.last("left") + run.last("right") + run.last("foot"), 0.0, 1e-6 * ground);
+  EXPECT_NEAR(run.last("sides"), 0.0, 1e-6 * ground);
   EXPECT_GT(std::abs(run.last("moment")), 1e3);
   // Water comes in from the right and leaves by the floor: Darcy's order, 2 m over some 10 m.
   EXPECT_LT(run.last("in"), -1e-5);
