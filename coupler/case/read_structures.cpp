@@ -24,11 +24,12 @@ class StructuresReader {
 
   void read(const Entry* interfaces, const Entry* beams, const Entry* anchors) {
     if (problem_.deformation == fem::Deformation::large) {
-      for (const Entry* const entry : {interfaces, beams, anchors})
-        if (entry != nullptr)
-          parts_.faults.push_back(entry->fault(
-              "interfaces, beams and anchors are of small deformation; set 'deformation: small'"));
-      parts_.has_mesh = false;
+      for (const Entry* const entry : {interfaces, beams, anchors}) {
+        if (entry == nullptr) continue;
+        parts_.faults.push_back(entry->fault(
+            "interfaces, beams and anchors are of small deformation; set 'deformation: small'"));
+        parts_.has_mesh = false;
+      }
       return;
     }
     const std::size_t faults_before = parts_.faults.size();

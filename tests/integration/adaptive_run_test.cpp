@@ -86,7 +86,7 @@ TEST_F(AdaptiveRunTest, WhatCannotBeVouchedForIsSaidInTheTableTheSummaryAndTheEx
 // 1 % of 100 kPa is 0.5 % of 200 kPa: the same decisions and the same digits.
 TEST_F(AdaptiveRunTest, AToleranceIsAShareOfTheReferencePressure) {
   ASSERT_EQ(polargrain("run case.yaml -o own -w 2").status, 0);
-  write_case("adaptive, tolerance: 0.5 %, audit: 5 %, reference_pressure: 200 kPa");
+  write_case("adaptive, adaptive: {tolerance: 0.5 %, audit: 5 %, reference_pressure: 200 kPa}");
   const Outcome outcome = polargrain("run case.yaml -o stated -w 2");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_EQ(result("own/history.csv"), result("stated/history.csv"));

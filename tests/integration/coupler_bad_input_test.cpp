@@ -192,8 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
             "case.yaml:4: mesh: give one of a rectangle, a box, a cylinder and a file; remove the others"},
         BadInput{
             "InitialStressOfCells", "continuum: cosserat", "initial_stress: [{stress: [0, 0, 0, 0]}]",
-            "case.yaml:5: initial_stress: region 'all' is made of cells, which bring the stress of their "
-            "packing; name another region"},
+            "case.yaml:5: initial_stress: region 'all' is made of cells, which are led to the stress of level ground "
+            "alone; give surface, unit_weight and K0, or name another region"},
         BadInput{
             "BodyWithoutLoad", "continuum: cosserat", "body: [{factor: 1}]",
             "case.yaml:5: body item 1: expected either 'unit_weight', for example 18 kN/m3, or 'force', a "
@@ -263,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{
             "BoundaryThatDoesNothing", "on: top, move: {u2: -4 mm}", "on: top",
             "case.yaml:14: boundary item 3: has no support and no load; give fix, move, accelerate, pressure, traction, "
-            "node_force, tie or quiet, and with water drained, pore_pressure, water_level or flux"},
+            "node_force, tie or quiet, and with water drained, pore_pressure, water_level, free_water or flux"},
         BadInput{
             "TieToNothing", "on: top, move: {u2: -4 mm}", "on: left, tie: rihgt",
             "case.yaml:14: boundary item 3: tie: the mesh has no boundary or node set 'rihgt'; it has bottom, left, "
