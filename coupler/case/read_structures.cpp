@@ -26,8 +26,8 @@ class StructuresReader {
     if (problem_.deformation == fem::Deformation::large) {
       for (const Entry* const entry : {interfaces, beams, anchors}) {
         if (entry == nullptr) continue;
-        parts_.faults.push_back(entry->fault(
-            "interfaces, beams and anchors are of small deformation; set 'deformation: small'"));
+        parts_.faults.push_back(
+            entry->fault("interfaces, beams and anchors are of small deformation; set 'deformation: small'"));
         parts_.has_mesh = false;
       }
       return;
