@@ -277,6 +277,7 @@ TEST(WaterAtWalls, FaultsNameTheRemedy) {
     EXPECT_NE(faults.find("yaml:"), std::string::npos) << "a line: " << faults;
   };
   expect(fault_of("", "open"), "permeable");
+  expect(fault_of("", "impermeable"), "did you mean 'impervious'?");
   expect(fault_of("", "leaky"), "resistance");
   expect(fault_of("", "permeable, resistance: 1 d"), "write 'water: leaky' too");
   const std::string sea =
