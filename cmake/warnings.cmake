@@ -6,6 +6,10 @@ target_compile_options(polargrain_options INTERFACE -Wall -Wextra -Werror)
 # False alarms of g++ 12 inside std::string, which precompiled headers no longer hide as a system header's.
 target_compile_options(polargrain_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
                                              -Wno-stringop-overread)
+# Several files that are compiled as one (CMAKE_UNITY_BUILD) are to the compiler headers, in which a nameless namespace is doubtful.
+if(CMAKE_UNITY_BUILD)
+  target_compile_options(polargrain_options INTERFACE -Wno-subobject-linkage)
+endif()
 target_include_directories(polargrain_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Eigen divides products of matrices into blocks by the caches that it finds in the processor, which may change the
 # order of sums: with its fixed sizes results have the same bits everywhere.

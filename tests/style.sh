@@ -3,8 +3,7 @@
 # Checks of the code and of the pages by tools. Ends with status 77 (skipped) where the tool is not installed.
 #
 #   tests/style.sh format [--fix]     clang-format, all files
-#   tests/style.sh tidy BUILD [FOLDER...]  clang-tidy with the compile commands of a build: all but the grains, or these
-#                                     folders (half an hour on two cores)
+#   tests/style.sh tidy [FOLDER...]   clang-tidy: all but the grains, or these folders (half an hour on two cores)
 #   tests/style.sh pages              doxygen: comments without warnings; pages in build/doxygen/html
 #   tests/style.sh words [PAGE...]    Markdown: long sentences, clauses without a subject, words in all
 #   tests/style.sh links [PAGE...]    Markdown: dead links, pages that README.md does not lead to
@@ -13,6 +12,7 @@
 #   tests/style.sh made               docs: pages of figures are as their commands write them
 #   tests/style.sh keys               Markdown: keys, commands and options that the reference leaves out
 #   tests/style.sh includes           sources: includes that run upwards between folders
+#   tests/style.sh names              sources: names that two files of a library hide, which cannot be compiled as one
 #   tests/style.sh figures            README, settings, recipes: numbers that no command, code or test gives
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -31,11 +31,12 @@ case "${1:-}" in
     ;;
   tidy)
     need clang-tidy
-    # Precompiled headers are g++'s: clang reads the headers themselves.
+    # Precompiled headers are g++'s: clang reads the headers themselves. And each file by itself, as it was written.
     commands=$(mktemp -d)
     trap 'rm -rf "$commands"' EXIT
-    sed 's/ -Winvalid-pch//g; s/ -include [^ ]*cmake_pch\.hxx//g' "$2/compile_commands.json" >"$commands/compile_commands.json"
-    folders=("${@:3}")
+    cmake --preset release -B "$commands" -DCMAKE_UNITY_BUILD=OFF >/dev/null
+    sed -i 's/ -Winvalid-pch//g; s/ -include [^ ]*cmake_pch\.hxx//g' "$commands/compile_commands.json"
+    folders=("${@:2}")
     ((${#folders[@]})) || folders=(app band common coupler element fem grains_io)
     # Warnings that g++ knows and clang does not are switched off in the compile commands. The count of what was found in
     # headers of others is not shown.
@@ -51,12 +52,12 @@ case "${1:-}" in
     need python3
     python3 -B tests/pages.py "$@"
     ;;
-  figures | includes)
+  figures | includes | names)
     need python3
     python3 -B "tests/$1.py"
     ;;
   *)
-    sed -n '3,17s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,18s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

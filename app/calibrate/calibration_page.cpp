@@ -13,7 +13,7 @@
 namespace polargrain::app {
 namespace {
 
-std::size_t column(const ElementResult& result, const std::string& name) {
+std::size_t column_in(const ElementResult& result, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(result.columns, name) - result.columns.begin());
 }
 
@@ -26,8 +26,8 @@ std::string curves_of(const Calibration& calibration, const std::vector<ElementR
     line.name = curve.name;
     line.line = true;
     for (const auto& row : curve.rows)
-      if (row[column(best[test], "stage")] > 0.0)
-        line.points.emplace_back(row[column(best[test], x)], row[column(best[test], y)]);
+      if (row[column_in(best[test], "stage")] > 0.0)
+        line.points.emplace_back(row[column_in(best[test], x)], row[column_in(best[test], y)]);
     series.push_back(std::move(line));
   }
   ChartSeries laboratory;

@@ -16,7 +16,7 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDegreeOfEnvelope = std::numbers::pi / 180.0;
 
 /// Of a row of the table of columns.
 StressCircle circle_of(const std::vector<std::string>& columns, const std::vector<double>& row) {
@@ -49,16 +49,16 @@ const char* name_of(FailureState state) {
   return state == FailureState::peak ? "peak" : "end";
 }
 
-struct Lines {
+struct EnvelopeLines {
   std::vector<double> angles;     ///< degrees
   std::vector<double> cohesions;  ///< Pa
 };
 
-Lines lines_of(const std::vector<EnvelopeOfSpecimen>& envelopes) {
-  Lines lines;
+EnvelopeLines lines_of(const std::vector<EnvelopeOfSpecimen>& envelopes) {
+  EnvelopeLines lines;
   for (const EnvelopeOfSpecimen& envelope : envelopes) {
     if (!envelope.line) continue;
-    lines.angles.push_back(envelope.line->friction_angle / kDegree);
+    lines.angles.push_back(envelope.line->friction_angle / kDegreeOfEnvelope);
     lines.cohesions.push_back(envelope.line->cohesion);
   }
   return lines;
@@ -147,7 +147,7 @@ std::string envelope_summary(std::span<const ElementResult> results, std::span<c
           fmt::format("{}, {} of {}", name_of(state), envelope.circles.size(), envelope.name);
       if (envelope.line)
         text += fmt::format("{:<32} {:>16.2f} {:>18.3f} {:>14.3f}\n", name,
-                            envelope.line->friction_angle / kDegree, 1e-3 * envelope.line->cohesion,
+                            envelope.line->friction_angle / kDegreeOfEnvelope, 1e-3 * envelope.line->cohesion,
                             1e-3 * envelope.line->off);
       else
         text += fmt::format("{:<32} {:>16}\n", name, "no line");
@@ -171,9 +171,10 @@ std::string envelope_table(std::span<const ElementResult> results, std::span<con
     for (const EnvelopeOfSpecimen& envelope : envelopes_of(results, pressures, state))
       for (std::size_t k = 0; k < envelope.circles.size(); ++k) {
         const FailureLine line = envelope.line.value_or(FailureLine{NAN, NAN, NAN});
-        text += csv_row({envelope.name, name_of(state), exact(envelope.pressures[k]),
-                         exact(envelope.circles[k].largest), exact(envelope.circles[k].least),
-                         exact(line.friction_angle / kDegree), exact(line.cohesion), exact(line.off)});
+        text +=
+            csv_row({envelope.name, name_of(state), exact(envelope.pressures[k]),
+                     exact(envelope.circles[k].largest), exact(envelope.circles[k].least),
+                     exact(line.friction_angle / kDegreeOfEnvelope), exact(line.cohesion), exact(line.off)});
       }
   return text;
 }
@@ -191,10 +192,10 @@ std::string envelope_charts(std::span<const ElementResult> results, std::span<co
         largest = std::max(largest, envelope.circles[k].largest);
       }
       if (envelope.line)
-        series.push_back(
-            line_until(fmt::format("{}: {:.4g} deg, {:.3g} kPa", envelope.name,
-                                   envelope.line->friction_angle / kDegree, 1e-3 * envelope.line->cohesion),
-                       *envelope.line, largest));
+        series.push_back(line_until(
+            fmt::format("{}: {:.4g} deg, {:.3g} kPa", envelope.name,
+                        envelope.line->friction_angle / kDegreeOfEnvelope, 1e-3 * envelope.line->cohesion),
+            *envelope.line, largest));
     }
     html += fmt::format("<h2>Mohr's circles at the {}</h2>\n", name_of(state)) +
             chart({.title = "effective normal stress, kPa"}, {.title = "shear stress, kPa"}, series, true);

@@ -100,23 +100,23 @@ ElementResult run_material(const ElementSpecification& specification, int worker
 }
 
 /// The figures of a curve.
-struct Figures {
+struct CurveFigures {
   double friction_angle = 0.0;  ///< the largest, degrees
   double strain_at_peak = 0.0;  ///< the axial one (the shear strain where that is larger)
   double last_angle = 0.0;
   double last_volume_strain = 0.0;
 };
 
-std::size_t column(const ElementResult& result, const std::string& name) {
+std::size_t column_named(const ElementResult& result, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(result.columns, name) - result.columns.begin());
 }
 
-Figures figures_of(const ElementResult& result, const ElementCurve& curve) {
-  Figures figures;
-  const std::size_t angle = column(result, "friction_angle_deg");
+CurveFigures figures_of(const ElementResult& result, const ElementCurve& curve) {
+  CurveFigures figures;
+  const std::size_t angle = column_named(result, "friction_angle_deg");
   const auto strain_of = [&](const std::vector<double>& row) {
-    const double axial = row[column(result, "axial_strain")];
-    const double shear = row[column(result, "e12")];
+    const double axial = row[column_named(result, "axial_strain")];
+    const double shear = row[column_named(result, "e12")];
     return std::abs(shear) > std::abs(axial) ? shear : axial;
   };
   for (const auto& row : curve.rows) {
@@ -125,7 +125,7 @@ Figures figures_of(const ElementResult& result, const ElementCurve& curve) {
     figures.strain_at_peak = strain_of(row);
   }
   figures.last_angle = curve.rows.back()[angle];
-  figures.last_volume_strain = curve.rows.back()[column(result, "volume_strain")];
+  figures.last_volume_strain = curve.rows.back()[column_named(result, "volume_strain")];
   return figures;
 }
 
@@ -156,11 +156,11 @@ std::string summary_of(const ElementResult& result) {
   std::array<std::vector<double>, 4> values;
   for (const ElementCurve& curve : result.curves) {
     if (curve.rows.empty()) continue;
-    const Figures f = figures_of(result, curve);
+    const CurveFigures f = figures_of(result, curve);
     const std::array<double, 4> numbers{f.friction_angle, 100.0 * f.strain_at_peak, f.last_angle,
                                         100.0 * f.last_volume_strain};
     text += fmt::format("{:<24} {:>16.2f} {:>16.3f} {:>16.2f} {:>16.3f} {:>6.0f}\n", curve.name, numbers[0],
-                        numbers[1], numbers[2], numbers[3], curve.rows.back()[column(result, "jumps")]);
+                        numbers[1], numbers[2], numbers[3], curve.rows.back()[column_named(result, "jumps")]);
     for (std::size_t k = 0; k < 4 && curve.failure.empty(); ++k) values[k].push_back(numbers[k]);
   }
   const std::size_t count = values[0].size();

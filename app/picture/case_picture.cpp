@@ -16,7 +16,7 @@
 namespace polargrain::app {
 namespace {
 
-constexpr const char* kPlaces = "<h2>Boundaries and node sets</h2>\n";
+constexpr const char* kHeadingOfPlaces = "<h2>Boundaries and node sets</h2>\n";
 
 /// Length (plane, m) or area (space, m^2) of a boundary; of the parts of the outline in no boundary where the name is empty.
 double extent_of(const fem::Mesh<2>& mesh, const std::string& name) {
@@ -102,11 +102,11 @@ std::string case_picture(const Scene& scene, const Remarks& remarks) {
   if (scene.dimension() == 3) {
     const fem::Problem<3>& problem = *scene.the_case().space;
     const std::vector<PlaceConditions<3>> places = conditions_of<3>(problem, end);
-    body = space_drawing(problem.mesh, scene.regions(), places) + kPlaces +
+    body = space_drawing(problem.mesh, scene.regions(), places) + kHeadingOfPlaces +
            places_table<3>(problem.mesh, places);
   } else {
     const std::vector<PlaceConditions<2>> places = conditions_of<2>(scene.problem(), end);
-    body = plane_drawing(scene, places) + kPlaces + places_table<2>(scene.mesh(), places);
+    body = plane_drawing(scene, places) + kHeadingOfPlaces + places_table<2>(scene.mesh(), places);
   }
   const std::string title =
       scene.the_case().title.empty() ? scene.the_case().file.filename().string() : scene.the_case().title;

@@ -13,14 +13,14 @@ namespace {
 
 using Variables = std::map<std::string, std::string>;
 
-struct Reader {
+struct PropertyReader {
   const char* property;
   std::vector<std::string> models;
 };
 
 /// The engine's models and those of this project (dem/contact).
-const std::vector<Reader>& readers() {
-  static const std::vector<Reader> list{
+const std::vector<PropertyReader>& readers() {
+  static const std::vector<PropertyReader> list{
       {"contactModulus", {"model hooke/radii"}},
       {"tangentialStiffnessRatio", {"model hooke/radii"}},
       {"youngsModulus", {"model hooke", "model hertz"}},
@@ -95,7 +95,7 @@ ContactScript contact_script_of(const CellDefinition& cell) {
 }
 
 std::vector<std::string> readers_of(const std::string& property) {
-  const auto reader = std::ranges::find(readers(), property, &Reader::property);
+  const auto reader = std::ranges::find(readers(), property, &PropertyReader::property);
   return reader == readers().end() ? std::vector<std::string>{} : reader->models;
 }
 

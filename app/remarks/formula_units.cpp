@@ -11,9 +11,9 @@ namespace polargrain::app {
 namespace {
 
 /// Recursive descent as in coupler/case/expression.cpp, over dimensions in place of numbers.
-class Reader {
+class UnitsReader {
  public:
-  Reader(const std::string& text, const std::function<Powers(const std::string&)>& powers)
+  UnitsReader(const std::string& text, const std::function<Powers(const std::string&)>& powers)
       : text_(text), powers_(powers) {
     out.result = sum().powers;
   }
@@ -165,7 +165,7 @@ std::string text_of(const Powers& powers) {
 
 FormulaUnits units_of_formula(const std::string& formula,
                               const std::function<Powers(const std::string&)>& powers) {
-  return Reader(formula, powers).out;
+  return UnitsReader(formula, powers).out;
 }
 
 }  // namespace polargrain::app

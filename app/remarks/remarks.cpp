@@ -35,45 +35,45 @@ constexpr Kind kAtTimeZero[] = {
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
 constexpr Kind kBalance[] = {{balance_at_start, Bodies::plane, true}};
 
-constexpr Kind kOthers[] = {{movement, Bodies::both},
-                            {times_of_loads, Bodies::both},
-                            {idle_steps, Bodies::both},
-                            {missed_turns, Bodies::both},
-                            {open_seams, Bodies::plane},
-                            {steps_of_strain, Bodies::both},
-                            {internal_length, Bodies::both},
-                            {plastic_length, Bodies::both},
-                            {few_grains, Bodies::both},
-                            {softness, Bodies::both},
-                            {size_of_grains, Bodies::both},
-                            {unread_properties, Bodies::both},
-                            {contact_numbers, Bodies::both},
-                            {neighbours, Bodies::both},
-                            {tolerances, Bodies::plane},
-                            {softening_cauchy, Bodies::both},
-                            {strength_of_laws, Bodies::both},
-                            {monitors, Bodies::plane},
-                            {measures, Bodies::plane},
-                            {formulas, Bodies::plane},
-                            {output, Bodies::both},
-                            {cost, Bodies::both},
-                            {moduli, Bodies::both},
-                            {node_forces, Bodies::plane},
-                            {weight_at_once, Bodies::plane, true},
-                            {pulled_apart, Bodies::plane},
-                            {carried_along, Bodies::plane},
-                            {held_sides, Bodies::plane},
-                            {narrow_plates, Bodies::plane},
-                            {shape_of_elements, Bodies::plane},
-                            {places_of_monitors, Bodies::plane},
-                            {ends_of_profiles, Bodies::both},
-                            {structures, Bodies::plane},
-                            {weight_of_parts, Bodies::plane},
-                            {loads_of_stages, Bodies::both},
-                            {densities, Bodies::both},
-                            {motions, Bodies::both},
-                            {pore_water, Bodies::both},
-                            {end_of_run_before, Bodies::both}};
+constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
+                                  {times_of_loads, Bodies::both},
+                                  {idle_steps, Bodies::both},
+                                  {missed_turns, Bodies::both},
+                                  {open_seams, Bodies::plane},
+                                  {steps_of_strain, Bodies::both},
+                                  {internal_length, Bodies::both},
+                                  {plastic_length, Bodies::both},
+                                  {few_grains, Bodies::both},
+                                  {softness, Bodies::both},
+                                  {size_of_grains, Bodies::both},
+                                  {unread_properties, Bodies::both},
+                                  {contact_numbers, Bodies::both},
+                                  {neighbours, Bodies::both},
+                                  {tolerances, Bodies::plane},
+                                  {softening_cauchy, Bodies::both},
+                                  {strength_of_laws, Bodies::both},
+                                  {monitors, Bodies::plane},
+                                  {measures, Bodies::plane},
+                                  {formulas, Bodies::plane},
+                                  {output, Bodies::both},
+                                  {cost, Bodies::both},
+                                  {moduli, Bodies::both},
+                                  {node_forces, Bodies::plane},
+                                  {weight_at_once, Bodies::plane, true},
+                                  {pulled_apart, Bodies::plane},
+                                  {carried_along, Bodies::plane},
+                                  {held_sides, Bodies::plane},
+                                  {narrow_plates, Bodies::plane},
+                                  {shape_of_elements, Bodies::plane},
+                                  {places_of_monitors, Bodies::plane},
+                                  {ends_of_profiles, Bodies::both},
+                                  {structures, Bodies::plane},
+                                  {weight_of_parts, Bodies::plane},
+                                  {loads_of_stages, Bodies::both},
+                                  {densities, Bodies::both},
+                                  {motions, Bodies::both},
+                                  {pore_water, Bodies::both},
+                                  {end_of_run_before, Bodies::both}};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
   const Bodies here = scene.dimension() == 3 ? Bodies::space : Bodies::plane;
@@ -97,7 +97,7 @@ Remarks remarks_on(const Scene& scene) {
     look_by(kAtTimeZero, scene, remarks);
     if (remarks.empty()) look_by(kBalance, scene, remarks);
   }
-  look_by(kOthers, scene, remarks);
+  look_by(kOtherRemarks, scene, remarks);
   // Regions of one material have its remarks alike.
   std::set<std::string> told;
   std::erase_if(remarks, [&](const Remark& remark) { return !told.insert(remark.at.text()).second; });

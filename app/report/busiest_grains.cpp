@@ -66,7 +66,7 @@ std::string busiest_grains(const RunResult& result, const ScriptRules& scripts,
   const std::set<int> steps{kept.front(), last};
   // Unlike those of other runs on the page, and fit for an identifier.
   const std::string directory = result.directory.string();
-  const std::string name = name_of(std::as_bytes(std::span(directory))).text();
+  const std::string name = polargrain::name_of(std::as_bytes(std::span(directory))).text();
   const fs::path log = folder.path() / "engine.log";
   show_grains(
       {paths, points, steps, scripts, engine, log}, [&](std::size_t, int step, const GrainView& view) {

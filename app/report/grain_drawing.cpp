@@ -16,7 +16,7 @@ namespace polargrain::app {
 namespace {
 
 /// Of the box, in units of the drawing.
-constexpr double kWidth = 1000.0;
+constexpr double kDrawingWidth = 1000.0;
 constexpr double kThickestLine = 14.0;
 /// A line that would be thinner does not show.
 constexpr double kThinnestLine = 0.4;
@@ -59,7 +59,7 @@ std::string grain_figure(const GrainView& view, const std::string& name, const s
     least = least.cwiseMin(corner);
     most = most.cwiseMax(corner);
   }
-  const double scale = kWidth / std::max(most.x() - least.x(), most.y() - least.y());
+  const double scale = kDrawingWidth / std::max(most.x() - least.x(), most.y() - least.y());
   const auto drawn = [&](const Eigen::Vector2d& place) {  // down is positive there
     return Eigen::Vector2d(scale * (place.x() - least.x()), scale * (most.y() - place.y()));
   };

@@ -6,14 +6,14 @@
 namespace polargrain::app {
 namespace {
 
-struct Kind {
+struct KindOfNote {
   const char* part;  ///< of the text
   NoteWeight weight;
   const char* meaning;
 };
 
 /// The notes come from run.cpp, run_observer.cpp, materials and workers.
-constexpr Kind kKinds[] = {
+constexpr KindOfNote kKinds[] = {
     {"within the noise of the stresses", NoteWeight::look,
      "The step is as well balanced as the noise of the cells' stresses lets it be, but not to the tolerance asked for. Results "
      "are good to that noise (force_noise in history.csv). To get below it: a smaller unbalanced_force_ratio of the material, "
@@ -54,7 +54,7 @@ constexpr Kind kKinds[] = {
 };
 
 std::string kind_of(const std::string& text) {
-  for (const Kind& kind : kKinds)
+  for (const KindOfNote& kind : kKinds)
     if (text.find(kind.part) != std::string::npos) return kind.part;
   // Texts that differ in their numbers only are of one kind.
   std::string without_numbers;
@@ -84,7 +84,7 @@ std::vector<LogNote> notes_of(const std::vector<LoggedWarning>& warnings) {
     const std::string kind = kind_of(warning.text);
     const auto place = static_cast<std::size_t>(std::ranges::find(kinds, kind) - kinds.begin());
     if (place == kinds.size()) {
-      const auto* const known = std::ranges::find(kKinds, kind, &Kind::part);
+      const auto* const known = std::ranges::find(kKinds, kind, &KindOfNote::part);
       notes.push_back({warning.text, 0, warning.step, warning.step,
                        known == std::end(kKinds) ? NoteWeight::look : known->weight,
                        known == std::end(kKinds) ? "" : known->meaning});

@@ -18,14 +18,14 @@ constexpr double kMostKinetic = 0.05;
 /// Share of the forces that is out of balance at the nodes, inertia of the chosen masses included.
 constexpr double kMostUnbalanced = 0.1;
 
-struct Kind {
+struct KindOfError {
   const char* name;
   const char* meaning;
   double tolerance;
   std::function<double(const QuasiStatic&)> value;
 };
 
-std::vector<Kind> kinds(double error) {
+std::vector<KindOfError> kinds(double error) {
   const QuasiStatic of_difference{.reaction_difference = 1.0};
   const QuasiStatic of_grains{.grains_unbalanced = 1.0};
   return {{"error_estimate", "estimated error of the reactions", error, &QuasiStatic::error},
@@ -57,7 +57,7 @@ std::vector<QuasiStaticMeasure> quasi_static_measures(const coupler::Case& the_c
                                                       const RunRecord& record) {
   std::vector<QuasiStaticMeasure> measures;
   if (!the_case.is_explicit() || the_case.real_time) return measures;
-  for (const Kind& kind : kinds(the_case.explicit_error)) {
+  for (const KindOfError& kind : kinds(the_case.explicit_error)) {
     QuasiStaticMeasure measure{kind.name, kind.meaning, kind.tolerance};
     std::vector<double> values;
     for (const CommittedStep& step : record.steps) {

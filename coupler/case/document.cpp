@@ -23,7 +23,7 @@ namespace {
 
 // Bounds on what is read: aliases of aliases can make a short file describe an endless one.
 constexpr std::size_t kMostEntries = 100000;
-constexpr std::size_t kDeepest = 20;
+constexpr std::size_t kDeepestSection = 20;
 constexpr std::uintmax_t kLargestFile = 10'000'000;
 
 /// The first control character that no value may hold; empty: all are allowed. A text may have several lines, and tabs. Names
@@ -108,7 +108,8 @@ class Builder : public YAML::EventHandler {
   }
 
   void open(Entry::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
-    if (open_.size() >= kDeepest) refuse(mark, fmt::format("nested deeper than {} levels", kDeepest));
+    if (open_.size() >= kDeepestSection)
+      refuse(mark, fmt::format("nested deeper than {} levels", kDeepestSection));
     if (!open_.empty() && open_.back().entry.kind == Entry::Kind::map && !open_.back().awaits_value) {
       refuse(mark, "a key must be a plain word, here stands a map or a list");
     }

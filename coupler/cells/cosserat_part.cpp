@@ -20,11 +20,11 @@ template <int dim>
 using SkewSlopes = Eigen::Matrix<double, Cosserat<dim>::rotations, Cosserat<dim>::components>;
 
 /// The places of the two stresses s_ij and s_ji whose difference s_ji - s_ij works on rotation k.
-struct Pair {
+struct CouplePair {
   int ij, ji;
 };
 template <int dim>
-Pair pair_of(int k) {
+CouplePair pair_of(int k) {
   const int axis = Cosserat<dim>::axis(k);
   const int i = (axis + 1) % 3;
   const int j = (axis + 2) % 3;
@@ -145,7 +145,7 @@ template <int dim>
 typename Cosserat<dim>::Vector symmetric_part(const typename Cosserat<dim>::Vector& components) {
   typename Cosserat<dim>::Vector part = components;
   for (int k = 0; k < Cosserat<dim>::rotations; ++k) {
-    const Pair at = pair_of<dim>(k);
+    const CouplePair at = pair_of<dim>(k);
     part(at.ij) = part(at.ji) = 0.5 * (components(at.ij) + components(at.ji));
   }
   part.template tail<Cosserat<dim>::couples>().setZero();
@@ -160,7 +160,7 @@ typename Cosserat<dim>::Matrix symmetric_tangent(const typename Cosserat<dim>::M
   Matrix tangent = Matrix::Zero();
   tangent.template topLeftCorner<stresses, stresses>() = cell.template topLeftCorner<stresses, stresses>();
   for (int k = 0; k < Cosserat<dim>::rotations; ++k) {
-    const Pair at = pair_of<dim>(k);
+    const CouplePair at = pair_of<dim>(k);
     const Vector row = 0.5 * (tangent.row(at.ij) + tangent.row(at.ji)).transpose();
     tangent.row(at.ij) = tangent.row(at.ji) = row.transpose();
     const Vector column = 0.5 * (tangent.col(at.ij) + tangent.col(at.ji));
@@ -178,7 +178,7 @@ template <int dim>
 typename Cosserat<dim>::Rotation skew_stress_of(const typename Cosserat<dim>::Vector& stress) {
   Skew<dim> skew;
   for (int k = 0; k < Cosserat<dim>::rotations; ++k) {
-    const Pair at = pair_of<dim>(k);
+    const CouplePair at = pair_of<dim>(k);
     skew(k) = stress(at.ji) - stress(at.ij);
   }
   return skew;
@@ -201,7 +201,7 @@ bool limit_skew(Response<dim>& response, double skew_limit, double modulus) {
   if constexpr (dim == 3) {  // the direction may turn, and the pressure about it with it
     SkewSlopes<dim> turning;
     for (int k = 0; k < rotations; ++k) {
-      const Pair at = pair_of<dim>(k);
+      const CouplePair at = pair_of<dim>(k);
       turning.row(k) = response.tangent.row(at.ji) - response.tangent.row(at.ij);
     }
     turning = (turning - direction * (direction.transpose() * turning).eval()).eval() / size;
@@ -211,7 +211,7 @@ bool limit_skew(Response<dim>& response, double skew_limit, double modulus) {
   slopes += direction * skew_limit * rise;
   const double hold = 2.0 * share_held(size, limit) * modulus;
   for (int k = 0; k < rotations; ++k) {
-    const Pair at = pair_of<dim>(k);
+    const CouplePair at = pair_of<dim>(k);
     slopes(k, at.ij) -= hold;
     slopes(k, at.ji) += hold;
     const double shear = 0.5 * (response.stress[at.ij] + response.stress[at.ji]);
@@ -289,7 +289,7 @@ Response<dim> CosseratPart<dim>::joined_to(const Response<dim>& cell,
   response.tangent = symmetric_tangent<dim>(response.tangent);
   const double skew_modulus = std::max(contacts_kept, kHold) * cosserat.cosserat_shear_modulus;
   for (int k = 0; k < Dimension::rotations; ++k) {
-    const Pair at = pair_of<dim>(k);
+    const CouplePair at = pair_of<dim>(k);
     response.stress[at.ij] -= 0.5 * skew_stress(k);
     response.stress[at.ji] += 0.5 * skew_stress(k);
     response.tangent(at.ij, at.ij) += skew_modulus;

@@ -12,7 +12,7 @@ namespace polargrain::coupler {
 namespace {
 
 /// The request that one test waits for, and its answer.
-struct Desk {
+struct AnswersOfPoints {
   std::optional<CellRequest> request;
   std::optional<CellReply> reply;
 };
@@ -74,7 +74,7 @@ class Office {
  private:
   std::mutex mutex_;  ///< the floor
   std::condition_variable changed_;
-  std::vector<Desk> desks_;
+  std::vector<AnswersOfPoints> desks_;
   std::size_t running_;
   std::size_t waiting_ = 0;
   bool closed_ = false;

@@ -18,7 +18,7 @@
 namespace polargrain::coupler {
 namespace {
 
-constexpr const char* kMonitorUrl = "inproc://handshakes";
+constexpr const char* kSwitchboardMonitorUrl = "inproc://handshakes";
 
 /// Peers refused one by one in the log; of the rest only a count now and then.
 constexpr std::size_t kToldSingly = 10;
@@ -84,11 +84,11 @@ void Switchboard::serve_others(const Listening& listening) try {
   remote_->set(zmq::sockopt::heartbeat_ivl, 2000);
   remote_->set(zmq::sockopt::heartbeat_timeout, 10000);
   remote_->set(zmq::sockopt::backlog, 1024);
-  zmq_socket_monitor(remote_->handle(), kMonitorUrl,
+  zmq_socket_monitor(remote_->handle(), kSwitchboardMonitorUrl,
                      ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL);
   monitor_.emplace(context_, zmq::socket_type::pair);
   monitor_->set(zmq::sockopt::linger, 0);
-  monitor_->connect(kMonitorUrl);
+  monitor_->connect(kSwitchboardMonitorUrl);
   remote_->bind(listening.url);
 } catch (const zmq::error_t& error) {
   throw RunError(fmt::format(

@@ -16,7 +16,7 @@ namespace {
 /// First bytes of every state; plain numbers, so that another process of the same machine type reads it. Rotations may
 /// follow the values: of all grains or of no grain.
 template <int dim>
-struct Header {
+struct HeaderOfPackedGrains {
   std::uint64_t magic = 0;
   std::uint64_t grains = 0;
   std::uint64_t history_values = 0;  ///< per contact and side
@@ -24,8 +24,8 @@ struct Header {
   typename Box<dim>::Numbers box{};
 };
 template <int dim>
-constexpr std::uint64_t kMagic = dim == 2 ? 0x31306c6c65636770ULL   // "pgcell01" as bytes
-                                          : 0x3130636170736770ULL;  // "pgspac01"
+constexpr std::uint64_t kMagicOfPackedGrains = dim == 2 ? 0x31306c6c65636770ULL   // "pgcell01" as bytes
+                                                        : 0x3130636170736770ULL;  // "pgspac01"
 constexpr std::uint64_t kMostHistoryValues = 64;
 
 [[noreturn]] void damaged() {
@@ -76,8 +76,8 @@ void check_motion(const PackedGrains& state, const Box<dim>& box, std::size_t gr
 
 /// Lengths and box from the first bytes. @returns how many bytes that were
 template <int dim>
-std::size_t read_header(std::span<const std::byte> bytes, Header<2>& lengths, Box<dim>& box) {
-  Header<dim> header;
+std::size_t read_header(std::span<const std::byte> bytes, HeaderOfPackedGrains<2>& lengths, Box<dim>& box) {
+  HeaderOfPackedGrains<dim> header;
   if (bytes.size() < sizeof header) throw RunError("this is not the state of a cell: it is too short");
   std::memcpy(&header, bytes.data(), sizeof header);
   box = Box<dim>::from_numbers(header.box);
@@ -87,7 +87,8 @@ std::size_t read_header(std::span<const std::byte> bytes, Header<2>& lengths, Bo
 
 template <int dim>
 std::vector<std::byte> header_of(const PackedGrains& state, const Box<dim>& box, std::size_t grains) {
-  const Header<dim> header{kMagic<dim>, grains, state.history_values, state.values.size(), box.numbers()};
+  const HeaderOfPackedGrains<dim> header{kMagicOfPackedGrains<dim>, grains, state.history_values,
+                                         state.values.size(), box.numbers()};
   std::vector<std::byte> bytes(sizeof header);
   std::memcpy(bytes.data(), &header, sizeof header);
   return bytes;
@@ -102,13 +103,13 @@ std::vector<std::byte>& append(std::vector<std::byte>& bytes, const std::vector<
 }  // namespace
 
 PackedGrains decode_grains(const State& state) {
-  Header<2> header;
+  HeaderOfPackedGrains<2> header;
   const std::span<const std::byte> bytes = state.bytes();
   PackedGrains packed;
   std::size_t head = read_header(bytes, header, packed.box);
-  if (header.magic == kMagic<3>) {
+  if (header.magic == kMagicOfPackedGrains<3>) {
     head = read_header(bytes, header, packed.space.emplace());
-  } else if (header.magic != kMagic<2>) {
+  } else if (header.magic != kMagicOfPackedGrains<2>) {
     throw RunError("this is not the state of a cell");
   }
   const std::uint64_t doubles = (bytes.size() - head) / sizeof(double);

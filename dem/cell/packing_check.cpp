@@ -49,9 +49,9 @@ double largest_radius(const Packing& packing) {
 
 /// Grains by the bins they lie in; bins divide the box evenly and are wider than any two grains that touch. A plane
 /// packing has one layer of them.
-class Bins {
+class BinsOfPacking {
  public:
-  explicit Bins(const Packing& packing) : base_(packing.base_vectors()), axes_(packing.dimension) {
+  explicit BinsOfPacking(const Packing& packing) : base_(packing.base_vectors()), axes_(packing.dimension) {
     const double largest = largest_radius(packing);
     const Eigen::Matrix3d inverse = base_.inverse();
     for (int axis = 0; axis < axes_; ++axis) {
@@ -148,7 +148,7 @@ class Bins {
 
 std::string geometry_fault(const Packing& packing) {
   std::string fault;
-  const Bins bins(packing);
+  const BinsOfPacking bins(packing);
   const double period = bins.period();
   const double largest = largest_radius(packing);
   if (2.0 * largest - period > kMostOverlapToStart * largest)
@@ -172,7 +172,7 @@ std::string geometry_fault(const Packing& packing) {
 }
 
 std::string twofold_contact(const Packing& packing) {
-  const Bins bins(packing);
+  const BinsOfPacking bins(packing);
   const double largest = largest_radius(packing);
   if (bins.period() >= 4.0 * largest) return {};  // two images of a grain are too far apart
   std::string fault;

@@ -20,17 +20,17 @@ struct Member {
 };
 
 /// Where a disc lies: which bin, and which copy of the box its centre has wandered into.
-struct Place {
+struct PlaceOfDisc {
   int column = 0;
   int row = 0;
   LatticeVector copy;
 };
 
-/// Bins of a periodic box that is divided evenly along its base vectors, each as wide as it must be where
+/// BinsOfDiscs of a periodic box that is divided evenly along its base vectors, each as wide as it must be where
 /// the box allows.
-class Bins {
+class BinsOfDiscs {
  public:
-  Bins(std::span<const Disc> discs, const Eigen::Matrix2d& base, double reach) {
+  BinsOfDiscs(std::span<const Disc> discs, const Eigen::Matrix2d& base, double reach) {
     const double area = base.determinant();
     // Distances between opposite faces.
     const double width_1 = area / base.col(1).norm();
@@ -45,7 +45,7 @@ class Bins {
     for (std::size_t k = 0; k < discs.size(); ++k) {
       const double s = inverse(0, 0) * discs[k].x + inverse(0, 1) * discs[k].y;
       const double t = inverse(1, 0) * discs[k].x + inverse(1, 1) * discs[k].y;
-      Place& place = places[k];
+      PlaceOfDisc& place = places[k];
       place.copy = {copy_of(s), copy_of(t)};
       place.column = std::min(columns_ - 1, static_cast<int>((s - place.copy.p) * columns_));
       place.row = std::min(rows_ - 1, static_cast<int>((t - place.copy.q) * rows_));
@@ -64,7 +64,7 @@ class Bins {
 
   /// Calls `visit(members, copy)` for the bins around a place; `copy`: which copy of the box they are seen in.
   template <typename Visit>
-  void around(const Place& place, Visit visit) const {
+  void around(const PlaceOfDisc& place, Visit visit) const {
     for (int dy = -span_2; dy <= span_2; ++dy)
       for (int dx = -span_1; dx <= span_1; ++dx) {
         const int column = place.column + dx;
@@ -76,15 +76,15 @@ class Bins {
       }
   }
 
-  std::vector<Place> places;  ///< of the discs
-  int span_1 = 1;             ///< bins on either side that the reach covers
+  std::vector<PlaceOfDisc> places;  ///< of the discs
+  int span_1 = 1;                   ///< bins on either side that the reach covers
   int span_2 = 1;
 
  private:
   static std::int32_t floor_divide(int number, int by) {
     return number >= 0 ? number / by : -((by - 1 - number) / by);
   }
-  [[nodiscard]] std::size_t bin(const Place& place) const {
+  [[nodiscard]] std::size_t bin(const PlaceOfDisc& place) const {
     return static_cast<std::size_t>(place.row) * columns_ + place.column;
   }
 
@@ -117,7 +117,7 @@ void CandidateList::find(std::span<const Disc> discs, std::span<const int> types
                          const Eigen::Matrix2d& base, double skin) {
   double largest = 0.0;
   for (const Disc& disc : discs) largest = std::max(largest, disc.radius);
-  const Bins bins(discs, base, 2.0 * largest + skin);
+  const BinsOfDiscs bins(discs, base, 2.0 * largest + skin);
   rows.assign(1, 0);
   pairs.clear();
   images.assign(1, LatticeVector{});

@@ -119,9 +119,9 @@ void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, DiscCombination& 
   }
 }
 
-using Member = double PairParameters::*;
+using MemberOfPair = double PairParameters::*;
 
-void read_table(LAMMPS& lammps, const char* name, DiscCombination& made, Member member) {
+void read_table(LAMMPS& lammps, const char* name, DiscCombination& made, MemberOfPair member) {
   const Table table(lammps, name);
   for (int a = 0; a < made.types; ++a)
     for (int b = 0; b < made.types; ++b)

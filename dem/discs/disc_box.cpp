@@ -14,10 +14,10 @@ namespace {
 
 /// Gap up to which two discs are candidates, over the mean radius: at strains of 1e-3 a list lasts an
 /// increment and holds few pairs that do not touch.
-constexpr double kSkin = 0.05;
+constexpr double kDiscSkin = 0.05;
 
 /// Steps between two calls of `progress`.
-constexpr int kProgressChunk = 200;
+constexpr int kDiscProgressChunk = 200;
 
 /// Smallest stretch of a deformation gradient.
 double least_stretch(const Eigen::Matrix2d& f) {
@@ -52,7 +52,7 @@ DiscBox::DiscBox(Definition definition)
     discs_[k].inverse_mass = 1.0 / definition_.masses[k];
     discs_[k].inverse_inertia = 2.0 / (definition_.masses[k] * radius * radius);  // disc
   }
-  skin_ = kSkin * mean;
+  skin_ = kDiscSkin * mean;
   list_.springs = former_.springs = spring_count(definition_.combination.rolling);
   contacts_.reserve(3 * count);
 }
@@ -353,7 +353,7 @@ void DiscBox::run(int steps) {
     }
     compute_forces(true, done == steps);
     if (controlled()) control_rotation(damping_rate_ > 0.0);
-    if (progress && done % kProgressChunk == 0) progress();
+    if (progress && done % kDiscProgressChunk == 0) progress();
   }
   if (steps > 0) end_step();
 }

@@ -24,8 +24,8 @@ constexpr double kLocalDamping = 0.3;
 constexpr double kFloorOverlap = 0.02;
 /// The bed rests where the resultants add up to this share of its weight.
 constexpr double kRest = 0.01;
-constexpr int kChunk = 200;
-constexpr int kChunksOfProgress = 10;
+constexpr int kDepositChunk = 200;
+constexpr int kDepositChunksOfProgress = 10;
 /// Cuts that are tried, over a range of this share of the grains, and shifts of each.
 constexpr int kCuts = 9;
 constexpr double kRangeOfCuts = 0.05;
@@ -153,10 +153,10 @@ Packing deposit(const PackingSpecification& specification, const Packing& rain,
           "the grains did not come to rest on the floor within {} DEM steps: their resultants add up to {:.2g} of "
           "their weight (at most {}); raise most_steps or the friction of the script",
           specification.most_steps, box->unrest(), kRest));
-    box->move(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), kChunk, 0.0);
+    box->move(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), kDepositChunk, 0.0);
     box->renew_time_step(0.0);
-    reached.dem_steps += kChunk;
-    if (!progress || chunk % kChunksOfProgress != 0) continue;
+    reached.dem_steps += kDepositChunk;
+    if (!progress || chunk % kDepositChunksOfProgress != 0) continue;
     const PressedBox::Look seen = box->look();
     reached.coordination_number = seen.coordination_number;
     reached.void_ratio = seen.void_ratio;

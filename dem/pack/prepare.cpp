@@ -23,8 +23,8 @@ namespace polargrain::dem {
 namespace {
 
 /// DEM steps between two looks at the stress; the box makes one smooth move in between.
-constexpr int kChunk = 20;
-constexpr int kChunksOfProgress = 100;
+constexpr int kPrepareChunk = 20;
+constexpr int kPrepareChunksOfProgress = 100;
 /// Grains fall along -x2.
 constexpr int kFallAxis = 1;
 
@@ -108,8 +108,8 @@ class Compression {
     Eigen::Vector3d shear = Eigen::Vector3d::Zero();
     do {
       if (reached_.dem_steps > static_cast<double>(specification_.most_steps)) give_up();
-      box_->move(strain, shear, kChunk, damping_rate_);
-      reached_.dem_steps += kChunk;
+      box_->move(strain, shear, kPrepareChunk, damping_rate_);
+      reached_.dem_steps += kPrepareChunk;
       measure();
       strain.setZero();
       for (int axis = 0; axis < axes_; ++axis)
@@ -120,7 +120,7 @@ class Compression {
       for (int plane = 0; plane < planes_; ++plane)
         shear(plane) =
             step_towards(-aim_of_shear(plane) - now_.shear(plane), now_.shear_stiffness(plane), 0.0);
-      if (progress && ++chunk_ % kChunksOfProgress == 0) progress(reached_);
+      if (progress && ++chunk_ % kPrepareChunksOfProgress == 0) progress(reached_);
     } while (!done());
   }
 
@@ -135,7 +135,7 @@ class Compression {
   [[nodiscard]] double step_towards(double missing, double stiffness, double otherwise) const {
     const double time_of_grain =
         2.0 * box_->mean_radius() * std::sqrt(specification_.density / aim_.pressure);
-    const double most = specification_.inertial_number / time_of_grain * kChunk * box_->time_step();
+    const double most = specification_.inertial_number / time_of_grain * kPrepareChunk * box_->time_step();
     return std::clamp(stiffness > 0.0 ? missing / stiffness : otherwise * most, -most, most);
   }
 

@@ -20,7 +20,7 @@ namespace polargrain::dem {
 namespace {
 
 /// Of a length of the box; the engine's search for images is made for half a length.
-constexpr double kMostTilt = 0.5;
+constexpr double kMostTiltOfEngine = 0.5;
 
 class PressedSpheres final : public PressedBox {
  public:
@@ -61,8 +61,9 @@ class PressedSpheres final : public PressedBox {
                    time_step());
     grains_->run(steps);
     const Eigen::Matrix3d& base = grains_->box().base;
-    if (std::abs(base(0, 1)) > kMostTilt * base(0, 0) || std::abs(base(0, 2)) > kMostTilt * base(0, 0) ||
-        std::abs(base(1, 2)) > kMostTilt * base(1, 1))
+    if (std::abs(base(0, 1)) > kMostTiltOfEngine * base(0, 0) ||
+        std::abs(base(0, 2)) > kMostTiltOfEngine * base(0, 0) ||
+        std::abs(base(1, 2)) > kMostTiltOfEngine * base(1, 1))
       throw RunError(
           "The box of the packing was sheared by more than half its length on the way to a stress without "
           "shear: take another seed or a smaller inertial_number");

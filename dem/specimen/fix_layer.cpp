@@ -21,7 +21,7 @@ namespace FixConst = LAMMPS_NS::FixConst;
 namespace {
 
 /// Shear over which the plate comes to its speed.
-constexpr double kRunUp = 1e-3;
+constexpr double kLayerRunUp = 1e-3;
 /// Share of the critical damping while the layer is sheared. It dilates then, and what brakes the plate carries part of
 /// its pressure: 1.5 % of it with critical damping, at an inertial number of 2e-4.
 constexpr double kDampingInShear = 0.05;
@@ -131,7 +131,7 @@ void FixLayer::move_upper_plate() {
     state_.displacement += state_.velocity_x * dt;
     state_.time += dt;
     state_.velocity_x =
-        std::min(1.0, state_.time * state_.rate / kRunUp) * state_.rate * state_.reference_height;
+        std::min(1.0, state_.time * state_.rate / kLayerRunUp) * state_.rate * state_.reference_height;
   }
   // A packing is half as stiff as its contacts: modulus 2 E r of a contact over the thickness.
   const double stiffness = 0.5 * modulus_ * mean_diameter_ * width() / height();

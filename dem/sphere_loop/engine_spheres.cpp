@@ -12,7 +12,7 @@ namespace polargrain::dem {
 
 namespace {
 
-using Place = Eigen::Map<const Eigen::Vector3d>;
+using PlaceInEngine = Eigen::Map<const Eigen::Vector3d>;
 
 /// Which of the engine's values of a contact a spring of the loop is, in the order in which the models ask for them:
 /// sliding, rolling, then a rolling displacement, then a torsion. -1: the engine has no such place.
@@ -92,7 +92,7 @@ Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& co
     for (int n = 0; n < history->n_partner(i); ++n) {
       const int j = atom.map(history->partner(i, n));
       if (j <= i || j >= atom.nlocal) continue;  // the other sphere tells of it
-      const SpaceLattice image = nearest_image(Place(atom.x[i]) - Place(atom.x[j]), box.base);
+      const SpaceLattice image = nearest_image(PlaceInEngine(atom.x[i]) - PlaceInEngine(atom.x[j]), box.base);
       snapshot.contacts.push_back({i, j, {image.p, image.q, image.r}});
       const double* const values = history->contacthistory(i, n);
       for (int k = 0; k < snapshot.springs; ++k)

@@ -12,13 +12,13 @@ namespace polargrain::dem {
 namespace {
 
 /// Gap up to which two spheres are candidates, over the mean radius: at strains of 1e-3 a list lasts an increment.
-constexpr double kSkin = 0.05;
+constexpr double kSphereSkin = 0.05;
 
 /// Steps between two calls of `progress`.
-constexpr int kProgressChunk = 200;
+constexpr int kSphereProgressChunk = 200;
 
 /// Bounds of the ways of spheres are taken so much longer: they leave out products of strains.
-constexpr double kMargin = 1.01;
+constexpr double kReachMargin = 1.01;
 
 using Place = Eigen::Map<Eigen::Vector3d>;
 using ConstPlace = Eigen::Map<const Eigen::Vector3d>;
@@ -64,7 +64,7 @@ SphereBox::SphereBox(Spheres spheres, const SphereKernels& kernels)
     inverse_inertia_.push_back(1.0 / (kSphereInertia * spheres_.masses[k] * radius * radius));
   }
   grains_[(n + 1) * kGrainStride] = 1.0;  // two places without a grain lie apart
-  skin_ = kSkin * mean;
+  skin_ = kSphereSkin * mean;
   list_.spring_count = former_.spring_count = is_bare(spheres_.combination) ? springs_ : kSphereSprings;
   listed_places_.resize(n);
   contacts_.reserve(4 * n);
@@ -90,15 +90,15 @@ bool SphereBox::outgrown() {
   const double stretch = 1.0 - (f - Eigen::Matrix3d::Identity()).norm();
   const double closing = (1.0 - stretch) * 2.0 * largest_radius_;
   const double room = 0.5 * (stretch * skin_ - closing);
-  if (stretch > 0.5) reach_ = std::max(reach_, kMargin * (2.0 * wandered_ + closing) / stretch);
-  if (kMargin * wandered_ < room) return false;
+  if (stretch > 0.5) reach_ = std::max(reach_, kReachMargin * (2.0 * wandered_ + closing) / stretch);
+  if (kReachMargin * wandered_ < room) return false;
   // The bound adds up speeds; the way itself is shorter.
   double longest = 0.0;
   for (std::size_t k = 0; k < listed_places_.size(); ++k)
     longest =
         std::max(longest, (ConstPlace(&grains_[k * kGrainStride]) - f * listed_places_[k]).squaredNorm());
   wandered_ = std::sqrt(longest);
-  return !(kMargin * wandered_ < 0.8 * room);
+  return !(kReachMargin * wandered_ < 0.8 * room);
 }
 
 void SphereBox::place_images() {
@@ -285,7 +285,7 @@ void SphereBox::run(int steps) {
     }
     compute_forces(true, done == steps);
     if (controlled()) control_rotation(damping_rate_ > 0.0);
-    if (progress && done % kProgressChunk == 0) progress();
+    if (progress && done % kSphereProgressChunk == 0) progress();
   }
   if (steps <= 0) return;
   sum_up();

@@ -15,7 +15,7 @@ namespace {
 
 /// The spheres of a periodic box in bins that divide it evenly along its base vectors, as wide as the reach or wider
 /// where the box allows, with copies of those near its faces all around: neighbours stand in bins side by side.
-class Bins {
+class BinsOfSpheres {
  public:
   /// A sphere, or a copy of one in another copy of the box.
   struct Members {
@@ -24,7 +24,7 @@ class Bins {
     std::vector<SpaceLattice> copy;  // in which the folded sphere is seen
   };
 
-  Bins(const double* rows, int grains, const Eigen::Matrix3d& base, double reach) : base_(base) {
+  BinsOfSpheres(const double* rows, int grains, const Eigen::Matrix3d& base, double reach) : base_(base) {
     const double volume = base.determinant();
     for (int axis = 0; axis < 3; ++axis) {
       // Distance between opposite faces.
@@ -142,12 +142,12 @@ struct Pair {
 /// Finds the pairs of the four zones.
 class PairSearch {
  public:
-  PairSearch(const Bins& bins, double skin, std::vector<SpaceLattice>& images)
+  PairSearch(const BinsOfSpheres& bins, double skin, std::vector<SpaceLattice>& images)
       : bins_(bins), skin_(skin), images_(images), squares_(bins.members.x.size()) {
     for (int z = 0; z < bins.count(2); ++z)
       for (int y = 0; y < bins.count(1); ++y)
         for (int x = 0; x < bins.count(0); ++x) {
-          const Bins::Range own = bins.range(x, x, y, z);
+          const BinsOfSpheres::Range own = bins.range(x, x, y, z);
           for (int m = own.begin; m < own.end; ++m) around(m, x, y, z);
         }
   }
@@ -164,8 +164,8 @@ class PairSearch {
         compare(m, bins_.range(x - span[0], x + span[0], y + dy, z + dz));
   }
 
-  void compare(int m, Bins::Range range) {
-    const Bins::Members& all = bins_.members;
+  void compare(int m, BinsOfSpheres::Range range) {
+    const BinsOfSpheres::Members& all = bins_.members;
     const double x = all.x[m], y = all.y[m], z = all.z[m], reach = all.radius[m] + skin_;
     // Negative where a pair is near: without a branch, for the compiler to take several at a time.
     for (int k = range.begin; k < range.end; ++k) {
@@ -177,7 +177,7 @@ class PairSearch {
   }
 
   void add(int m, int k) {
-    const Bins::Members& all = bins_.members;
+    const BinsOfSpheres::Members& all = bins_.members;
     int first = all.sphere[m], second = all.sphere[k];
     Eigen::Vector3d delta(all.x[m] - all.x[k], all.y[m] - all.y[k], all.z[m] - all.z[k]);
     const SpaceLattice& home = bins_.homes[first];
@@ -193,7 +193,7 @@ class PairSearch {
         {first, second, image.is_home() ? 0 : image_number(images_, image), gap});
   }
 
-  const Bins& bins_;
+  const BinsOfSpheres& bins_;
   double skin_;
   std::vector<SpaceLattice>& images_;
   std::vector<double> squares_;
@@ -237,7 +237,7 @@ void SphereList::find(const double* rows, int how_many, const Eigen::Matrix3d& b
   double largest = 0.0;
   for (int k = 0; k < grains; ++k) largest = std::max(largest, rows[k * kGrainStride + 3]);
   images.assign(1, SpaceLattice{});
-  const Bins bins(rows, grains, base, 2.0 * largest + skin);
+  const BinsOfSpheres bins(rows, grains, base, 2.0 * largest + skin);
   auto zones = std::move(PairSearch(bins, skin, images).zones);
   first.clear();
   second.clear();

@@ -15,7 +15,7 @@ namespace polargrain::fem {
 
 namespace {
 
-constexpr double kYieldingStiffness =
+constexpr double kYieldingAnchorStiffness =
     1e-6;  ///< share that the tangent keeps, so that no mechanism makes it singular
 
 }  // namespace
@@ -71,7 +71,7 @@ std::string Anchor<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
 
 template <int dim>
 Eigen::MatrixXd Anchor<dim>::tangent(std::size_t) const {
-  const double stiffness = (yields_ ? kYieldingStiffness : 1.0) * settings_.axial_stiffness / length_;
+  const double stiffness = (yields_ ? kYieldingAnchorStiffness : 1.0) * settings_.axial_stiffness / length_;
   return stiffness * elongation_of_ * elongation_of_.transpose();
 }
 

@@ -11,22 +11,22 @@
 namespace polargrain::fem {
 namespace {
 
-constexpr int kCorners = 8;
+constexpr int kCornersOfHexahedron = 8;
 constexpr int kVtkHexahedron = 12;
 constexpr int kVtkQuadraticHexahedron = 25;
 
-const std::array<Eigen::Vector3d, kCorners> kCornerPositions{
+const std::array<Eigen::Vector3d, kCornersOfHexahedron> kCornerPositions{
     {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
 /// Corners of each edge, in the order of its middle node.
-const std::vector<std::array<int, 2>> kEdges{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                                             {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+const std::vector<std::array<int, 2>> kEdgesOfHexahedron{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                                         {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 /// Corners of each face, counter-clockwise seen from outside.
-const std::vector<std::vector<int>> kFaces{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+const std::vector<std::vector<int>> kFacesOfHexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                       {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 ShapeFunctions<3> trilinear(const Eigen::Vector3d& position) {
-  ShapeFunctions<3> shape{Eigen::VectorXd(kCorners), VectorRows<3>(kCorners, 3)};
-  for (int a = 0; a < kCorners; ++a) {
+  ShapeFunctions<3> shape{Eigen::VectorXd(kCornersOfHexahedron), VectorRows<3>(kCornersOfHexahedron, 3)};
+  for (int a = 0; a < kCornersOfHexahedron; ++a) {
     const Eigen::Vector3d& at = kCornerPositions[static_cast<std::size_t>(a)];
     const Eigen::Array3d f = 1.0 + position.array() * at.array();
     shape.value(a) = 0.125 * f(0) * f(1) * f(2);
@@ -37,9 +37,9 @@ ShapeFunctions<3> trilinear(const Eigen::Vector3d& position) {
 }
 
 ShapeFunctions<3> serendipity(const Eigen::Vector3d& position) {
-  const int nodes = kCorners + static_cast<int>(kEdges.size());
+  const int nodes = kCornersOfHexahedron + static_cast<int>(kEdgesOfHexahedron.size());
   ShapeFunctions<3> shape{Eigen::VectorXd(nodes), VectorRows<3>(nodes, 3)};
-  for (int a = 0; a < kCorners; ++a) {
+  for (int a = 0; a < kCornersOfHexahedron; ++a) {
     const Eigen::Array3d at = kCornerPositions[static_cast<std::size_t>(a)].array();
     const Eigen::Array3d product = position.array() * at;
     const Eigen::Array3d f = 1.0 + product;
@@ -48,11 +48,11 @@ ShapeFunctions<3> serendipity(const Eigen::Vector3d& position) {
     for (int i = 0; i < 3; ++i)
       shape.derivative(a, i) = 0.125 * at(i) * f((i + 1) % 3) * f((i + 2) % 3) * (rest + f(i));
   }
-  for (std::size_t edge = 0; edge < kEdges.size(); ++edge) {
-    const Eigen::Array3d at = 0.5 * (kCornerPositions[static_cast<std::size_t>(kEdges[edge][0])] +
-                                     kCornerPositions[static_cast<std::size_t>(kEdges[edge][1])])
+  for (std::size_t edge = 0; edge < kEdgesOfHexahedron.size(); ++edge) {
+    const Eigen::Array3d at = 0.5 * (kCornerPositions[static_cast<std::size_t>(kEdgesOfHexahedron[edge][0])] +
+                                     kCornerPositions[static_cast<std::size_t>(kEdgesOfHexahedron[edge][1])])
                                         .array();
-    const int a = kCorners + static_cast<int>(edge);
+    const int a = kCornersOfHexahedron + static_cast<int>(edge);
     int along = 0;  // the axis of the edge
     while (at(along) != 0.0) ++along;
     const int second = (along + 1) % 3;
@@ -71,7 +71,7 @@ ShapeFunctions<3> serendipity(const Eigen::Vector3d& position) {
 std::vector<Eigen::Vector3d> positions(bool with_edges) {
   std::vector<Eigen::Vector3d> all(kCornerPositions.begin(), kCornerPositions.end());
   if (!with_edges) return all;
-  for (const auto& [first, second] : kEdges)
+  for (const auto& [first, second] : kEdgesOfHexahedron)
     all.push_back(0.5 * (all[static_cast<std::size_t>(first)] + all[static_cast<std::size_t>(second)]));
   return all;
 }
@@ -79,14 +79,14 @@ std::vector<Eigen::Vector3d> positions(bool with_edges) {
 ElementType<3> serendipity_type(const char* name, int points) {
   static const ElementType<2> face = quadrilateral8();
   return {name,
-          kCorners + static_cast<int>(kEdges.size()),
-          kCorners,
+          kCornersOfHexahedron + static_cast<int>(kEdgesOfHexahedron.size()),
+          kCornersOfHexahedron,
           kVtkQuadraticHexahedron,
           gauss_cube(points),
           positions(true),
           serendipity,
           false,
-          faces(kFaces, kEdges, kCorners, face)};
+          faces(kFacesOfHexahedron, kEdgesOfHexahedron, kCornersOfHexahedron, face)};
 }
 
 }  // namespace
@@ -107,9 +107,15 @@ ElementType<3> hexahedron8_one_point() {
 }
 ElementType<3> hexahedron8() {
   static const ElementType<2> face = quadrilateral4();
-  return {"H8",           kCorners,      kCorners,
-          kVtkHexahedron, gauss_cube(2), positions(false),
-          trilinear,      true,          faces(kFaces, {}, kCorners, face)};
+  return {"H8",
+          kCornersOfHexahedron,
+          kCornersOfHexahedron,
+          kVtkHexahedron,
+          gauss_cube(2),
+          positions(false),
+          trilinear,
+          true,
+          faces(kFacesOfHexahedron, {}, kCornersOfHexahedron, face)};
 }
 
 }  // namespace polargrain::fem

@@ -56,7 +56,7 @@ ShapeFunctions<2> serendipity(const Eigen::Vector2d& position) {
 constexpr int kVtkQuad = 9;
 constexpr int kVtkQuadraticQuad = 23;
 
-ElementType<2> serendipity_type(const char* name, int points) {
+ElementType<2> plane_serendipity_type(const char* name, int points) {
   return {name,
           8,
           4,
@@ -90,10 +90,10 @@ ElementType<2> quadrilateral4_one_point() {
   return type;
 }
 ElementType<2> quadrilateral8_reduced() {
-  return serendipity_type("Q8R", 2);
+  return plane_serendipity_type("Q8R", 2);
 }
 ElementType<2> quadrilateral8() {
-  return serendipity_type("Q8", 3);
+  return plane_serendipity_type("Q8", 3);
 }
 
 }  // namespace polargrain::fem

@@ -12,21 +12,21 @@ namespace polargrain::fem {
 namespace {
 
 /// A place on the hardening functions: values there, slopes of the piece it is seen from.
-struct Place {
+struct PlaceInCone {
   double gamma_p;
   Cone<double> cone;
 };
 
 /// All places where the bounds below can be least: both ends of every piece, and between them the turning
 /// point of M_phi M_psi, the only term that is not straight.
-std::vector<Place> critical_places(const HardeningCone& cone) {
+std::vector<PlaceInCone> critical_places(const HardeningCone& cone) {
   const std::vector<double> gammas = merged_knots({&cone.friction, &cone.dilatancy, &cone.cohesion});
-  std::vector<Place> places;
+  std::vector<PlaceInCone> places;
   for (std::size_t i = 0; i + 1 < gammas.size(); ++i) {
     const Cone<double> start = cone(gammas[i]);
     places.push_back({gammas[i], start});
     const auto add = [&](double gamma_p) {
-      Place place{gamma_p, cone(gamma_p)};
+      PlaceInCone place{gamma_p, cone(gamma_p)};
       place.cone.friction_slope = start.friction_slope;
       place.cone.dilatancy_slope = start.dilatancy_slope;
       place.cone.cohesion_slope = start.cohesion_slope;
@@ -68,7 +68,7 @@ void check_weights(const InvariantWeights& weights, std::vector<std::string>& fo
 }
 
 void check_strength(const HardeningCone& hardening, std::vector<std::string>& found) {
-  for (const Place& place : critical_places(hardening)) {
+  for (const PlaceInCone& place : critical_places(hardening)) {
     const Cone<double>& cone = place.cone;
     if (!(cone.friction >= 0.0) || !(cone.cohesion >= 0.0)) {
       found.push_back(
@@ -95,7 +95,7 @@ void check_strength(const HardeningCone& hardening, std::vector<std::string>& fo
 
 void check_softening(const HardeningCone& hardening, const SubspaceModuli& moduli, double mean,
                      std::vector<std::string>& found) {
-  for (const Place& place : critical_places(hardening)) {
+  for (const PlaceInCone& place : critical_places(hardening)) {
     const double modulus = generalised_modulus(place.cone, moduli, mean);
     if (!(modulus > 0.0)) {
       found.push_back(fmt::format(
@@ -148,7 +148,7 @@ void check_initial_stress(const ElastoplasticParameters<dim>& parameters, const 
 
 double softening_reserve(const HardeningCone& cone, const SubspaceModuli& moduli, double mean) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Place& place : critical_places(cone)) {
+  for (const PlaceInCone& place : critical_places(cone)) {
     least = std::min(least, generalised_modulus(place.cone, moduli, mean));
   }
   return least;

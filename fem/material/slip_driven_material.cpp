@@ -19,9 +19,9 @@ constexpr double kLeastDeviator = 0.1;
 /// n:n' of the directions of stress and strain from which on slips go along the strain: half the cosine of 45 degrees.
 constexpr double kNear = 0.35;
 /// Of the stress: an overstress that grains must have to slip. An elastic body would else slip by what its stress rounds.
-constexpr double kRounding = 1e-6;
+constexpr double kRoundingOfSlip = 1e-6;
 /// Numbers that a checkpoint keeps of a point: stress, strain and two vectors; overstress, slip, stiffness, drive, its scale, a derivative.
-constexpr std::size_t kKept = 4 * Cosserat<2>::components + 6;
+constexpr std::size_t kKeptInPlane = 4 * Cosserat<2>::components + 6;
 
 /// A direction of shear in the plane, n:n = 1/2, so that n:s is a shear stress and 2 n:eps a shear.
 Vector7 shear_direction(double difference, double mixed) {
@@ -118,7 +118,8 @@ void SlipDrivenMaterial::answer(std::size_t point, const Vector7& strain, Respon
   end.overstress = start.overstress + stiffness * (2.0 * direction.dot(strain) - kShear * slip) -
                    (own - direction.dot(start.stress));
   const Vector7 overstress_by_strain = 2.0 * stiffness * direction - response.tangent.transpose() * direction;
-  answer.drive = kShear * (end.overstress - kRounding * start.stress.head<Cosserat<2>::stresses>().norm());
+  answer.drive =
+      kShear * (end.overstress - kRoundingOfSlip * start.stress.head<Cosserat<2>::stresses>().norm());
   answer.scale = kShear * (std::abs(own) + std::abs(own + end.overstress));
   answer.drive_by_strain = kShear * overstress_by_strain;
   answer.drive_by_slip = -kShear * kShear * stiffness;
@@ -143,7 +144,7 @@ void SlipDrivenMaterial::revert() {
 
 void SlipDrivenMaterial::save(ArchiveWriter& archive) const {
   std::vector<double> values;
-  values.reserve(committed_.size() * kKept);
+  values.reserve(committed_.size() * kKeptInPlane);
   const auto add = [&](const auto& vector) { values.insert(values.end(), vector.begin(), vector.end()); };
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     const State& state = committed_[point];
@@ -160,7 +161,7 @@ void SlipDrivenMaterial::save(ArchiveWriter& archive) const {
 }
 
 void SlipDrivenMaterial::restore(ArchiveReader& archive) {
-  const std::vector<double> values = read_lists(archive, "slips", committed_.size(), kKept);
+  const std::vector<double> values = read_lists(archive, "slips", committed_.size(), kKeptInPlane);
   auto next = values.begin();
   const auto take = [&](auto& vector) {
     for (double& value : vector) value = *next++;

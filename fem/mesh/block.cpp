@@ -4,7 +4,7 @@
 namespace polargrain::fem {
 namespace {
 
-constexpr std::array<GridPlace, 8> kCorners{
+constexpr std::array<GridPlace, 8> kCornersOfCell{
     {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}}};
 
 /// Corners of each element by their numbers in the block. The tetrahedra lie around the diagonal from corner 0 to corner 6.
@@ -35,7 +35,7 @@ std::vector<std::vector<GridPlace>> elements_of_block(const ElementType<3>& type
   std::vector<std::vector<GridPlace>> elements;
   for (const std::vector<int>& corners : corners_in_block(type)) {
     std::vector<GridPlace>& places = elements.emplace_back();
-    for (const int corner : corners) places.push_back(kCorners[static_cast<std::size_t>(corner)]);
+    for (const int corner : corners) places.push_back(kCornersOfCell[static_cast<std::size_t>(corner)]);
     add_middle_nodes(type, places);
   }
   return elements;

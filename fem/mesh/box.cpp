@@ -12,9 +12,9 @@ namespace polargrain::fem {
 namespace {
 
 /// Numbers nodes on a grid of half-element spacing, only where some element has a node.
-class HalfGrid {
+class HalfGridOfCubes {
  public:
-  HalfGrid(const BoxSpecification& specification, Mesh<3>& mesh)
+  HalfGridOfCubes(const BoxSpecification& specification, Mesh<3>& mesh)
       : specification_(specification), mesh_(mesh) {
     std::size_t places = 1;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -78,10 +78,10 @@ struct Face {
   std::size_t axis;
   int end;
 };
-constexpr std::array<Face, 6> kFaces{
+constexpr std::array<Face, 6> kFacesOfBox{
     {{"left", 0, 0}, {"right", 0, 1}, {"front", 1, 0}, {"back", 1, 1}, {"bottom", 2, 0}, {"top", 2, 1}}};
 
-void name_edges_and_corners(const HalfGrid& grid, Mesh<3>& mesh) {
+void name_edges_and_corners(const HalfGridOfCubes& grid, Mesh<3>& mesh) {
   // In the order of names: bottom or top, front or back, left or right.
   const std::array<std::array<std::string, 2>, 3> names{
       {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
@@ -107,7 +107,7 @@ Mesh<3> box(const BoxSpecification& specification, std::string_view element) {
   const ElementType<3>& type = element_type<3>(element);
   const std::vector<std::vector<GridPlace>> parts = elements_of_block(type);
   Mesh<3> mesh;
-  HalfGrid grid(specification, mesh);
+  HalfGridOfCubes grid(specification, mesh);
   GridPlace block{};
   for (block[2] = 0; block[2] < specification.elements[2]; ++block[2]) {
     for (block[1] = 0; block[1] < specification.elements[1]; ++block[1]) {
@@ -118,7 +118,7 @@ Mesh<3> box(const BoxSpecification& specification, std::string_view element) {
           const int number = static_cast<int>(mesh.elements.size());
           Element<3>& added = mesh.elements.emplace_back(Element<3>{&type, {}});
           for (const GridPlace& at : places) added.nodes.push_back(grid.node(at));
-          for (const Face& face : kFaces) {
+          for (const Face& face : kFacesOfBox) {
             const int place = face.end == 0 ? 0 : 2 * specification.elements[face.axis];
             for (std::size_t side = 0; side < type.sides.size(); ++side) {
               bool on_face = true;

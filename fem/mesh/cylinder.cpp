@@ -23,7 +23,7 @@ constexpr double kSquare = 0.45;
 constexpr double kBulge = 0.12;
 
 /// Planes and surfaces that a node lies on.
-struct Place {
+struct PlaceInCylinder {
   bool bottom, top, side;
   int x1, x2;  ///< signs of the coordinates: -1, 0 or 1
 };
@@ -60,7 +60,9 @@ class Grids {
     return number({1, at[0], around, at[2]}, place, at[2], at[0] == 2 * specification_.rings);
   }
 
-  [[nodiscard]] const Place& place_of(int node) const { return places_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] const PlaceInCylinder& place_of(int node) const {
+    return places_[static_cast<std::size_t>(node)];
+  }
 
  private:
   /// Quarter turns counter-clockwise, without rounding.
@@ -92,7 +94,7 @@ class Grids {
   const CylinderSpecification& specification_;
   Mesh<3>& mesh_;
   std::map<std::array<int, 4>, int> numbers_;
-  std::vector<Place> places_;
+  std::vector<PlaceInCylinder> places_;
 };
 
 void check(const CylinderSpecification& specification, const ElementType<3>& type) {
@@ -112,12 +114,12 @@ void check(const CylinderSpecification& specification, const ElementType<3>& typ
 }
 
 void name_sides(const Grids& grids, Sector sector, Mesh<3>& mesh) {
-  const std::vector<std::pair<std::string, bool (*)(const Place&)>> all{
-      {"bottom", [](const Place& at) { return at.bottom; }},
-      {"top", [](const Place& at) { return at.top; }},
-      {"side", [](const Place& at) { return at.side; }},
-      {"front", [](const Place& at) { return at.x2 == 0; }},
-      {"left", [](const Place& at) { return at.x1 == 0; }}};
+  const std::vector<std::pair<std::string, bool (*)(const PlaceInCylinder&)>> all{
+      {"bottom", [](const PlaceInCylinder& at) { return at.bottom; }},
+      {"top", [](const PlaceInCylinder& at) { return at.top; }},
+      {"side", [](const PlaceInCylinder& at) { return at.side; }},
+      {"front", [](const PlaceInCylinder& at) { return at.x2 == 0; }},
+      {"left", [](const PlaceInCylinder& at) { return at.x1 == 0; }}};
   const std::size_t named = sector == Sector::whole ? 3 : sector == Sector::half ? 4 : 5;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (std::size_t side = 0; side < mesh.elements[e].type->sides.size(); ++side) {
@@ -131,7 +133,7 @@ void name_sides(const Grids& grids, Sector sector, Mesh<3>& mesh) {
 
 void name_nodes(const Grids& grids, Mesh<3>& mesh) {
   for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {
-    const Place& at = grids.place_of(node);
+    const PlaceInCylinder& at = grids.place_of(node);
     const auto add = [&](const std::string& name) {
       mesh.node_sets[name].push_back(node);
       if (at.bottom) mesh.node_sets["bottom_" + name].push_back(node);

@@ -11,9 +11,9 @@ namespace polargrain::fem {
 namespace {
 
 /// Numbers nodes on a grid of half-element spacing, only where some element has a node.
-class HalfGrid {
+class HalfGridOfSquares {
  public:
-  HalfGrid(const RectangleSpecification& specification, Mesh<2>& mesh)
+  HalfGridOfSquares(const RectangleSpecification& specification, Mesh<2>& mesh)
       : specification_(specification),
         width_(2 * specification.elements[0] + 1),
         numbers_(static_cast<std::size_t>(width_ * (2 * specification.elements[1] + 1)), -1),
@@ -70,7 +70,7 @@ Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view 
   const std::vector<GridPlaces> parts = places_in_rectangle(type);
   const auto [columns, rows] = specification.elements;
   Mesh<2> mesh;
-  HalfGrid grid(specification, mesh);
+  HalfGridOfSquares grid(specification, mesh);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const int first = static_cast<int>(mesh.elements.size());

@@ -31,9 +31,9 @@ std::map<int, const ElementType<dim>*> types_by_vtk() {
 }
 
 template <int dim>
-class Reader {
+class VtuReader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file) {
+  explicit VtuReader(const std::filesystem::path& file) : file_(file) {
     if (const std::string reason = why_no_input(file); !reason.empty()) fail(reason);
     const pugi::xml_parse_result result = document_.load_file(file.c_str());
     if (!result) fail(result.description());
@@ -141,11 +141,11 @@ class Reader {
 
 template <int dim>
 FieldFile<dim> read_vtu(const std::filesystem::path& file) {
-  return Reader<dim>(file).read();
+  return VtuReader<dim>(file).read();
 }
 
 int dimension_of_vtu(const std::filesystem::path& file) {
-  return Reader<3>(file).has_elements() ? 3 : 2;
+  return VtuReader<3>(file).has_elements() ? 3 : 2;
 }
 
 template FieldFile<2> read_vtu<2>(const std::filesystem::path&);

@@ -13,7 +13,7 @@ namespace polargrain::fem {
 namespace {
 
 /// Below this share of the stresses a sum of them is rounding.
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double kRoundingOfLode = 64.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -26,21 +26,21 @@ StressMeasures measures_of(const Vector7& stress) {
   double square = 2.0 * shear * shear;
   for (const int i : {k11, k22, k33}) square += (stress(i) - mean) * (stress(i) - mean);
   found.deviatoric = std::sqrt(1.5 * square);
-  if (found.pressure > kRounding * largest) found.ratio = found.deviatoric / found.pressure;
+  if (found.pressure > kRoundingOfLode * largest) found.ratio = found.deviatoric / found.pressure;
 
   const double centre = 0.5 * (stress(k11) + stress(k22));
   const double radius = std::hypot(0.5 * (stress(k11) - stress(k22)), shear);
   found.principal = {centre - radius, centre + radius, stress(k33)};
-  if (radius > kRounding * largest) {
+  if (radius > kRoundingOfLode * largest) {
     // The angle of the least compressive one; the other is a quarter turn from it.
     const double angle = 0.5 * std::atan2(shear, 0.5 * (stress(k11) - stress(k22))) - 0.5 * std::numbers::pi;
     found.first_direction = {std::cos(angle), std::sin(angle)};
-    const bool turn = found.first_direction(0) < -kRounding ||
-                      (found.first_direction(0) < kRounding && found.first_direction(1) < 0.0);
+    const bool turn = found.first_direction(0) < -kRoundingOfLode ||
+                      (found.first_direction(0) < kRoundingOfLode && found.first_direction(1) < 0.0);
     if (turn) found.first_direction = -found.first_direction;
   }
   found.second_direction = {-found.first_direction(1), found.first_direction(0)};
-  if (-centre > kRounding * largest)
+  if (-centre > kRoundingOfLode * largest)
     found.mobilised_friction = std::asin(std::min(1.0, radius / -centre)) * 180.0 / std::numbers::pi;
   return found;
 }
@@ -57,8 +57,8 @@ SpaceStressMeasures measures_in_space(const Vector18& stress) {
   const Eigen::Matrix3d deviator = symmetric - mean * Eigen::Matrix3d::Identity();
   found.pressure = -mean;
   found.deviatoric = std::sqrt(1.5) * deviator.norm();
-  if (found.pressure > kRounding * largest) found.ratio = found.deviatoric / found.pressure;
-  if (!(found.deviatoric > kRounding * largest)) {
+  if (found.pressure > kRoundingOfLode * largest) found.ratio = found.deviatoric / found.pressure;
+  if (!(found.deviatoric > kRoundingOfLode * largest)) {
     found.principal.setConstant(mean);
     return found;
   }
@@ -76,7 +76,7 @@ SpaceStressMeasures measures_in_space(const Vector18& stress) {
   found.lode_angle = arc_cosine(std::clamp(cosine, -1.0, 1.0)) / 3.0 * 180.0 / std::numbers::pi;
   const double centre = 0.5 * (found.principal(0) + found.principal(2));
   const double radius = 0.5 * (found.principal(2) - found.principal(0));
-  if (-centre > kRounding * largest)
+  if (-centre > kRoundingOfLode * largest)
     found.mobilised_friction = arc_sine(std::min(1.0, radius / -centre)) * 180.0 / std::numbers::pi;
   return found;
 }

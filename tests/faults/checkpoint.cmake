@@ -7,8 +7,7 @@ endforeach()
 if(TARGET polargrain)
   # The same kills with real grains: some minutes.
   polargrain_test(checkpoint_grains_test long faults/checkpoint_grains_test.cpp LIBS polargrain_app)
-  target_compile_definitions(checkpoint_grains_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
-                             POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(checkpoint_grains_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>")
   add_dependencies(checkpoint_grains_test polargrain)
 endif()
 

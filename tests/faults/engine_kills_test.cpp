@@ -13,7 +13,8 @@ namespace {
 TEST(EngineKillsTest, AHundredKilledWorkersChangeNothingInTheDemo) {
   const Scratch scratch("engine_kills");
   const std::string command =
-      POLARGRAIN " run " CASES "/biaxial/case.yaml --set mesh.rectangle.elements=[2,4] -w 2 --quiet -o ";
+      POLARGRAIN " run " POLARGRAIN_SOURCE_DIRECTORY
+                 "/cases/biaxial/case.yaml --set mesh.rectangle.elements=[2,4] -w 2 --quiet -o ";
   const Outcome quiet = run_in(scratch.path(), command + "quiet");
   ASSERT_EQ(quiet.status, 0) << quiet.errors;
   Beside run("env -C '" + scratch.path().string() + "' " + command + "disturbed");

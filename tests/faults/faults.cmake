@@ -26,8 +26,7 @@ add_dependencies(faults_kills_test fake_polargrain)
 
 if(TARGET polargrain)
   polargrain_test(faults_engine_kills_test long faults/engine_kills_test.cpp LIBS polargrain_options Threads::Threads)
-  target_compile_definitions(faults_engine_kills_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
-                                                              CASES="${PROJECT_SOURCE_DIR}/cases")
+  target_compile_definitions(faults_engine_kills_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>")
   add_dependencies(faults_engine_kills_test polargrain)
 endif()
 

@@ -50,7 +50,7 @@ std::string small_checkpoint() {
 }
 
 std::vector<Seed> seeds() {
-  const std::filesystem::path source = SOURCE;
+  const std::filesystem::path source = POLARGRAIN_SOURCE_DIRECTORY;
   std::vector<Seed> all;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "cases")) {
     if (entry.path().filename() == "case.yaml") all.push_back({FileKind::case_file, content(entry.path())});

@@ -270,7 +270,8 @@ TEST_F(BenchCommandTest, BandsAreLookedForInEveryRun) {
 
 TEST_F(BenchCommandTest, BandsAreThoseOfTheCommandBand) {
   // A softening law with a weak corner makes a band.
-  const Outcome outcome = polargrain("bench " CASES
+  const Outcome outcome = polargrain("bench " POLARGRAIN_SOURCE_DIRECTORY
+                                     "/cases"
                                      "/studies/biaxial_elastoplastic.yaml --quick --band 0.03,0.05 -o out -w "
                                      "1 --set mesh.rectangle.elements=[4,8] --set steps.tolerance=1e-5");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;

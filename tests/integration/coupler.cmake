@@ -23,8 +23,7 @@ add_dependencies(coupler_run_test fake_polargrain)
 
 if(TARGET polargrain_gmsh)
   polargrain_test(coupler_cases_test integration integration/coupler_cases_test.cpp LIBS polargrain_options)
-  target_compile_definitions(coupler_cases_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>"
-                                                        CASES="${PROJECT_SOURCE_DIR}/cases")
+  target_compile_definitions(coupler_cases_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
   add_dependencies(coupler_cases_test fake_polargrain polargrain_gmsh)
 endif()
 
@@ -35,7 +34,6 @@ add_dependencies(coupler_cell_material_test fake_worker)
 
 if(TARGET polargrain)
   polargrain_test(coupler_engine_test integration integration/coupler_engine_test.cpp LIBS polargrain_coupler)
-  target_compile_definitions(coupler_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
-                                                         POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(coupler_engine_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>")
   add_dependencies(coupler_engine_test polargrain)
 endif()

@@ -23,7 +23,7 @@ class ReadyCase : public ::testing::Test {
 /// The base carries the weight, the surcharge and the load on the footing; the tolerance of the case
 /// is 1e-6 of the loads.
 TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
-  const Outcome outcome = run(CASES "/footing/case.yaml");
+  const Outcome outcome = run(POLARGRAIN_SOURCE_DIRECTORY "/cases/footing/case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const CsvTable columns(scratch_.path() / "out/history.csv");
   const auto pressure = columns.numbers("pressure");
@@ -44,7 +44,7 @@ TEST_F(ReadyCase, FootingBearsLoadAndStaysInBalance) {
 }
 
 TEST_F(ReadyCase, SlopeCarriesItsWeightAndYieldsUnderTheLoad) {
-  const Outcome outcome = run(CASES "/slope/case.yaml");
+  const Outcome outcome = run(POLARGRAIN_SOURCE_DIRECTORY "/cases/slope/case.yaml");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const CsvTable columns(scratch_.path() / "out/history.csv");
   const double area = 18.0 * 3.0 + 8.0 * 5.0 + 0.5 * 5.0 * 5.0;

@@ -4,7 +4,6 @@ if(TARGET polargrain)
   target_link_libraries(processor_probe PRIVATE polargrain_options)
   polargrain_test(processors_test integration integration/processors_test.cpp LIBS polargrain_options)
   target_compile_definitions(processors_test PRIVATE POLARGRAIN="$<TARGET_FILE:polargrain>"
-                                                     PROCESSOR_PROBE="$<TARGET_FILE:processor_probe>"
-                                                     POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+                                                     PROCESSOR_PROBE="$<TARGET_FILE:processor_probe>")
   add_dependencies(processors_test polargrain processor_probe)
 endif()

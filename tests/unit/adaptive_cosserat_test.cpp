@@ -15,7 +15,7 @@
 namespace polargrain::coupler {
 namespace {
 
-constexpr double kConfining = 1e5;
+constexpr double kConfiningOfAdaptiveCosserat = 1e5;
 constexpr double kModulus = 3e7;
 constexpr double kHalf = 4e-3;  ///< measured strain at which the law has lost half of its stiffness
 constexpr double kDiameter = 0.01;
@@ -30,7 +30,7 @@ class KnownCells {
   static Vector7 stress(const Vector7& v) {
     Vector7 s = kModulus / (1.0 + v.norm() / kHalf) * v;
     s.tail<2>() *= kDiameter;
-    s.head<3>().array() -= kConfining;
+    s.head<3>().array() -= kConfiningOfAdaptiveCosserat;
     return s;
   }
 
@@ -88,7 +88,7 @@ class AdaptiveCosseratTest : public ::testing::Test {
     double largest = 0.0;
     for (std::size_t p = 0; p < responses.size(); ++p)
       largest = std::max(largest, kMeasure.stress(responses[p].stress - KnownCells::stress(strain_[p])));
-    return largest / kConfining;
+    return largest / kConfiningOfAdaptiveCosserat;
   }
 
   static double figure(const AdaptiveMaterial<2>& sand, const std::string& name) {

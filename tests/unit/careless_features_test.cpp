@@ -111,7 +111,7 @@ monitors: {base: {on: bottom, reaction: u3}}
 output: {table: [base]}
 )";
 
-bool is_told(const app::Remarks& remarks, const std::string& message, Rank rank) {
+bool is_told_of_careless_features(const app::Remarks& remarks, const std::string& message, Rank rank) {
   return std::ranges::any_of(remarks, [&](const app::Remark& remark) {
     return remark.rank == rank && remark.at.line > 0 && !remark.remedy.empty() &&
            remark.at.message.find(message) != std::string::npos;
@@ -122,7 +122,8 @@ class CarelessFeatures : public ::testing::TestWithParam<Careless> {};
 
 TEST_P(CarelessFeatures, IsTold) {
   const app::Remarks remarks = remarks_of(GetParam());
-  EXPECT_TRUE(is_told(remarks, GetParam().message, GetParam().rank)) << app::text_of(remarks, true);
+  EXPECT_TRUE(is_told_of_careless_features(remarks, GetParam().message, GetParam().rank))
+      << app::text_of(remarks, true);
 }
 
 /// One more thing that is wrong would be told too: there is just one remark.
@@ -333,13 +334,15 @@ TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
 
 TEST(Motions, ThatGoOnBehindTheRunAreTold) {
   const app::Remarks remarks = remarks_on_motion(501, 1.0);
-  EXPECT_TRUE(is_told(remarks, "the motion of 'quake.csv' lasts 5 s, and the run ends at 2 s", Rank::wrong))
+  EXPECT_TRUE(is_told_of_careless_features(
+      remarks, "the motion of 'quake.csv' lasts 5 s, and the run ends at 2 s", Rank::wrong))
       << app::text_of(remarks, true);
 }
 
 TEST(Motions, InCentimetresAreTold) {
   const app::Remarks remarks = remarks_on_motion(201, 100.0);
-  EXPECT_TRUE(is_told(remarks, "m/s2, 10 times gravity", Rank::wrong)) << app::text_of(remarks, true);
+  EXPECT_TRUE(is_told_of_careless_features(remarks, "m/s2, 10 times gravity", Rank::wrong))
+      << app::text_of(remarks, true);
 }
 
 /// Every second row has another sign: 50 Hz. Shear waves of sqrt(15.4 MPa / 2000 kg/m3) = 87.7 m/s are 1.75 m long then, and
@@ -350,9 +353,9 @@ TEST(Motions, TooFastForTheElementsAreTold) {
   for (int row = 0; row <= 200; ++row) table += fmt::format("{},{}\n", 0.01 * row, row % 2 == 0 ? 1.0 : -1.0);
   write(scratch.path() / "quake.csv", table);
   const app::Remarks remarks = remarks_on_motion_of(scratch);
-  EXPECT_TRUE(is_told(remarks,
-                      "has 50 Hz in the mean, whose shear wave is 1.75 m long in region 'all': 2.5 elements",
-                      Rank::doubtful))
+  EXPECT_TRUE(is_told_of_careless_features(
+      remarks, "has 50 Hz in the mean, whose shear wave is 1.75 m long in region 'all': 2.5 elements",
+      Rank::doubtful))
       << app::text_of(remarks, true);
 }
 

@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-polargrain_test(checkpoint_solver_test unit unit/checkpoint_solver_test.cpp LIBS polargrain_fem)
+polargrain_tests(unit polargrain_fem
+  unit/checkpoint_solver_test.cpp)

@@ -13,7 +13,7 @@ namespace polargrain::coupler {
 namespace {
 
 // Lines are counted in the expectations below.
-const std::string kCase = R"(title: A specimen
+const std::string kCaseOfContinuumCase = R"(title: A specimen
 continuum: {kind: cauchy, spread: 50 mm}
 mesh: {rectangle: {size: [0.2 m, 0.4 m], elements: [4, 8], regions: {plate: [0, 0.35 m, 0.2 m, 0.4 m]}}}
 materials:
@@ -29,7 +29,7 @@ steps: {count: 20}
 
 class ContinuumCase : public polargrain::testing::EditedCase {
  protected:
-  ContinuumCase() : EditedCase("continuum_case", kCase) {}
+  ContinuumCase() : EditedCase("continuum_case", kCaseOfContinuumCase) {}
 };
 
 using Local = fem::LocalMaterial<fem::ElastoplasticLaw<2>>;

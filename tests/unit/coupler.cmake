@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-polargrain_test(keys_test unit unit/keys_test.cpp LIBS polargrain_hosts)
-target_compile_definitions(keys_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
-polargrain_test(record_test unit unit/record_test.cpp LIBS polargrain_pool)
-target_compile_definitions(record_test PRIVATE POLARGRAIN_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
-polargrain_test(coupler_messages_test unit unit/coupler_messages_test.cpp LIBS polargrain_pool)
-polargrain_test(stages_case_test unit unit/stages_case_test.cpp LIBS polargrain_coupler)
-polargrain_test(coupler_case_test unit unit/coupler_case_test.cpp LIBS polargrain_coupler)
-polargrain_test(continuum_case_test unit unit/continuum_case_test.cpp LIBS polargrain_coupler)
-polargrain_test(document_kind_test unit unit/document_kind_test.cpp LIBS polargrain_coupler)
-polargrain_test(cell_increment_test unit unit/cell_increment_test.cpp LIBS polargrain_coupler)
-polargrain_test(network_moduli_test unit unit/network_moduli_test.cpp LIBS polargrain_coupler)
-polargrain_test(envelope_test unit unit/envelope_test.cpp LIBS polargrain_app)
-polargrain_test(coupler_noise_test unit unit/coupler_noise_test.cpp LIBS polargrain_common)
-polargrain_test(ground_start_test unit unit/ground_start_test.cpp LIBS polargrain_coupler)
-polargrain_test(script_test unit unit/script_test.cpp LIBS polargrain_grains_io)
-target_compile_definitions(script_test PRIVATE CELL_SCRIPTS="${PROJECT_SOURCE_DIR}/liggghts_inputs/cells")
-polargrain_test(pool_parts_test unit unit/pool_parts_test.cpp LIBS polargrain_pool)
-polargrain_test(processor_share_test unit unit/processor_share_test.cpp LIBS polargrain_pool)
-polargrain_test(plane_in_space_test unit unit/plane_in_space_test.cpp LIBS polargrain_common)
+polargrain_tests(unit polargrain_hosts
+  unit/keys_test.cpp)
+polargrain_tests(unit polargrain_pool
+  unit/record_test.cpp
+  unit/coupler_messages_test.cpp)
+polargrain_tests(unit polargrain_coupler
+  unit/stages_case_test.cpp
+  unit/coupler_case_test.cpp
+  unit/continuum_case_test.cpp
+  unit/document_kind_test.cpp
+  unit/cell_increment_test.cpp
+  unit/network_moduli_test.cpp)
+polargrain_tests(unit polargrain_app
+  unit/envelope_test.cpp)
+polargrain_tests(unit polargrain_common
+  unit/coupler_noise_test.cpp)
+polargrain_tests(unit polargrain_coupler
+  unit/ground_start_test.cpp)
+polargrain_tests(unit polargrain_grains_io
+  unit/script_test.cpp)
+polargrain_tests(unit polargrain_pool
+  unit/pool_parts_test.cpp
+  unit/processor_share_test.cpp)
+polargrain_tests(unit polargrain_common
+  unit/plane_in_space_test.cpp)

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 if(TARGET polargrain_dem)
-  polargrain_test(dem_box_test unit unit/dem_box_test.cpp LIBS polargrain_dem)
-  polargrain_test(dem_averages_test unit unit/dem_averages_test.cpp LIBS polargrain_dem)
-  polargrain_test(dem_condensed_tangent_test unit unit/dem_condensed_tangent_test.cpp LIBS polargrain_dem)
+  polargrain_tests(unit polargrain_dem
+    unit/dem_box_test.cpp
+    unit/dem_averages_test.cpp
+    unit/dem_condensed_tangent_test.cpp)
 endif()
-polargrain_test(sphere_kernels_test unit unit/sphere_kernels_test.cpp LIBS polargrain_discs)
-polargrain_test(packing_test unit unit/packing_test.cpp LIBS polargrain_common)
+polargrain_tests(unit polargrain_discs
+  unit/sphere_kernels_test.cpp)
+polargrain_tests(unit polargrain_common
+  unit/packing_test.cpp)
 # Spoiled states, also where there is no engine; the long test is that of a million.
 polargrain_test(fuzz_states_test unit fuzz/states_test.cpp LIBS polargrain_discs)
 foreach(loop Discs TheGeneralLoop)

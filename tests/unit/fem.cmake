@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-polargrain_test(fem_mesh_test unit unit/fem_mesh_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_cylinder_test unit unit/fem_cylinder_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_element_test unit unit/fem_element_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_supports_test unit unit/fem_supports_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_linear_solver_test unit unit/fem_linear_solver_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_multilevel_test unit unit/fem_multilevel_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_explicit_test unit unit/fem_explicit_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_automatic_test unit unit/fem_automatic_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_dynamics_test unit unit/fem_dynamics_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_solver_test unit unit/fem_solver_test.cpp LIBS polargrain_fem)
-polargrain_test(nodal_field_test unit unit/nodal_field_test.cpp LIBS polargrain_fem)
-polargrain_test(spread_slip_test unit unit/spread_slip_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_noise_test unit unit/fem_noise_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_probe_test unit unit/fem_probe_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_output_test unit unit/fem_output_test.cpp LIBS polargrain_fem)
-target_compile_definitions(fem_output_test
-                           PRIVATE VTK_READER="${CMAKE_CURRENT_SOURCE_DIR}/unit/fem_output_read.py")
+polargrain_tests(unit polargrain_fem
+  unit/fem_mesh_test.cpp
+  unit/fem_cylinder_test.cpp
+  unit/fem_element_test.cpp
+  unit/fem_supports_test.cpp
+  unit/fem_linear_solver_test.cpp
+  unit/fem_multilevel_test.cpp
+  unit/fem_explicit_test.cpp
+  unit/fem_automatic_test.cpp
+  unit/fem_dynamics_test.cpp
+  unit/fem_solver_test.cpp
+  unit/nodal_field_test.cpp
+  unit/spread_slip_test.cpp
+  unit/fem_noise_test.cpp
+  unit/fem_probe_test.cpp
+  unit/fem_output_test.cpp)
 if(TARGET polargrain_gmsh)
   polargrain_test(fem_gmsh_test unit unit/fem_gmsh_test.cpp unit/fem_gmsh_space_test.cpp support/sanitizer_defaults.cpp LIBS polargrain_fem)
   add_dependencies(fem_gmsh_test polargrain_gmsh)
 endif()
-polargrain_test(fem_geostatic_test unit unit/fem_geostatic_test.cpp LIBS polargrain_fem)
+polargrain_tests(unit polargrain_fem
+  unit/fem_geostatic_test.cpp)

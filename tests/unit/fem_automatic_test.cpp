@@ -17,11 +17,11 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kPressure = 100e3;
+constexpr double kPressureOfAutomatic = 100e3;
 
-ElasticParameters<2> sand() {
+ElasticParameters<2> sand_of_automatic() {
   ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
-  for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -kPressure;
+  for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -kPressureOfAutomatic;
   return parameters;
 }
 
@@ -29,7 +29,7 @@ ElasticParameters<2> sand() {
 /// more: what grains do that rearrange. Explicit steps get the elastic answer.
 class Jumping : public Material<2> {
  public:
-  Jumping(double from, double to) : law_(ElasticLaw<2>(sand())), from_(from), to_(to) {}
+  Jumping(double from, double to) : law_(ElasticLaw<2>(sand_of_automatic())), from_(from), to_(to) {}
   void allocate(std::size_t points) override { law_.allocate(points); }
   void expect(const Asking& asking) override {
     once_ = asking.once;
@@ -40,9 +40,9 @@ class Jumping : public Material<2> {
     if (once_) return;
     ++asked_;
     for (std::size_t point = 0; point < responses.size(); ++point) {
-      const double load = -responses[point].stress(k22) - kPressure;
+      const double load = -responses[point].stress(k22) - kPressureOfAutomatic;
       if (load > from_ && load < to_)
-        responses[point].stress(k22) += ((point / 3 + asked_) % 2 == 0 ? 0.2 : -0.2) * kPressure;
+        responses[point].stress(k22) += ((point / 3 + asked_) % 2 == 0 ? 0.2 : -0.2) * kPressureOfAutomatic;
     }
   }
   void commit() override { law_.commit(); }
@@ -66,13 +66,14 @@ Problem<2> biaxial(std::shared_ptr<Material<2>> material, double imbalance = 1.0
                         {"bottom", Dof::u2, zero, {}},
                         {"top", Dof::u1, zero, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
-  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(imbalance * kPressure)},
-                            {.on = "right", .pressure = TimeTable::constant(imbalance * kPressure)}};
+  problem.boundary_loads = {
+      {.on = "left", .pressure = TimeTable::constant(imbalance * kPressureOfAutomatic)},
+      {.on = "right", .pressure = TimeTable::constant(imbalance * kPressureOfAutomatic)}};
   return problem;
 }
 
-std::shared_ptr<Material<2>> elastic() {
-  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand()));
+std::shared_ptr<Material<2>> elastic_of_automatic() {
+  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand_of_automatic()));
 }
 
 constexpr int kSteps = 10;
@@ -109,11 +110,11 @@ TEST(iterations_are_due, less_and_less_often_where_they_fail) {
 
 // Where Newton's method never fails nothing else happens, to the bit.
 TEST(automatic, has_the_bits_of_newtons_method_where_it_balances) {
-  Solver<2> newton(biaxial(elastic(), 1.2), kCoarse);
+  Solver<2> newton(biaxial(elastic_of_automatic(), 1.2), kCoarse);
   ASSERT_TRUE(newton.equilibrate().converged);
   for (int step = 1; step <= kSteps; ++step)
     ASSERT_TRUE(newton.advance(static_cast<double>(step) / kSteps).converged);
-  Solver<2> solver(biaxial(elastic(), 1.2), kCoarse);
+  Solver<2> solver(biaxial(elastic_of_automatic(), 1.2), kCoarse);
   for (const StepReport& report : run(solver)) {
     EXPECT_TRUE(report.converged);
     EXPECT_EQ(report.explicit_steps + report.given_up, 0);
@@ -125,17 +126,19 @@ TEST(automatic, has_the_bits_of_newtons_method_where_it_balances) {
 // Some steps cannot be balanced: explicit steps take them, Newton's method goes on behind them, and the end is where an elastic
 // body is.
 TEST(automatic, goes_explicitly_through_what_cannot_be_balanced_and_back) {
-  Solver<2> newton(biaxial(elastic()), kCoarse);
+  Solver<2> newton(biaxial(elastic_of_automatic()), kCoarse);
   ASSERT_TRUE(newton.equilibrate().converged);
   ASSERT_TRUE(newton.advance(1.0).converged);
-  Solver<2> plain(biaxial(std::make_shared<Jumping>(1.0 * kPressure, 3.0 * kPressure)), kCoarse);
+  Solver<2> plain(biaxial(std::make_shared<Jumping>(1.0 * kPressureOfAutomatic, 3.0 * kPressureOfAutomatic)),
+                  kCoarse);
   ASSERT_TRUE(plain.equilibrate().converged);
   bool balanced = true;
   for (int step = 1; step <= kSteps; ++step)
     balanced = balanced && plain.advance(static_cast<double>(step) / kSteps).converged;
   EXPECT_FALSE(balanced);  // so it is a hard case
 
-  Solver<2> solver(biaxial(std::make_shared<Jumping>(1.0 * kPressure, 3.0 * kPressure)), kCoarse);
+  Solver<2> solver(biaxial(std::make_shared<Jumping>(1.0 * kPressureOfAutomatic, 3.0 * kPressureOfAutomatic)),
+                   kCoarse);
   std::string methods;
   for (const StepReport& report : run(solver)) {
     ASSERT_TRUE(report.converged) << report.message;
@@ -157,7 +160,9 @@ TEST(automatic, takes_no_more_iterations_than_its_effort) {
   for (const double jump_residual : {0.0, 10.0}) {
     jumping.jump_residual = jump_residual;
     for (const int effort : {1, 2, 3, 5, 8, 13, 40}) {
-      Solver<2> solver(biaxial(std::make_shared<Jumping>(1.0 * kPressure, 3.0 * kPressure)), jumping);
+      Solver<2> solver(
+          biaxial(std::make_shared<Jumping>(1.0 * kPressureOfAutomatic, 3.0 * kPressureOfAutomatic)),
+          jumping);
       AutomaticOptions options = kOptions;
       options.effort = effort;
       std::vector<StepReport> reports{solver.begin_automatic(effort)};
@@ -176,10 +181,11 @@ TEST(automatic, takes_no_more_iterations_than_its_effort) {
 // A start that iterations do not balance: what is out of balance comes in over the first explicit steps.
 TEST(automatic, begins_where_iterations_cannot) {
   // Half of the pressure at the sides is missing; points answer with jumps from the start on.
-  Solver<2> newton(biaxial(elastic(), 0.7), kCoarse);
+  Solver<2> newton(biaxial(elastic_of_automatic(), 0.7), kCoarse);
   ASSERT_TRUE(newton.equilibrate().converged);
   ASSERT_TRUE(newton.advance(1.0).converged);
-  Solver<2> solver(biaxial(std::make_shared<Jumping>(-kPressure, 0.1 * kPressure), 0.7), kCoarse);
+  Solver<2> solver(biaxial(std::make_shared<Jumping>(-kPressureOfAutomatic, 0.1 * kPressureOfAutomatic), 0.7),
+                   kCoarse);
   const std::vector<StepReport> reports = run(solver);
   EXPECT_GT(reports.front().given_up, 0);
   EXPECT_TRUE(reports.front().converged);
@@ -190,7 +196,9 @@ TEST(automatic, begins_where_iterations_cannot) {
 
 // Broken off behind any step, it goes on to the same bits.
 TEST(automatic, goes_on_from_an_archive_to_the_same_bits) {
-  const auto problem = [] { return biaxial(std::make_shared<Jumping>(1.0 * kPressure, 3.0 * kPressure)); };
+  const auto problem = [] {
+    return biaxial(std::make_shared<Jumping>(1.0 * kPressureOfAutomatic, 3.0 * kPressureOfAutomatic));
+  };
   Solver<2> through(problem(), kCoarse);
   run(through);
   for (int broken = 1; broken < kSteps; ++broken) {

@@ -22,7 +22,7 @@ namespace {
 constexpr double kDensity = 2000.0;
 /// Of the energy: rows have steps of slightly different duration, at each change of which the balance has an error of their square.
 constexpr double kEnergy = 1e-4;
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfDynamics = TimeTable::constant(0.0);
 
 ElasticParameters<2> soil(double pressure = 0.0) {
   ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
@@ -52,10 +52,10 @@ Problem<2> bar(double speed, double rise, const std::string& element = "Q8R") {
   Problem<2> problem = body({{10.0, 0.2}, {50, 1}}, element);
   const TimeTable pushed =
       TimeTable::of_accelerations({{0.0, 0.0}, {0.5 * rise, 2.0 * speed / rise}, {rise, 0.0}});
-  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
-                        {"top", Dof::u2, kZero, {}},
+  problem.prescribed = {{"bottom", Dof::u2, kZeroOfDynamics, {}},
+                        {"top", Dof::u2, kZeroOfDynamics, {}},
                         {"left", Dof::u1, pushed, {}},
-                        {"right", Dof::u1, kZero, {}}};
+                        {"right", Dof::u1, kZeroOfDynamics, {}}};
   return problem;
 }
 
@@ -63,7 +63,7 @@ Problem<2> bar(double speed, double rise, const std::string& element = "Q8R") {
 Problem<2> column(int elements, Continuum continuum = Continuum::cauchy) {
   Problem<2> problem = body({{1.0, 10.0}, {1, elements}}, "Q8R", continuum);
   problem.ties = {{"right", "left"}};
-  problem.prescribed = {{"left", Dof::u2, kZero, {}}, {"right", Dof::u2, kZero, {}}};
+  problem.prescribed = {{"left", Dof::u2, kZeroOfDynamics, {}}, {"right", Dof::u2, kZeroOfDynamics, {}}};
   return problem;
 }
 
@@ -121,7 +121,7 @@ TEST(dynamics, a_wave_runs_through_a_bar_at_its_speed) {
 TEST(dynamics, a_column_swings_with_its_period) {
   for (const Continuum continuum : {Continuum::cauchy, Continuum::cosserat}) {
     Problem<2> problem = column(20, continuum);
-    problem.prescribed.push_back({"bottom", Dof::u1, kZero, {}});
+    problem.prescribed.push_back({"bottom", Dof::u1, kZeroOfDynamics, {}});
     BoundaryLoad<2> force{.on = "top"};
     force.traction[0] = TimeTable({{0.0, 1e3}, {1e-6, 0.0}});
     problem.boundary_loads = {force};
@@ -169,7 +169,7 @@ TEST(dynamics, quiet_boundaries_let_waves_out) {
   along.prescribed.erase(along.prescribed.begin() + 2, along.prescribed.end());
   BoundaryLoad<2> push{.on = "left", .pressure = TimeTable({{0.0, 0.0}, {0.01, 1e3}, {0.02, 0.0}})};
   along.boundary_loads = {push};
-  along.prescribed.push_back({"right", Dof::u1, kZero, {}});
+  along.prescribed.push_back({"right", Dof::u1, kZeroOfDynamics, {}});
   Problem<2> closed = along;
   along.quiet = {"right"};
   const double until = 25.0 / speed_along();
@@ -178,7 +178,7 @@ TEST(dynamics, quiet_boundaries_let_waves_out) {
   BoundaryLoad<2> shear{.on = "top"};
   shear.traction[0] = TimeTable({{0.0, 0.0}, {0.04, 1e3}, {0.08, 0.0}});
   across.boundary_loads = {shear};
-  across.prescribed.push_back({"bottom", Dof::u1, kZero, {}});
+  across.prescribed.push_back({"bottom", Dof::u1, kZeroOfDynamics, {}});
   across.quiet = {"bottom"};
   const double shear_echo = left_behind(across, 25.0 / speed_across());
   std::cout << "[figure] energy left: " << echo << " along, " << shear_echo << " across\n";
@@ -192,8 +192,9 @@ TEST(dynamics, quiet_boundaries_let_waves_out) {
 TEST(dynamics, quiet_boundaries_carry_what_rests_on_them) {
   constexpr double kPressure = 100e3;
   Problem<2> problem = body({{10.0, 0.2}, {20, 1}}, "Q8R", Continuum::cosserat, kPressure);
-  problem.prescribed = {
-      {"bottom", Dof::u2, kZero, {}}, {"top", Dof::u2, kZero, {}}, {"right", Dof::u1, kZero, {}}};
+  problem.prescribed = {{"bottom", Dof::u2, kZeroOfDynamics, {}},
+                        {"top", Dof::u2, kZeroOfDynamics, {}},
+                        {"right", Dof::u1, kZeroOfDynamics, {}}};
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(1.5 * kPressure)}};
   problem.quiet = {"right"};
   Solver<2> solver(problem, {});

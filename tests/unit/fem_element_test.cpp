@@ -14,7 +14,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-class EveryElement : public testing::TestWithParam<std::string> {
+class EveryElementType : public testing::TestWithParam<std::string> {
  protected:
   /// One strongly distorted element with curved sides where it has middle nodes.
   Mesh<2> distorted() const {
@@ -40,7 +40,7 @@ class EveryElement : public testing::TestWithParam<std::string> {
   }
 };
 
-TEST_P(EveryElement, shape_functions_are_one_at_their_node_and_sum_to_one) {
+TEST_P(EveryElementType, shape_functions_are_one_at_their_node_and_sum_to_one) {
   const ElementType<2>& type = element_type<2>(GetParam());
   for (int a = 0; a < type.nodes; ++a) {
     const ShapeFunctions<2> shape = type.shape_functions(type.node_positions[a]);
@@ -51,7 +51,7 @@ TEST_P(EveryElement, shape_functions_are_one_at_their_node_and_sum_to_one) {
   }
 }
 
-TEST_P(EveryElement, derivatives_of_the_shape_functions_are_their_differences) {
+TEST_P(EveryElementType, derivatives_of_the_shape_functions_are_their_differences) {
   const ElementType<2>& type = element_type<2>(GetParam());
   const Eigen::Vector2d place(0.21, 0.37);
   const ShapeFunctions<2> shape = type.shape_functions(place);
@@ -64,7 +64,7 @@ TEST_P(EveryElement, derivatives_of_the_shape_functions_are_their_differences) {
   }
 }
 
-TEST_P(EveryElement, rigid_motion_gives_no_strain) {
+TEST_P(EveryElementType, rigid_motion_gives_no_strain) {
   const Mesh<2> mesh = distorted();
   const Discretisation<2> discretisation(mesh, Continuum::cosserat);
   for (const Increment<2>& increment : discretisation.increments(rigid_motion(mesh, 0.3, -0.7, 0.9))) {
@@ -73,7 +73,7 @@ TEST_P(EveryElement, rigid_motion_gives_no_strain) {
   }
 }
 
-TEST_P(EveryElement, increments_agree_with_the_strain_matrix) {
+TEST_P(EveryElementType, increments_agree_with_the_strain_matrix) {
   const Mesh<2> mesh = distorted();
   const Eigen::VectorXd nodal = Eigen::VectorXd::LinSpaced(3 * mesh.nodes.size(), -1.0, 2.0).array().sin();
   for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
@@ -85,7 +85,7 @@ TEST_P(EveryElement, increments_agree_with_the_strain_matrix) {
   }
 }
 
-TEST_P(EveryElement, has_three_zero_modes_when_distorted) {
+TEST_P(EveryElementType, has_three_zero_modes_when_distorted) {
   const Mesh<2> mesh = distorted();
   ElasticParameters<2> parameters{1.0, 0.3, 0.4, 0.5, Vector7::Zero()};
   std::vector<Response<2>> responses(mesh.elements[0].type->quadrature.size());
@@ -105,6 +105,6 @@ TEST_P(EveryElement, has_three_zero_modes_when_distorted) {
   EXPECT_GT(values(3) / largest, 1e-4);             // ten orders above rounding: a real stiffness
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElementType, testing::ValuesIn(element_names<2>()));
 
 }  // namespace

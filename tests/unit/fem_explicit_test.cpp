@@ -23,14 +23,14 @@ namespace {
 
 constexpr double kPressure = 100e3;
 
-ElasticParameters<2> sand() {
+ElasticParameters<2> sand_of_explicit() {
   ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
   for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -kPressure;
   return parameters;
 }
 
 std::shared_ptr<Material<2>> elastic() {
-  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand()));
+  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand_of_explicit()));
 }
 
 /// Compression between rough plates, so that the stress is not uniform.
@@ -151,7 +151,7 @@ TEST(nodal_masses, make_steps_of_one_stable_and_not_much_slower) {
     const Mesh<2> mesh = rectangle({{0.04, 0.06}, {2, 3}}, type);
     const Discretisation<2> discretisation(mesh, Continuum::cosserat);
     std::vector<Response<2>> answers(discretisation.points());
-    for (Response<2>& answer : answers) answer.tangent = elastic_stiffness(sand());
+    for (Response<2>& answer : answers) answer.tangent = elastic_stiffness(sand_of_explicit());
     const Linearisation<2> of{answers};
     const Eigen::VectorXd masses = nodal_masses(discretisation, of, 0.6);
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses.size(), masses.size());
@@ -195,7 +195,7 @@ TEST(explicit_steps, send_waves_at_the_speed_of_the_modulus) {
   Problem<2> problem;
   problem.mesh = rectangle({{1.0, 0.02}, {50, 1}});
   problem.continuum = Continuum::cauchy;
-  ElasticParameters<2> parameters = sand();
+  ElasticParameters<2> parameters = sand_of_explicit();
   parameters.initial_stress.setZero();
   problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
   const TimeTable zero = TimeTable::constant(0.0);

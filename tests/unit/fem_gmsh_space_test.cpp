@@ -16,7 +16,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-const std::filesystem::path kData = "tests/data/fem/space";
+const std::filesystem::path kDataOfGmshSpace = "tests/data/fem/space";
 
 using Place = Eigen::Vector3d;
 
@@ -65,7 +65,7 @@ class GmshBody : public testing::TestWithParam<std::string> {};
 
 /// Two unit cubes side by side along x1. Gmsh writes 16 digits of what it computed to about 1e-13, hence 1e-11.
 TEST_P(GmshBody, HasItsGroupsAndItsNodesInOrder) {
-  const Mesh<3> mesh = read_gmsh<3>(kData / GetParam());
+  const Mesh<3> mesh = read_gmsh<3>(kDataOfGmshSpace / GetParam());
   EXPECT_TRUE(distorted_elements(mesh).empty());
   expect_nodes_in_order(mesh);
   for (const char* region : {"soft", "stiff"}) {
@@ -98,7 +98,7 @@ TEST_P(GmshBody, HasItsGroupsAndItsNodesInOrder) {
 
 /// The same blocks seen in a mirror: Gmsh writes such elements where a surface is drawn out against its normal.
 TEST_P(GmshBody, MirroredElementsAreTurnedRound) {
-  GmshContent content = read_gmsh_content(kData / GetParam());
+  GmshContent content = read_gmsh_content(kDataOfGmshSpace / GetParam());
   for (GmshContent::Node& node : content.nodes) node.position[0] *= -1.0;
   const Mesh<3> mesh = mesh_of<3>("mirror.msh", content);
   EXPECT_TRUE(distorted_elements(mesh).empty());
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Files, GmshBody,
 
 TEST(GmshBody, ElementsAreThoseOfTheFile) {
   const auto name_in = [](const char* file, std::string_view serendipity = "H20R") {
-    return read_gmsh<3>(kData / file, serendipity).elements.front().type->name;
+    return read_gmsh<3>(kDataOfGmshSpace / file, serendipity).elements.front().type->name;
   };
   EXPECT_EQ(name_in("two_blocks_hex20.msh"), "H20R");
   EXPECT_EQ(name_in("two_blocks_hex20.msh", "H20"), "H20");
@@ -135,17 +135,19 @@ TEST(GmshBody, SaysWhatToWriteForElementsThatAreNotRead) {
     return "no fault";
   };
   EXPECT_NE(fault_of([] {
-              return read_gmsh<3>(kData / "two_blocks_hex27.msh");
+              return read_gmsh<3>(kDataOfGmshSpace / "two_blocks_hex27.msh");
             }).find("hexahedra of 27 nodes: set Mesh.SecondOrderIncomplete = 1 to get 20"),
             std::string::npos);
   EXPECT_NE(fault_of([] {
-              return read_gmsh<3>(kData / "two_blocks_tet4.msh");
+              return read_gmsh<3>(kDataOfGmshSpace / "two_blocks_tet4.msh");
             }).find("tetrahedra of 4 nodes, too stiff to be offered: set Mesh.ElementOrder = 2"),
             std::string::npos);
   // Where the plane is asked for, and where a name stands for a surface and for a curve.
-  EXPECT_NE(fault_of([] { return read_gmsh<2>(kData / "two_blocks_hex20.msh"); }).find("volume elements"),
+  EXPECT_NE(fault_of([] {
+              return read_gmsh<2>(kDataOfGmshSpace / "two_blocks_hex20.msh");
+            }).find("volume elements"),
             std::string::npos);
-  GmshContent content = read_gmsh_content(kData / "two_blocks_hex8.msh");
+  GmshContent content = read_gmsh_content(kDataOfGmshSpace / "two_blocks_hex8.msh");
   for (GmshContent::Group& group : content.groups)
     if (group.name == "foot") group.name = "left";
   EXPECT_NE(fault_of([&] { return mesh_of<3>("a.msh", content); }).find("give each its own"),

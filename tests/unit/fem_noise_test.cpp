@@ -21,7 +21,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfNoise = TimeTable::constant(0.0);
 const ElasticParameters<2> kSand{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
 
 /// Seed of a sequence of random numbers: the bits of an increment.
@@ -91,9 +91,9 @@ Problem<2> block(const GrainyLaw& law) {
   Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {3, 6}});
   problem.materials["all"] = grainy(law);
-  problem.prescribed = {{"bottom", Dof::u1, kZero, {}},
-                        {"bottom", Dof::u2, kZero, {}},
-                        {"top", Dof::u1, kZero, {}},
+  problem.prescribed = {{"bottom", Dof::u1, kZeroOfNoise, {}},
+                        {"bottom", Dof::u2, kZeroOfNoise, {}},
+                        {"top", Dof::u1, kZeroOfNoise, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
   return problem;
 }
@@ -297,8 +297,8 @@ TEST(acceleration, takes_no_jump_for_stiffness) {
 
 TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_at_once) {
   Problem<2> problem = block({.fails_beyond = 0.003});
-  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
-                        {"bottom_left", Dof::u1, kZero, {}},
+  problem.prescribed = {{"bottom", Dof::u2, kZeroOfNoise, {}},
+                        {"bottom_left", Dof::u1, kZeroOfNoise, {}},
                         {"top", Dof::u2, TimeTable::constant(-0.0008), {}}};
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)},
                             {.on = "right", .pressure = TimeTable::constant(100e3)}};
@@ -337,8 +337,8 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
     }
     problem.materials = {{"rest", grainy({.largest_asked = &asked})},
                          {"band", grainy({.soft_beyond = 0.002, .largest_asked = &asked})}};
-    problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
-                          {"bottom_left", Dof::u1, kZero, {}},
+    problem.prescribed = {{"bottom", Dof::u2, kZeroOfNoise, {}},
+                          {"bottom_left", Dof::u1, kZeroOfNoise, {}},
                           {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
     Solver<2> solver(std::move(problem), options);
     EXPECT_TRUE(solver.equilibrate().converged);
@@ -388,7 +388,7 @@ TEST(rotations, that_nothing_resists_are_refused_before_the_first_iteration) {
     parameters.internal_length = internal_length;
     Problem<2> problem = block({});
     problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
-    if (fixed) problem.prescribed.push_back({"bottom_left", Dof::w, kZero, {}});
+    if (fixed) problem.prescribed.push_back({"bottom_left", Dof::w, kZeroOfNoise, {}});
     Solver<2> solver(std::move(problem), {});
     StepReport report = solver.equilibrate();
     if (report.converged) report = solver.advance(1.0);

@@ -18,18 +18,18 @@ using namespace polargrain::fem;
 
 namespace {
 
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfProbe = TimeTable::constant(0.0);
 constexpr double kWeight = 18e3;
 
 template <int dim>
-std::shared_ptr<Material<dim>> elastic() {
+std::shared_ptr<Material<dim>> elastic_probed() {
   return std::make_shared<LocalMaterial<ElasticLaw<dim>>>(
       ElasticLaw<dim>(ElasticParameters<dim>{20e6, 0.25, 8e6, 0.2}));
 }
 
-class EveryElement : public testing::TestWithParam<std::string> {};
+class ProbedElement : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
+TEST_P(ProbedElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
   Problem<2> problem;
   problem.mesh = rectangle({{4.0, 3.0}, {4, 3}}, GetParam());
   // Columns of unequal width, with straight sides: a linear stress is then linear in the reference element too.
@@ -40,7 +40,8 @@ TEST_P(EveryElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
         columns[column] + (node.x() - static_cast<double>(column)) * (columns[column + 1] - columns[column]);
   }
   problem.materials["all"] = elastic<2>();
-  problem.prescribed = {{"left", Dof::u1, kZero}, {"right", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}};
+  problem.prescribed = {
+      {"left", Dof::u1, kZeroOfProbe}, {"right", Dof::u1, kZeroOfProbe}, {"bottom", Dof::u2, kZeroOfProbe}};
   problem.body_loads = {gravity(kWeight)};
   problem.initial_stresses = {geostatic_stress({3.0, kWeight, 0.5, 10e3})};
   problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(10e3)}};
@@ -58,15 +59,15 @@ TEST_P(EveryElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, ProbedElement, testing::ValuesIn(element_names<2>()));
 
 TEST(displacement_at, a_place_of_stretched_ground_is_that_of_the_stretch) {
   Problem<3> problem;
   problem.mesh = box({{2.0, 1.0, 3.0}, {2, 1, 3}}, "H20R");
   problem.materials["all"] = elastic<3>();
-  problem.prescribed = {{"left", Dof::u1, kZero},   {"front", Dof::u2, kZero},
-                        {"bottom", Dof::u3, kZero}, {"right", Dof::u1, kZero},
-                        {"back", Dof::u2, kZero},   {"top", Dof::u3, TimeTable::constant(-3e-3)}};
+  problem.prescribed = {{"left", Dof::u1, kZeroOfProbe},   {"front", Dof::u2, kZeroOfProbe},
+                        {"bottom", Dof::u3, kZeroOfProbe}, {"right", Dof::u1, kZeroOfProbe},
+                        {"back", Dof::u2, kZeroOfProbe},   {"top", Dof::u3, TimeTable::constant(-3e-3)}};
   Solver<3> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   const Probe<3> probe = find_place<3>(solver.problem().mesh, {1.0, 0.4, 1.3});
@@ -98,7 +99,8 @@ TEST(find_place, outside_of_the_body_finds_nothing) {
   EXPECT_TRUE(find_place<2>(problem.mesh, {4.1, 1.0}).elements.empty());
   EXPECT_EQ(find_place<2>(problem.mesh, {2.0, 1.0}).elements.size(), 4U);
   problem.materials["all"] = elastic<2>();
-  problem.prescribed = {{"left", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}, {"bottom", Dof::w, kZero}};
+  problem.prescribed = {
+      {"left", Dof::u1, kZeroOfProbe}, {"bottom", Dof::u2, kZeroOfProbe}, {"bottom", Dof::w, kZeroOfProbe}};
   Solver<2> solver(std::move(problem), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   EXPECT_TRUE(std::isnan(stress_at(solver, find_place<2>(solver.problem().mesh, {5.0, 1.0}))(k11)));

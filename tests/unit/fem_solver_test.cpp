@@ -18,7 +18,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfSolver = TimeTable::constant(0.0);
 
 ElasticParameters<2> sand(double confining = 0.0) {
   ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
@@ -27,12 +27,12 @@ ElasticParameters<2> sand(double confining = 0.0) {
 }
 
 /// Compression between smooth plates, with lateral pressure.
-Problem<2> biaxial(std::shared_ptr<Material<2>> material, double confining = 100e3) {
+Problem<2> biaxial_of_solver(std::shared_ptr<Material<2>> material, double confining = 100e3) {
   Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {2, 4}});
   problem.materials["all"] = std::move(material);
-  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
-                        {"bottom_left", Dof::u1, kZero, {}},
+  problem.prescribed = {{"bottom", Dof::u2, kZeroOfSolver, {}},
+                        {"bottom_left", Dof::u1, kZeroOfSolver, {}},
                         {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(confining)},
                             {.on = "right", .pressure = TimeTable::constant(confining)}};
@@ -44,7 +44,7 @@ std::shared_ptr<Material<2>> elastic(double confining) {
 }
 
 TEST(solver, starts_in_balance_without_an_iteration) {
-  Solver<2> solver(biaxial(elastic(100e3)), {});
+  Solver<2> solver(biaxial_of_solver(elastic(100e3)), {});
   const StepReport report = solver.equilibrate();
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, 0);
@@ -53,7 +53,7 @@ TEST(solver, starts_in_balance_without_an_iteration) {
 }
 
 TEST(solver, finds_the_balance_of_stresses_that_do_not_fit_the_loads) {
-  Solver<2> solver(biaxial(elastic(80e3)), {});
+  Solver<2> solver(biaxial_of_solver(elastic(80e3)), {});
   const StepReport report = solver.equilibrate();
   EXPECT_TRUE(report.converged) << report.message;
   EXPECT_EQ(report.iterations, 1);
@@ -95,7 +95,7 @@ class SecondThoughts : public Material<2> {
 
 TEST(solver, a_step_is_committed_only_when_its_materials_confirm_it) {
   const auto material = std::make_shared<SecondThoughts>();
-  Solver<2> solver(biaxial(material), {});
+  Solver<2> solver(biaxial_of_solver(material), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   EXPECT_EQ(material->asked, 0) << "the initial state is no step";
   const StepReport report = solver.advance(1.0);
@@ -110,7 +110,7 @@ TEST(solver, a_step_is_committed_only_when_its_materials_confirm_it) {
 }
 
 TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answer) {
-  Solver<2> solver(biaxial(elastic(100e3)), {});
+  Solver<2> solver(biaxial_of_solver(elastic(100e3)), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (const double time : {0.25, 0.5, 1.0}) {
     const StepReport report = solver.advance(time);
@@ -132,7 +132,7 @@ TEST(solver, a_linear_problem_takes_one_iteration_a_step_and_has_the_exact_answe
 }
 
 TEST(solver, nodal_forces_balance_and_external_work_is_internal_work) {
-  Problem<2> problem = biaxial(elastic(100e3));
+  Problem<2> problem = biaxial_of_solver(elastic(100e3));
   problem.boundary_loads.push_back({.on = "top"});
   problem.boundary_loads.back().traction[0] = TimeTable::ramp(2e4);
   Solver<2> solver(std::move(problem), {});
@@ -157,7 +157,7 @@ TEST(solver, nodal_forces_balance_and_external_work_is_internal_work) {
 
 TEST(solver, same_problem_same_bits) {
   const auto run = [] {
-    Solver<2> solver(biaxial(elastic(80e3)), {});
+    Solver<2> solver(biaxial_of_solver(elastic(80e3)), {});
     solver.equilibrate();
     solver.advance(1.0);
     return solver.state();
@@ -218,7 +218,7 @@ class Brittle : public testing::TestWithParam<Quality> {};
 TEST_P(Brittle, steps_are_cut_rolled_back_and_grow_back) {
   // The whole path strains by about 0.011 in norm: steps of a quarter of it pass.
   const auto material = brittle(0.003, GetParam());
-  Solver<2> solver(biaxial(material, 0.0), {});
+  Solver<2> solver(biaxial_of_solver(material, 0.0), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   ASSERT_TRUE(report.converged) << report.message;
@@ -239,7 +239,7 @@ TEST(solver, a_step_that_cannot_be_made_is_never_committed_nor_called_converged)
   const auto material = brittle(1e-6, Quality::failed);
   SolverOptions options;
   options.most_cuts = 3;
-  Solver<2> solver(biaxial(material, 0.0), options);
+  Solver<2> solver(biaxial_of_solver(material, 0.0), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_FALSE(report.converged);
@@ -263,7 +263,7 @@ struct Listener : Observer {
 TEST(solver, says_which_points_have_no_good_answer) {
   SolverOptions options;
   options.most_cuts = 3;
-  Solver<2> solver(biaxial(brittle(1e-6, Quality::unreliable), 0.0), options);
+  Solver<2> solver(biaxial_of_solver(brittle(1e-6, Quality::unreliable), 0.0), options);
   Listener listener;
   solver.set_observer(&listener);
   ASSERT_TRUE(solver.equilibrate().converged);
@@ -299,7 +299,7 @@ TEST(solver, says_where_it_is_out_of_balance) {
   SolverOptions options;
   options.most_cuts = 2;
   options.most_line_search_halvings = 0;  // would evaluate twice, and find the same stress again
-  Solver<2> solver(biaxial(std::make_shared<RestlessMaterial>(), 0.0), options);
+  Solver<2> solver(biaxial_of_solver(std::make_shared<RestlessMaterial>(), 0.0), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   ASSERT_FALSE(report.converged);
@@ -320,10 +320,10 @@ TEST(solver, says_where_it_is_out_of_balance) {
 }
 
 TEST(solver, newton_converges_quadratically) {
-  Problem<2> problem = biaxial(brittle(1.0, Quality::failed, 2000.0), 0.0);
+  Problem<2> problem = biaxial_of_solver(brittle(1.0, Quality::failed, 2000.0), 0.0);
   // Rough plates make the field inhomogeneous.
-  problem.prescribed.push_back({"top", Dof::u1, kZero, {}});
-  problem.prescribed.push_back({"bottom", Dof::u1, kZero, {}});
+  problem.prescribed.push_back({"top", Dof::u1, kZeroOfSolver, {}});
+  problem.prescribed.push_back({"bottom", Dof::u1, kZeroOfSolver, {}});
   SolverOptions options;
   options.force_tolerance = options.moment_tolerance = 1e-12;
   Solver<2> solver(std::move(problem), options);
@@ -355,9 +355,9 @@ TEST(solver, gives_up_when_the_iteration_stagnates) {
   SolverOptions options;
   options.most_cuts = 0;
   options.most_line_search_halvings = 0;  // a line search would get there all the same
-  Solver<2> solver(
-      biaxial(std::make_shared<LocalMaterial<WrongTangentLaw>>(WrongTangentLaw{elastic_stiffness(sand())})),
-      options);
+  Solver<2> solver(biaxial_of_solver(std::make_shared<LocalMaterial<WrongTangentLaw>>(
+                       WrongTangentLaw{elastic_stiffness(sand())})),
+                   options);
   const StepReport report = solver.equilibrate();
   EXPECT_FALSE(report.converged);
   EXPECT_NE(report.message.find("stagnates"), std::string::npos) << report.message;
@@ -384,7 +384,8 @@ TEST(solver, says_that_no_cut_will_help_where_stresses_jump) {
   SolverOptions options;
   options.most_cuts = 4;
   Solver<2> solver(
-      biaxial(std::make_shared<LocalMaterial<JumpingLaw>>(JumpingLaw{elastic_stiffness(sand())}), 0.0),
+      biaxial_of_solver(std::make_shared<LocalMaterial<JumpingLaw>>(JumpingLaw{elastic_stiffness(sand())}),
+                        0.0),
       options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
@@ -420,8 +421,8 @@ TEST(solver, passes_a_jump_where_it_may_and_ends_the_step_in_balance) {
     options.most_cuts = 4;
     options.most_jumps = most_jumps;
     Solver<2> solver(
-        biaxial(std::make_shared<LocalMaterial<RearrangingLaw>>(RearrangingLaw{elastic_stiffness(sand())}),
-                0.0),
+        biaxial_of_solver(
+            std::make_shared<LocalMaterial<RearrangingLaw>>(RearrangingLaw{elastic_stiffness(sand())}), 0.0),
         options);
     ASSERT_TRUE(solver.equilibrate().converged);
     const StepReport report = solver.advance(1.0);
@@ -446,7 +447,7 @@ TEST(solver, says_no_jump_where_a_step_fails_for_its_length) {
   const auto material = brittle(1e-6, Quality::unreliable, 2000.0);
   SolverOptions options;
   options.most_cuts = 6;
-  Solver<2> solver(biaxial(material, 0.0), options);
+  Solver<2> solver(biaxial_of_solver(material, 0.0), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_FALSE(report.converged);
@@ -467,7 +468,8 @@ TEST(solver, says_which_points_have_come_apart) {
     }
   };
   Solver<2> solver(
-      biaxial(std::make_shared<LocalMaterial<BreakingLaw>>(BreakingLaw{elastic_stiffness(sand())}), 0.0),
+      biaxial_of_solver(std::make_shared<LocalMaterial<BreakingLaw>>(BreakingLaw{elastic_stiffness(sand())}),
+                        0.0),
       {.reference_force = 1.0});
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(0.5).converged);  // nothing resists, nothing is out of balance
@@ -477,14 +479,14 @@ TEST(solver, says_which_points_have_come_apart) {
 }
 
 TEST(solver, refuses_a_problem_with_faults) {
-  Problem<2> problem = biaxial(elastic(0.0));
+  Problem<2> problem = biaxial_of_solver(elastic(0.0));
   problem.prescribed.clear();
   EXPECT_THROW(Solver<2>(std::move(problem), {}), RunError);
 }
 
 TEST(solver, goes_on_from_a_saved_state_with_the_same_bits) {
   const auto material = brittle(1.0, Quality::failed, 2000.0);
-  Solver<2> whole(biaxial(material, 0.0), {});
+  Solver<2> whole(biaxial_of_solver(material, 0.0), {});
   whole.equilibrate();
   whole.advance(0.5);
   MemoryArchive saved;
@@ -492,7 +494,7 @@ TEST(solver, goes_on_from_a_saved_state_with_the_same_bits) {
   whole.advance(1.0);
 
   const auto other_material = brittle(1.0, Quality::failed, 2000.0);
-  Solver<2> other(biaxial(other_material, 0.0), {});
+  Solver<2> other(biaxial_of_solver(other_material, 0.0), {});
   other.restore(saved);
   other.advance(1.0);
   EXPECT_EQ(whole.state().displacement, other.state().displacement);

@@ -14,7 +14,7 @@
 namespace polargrain::coupler {
 namespace {
 
-constexpr double kPressure = 100e3;
+constexpr double kPressureOfGroundStart = 100e3;
 constexpr double kYoung = 50e6;
 constexpr double kPoisson = 0.25;
 
@@ -33,7 +33,7 @@ class KnownBoxes {
     CellReply reply;
     CellResponse& r = reply.response;
     r.known = discs_ ? KnownComponents::plane : KnownComponents::all;
-    r.stress = factor * linear - kPressure * Eigen::Matrix3d::Identity();
+    r.stress = factor * linear - kPressureOfGroundStart * Eigen::Matrix3d::Identity();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         for (int k = 0; k < 3; ++k)
@@ -140,7 +140,8 @@ TEST(GroundStart, MeasuredK0IsThatOfCompressionWithoutStrainAcross) {
   GroundStart<2> start;
   const std::vector<CellReply> boxes = started(start, known.calls(), {400e3, 800e3}, NAN);
   for (const auto& [box, vertical] : {std::pair(boxes[0], 400e3), std::pair(boxes[1], 800e3)}) {
-    const double across = kPressure + kPoisson / (1.0 - kPoisson) * (vertical - kPressure);
+    const double across =
+        kPressureOfGroundStart + kPoisson / (1.0 - kPoisson) * (vertical - kPressureOfGroundStart);
     EXPECT_NEAR(box.response.stress(1, 1), -vertical, 1e-4 * vertical);
     EXPECT_NEAR(box.response.stress(0, 0), -across, 1e-4 * vertical);
     EXPECT_NEAR(box.response.stress(2, 2), -across, 1e-4 * vertical);

@@ -20,18 +20,19 @@
 namespace polargrain::coupler {
 namespace {
 
-constexpr double kPressure = 100e3;
-constexpr double kDiameter = 0.01;
+constexpr double kPressureOfInformedCosserat = 100e3;
+constexpr double kDiameterOfInformedCosserat = 0.01;
 constexpr double kFriction = 0.9;
 
 /// With a couple modulus of 215 N, as packings at rest have: lc = 2.8 mm.
-fem::ElasticParameters<2> elasticity() {
+fem::ElasticParameters<2> informed_elasticity() {
   fem::ElasticParameters<2> elastic;
   elastic.young_modulus = 2.0 * 13.4e6 * 1.2;
   elastic.poisson_ratio = 0.2;
   elastic.cosserat_shear_modulus = 10e6;
   elastic.internal_length = 2.8e-3;
-  elastic.initial_stress << -kPressure, -kPressure, -kPressure, 0.0, 0.0, 0.0, 0.0;
+  elastic.initial_stress << -kPressureOfInformedCosserat, -kPressureOfInformedCosserat,
+      -kPressureOfInformedCosserat, 0.0, 0.0, 0.0, 0.0;
   return elastic;
 }
 
@@ -39,12 +40,12 @@ fem::ElasticParameters<2> elasticity() {
 class ConeCells {
  public:
   explicit ConeCells(const fem::InvariantWeights& weights)
-      : law_({elasticity(),
+      : law_({informed_elasticity(),
               weights,
               {fem::PiecewiseLinear(kFriction), fem::PiecewiseLinear(0.0), fem::PiecewiseLinear(1.0)}}) {}
 
   [[nodiscard]] PlaneReply initial() const {
-    return reply(law_.initial_state(), elasticity().initial_stress);
+    return reply(law_.initial_state(), informed_elasticity().initial_stress);
   }
   [[nodiscard]] PlaneReply evaluate(const PlaneRequest& request) const {
     constexpr int kParts = 20;
@@ -94,7 +95,7 @@ TEST(CellLimits, WeightsYieldAtTheClosedFormLimitsOfDiscs) {
   EXPECT_NEAR(weights.a1 - weights.a2, kFriction * kFriction / (6.0 * kMu * kMu), 1e-15);
   EXPECT_NEAR(std::sqrt(3.0 * weights.a3) / kLength, kFriction / kCouple, 1e-9 * kFriction / kCouple);
   // The invariant itself, at those stresses under the pressure of one.
-  fem::ElasticParameters<2> elastic = elasticity();
+  fem::ElasticParameters<2> elastic = informed_elasticity();
   elastic.internal_length = kLength;
   const fem::SubspaceModuli moduli(elastic, weights);
   fem::ScaledVector<double> stress = fem::ScaledVector<double>::Zero();
@@ -111,8 +112,8 @@ TEST(CellLimits, WeightsYieldAtTheClosedFormLimitsOfDiscs) {
 
 TEST(CellLimits, TheWeightsOfAConeAreFoundAgain) {
   const ConeCells cells(kWeights);
-  const CellLimits limits = limits_of(cells.calls(), cells.initial(), kDiameter);
-  const fem::InvariantWeights found = limits.weights(elasticity().internal_length);
+  const CellLimits limits = limits_of(cells.calls(), cells.initial(), kDiameterOfInformedCosserat);
+  const fem::InvariantWeights found = limits.weights(informed_elasticity().internal_length);
   std::cout << "[figure] " << limits.text() << "; weights " << found.a1 << ", " << found.a2 << ", "
             << found.a3 << '\n';
   // Reached along an asymptote: within 1e-3 after a shear of 4 %; weights go with the square of the limits.
@@ -128,7 +129,7 @@ TEST(CellLimits, GrainsThatResistNothingAreNamed) {
     return std::vector<PlaneReply>(requests.size(), cells.initial());
   };
   try {
-    limits_of(calls, cells.initial(), kDiameter);
+    limits_of(calls, cells.initial(), kDiameterOfInformedCosserat);
     FAIL();
   } catch (const RunError& error) {
     EXPECT_NE(std::string(error.what()).find("sheared it resists nothing"), std::string::npos)
@@ -138,9 +139,9 @@ TEST(CellLimits, GrainsThatResistNothingAreNamed) {
 
 InformedParameters<2> parameters(InformedUpdate update) {
   InformedParameters<2> made;
-  made.elastic = elasticity();
+  made.elastic = informed_elasticity();
   made.update = update;
-  made.mean_diameter = kDiameter;
+  made.mean_diameter = kDiameterOfInformedCosserat;
   made.mobilisation.cohesion = 1.0;
   made.mobilisation.initial_friction = 0.09;
   return made;
@@ -153,7 +154,8 @@ Increment<2> increment_of_path(int step, int steps) {
   increment.displacement_gradient << 0.9 * size, 0.3 * size, 0.3 * size, -size;
   if (2 * step > steps) {
     increment.micro_rotation = 0.6 * size;
-    increment.curvature << 0.8 * size / kDiameter, -0.2 * size / kDiameter;
+    increment.curvature << 0.8 * size / kDiameterOfInformedCosserat,
+        -0.2 * size / kDiameterOfInformedCosserat;
   }
   return increment;
 }
@@ -176,8 +178,8 @@ double error_of(InformedUpdate update, int steps, bool standard) {
     law.commit();
     cell = cells.evaluate({cell.state, increment});
     Vector7 difference = response.stress - cell.response.stress;
-    difference.tail<2>() /= elasticity().internal_length;
-    if (5 * step > steps) largest = std::max(largest, difference.norm() / kPressure);
+    difference.tail<2>() /= informed_elasticity().internal_length;
+    if (5 * step > steps) largest = std::max(largest, difference.norm() / kPressureOfInformedCosserat);
   }
   return largest;
 }
@@ -251,7 +253,7 @@ TEST(InformedCosserat, TellsWhatItFoundAndMeasuresMomentsByTheGrains) {
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes.front().find("limits of the packing: M "), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("invariants [0.4"), std::string::npos) << notes.front();
-  EXPECT_EQ(law.moment_length(), kDiameter);
+  EXPECT_EQ(law.moment_length(), kDiameterOfInformedCosserat);
 }
 
 /// Cells whose grains turn freely, of a law that has a plastic length.
@@ -281,7 +283,8 @@ TEST(InformedPlasticLength, CoupleStressIsLimitedToItTimesThePressureWhateverThe
       if (step != 29 && step != 59) continue;
       // The cohesion of 1 Pa raises the limit by 1e-4 and less of itself.
       const double moment = response.stress.tail<2>().norm();
-      EXPECT_NEAR(moment / (kLength * kPressure), 1.0, 2e-4) << "friction " << friction << ", step " << step;
+      EXPECT_NEAR(moment / (kLength * kPressureOfInformedCosserat), 1.0, 2e-4)
+          << "friction " << friction << ", step " << step;
     }
     EXPECT_GT(response.stress(kCurvature2), 0.99 * response.stress.tail<2>().norm());
   }
@@ -355,13 +358,13 @@ InformedParameters<2> with_skew_limit(InformedUpdate update) {
 }
 
 /// Grains turned by w against the continuum: eps21 - eps12 = 2 w.
-Increment<2> turned(double w) {
+Increment<2> turned_of_informed_cosserat(double w) {
   Increment<2> increment;
   increment.micro_rotation = w;
   return increment;
 }
 
-double skew_of(const Response<2>& response) {
+double skew_of_informed(const Response<2>& response) {
   return response.stress(k21) - response.stress(k12);
 }
 
@@ -385,17 +388,17 @@ TEST(InformedSkewLimit, TurningYieldsUnloadsElasticallyAndIsCountedAndKept) {
     Response<2> response;
     Response<2> again;
     for (int step = 0; step < 20; ++step) {
-      const Increment<2> increment = turned(step < 10 ? kStep : -kStep);
+      const Increment<2> increment = turned_of_informed_cosserat(step < 10 ? kStep : -kStep);
       // An attempt that is given up counts for nothing.
-      const Increment<2> too_far = turned(1.0);
+      const Increment<2> too_far = turned_of_informed_cosserat(1.0);
       law.evaluate({&too_far, 1}, {&response, 1});
       law.revert();
       law.evaluate({&increment, 1}, {&response, 1});
       ASSERT_EQ(response.quality, Quality::good) << response.message;
       const double limit = -0.5 * kSkewShare * (response.stress(k11) + response.stress(k22));
-      ASSERT_NEAR(limit, kSkewShare * kPressure, 1e-3) << step;
+      ASSERT_NEAR(limit, kSkewShare * kPressureOfInformedCosserat, 1e-3) << step;
       expected = std::clamp(expected + 4.0 * 10e6 * increment.micro_rotation, -limit, limit);
-      ASSERT_NEAR(skew_of(response), expected, 1e-6) << step;
+      ASSERT_NEAR(skew_of_informed(response), expected, 1e-6) << step;
       if (step >= 10) {
         resumed.evaluate({&increment, 1}, {&again, 1});
         resumed.commit();
@@ -416,7 +419,8 @@ TEST(InformedSkewLimit, TurningYieldsUnloadsElasticallyAndIsCountedAndKept) {
         EXPECT_EQ(resumed.at_limits(), law.at_limits());
       }
     }
-    EXPECT_NEAR(expected, -kSkewShare * kPressure, 1e-3) << "it has not been turned back to the other limit";
+    EXPECT_NEAR(expected, -kSkewShare * kPressureOfInformedCosserat, 1e-3)
+        << "it has not been turned back to the other limit";
     EXPECT_EQ(resumed.at_limits(), law.at_limits());
   }
 }
@@ -425,7 +429,7 @@ TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
   const ConeCells cells(fem::InvariantWeights{});
   InformedMaterial<2> law(cells.calls(), with_skew_limit(InformedUpdate::frozen));
   law.allocate(1);
-  Increment<2> step = turned(2e-3);
+  Increment<2> step = turned_of_informed_cosserat(2e-3);
   step.displacement_gradient << 8e-4, 2e-4, -1e-4, -9e-4;
   Response<2> response;
   for (int k = 0; k < 3; ++k) {
@@ -434,7 +438,8 @@ TEST(InformedSkewLimit, TheTangentIsThatOfTheStepButForWhatHoldsTheRotation) {
     if (k < 2) law.commit();
     if (k == 1) step.displacement_gradient *= 0.7;  // away from the end of what a step takes up
   }
-  ASSERT_NEAR(skew_of(response), -0.5 * kSkewShare * (response.stress(k11) + response.stress(k22)), 1e-6);
+  ASSERT_NEAR(skew_of_informed(response), -0.5 * kSkewShare * (response.stress(k11) + response.stress(k22)),
+              1e-6);
   Matrix7 expected = response.tangent;
   const double hold = CosseratPart<2>::kHold * 10e6;
   expected(k12, k12) -= hold;
@@ -464,11 +469,11 @@ TEST(InformedSkewLimit, WithoutOneNothingChanges) {
   given.skew_limit.reset();
   InformedMaterial<2> law(cells.calls(), given);
   law.allocate(1);
-  const Increment<2> far = turned(0.01);
+  const Increment<2> far = turned_of_informed_cosserat(0.01);
   Response<2> response;
   law.evaluate({&far, 1}, {&response, 1});
   law.commit();
-  EXPECT_NEAR(skew_of(response), 4.0 * 10e6 * 0.01, 1e-6);
+  EXPECT_NEAR(skew_of_informed(response), 4.0 * 10e6 * 0.01, 1e-6);
   EXPECT_EQ(law.at_limits(), "");
 }
 

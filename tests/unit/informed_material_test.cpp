@@ -29,11 +29,11 @@ using testing::kSubSteps;
 using testing::micro_strength;
 
 /// A cell whose grains obey the synthetic law, in small steps.
-class KnownCells {
+class KnownCellsOfInformedMaterial {
  public:
   /// @param softness of the grains against the elasticity that the law is told
   /// @param share of its out-of-plane stress that the cell shows: spheres of another intermediate stress than the law's
-  explicit KnownCells(bool discs, double softness = 1.0, double share = 1.0)
+  explicit KnownCellsOfInformedMaterial(bool discs, double softness = 1.0, double share = 1.0)
       : discs_(discs), share_(share), law_({softer(softness), {}, micro_strength()}) {}
 
   int calls = 0;
@@ -104,7 +104,7 @@ class KnownCells {
   fem::ElastoplasticLaw<2> law_;
 };
 
-InformedParameters<2> parameters(InformedUpdate update) {
+InformedParameters<2> informed_parameters(InformedUpdate update) {
   InformedParameters<2> parameters;
   parameters.elastic = elasticity();
   parameters.update = update;
@@ -150,8 +150,8 @@ Curve reference() {
 }
 
 Curve informed(InformedUpdate update, int steps, bool discs = false, double drift_shear = 0.0) {
-  KnownCells cells(discs);
-  InformedParameters<2> given = parameters(update);
+  KnownCellsOfInformedMaterial cells(discs);
+  InformedParameters<2> given = informed_parameters(update);
   given.mobilisation.drift_shear = drift_shear;
   InformedMaterial<2> material(cells.calls_to_it(), given);
   // A frozen step costs nothing to solve further.
@@ -169,14 +169,14 @@ TEST(InformedMaterial, FrozenIsFirstOrderAndTheFixedPointTenTimesBetter) {
 }
 
 TEST(InformedMaterial, ARemarkOnTheScriptIsPassedOnOnce) {
-  KnownCells grains(false);
+  KnownCellsOfInformedMaterial grains(false);
   CellCalls<2> calls = grains.calls_to_it();
   calls.initial = [&grains] {
     PlaneReply packing = grains.initial();
     packing.response.message = "too many DEM steps";
     return packing;
   };
-  InformedMaterial<2> sand(calls, parameters(InformedUpdate::frozen));
+  InformedMaterial<2> sand(calls, informed_parameters(InformedUpdate::frozen));
   sand.allocate(2);
   EXPECT_EQ(sand.take_notes(), std::vector<std::string>{"too many DEM steps"});
   EXPECT_TRUE(sand.take_notes().empty());
@@ -199,11 +199,11 @@ class LateLaw {
  private:
   static constexpr int kSteps = 20;
   static InformedParameters<2> late(double limit) {
-    InformedParameters<2> given = parameters(InformedUpdate::frozen);
+    InformedParameters<2> given = informed_parameters(InformedUpdate::frozen);
     given.mismatch_limit = limit;
     return given;
   }
-  KnownCells grains_{false};
+  KnownCellsOfInformedMaterial grains_{false};
   InformedMaterial<2> sand_;
 };
 
@@ -221,8 +221,8 @@ TEST(InformedMaterial, SaysOnceAndAtTheEndThatItHasLeftItsCell) {
 /// A point that leaves its law in the step where they differ by more than `limit`, and its cell alone on the same path.
 TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    KnownCells grains(true), same(true);
-    InformedParameters<2> given = parameters(update);
+    KnownCellsOfInformedMaterial grains(true), same(true);
+    InformedParameters<2> given = informed_parameters(update);
     given.mobilisation.drift_shear = 2e-3;  // worked off within three steps
     given.mismatch_limit = 1e-3;
     given.beyond_mismatch = BeyondMismatch::cell;
@@ -281,8 +281,8 @@ TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
 
 TEST(InformedMaterial, UnloadsAsSoftlyAsItsCell) {
   for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
-    KnownCells grains(false, 0.5), same(false, 0.5);
-    InformedMaterial<2> sand(grains.calls_to_it(), parameters(update));
+    KnownCellsOfInformedMaterial grains(false, 0.5), same(false, 0.5);
+    InformedMaterial<2> sand(grains.calls_to_it(), informed_parameters(update));
     sand.allocate(1);
     PlaneReply alone = same.initial();
     Vector7 before;
@@ -320,8 +320,8 @@ TEST(InformedMaterial, TheOutOfPlaneStressOfACellHasNoPartInItsFrictionInThePlan
   // Spheres have an intermediate stress nearer to the minor one than a circular cone: matched with it, a law of
   // the same friction would be far too strong in the plane.
   const auto compressed = [](double share) {
-    KnownCells cells(false, 1.0, share);
-    InformedMaterial<2> material(cells.calls_to_it(), parameters(InformedUpdate::frozen));
+    KnownCellsOfInformedMaterial cells(false, 1.0, share);
+    InformedMaterial<2> material(cells.calls_to_it(), informed_parameters(InformedUpdate::frozen));
     return compress(material, 60, 1e-10);
   };
   const Curve whole = compressed(1.0);
@@ -350,13 +350,13 @@ Increment<2> compression(double strain) {
 class InformedPointTest : public ::testing::Test {
  protected:
   InformedMaterial<2> make(InformedUpdate update) {
-    InformedMaterial<2> material(cells_.calls_to_it(), parameters(update));
+    InformedMaterial<2> material(cells_.calls_to_it(), informed_parameters(update));
     material.allocate(1);
     return material;
   }
   /// One that leaves its law beyond a mismatch of `limit`.
   InformedMaterial<2> make(InformedUpdate update, double limit) {
-    InformedParameters<2> given = parameters(update);
+    InformedParameters<2> given = informed_parameters(update);
     given.mobilisation.drift_shear = 0.01;
     given.mismatch_limit = limit;
     given.beyond_mismatch = BeyondMismatch::cell;
@@ -369,7 +369,7 @@ class InformedPointTest : public ::testing::Test {
     material.fields(0, values);
     return values;
   }
-  KnownCells cells_{true};
+  KnownCellsOfInformedMaterial cells_{true};
 };
 
 TEST_F(InformedPointTest, FrozenAsksItsCellOnceACommittedStep) {

@@ -10,14 +10,14 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegreeOfInterfaceLaw = 3.14159265358979323846 / 180.0;
 
 /// The joint of Goodman's shear test in the tests: friction 30, dilation 10 degrees, cohesion 5 kPa.
 InterfaceParameters joint() {
   return {.normal_stiffness = 1e8,
           .shear_stiffness = 4e7,
-          .tan_friction = std::tan(30 * kDegree),
-          .tan_dilation = std::tan(10 * kDegree),
+          .tan_friction = std::tan(30 * kDegreeOfInterfaceLaw),
+          .tan_dilation = std::tan(10 * kDegreeOfInterfaceLaw),
           .cohesion = 5e3};
 }
 
@@ -56,7 +56,7 @@ class ShearBox {
 // Closed form: limit c + 50 kPa tan 30 = 33867.513459 Pa at u = limit / kt; then dilation tan 10 (u - u_limit).
 TEST(interface_law, passes_the_shear_test_of_goodman) {
   ShearBox box(joint(), -50e3);
-  const double limit = 5e3 + 50e3 * std::tan(30 * kDegree);
+  const double limit = 5e3 + 50e3 * std::tan(30 * kDegreeOfInterfaceLaw);
   EXPECT_NEAR(limit, 33867.513459, 1e-6);
   EXPECT_NEAR(box.shear_to(8e-4), 32000.0, 1e-6);
   EXPECT_NEAR(box.shear_to(1.6e-3), limit, 1e-6);
@@ -73,9 +73,10 @@ TEST(interface_law, dilation_ends_at_the_slip_given) {
   parameters.dilation_until = 1e-3;
   ShearBox box(parameters, -50e3);
   for (int i = 1; i <= 400; ++i) box.shear_to(1e-5 * i);
-  const double slip = 4e-3 - (5e3 + 50e3 * std::tan(30 * kDegree)) / 4e7;
+  const double slip = 4e-3 - (5e3 + 50e3 * std::tan(30 * kDegreeOfInterfaceLaw)) / 4e7;
   ASSERT_GT(slip, 1e-3);
-  EXPECT_NEAR(box.dilation(), 1e-3 * std::tan(10 * kDegree), 1e-5 * std::tan(10 * kDegree))
+  EXPECT_NEAR(box.dilation(), 1e-3 * std::tan(10 * kDegreeOfInterfaceLaw),
+              1e-5 * std::tan(10 * kDegreeOfInterfaceLaw))
       << "to one step of slip";
 }
 

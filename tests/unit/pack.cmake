@@ -3,10 +3,11 @@
 find_package(HDF5 REQUIRED COMPONENTS C)
 polargrain_test(pack_file_test integration unit/pack_file_test.cpp LIBS polargrain_common ${HDF5_C_LIBRARIES})
 target_include_directories(pack_file_test SYSTEM PRIVATE ${HDF5_C_INCLUDE_DIRS})
-polargrain_test(pack_specification_test unit unit/pack_specification_test.cpp LIBS polargrain_app)
+polargrain_tests(unit polargrain_app
+  unit/pack_specification_test.cpp)
 if(TARGET polargrain_dem)
-  polargrain_test(pack_sizes_test unit unit/pack_sizes_test.cpp LIBS polargrain_dem)
+  polargrain_tests(unit polargrain_dem
+    unit/pack_sizes_test.cpp)
 endif()
 
 polargrain_test(study_packings_test integration unit/study_packings_test.cpp LIBS polargrain_common)
-target_compile_definitions(study_packings_test PRIVATE CASES="${PROJECT_SOURCE_DIR}/cases")

@@ -9,7 +9,7 @@ namespace polargrain::coupler {
 namespace {
 
 // Lines are counted in the expectations below.
-const std::string kCase = R"(title: A block
+const std::string kCaseOfProfilesCase = R"(title: A block
 mesh: {rectangle: {size: [2 m, 1 m], elements: [4, 2]}}
 continuum: cauchy
 materials:
@@ -29,7 +29,7 @@ steps: {count: 1}
 
 class ProfilesCase : public polargrain::testing::EditedCase {
  protected:
-  ProfilesCase() : EditedCase("profiles_case", kCase) {
+  ProfilesCase() : EditedCase("profiles_case", kCaseOfProfilesCase) {
     std::filesystem::create_directories(directory() / "first");
     end_.identity.values = {{"materials.soil.model", "elastic"}, {"regions.all", "soil"}};
     end_.step = 3;
@@ -74,14 +74,14 @@ TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
 
 TEST_F(ProfilesCase, SpreadSlipsTakeNoRunOver) {
   const std::string strength = ", friction_angle: 40 deg, dilatancy_angle: 5 deg, cohesion: 1 kPa";
-  std::string text = kCase;
+  std::string text = kCaseOfProfilesCase;
   const auto change = [&](const std::string& good, const std::string& bad) {
     text.replace(text.find(good), good.size(), bad);
   };
   change("continuum: cauchy", "continuum: {kind: cauchy, spread: 50 cm}");
   change("model: elastic, E: 20 MPa, nu: 0.3", "model: elastoplastic, E: 20 MPa, nu: 0.3" + strength);
   EXPECT_EQ(
-      fault(kCase, text),
+      fault(kCaseOfProfilesCase, text),
       "15: case: start_from: slips that are spread begin at zero and take no run over yet; leave out 'spread' "
       "or this key");
 }

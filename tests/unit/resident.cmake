@@ -3,8 +3,7 @@ add_executable(resident_worker unit/resident_worker.cpp)
 target_link_libraries(resident_worker PRIVATE polargrain_pool)
 
 # Not of the kind `unit`: they need worker processes.
-polargrain_test(resident_pool_test integration unit/resident_pool_test.cpp unit/resident_material_test.cpp
-                LIBS polargrain_coupler)
+polargrain_test(resident_pool_test integration unit/resident_pool_test.cpp unit/resident_material_test.cpp LIBS polargrain_coupler)
 target_compile_definitions(resident_pool_test PRIVATE RESIDENT_WORKER="$<TARGET_FILE:resident_worker>")
 add_dependencies(resident_pool_test resident_worker)
 if(TARGET faulty_line)

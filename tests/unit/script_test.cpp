@@ -147,7 +147,8 @@ TEST(script, marks_say_where_lines_come_from) {
 
 TEST(script, those_of_this_project_need_no_trust) {
   int scripts = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(CELL_SCRIPTS)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(POLARGRAIN_SOURCE_DIRECTORY "/liggghts_inputs/cells")) {
     if (entry.path().extension() != ".in") continue;
     std::ifstream in(entry.path());
     const std::string text{std::istreambuf_iterator<char>(in), {}};

@@ -15,11 +15,11 @@ namespace {
 using namespace polargrain::band;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSpacing = 0.01;
+constexpr double kDegreeOfShearPlane = std::numbers::pi / 180.0;
+constexpr double kSpacingOfShearPlane = 0.01;
 
 /// A band of Gaussian profile near the middle of a body.
-struct Truth {
+struct TruthOfShearPlane {
   Vector3d size{0.15, 0.15, 0.3};  ///< m, of the body; a cylinder where its sides say so
   bool is_round = false;
   double dip = 55.0;           ///< degrees
@@ -30,27 +30,27 @@ struct Truth {
   double background = 0.02;
 
   [[nodiscard]] Vector3d normal() const {
-    const double a = dip * kDegree;
-    const double b = dip_direction * kDegree;
+    const double a = dip * kDegreeOfShearPlane;
+    const double b = dip_direction * kDegreeOfShearPlane;
     return {std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
   }
   [[nodiscard]] double distance(const Vector3d& x) const { return normal().dot(x - through); }
 };
 
 /// Places on a cubic lattice, shaken by a third of the spacing. @param noise of the logarithm of each factor
-SpaceSamples samples_of(const Truth& truth, double noise = 0.0, unsigned seed = 10007) {
+SpaceSamples samples_of_plane(const TruthOfShearPlane& truth, double noise = 0.0, unsigned seed = 10007) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shake(-kSpacing / 3.0, kSpacing / 3.0);
+  std::uniform_real_distribution<double> shake(-kSpacingOfShearPlane / 3.0, kSpacingOfShearPlane / 3.0);
   std::normal_distribution<double> factor(0.0, noise > 0.0 ? noise : 1.0);
   SpaceSamples samples;
-  for (double z = 0.5 * kSpacing; z < truth.size.z(); z += kSpacing)
-    for (double y = 0.5 * kSpacing; y < truth.size.y(); y += kSpacing)
-      for (double x = 0.5 * kSpacing; x < truth.size.x(); x += kSpacing) {
+  for (double z = 0.5 * kSpacingOfShearPlane; z < truth.size.z(); z += kSpacingOfShearPlane)
+    for (double y = 0.5 * kSpacingOfShearPlane; y < truth.size.y(); y += kSpacingOfShearPlane)
+      for (double x = 0.5 * kSpacingOfShearPlane; x < truth.size.x(); x += kSpacingOfShearPlane) {
         SpaceSample sample;
         sample.position = {x + shake(random), y + shake(random), z + shake(random)};
         if (truth.is_round && (sample.position - 0.5 * truth.size).head<2>().norm() > 0.5 * truth.size.x())
           continue;
-        sample.volume = kSpacing * kSpacing * kSpacing;
+        sample.volume = kSpacingOfShearPlane * kSpacingOfShearPlane * kSpacingOfShearPlane;
         const double s = truth.distance(sample.position) / (truth.thickness / 2.354820045);
         sample.shear = (truth.background + (truth.peak - truth.background) * std::exp(-0.5 * s * s)) *
                        (noise > 0.0 ? std::exp(factor(random)) : 1.0);
@@ -62,51 +62,52 @@ SpaceSamples samples_of(const Truth& truth, double noise = 0.0, unsigned seed = 
 
 /// Of two normals, degrees; the sign does not count.
 double angle_between(const Vector3d& a, const Vector3d& b) {
-  return std::asin(std::min(1.0, a.cross(b).norm())) / kDegree;
+  return std::asin(std::min(1.0, a.cross(b).norm())) / kDegreeOfShearPlane;
 }
 
-class KnownPlane : public testing::TestWithParam<Truth> {};
+class KnownPlane : public testing::TestWithParam<TruthOfShearPlane> {};
 
 // The samples are a spacing apart and shaken; the profile is steps of a quarter of a spacing.
 TEST_P(KnownPlane, NormalThicknessAndPlace) {
-  const Truth& truth = GetParam();
-  const PlaneSearch search = find_plane(samples_of(truth));
+  const TruthOfShearPlane& truth = GetParam();
+  const PlaneSearch search = find_plane(samples_of_plane(truth));
   ASSERT_TRUE(search.plane) << search.reason;
   const Plane& plane = *search.plane;
   const double expected = std::hypot(truth.thickness, plane.resolution);
   std::cout << "[figure] plane off by " << angle_between(plane.normal, truth.normal())
             << " degrees, thickness / exact " << plane.thickness / expected << ", off by "
-            << truth.distance(plane.centre) / kSpacing << " spacings\n";
+            << truth.distance(plane.centre) / kSpacingOfShearPlane << " spacings\n";
   EXPECT_LT(angle_between(plane.normal, truth.normal()), 0.3);
-  EXPECT_NEAR(plane.dip() / kDegree, truth.dip, 0.3);
+  EXPECT_NEAR(plane.dip() / kDegreeOfShearPlane, truth.dip, 0.3);
   EXPECT_NEAR(plane.thickness / expected, 1.0, 0.04);
-  EXPECT_NEAR(truth.distance(plane.centre), 0.0, 0.1 * kSpacing);
+  EXPECT_NEAR(truth.distance(plane.centre), 0.0, 0.1 * kSpacingOfShearPlane);
   EXPECT_NEAR(plane.peak, truth.peak, 0.06 * truth.peak);  // half of the kernel's share of a thin band
   EXPECT_NEAR(plane.background, truth.background, 0.5 * truth.background);
-  const InsideOutside dilation = means(samples_of(truth), plane, &SpaceSample::volume_strain);
+  const InsideOutside dilation = means(samples_of_plane(truth), plane, &SpaceSample::volume_strain);
   EXPECT_NEAR(dilation.inside, 0.03, 0.006);
   EXPECT_EQ(dilation.outside, 0.0);
-  EXPECT_GT(localisation(samples_of(truth), plane), 4.0);
+  EXPECT_GT(localisation(samples_of_plane(truth), plane), 4.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Planes, KnownPlane,
-    testing::Values(Truth{}, Truth{.dip = 62.0, .dip_direction = 137.0},
-                    Truth{.is_round = true, .dip = 48.0, .dip_direction = -71.0},
+    testing::Values(TruthOfShearPlane{}, TruthOfShearPlane{.dip = 62.0, .dip_direction = 137.0},
+                    TruthOfShearPlane{.is_round = true, .dip = 48.0, .dip_direction = -71.0},
                     // Unseen while the search was written.
-                    Truth{.size = {0.3, 0.2, 0.1},
-                          .dip = 35.0,
-                          .dip_direction = 20.0,
-                          .thickness = 0.04,
-                          .through = {0.14, 0.11, 0.05}},
-                    Truth{.is_round = true, .dip = 70.0, .dip_direction = 91.0, .thickness = 0.035},
-                    Truth{.dip = 4.0, .dip_direction = -160.0, .through = {0.075, 0.075, 0.2}}));
+                    TruthOfShearPlane{.size = {0.3, 0.2, 0.1},
+                                      .dip = 35.0,
+                                      .dip_direction = 20.0,
+                                      .thickness = 0.04,
+                                      .through = {0.14, 0.11, 0.05}},
+                    TruthOfShearPlane{
+                        .is_round = true, .dip = 70.0, .dip_direction = 91.0, .thickness = 0.035},
+                    TruthOfShearPlane{.dip = 4.0, .dip_direction = -160.0, .through = {0.075, 0.075, 0.2}}));
 
 // Grains scatter: a factor of exp(+-0.6) on every sample.
 TEST(Plane, NoiseMovesItLittle) {
   for (unsigned seed = 10007; seed < 10010; ++seed) {
-    const Truth truth{.dip_direction = 33.0};
-    const PlaneSearch search = find_plane(samples_of(truth, 0.6, seed));
+    const TruthOfShearPlane truth{.dip_direction = 33.0};
+    const PlaneSearch search = find_plane(samples_of_plane(truth, 0.6, seed));
     ASSERT_TRUE(search.plane) << search.reason;
     EXPECT_LT(angle_between(search.plane->normal, truth.normal()), 2.7);
     EXPECT_NEAR(search.plane->thickness / std::hypot(truth.thickness, search.plane->resolution), 1.0, 0.2);
@@ -114,18 +115,18 @@ TEST(Plane, NoiseMovesItLittle) {
 }
 
 TEST(Plane, SaysThatThereIsNone) {
-  Truth truth;
+  TruthOfShearPlane truth;
   truth.peak = truth.background;
-  EXPECT_FALSE(find_plane(samples_of(truth)).plane);
-  EXPECT_FALSE(find_plane(samples_of(truth, 0.6)).plane) << "in pure noise";
-  truth = Truth{};
+  EXPECT_FALSE(find_plane(samples_of_plane(truth)).plane);
+  EXPECT_FALSE(find_plane(samples_of_plane(truth, 0.6)).plane) << "in pure noise";
+  truth = TruthOfShearPlane{};
   truth.peak = 1.5 * truth.background;
-  EXPECT_NE(find_plane(samples_of(truth)).reason.find("times the background"), std::string::npos);
-  truth = Truth{};
+  EXPECT_NE(find_plane(samples_of_plane(truth)).reason.find("times the background"), std::string::npos);
+  truth = TruthOfShearPlane{};
   truth.thickness = 2.0;
-  EXPECT_FALSE(find_plane(samples_of(truth)).plane) << "wider than the body";
+  EXPECT_FALSE(find_plane(samples_of_plane(truth)).plane) << "wider than the body";
   EXPECT_FALSE(find_plane({}).plane);
-  SpaceSamples samples = samples_of(Truth{});
+  SpaceSamples samples = samples_of_plane(TruthOfShearPlane{});
   samples[3].shear = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(find_plane(samples).reason, "a sample has no volume, or no strain");
 }

@@ -11,7 +11,7 @@
 namespace polargrain::coupler {
 namespace {
 
-constexpr CosseratParameters kLimited{10e6, 5e6, 3e-3, 4e-3, 0.8};
+constexpr CosseratParameters kLimitedOfSpaceCosseratPart{10e6, 5e6, 3e-3, 4e-3, 0.8};
 
 /// A cell that follows the symmetric strain elastically.
 Response<3> cell(const Increment<3>& increment) {
@@ -48,7 +48,7 @@ Increment<3> drawn(std::mt19937& random, double size) {
 
 Response<3> answer(const Increment<3>& increment, const CosseratPart<3>& from) {
   CosseratPart<3> part = from;
-  return part.follow(increment, cell(felt(increment)), kLimited, 1.0);
+  return part.follow(increment, cell(felt(increment)), kLimitedOfSpaceCosseratPart, 1.0);
 }
 
 TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
@@ -61,8 +61,8 @@ TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
     CosseratPart<3> part;
     part.pressures = 1e5 * Eigen::Matrix3d::Identity();
     CosseratPart<3> end = part;
-    const Response<3> here = end.follow(increment, cell(felt(increment)), kLimited, 1.0);
-    const LimitsReached reached = end.reached(kLimited, 1.0);
+    const Response<3> here = end.follow(increment, cell(felt(increment)), kLimitedOfSpaceCosseratPart, 1.0);
+    const LimitsReached reached = end.reached(kLimitedOfSpaceCosseratPart, 1.0);
     at_skew += reached.skew ? 1 : 0;
     at_couple += reached.couple ? 1 : 0;
     inside += reached.skew || reached.couple ? 0 : 1;
@@ -97,7 +97,7 @@ TEST(SpaceCosseratPart, TangentIsTheDerivativeInsideAndAtTheLimits) {
     double pressure = std::max(0.0, pressure_about<3>(pressures, turning));
     if (const double trial = turning.norm(); trial > 0.8 * pressure)
       found.topLeftCorner<9, 9>() -= share_held(trial, 0.8 * pressure) * 5e6 * skew.transpose() * skew;
-    const double modulus = kLimited.couple_modulus();
+    const double modulus = kLimitedOfSpaceCosseratPart.couple_modulus();
     const Eigen::Matrix<double, 9, 1> couple = modulus * strain.tail<9>();
     pressure = std::max(0.0, pressure_about_couples<3>(pressures, couple));
     if (const double trial = couple.norm(); trial > 4e-3 * pressure)
@@ -117,7 +117,8 @@ TEST(SpaceCosseratPart, StressesStayWithinTheLimits) {
   CosseratPart<3> part;
   for (int step = 0; step < 200; ++step) {
     const Increment<3> increment = drawn(random, 2e-3);
-    const Response<3> response = part.follow(increment, cell(felt(increment)), kLimited, 1.0);
+    const Response<3> response =
+        part.follow(increment, cell(felt(increment)), kLimitedOfSpaceCosseratPart, 1.0);
     // The mean pressure of the plane that the stress turns in, by its two axes.
     const Eigen::Matrix3d s = Eigen::Map<const Eigen::Matrix3d>(response.stress.data());
     const auto pressure = [&s](const Eigen::Vector3d& axis) {
@@ -176,15 +177,17 @@ TEST(SpaceCosseratPart, IsThePlanesPartInPlaneStrainBelowAndAtTheLimits) {
     constexpr std::array<int, 7> places{0, 4, 8, 1, 3, 11, 14};
     of_plane_cell.stress = of_cell.stress(places);
     of_plane_cell.tangent = of_cell.tangent(places, places);
-    const Response<3> a = in_space.follow(increment, of_cell, kLimited, 1.0);
-    const Response<2> b = in_plane.follow(plane, of_plane_cell, kLimited, 1.0);
+    const Response<3> a = in_space.follow(increment, of_cell, kLimitedOfSpaceCosseratPart, 1.0);
+    const Response<2> b = in_plane.follow(plane, of_plane_cell, kLimitedOfSpaceCosseratPart, 1.0);
     EXPECT_LT((Vector7(a.stress(places)) - b.stress).norm(), 1e-12 * b.stress.norm());
     EXPECT_LT((Matrix7(a.tangent(places, places)) - b.tangent).norm(), 1e-12 * b.tangent.norm());
-    const LimitsReached reached = in_plane.reached(kLimited, 1.0);
+    const LimitsReached reached = in_plane.reached(kLimitedOfSpaceCosseratPart, 1.0);
     EXPECT_EQ(reached.skew, size > 1.0);
     EXPECT_EQ(reached.couple, size > 20.0);
-    EXPECT_NEAR(in_space.skew_mobilisation(kLimited), in_plane.skew_mobilisation(kLimited), 1e-12);
-    EXPECT_NEAR(in_space.couple_mobilisation(kLimited), in_plane.couple_mobilisation(kLimited), 1e-12);
+    EXPECT_NEAR(in_space.skew_mobilisation(kLimitedOfSpaceCosseratPart),
+                in_plane.skew_mobilisation(kLimitedOfSpaceCosseratPart), 1e-12);
+    EXPECT_NEAR(in_space.couple_mobilisation(kLimitedOfSpaceCosseratPart),
+                in_plane.couple_mobilisation(kLimitedOfSpaceCosseratPart), 1e-12);
   }
 }
 

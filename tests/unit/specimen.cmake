@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 if(TARGET polargrain_dem)
-  polargrain_test(specimen_membrane_test unit unit/specimen_membrane_test.cpp LIBS polargrain_dem)
+  polargrain_tests(unit polargrain_dem
+    unit/specimen_membrane_test.cpp)
 endif()

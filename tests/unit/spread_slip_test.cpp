@@ -28,7 +28,7 @@ constexpr double kWidth = 5.0 * kDiameter;    // of the spread slip
 constexpr double kPeak = 100e3, kResidual = 50e3, kSoftening = 1.0;
 constexpr double kWeak = 0.98;
 
-ElastoplasticParameters<2> softening(double factor) {
+ElastoplasticParameters<2> softening_of_spread_slip(double factor) {
   ElastoplasticParameters<2> parameters;
   parameters.elastic.young_modulus = 40e6;
   parameters.elastic.poisson_ratio = 0.3;
@@ -60,8 +60,8 @@ Problem<2> column(int elements, double width = kWidth, double weak = 0.5 * kHeig
     const bool middle = std::abs((e + 0.5) * size - weak) < 0.5 * kDiameter;
     problem.mesh.regions[middle ? "weak" : "rest"].push_back(e);
   }
-  problem.materials["weak"] = law(softening(kWeak));
-  problem.materials["rest"] = law(softening(1.0));
+  problem.materials["weak"] = law(softening_of_spread_slip(kWeak));
+  problem.materials["rest"] = law(softening_of_spread_slip(1.0));
   problem.ties = {{"right", "left"}};
   for (const char* end : {"bottom", "top"})
     problem.prescribed.push_back({end, Dof::u2, TimeTable::constant(0.0), {}});

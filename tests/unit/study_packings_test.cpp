@@ -14,7 +14,8 @@ namespace {
 TEST(StudyPackings, CarryTheirPressureInAllDirectionsAndNoShearStress) {
   constexpr double kIsotropic = 1e-3;  // of the pressure
   int seen = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(CASES "/studies")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(POLARGRAIN_SOURCE_DIRECTORY "/cases/studies")) {
     if (entry.path().extension() != ".h5") continue;
     const PackingReached reached = read_packing_file(entry.path()).reached;
     std::cout << "[figure] " << entry.path().filename().string() << ": anisotropy " << reached.anisotropy

@@ -9,7 +9,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-const SolverOptions kTight{.force_tolerance = 1e-10, .moment_tolerance = 1e-9};
+const SolverOptions kTightOfBeam{.force_tolerance = 1e-10, .moment_tolerance = 1e-9};
 /// For beams whose length and shear are 1e6 times as stiff as their bending: what rounding leaves.
 const SolverOptions kStiff{.force_tolerance = 1e-6, .moment_tolerance = 1e-6};
 
@@ -102,7 +102,7 @@ TEST_P(EveryBeam, a_cantilever_is_exact_at_its_nodes) {
   scene.clamp("root");
   scene.problem.node_loads = {{"tip", Dof::u2, TimeTable::ramp(5e3)}, {"tip", Dof::u1, TimeTable::ramp(7e3)}};
   const auto beam = scene.beam;
-  Solver<2> solver(std::move(scene.problem), kTight);
+  Solver<2> solver(std::move(scene.problem), kTightOfBeam);
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   const auto tip = solver.mean_displacement("tip");
@@ -126,7 +126,7 @@ TEST(beam, yields_at_its_plastic_moment) {
       {kBeamRotation, "tip", TimeTable({{0.0, 0.0}, {1.0, 3e-3}, {2.0, 2e-2}, {3.0, 1.8e-2}}), {}, {}});
   scene.problem.node_loads = {{"tip", Dof::u1, TimeTable::ramp(10e3)}};
   const auto beam = scene.beam;
-  Solver<2> solver(std::move(scene.problem), kTight);
+  Solver<2> solver(std::move(scene.problem), kTightOfBeam);
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
   EXPECT_NEAR(std::abs(beam->results().front().moment), 2e6 * 3e-3 / 2.0, 1e-5);
@@ -226,7 +226,7 @@ TEST(anchor, holds_its_prestress_and_yields) {
   settings.compressive_strength = 2e3;
   const auto anchor = std::make_shared<Anchor<2>>(problem.mesh, settings);
   problem.contributions.push_back(anchor);
-  Solver<2> solver(std::move(problem), kTight);
+  Solver<2> solver(std::move(problem), kTightOfBeam);
   ASSERT_TRUE(solver.equilibrate().converged);
   EXPECT_NEAR(anchor->force(), 1e3, 1e-9);
   for (const auto& [time, force] : {std::pair(1.0, 1e3 + 2e6 * 1e-3), std::pair(2.0, 8e3),

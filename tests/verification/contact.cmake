@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 if(TARGET polargrain_dem)
-  polargrain_test(contact_law_test verification verification/contact_law_test.cpp verification/contact_energy_test.cpp
-                  support/engine_main.cpp LIBS polargrain_dem fmt::fmt)
+  polargrain_test(contact_law_test verification verification/contact_law_test.cpp verification/contact_energy_test.cpp support/engine_main.cpp LIBS polargrain_dem fmt::fmt)
 endif()
 if(TARGET polargrain-liggghts)
   add_executable(liggghts_renamed_copy verification/contact_renamed_copy.cpp)

@@ -13,7 +13,7 @@ namespace polargrain::dem {
 namespace {
 
 using namespace test;  // NOLINT
-constexpr double kStep = 1e-5;
+constexpr double kStepOfContactEnergy = 1e-5;
 const std::string kSymmetric =
     "tangential li_chu rolling_friction li_chu rollingFrictionForce on symmetricCoupling on";
 
@@ -23,9 +23,9 @@ class WorkMeter {
   explicit WorkMeter(const std::string& words) : pair_(definition(model(words)), place_at(0.0)) {}
   /// Moves by du_s and du_r; the mean of the forces before and after is exact for linear laws.
   void move(double sliding, double rolling) {
-    const auto spins = spins_for(sliding / kStep, rolling / kStep);
+    const auto spins = spins_for(sliding / kStepOfContactEnergy, rolling / kStepOfContactEnergy);
     const auto now = pair_.advance(place_at(0.0), spins);
-    work_ -= 0.5 * kStep *
+    work_ -= 0.5 * kStepOfContactEnergy *
              ((last_.torque_first + now.torque_first).dot(spins.first) +
               (last_.torque_second + now.torque_second).dot(spins.second));
     last_ = now;

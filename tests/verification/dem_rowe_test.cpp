@@ -14,13 +14,13 @@
 namespace polargrain::dem {
 namespace {
 
-constexpr int kColumns = 4;
+constexpr int kColumnsOfRowe = 4;
 constexpr int kRows = 4;
 
 /// The box when contacts of branch length `branch` stand at the angle beta.
 Eigen::Matrix2d box(double branch, double beta) {
   Eigen::Matrix2d base;
-  base << kColumns * 2.0 * branch * std::cos(beta), 0.0, 0.0, kRows * branch * std::sin(beta);
+  base << kColumnsOfRowe * 2.0 * branch * std::cos(beta), 0.0, 0.0, kRows * branch * std::sin(beta);
   return base;
 }
 
@@ -34,7 +34,7 @@ TEST_P(Rowe, StressRatioFollowsTheContactAngle) {
   const auto contact_angle = [](double strain) {
     return std::asin(std::sin(std::numbers::pi / 3.0) * (1.0 + strain));
   };
-  CellDefinition definition = test::lattice(kColumns, kRows, CellRotations::free);
+  CellDefinition definition = test::lattice(kColumnsOfRowe, kRows, CellRotations::free);
   const std::string property = "coefficientFriction peratomtypepair 1 1e3";
   const auto place = definition.script.find(property);
   ASSERT_NE(place, std::string::npos);

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-polargrain_test(element_laws_test verification verification/element_laws_test.cpp LIBS polargrain_coupler)
+polargrain_tests(verification polargrain_coupler
+  verification/element_laws_test.cpp)
 if(TARGET polargrain)
-  polargrain_test(safety_test verification verification/safety_test.cpp LIBS polargrain_app)
+  polargrain_tests(verification polargrain_app
+    verification/safety_test.cpp)
 endif()

@@ -1,28 +1,34 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-polargrain_test(fem_start_from_test verification verification/fem_start_from_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_stages_test verification verification/fem_stages_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_slab_test verification verification/fem_slab_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_space_test verification verification/fem_space_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_one_point_test verification verification/fem_one_point_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_bodies_test verification verification/fem_bodies_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_patch_test verification verification/fem_patch_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_shear_layer_test verification verification/fem_shear_layer_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_biaxial_test verification verification/fem_biaxial_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_softening_layer_test verification verification/fem_softening_layer_test.cpp LIBS polargrain_fem)
-polargrain_test(spread_band_test verification verification/spread_band_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_glide_layer_test verification verification/fem_glide_layer_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_hole_test verification verification/fem_hole_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_footing_test verification verification/fem_footing_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_cauchy_test verification verification/fem_cauchy_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_large_test verification verification/fem_large_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_hard_cases_test verification verification/fem_hard_cases_test.cpp LIBS polargrain_fem)
+polargrain_tests(verification polargrain_fem
+  verification/fem_start_from_test.cpp
+  verification/fem_stages_test.cpp
+  verification/fem_slab_test.cpp
+  verification/fem_space_test.cpp
+  verification/fem_one_point_test.cpp
+  verification/fem_bodies_test.cpp
+  verification/fem_patch_test.cpp
+  verification/fem_shear_layer_test.cpp
+  verification/fem_biaxial_test.cpp
+  verification/fem_softening_layer_test.cpp
+  verification/spread_band_test.cpp
+  verification/fem_glide_layer_test.cpp
+  verification/fem_hole_test.cpp
+  verification/fem_footing_test.cpp
+  verification/fem_cauchy_test.cpp
+  verification/fem_large_test.cpp
+  verification/fem_hard_cases_test.cpp)
 polargrain_test(fem_many_elements_test long verification/fem_many_elements_test.cpp LIBS polargrain_fem)
-polargrain_test(fem_large_tangent_test verification verification/fem_large_tangent_test.cpp LIBS polargrain_fem)
-polargrain_test(objectivity_test verification verification/objectivity_test.cpp LIBS polargrain_coupler)
-polargrain_test(water_consolidation_test verification verification/water_consolidation_test.cpp LIBS polargrain_fem)
-polargrain_test(water_plane_test verification verification/water_plane_test.cpp LIBS polargrain_fem)
-polargrain_test(water_large_test verification verification/water_large_test.cpp LIBS polargrain_fem)
-polargrain_test(water_space_test verification verification/water_space_test.cpp LIBS polargrain_fem)
-polargrain_test(water_case_test verification verification/water_case_test.cpp LIBS polargrain_coupler)
-polargrain_test(water_at_walls_test verification verification/water_at_walls_test.cpp LIBS polargrain_coupler)
-polargrain_test(water_undrained_test verification verification/water_undrained_test.cpp LIBS polargrain_fem)
+polargrain_tests(verification polargrain_fem
+  verification/fem_large_tangent_test.cpp)
+polargrain_tests(verification polargrain_coupler
+  verification/objectivity_test.cpp)
+polargrain_tests(verification polargrain_fem
+  verification/water_consolidation_test.cpp
+  verification/water_plane_test.cpp
+  verification/water_large_test.cpp
+  verification/water_space_test.cpp)
+polargrain_tests(verification polargrain_coupler
+  verification/water_case_test.cpp
+  verification/water_at_walls_test.cpp)
+polargrain_tests(verification polargrain_fem
+  verification/water_undrained_test.cpp)

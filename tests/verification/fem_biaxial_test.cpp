@@ -19,8 +19,8 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kWidth = 0.04;
-constexpr double kHeight = 0.08;
+constexpr double kWidthOfBiaxial = 0.04;
+constexpr double kHeightOfBiaxial = 0.08;
 constexpr double kConfining = 100e3;
 
 std::shared_ptr<Material<2>> sand(double internal_length, double peak_friction_angle) {
@@ -36,7 +36,7 @@ std::shared_ptr<Material<2>> sand(double internal_length, double peak_friction_a
 
 Problem<2> biaxial(double internal_length, int columns) {
   Problem<2> problem;
-  problem.mesh = rectangle({{kWidth, kHeight}, {columns, 2 * columns}});
+  problem.mesh = rectangle({{kWidthOfBiaxial, kHeightOfBiaxial}, {columns, 2 * columns}});
   std::vector<int>& weak = problem.mesh.regions["weak"];
   std::vector<int>& rest = problem.mesh.regions["rest"];
   for (std::size_t e = 0; e < problem.mesh.elements.size(); ++e) {
@@ -47,7 +47,7 @@ Problem<2> biaxial(double internal_length, int columns) {
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {{"bottom", Dof::u2, zero, {}},
                         {"bottom_left", Dof::u1, zero, {}},
-                        {"top", Dof::u2, TimeTable::ramp(-0.05 * kHeight), {}}};
+                        {"top", Dof::u2, TimeTable::ramp(-0.05 * kHeightOfBiaxial), {}}};
   for (const char* side : {"left", "right"}) {
     problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::constant(kConfining)});
   }
@@ -68,7 +68,7 @@ Curve compress(Solver<2>& solver, int steps) {
     const StepReport report = solver.advance(step / 50.0);
     EXPECT_TRUE(report.converged) << report.message;
     if (!report.converged) break;
-    curve.stress_ratio[step] = -solver.reaction("top")(1) / (kWidth * kConfining);
+    curve.stress_ratio[step] = -solver.reaction("top")(1) / (kWidthOfBiaxial * kConfining);
     curve.iterations += report.iterations;
     curve.cuts += report.cuts;
   }
@@ -153,7 +153,7 @@ struct BandCut {
 };
 
 BandCut cut_band(const Solver<2>& solver, double x) {
-  const double element_width = kWidth / std::sqrt(static_cast<double>(solver.points()) / 8);
+  const double element_width = kWidthOfBiaxial / std::sqrt(static_cast<double>(solver.points()) / 8);
   std::map<double, double> profile;
   for (std::size_t i = 0; i < solver.points(); ++i) {
     if (std::abs(solver.position_of_point(i)(0) - x) > element_width / 2) continue;
@@ -168,7 +168,7 @@ BandCut cut_band(const Solver<2>& solver, double x) {
     cut.peak = std::max(cut.peak, gamma_p);
   }
   double sum = 0.0;
-  double lowest = kHeight;
+  double lowest = kHeightOfBiaxial;
   double highest = 0.0;
   for (const auto& [y, gamma_p] : profile) {
     if (gamma_p < cut.peak / 2) continue;

@@ -21,7 +21,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-using Place = Eigen::Vector3d;
+using PlaceOfBodies = Eigen::Vector3d;
 
 /// G = 1.
 struct Body {
@@ -43,11 +43,11 @@ ElasticParameters<3> parameters_of(const Body& body) {
   return made;
 }
 
-std::shared_ptr<Material<3>> elastic(const ElasticParameters<3>& of) {
+std::shared_ptr<Material<3>> elastic_of_bodies(const ElasticParameters<3>& of) {
   return std::make_shared<LocalMaterial<ElasticLaw<3>>>(ElasticLaw<3>(of));
 }
 
-SolverOptions exact() {
+SolverOptions exact_of_bodies() {
   SolverOptions options;
   options.force_tolerance = options.moment_tolerance = 1e-10;
   options.largest_strain = 10.0;
@@ -59,26 +59,26 @@ SolverOptions exact() {
 double torque(Mesh<3> mesh, const Body& body, const std::string& fixed_node) {
   Problem<3> problem;
   problem.mesh = std::move(mesh);
-  problem.materials["all"] = elastic(parameters_of(body));
+  problem.materials["all"] = elastic_of_bodies(parameters_of(body));
   for (const double end : {0.0, 1.0}) {
     const std::string on = end == 0.0 ? "bottom" : "top";
     problem.prescribed.push_back(
-        {on, Dof::u1, TimeTable::ramp(1.0), [end](const Place& x) { return -end * x(1); }});
+        {on, Dof::u1, TimeTable::ramp(1.0), [end](const PlaceOfBodies& x) { return -end * x(1); }});
     problem.prescribed.push_back(
-        {on, Dof::u2, TimeTable::ramp(1.0), [end](const Place& x) { return end * x(0); }});
+        {on, Dof::u2, TimeTable::ramp(1.0), [end](const PlaceOfBodies& x) { return end * x(0); }});
     problem.prescribed.push_back({on, Dof::w3, TimeTable::ramp(end), {}});
   }
   problem.prescribed.push_back({fixed_node, Dof::u3, TimeTable::constant(0.0), {}});
-  const std::vector<Place> nodes = problem.mesh.nodes;
+  const std::vector<PlaceOfBodies> nodes = problem.mesh.nodes;
   const std::vector<int> top = problem.mesh.nodes_on("top");
-  Solver<3> solver(std::move(problem), exact());
+  Solver<3> solver(std::move(problem), exact_of_bodies());
   EXPECT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);
   EXPECT_TRUE(report.converged) << report.message;
   const Eigen::VectorXd forces = solver.internal_forces();
   double sum = 0.0;
   for (const int node : top) {
-    const Place& x = nodes[static_cast<std::size_t>(node)];
+    const PlaceOfBodies& x = nodes[static_cast<std::size_t>(node)];
     sum += x(0) * forces(entry_of<3>(node, Dof::u2)) - x(1) * forces(entry_of<3>(node, Dof::u1)) +
            forces(entry_of<3>(node, Dof::w3));
   }
@@ -171,7 +171,7 @@ TEST(SquareBar, TorsionAgreesWithAnIndependentCode) {
                                                    {{0.5, 0.3, -2.0 / 3.0, 1.0}, 3.268470}};
   double largest = 0.0;
   for (const auto& [body, expected] : table) {
-    Mesh<3> mesh = box({{1, 1, 1}, {8, 8, 1}, Place(-0.5, -0.5, 0.0)});
+    Mesh<3> mesh = box({{1, 1, 1}, {8, 8, 1}, PlaceOfBodies(-0.5, -0.5, 0.0)});
     mesh.node_sets["middle"] = {};
     for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
       if (mesh.nodes[node].norm() < 1e-12) mesh.node_sets["middle"] = {static_cast<int>(node)};
@@ -205,11 +205,11 @@ Mesh<3> octant(int n, int steps) {
             // The patch nearest to an axis: the quadrilateral axis, edge middle, centre, edge middle of the octant's triangle.
             const double s = (at[a][0] + 2 * i) / (2.0 * n);
             const double t = (at[a][1] + 2 * j) / (2.0 * n);
-            Place direction = Place::Zero();
+            PlaceOfBodies direction = PlaceOfBodies::Zero();
             direction(patch) = 1.0;
             direction((patch + 1) % 3) = std::tan(0.25 * M_PI * s);
             direction((patch + 2) % 3) = std::tan(0.25 * M_PI * t);
-            const Place x = radius(at[a][2] + 2 * k) * direction.normalized();
+            const PlaceOfBodies x = radius(at[a][2] + 2 * k) * direction.normalized();
             std::array<long, 3> key{};
             for (std::size_t d = 0; d < 3; ++d) key[d] = std::lround(1e9 * x(static_cast<Eigen::Index>(d)));
             const auto [found, is_new] = numbers.try_emplace(key, static_cast<int>(mesh.nodes.size()));
@@ -268,7 +268,7 @@ Cavity cavity(const Body& body, int n, int steps) {
   Problem<3> problem;
   problem.mesh = octant(n, steps);
   EXPECT_TRUE(distorted_elements(problem.mesh).empty());
-  problem.materials["all"] = elastic(parameters_of(body));
+  problem.materials["all"] = elastic_of_bodies(parameters_of(body));
   const std::array<Dof, 3> along{Dof::u1, Dof::u2, Dof::u3};
   const std::array<Dof, 3> about{Dof::w1, Dof::w2, Dof::w3};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -277,18 +277,18 @@ Cavity cavity(const Body& body, int n, int steps) {
       problem.prescribed.push_back({plane, dof, TimeTable::constant(0.0), {}});
   }
   pull(problem);
-  const std::vector<Place> nodes = problem.mesh.nodes;
-  const auto nearest = [&](const Place& x) {
-    const auto distance = [&x](const Place& y) { return (x - y).norm(); };
+  const std::vector<PlaceOfBodies> nodes = problem.mesh.nodes;
+  const auto nearest = [&](const PlaceOfBodies& x) {
+    const auto distance = [&x](const PlaceOfBodies& y) { return (x - y).norm(); };
     return static_cast<int>(std::ranges::min_element(nodes, {}, distance) - nodes.begin());
   };
-  Solver<3> solver(std::move(problem), exact());
+  Solver<3> solver(std::move(problem), exact_of_bodies());
   EXPECT_TRUE(solver.equilibrate().converged);
   EXPECT_TRUE(solver.advance(1.0).converged);
   const Eigen::VectorXd& u = solver.state().displacement;
-  const int slope = nearest(Place(std::sqrt(0.5), 0.0, std::sqrt(0.5)));
-  return {u(entry_of<3>(nearest(Place::UnitX()), Dof::u1)), u(entry_of<3>(nearest(Place::UnitZ()), Dof::u3)),
-          std::abs(u(entry_of<3>(slope, Dof::w2)))};
+  const int slope = nearest(PlaceOfBodies(std::sqrt(0.5), 0.0, std::sqrt(0.5)));
+  return {u(entry_of<3>(nearest(PlaceOfBodies::UnitX()), Dof::u1)),
+          u(entry_of<3>(nearest(PlaceOfBodies::UnitZ()), Dof::u3)), std::abs(u(entry_of<3>(slope, Dof::w2)))};
 }
 
 // Two harmonics solved along the radius by an independent code. It has errors of 1.1, 0.33, 0.13 % (displacement) and 0.45,
@@ -315,15 +315,15 @@ double pressed_cylinder(const std::string& element, CylinderSpecification of, do
   Problem<3> problem;
   problem.mesh = cylinder(of, element);
   problem.deformation = Deformation::large;
-  problem.materials["all"] = elastic(parameters_of({}));
+  problem.materials["all"] = elastic_of_bodies(parameters_of({}));
   for (const char* plate : {"bottom", "top"})
     problem.prescribed.push_back({plate, Dof::u3, TimeTable::constant(0.0), {}});
   problem.prescribed.push_back({"axis", Dof::u1, TimeTable::constant(0.0), {}});
   problem.prescribed.push_back({"axis", Dof::u2, TimeTable::constant(0.0), {}});
   problem.prescribed.push_back({"side_right", Dof::u2, TimeTable::constant(0.0), {}});
   problem.boundary_loads.push_back({.on = "side", .pressure = TimeTable::ramp(pressure)});
-  const std::vector<Place> nodes = problem.mesh.nodes;
-  Solver<3> solver(std::move(problem), exact());
+  const std::vector<PlaceOfBodies> nodes = problem.mesh.nodes;
+  Solver<3> solver(std::move(problem), exact_of_bodies());
   EXPECT_TRUE(solver.equilibrate().converged);
   for (int k = 1; k <= steps; ++k) {
     const StepReport report = solver.advance(static_cast<double>(k) / steps);

@@ -35,7 +35,7 @@ std::unique_ptr<Solver<2>> solved_block(const std::string& element, Continuum co
 }
 
 /// Largest difference of a displacement over the largest displacement.
-double difference(const Solver<2>& one, const Solver<2>& other) {
+double difference_of_cauchy(const Solver<2>& one, const Solver<2>& other) {
   double largest = 0.0;
   double scale = 0.0;
   const Eigen::VectorXd& a = one.state().displacement;
@@ -48,20 +48,20 @@ double difference(const Solver<2>& one, const Solver<2>& other) {
   return largest / scale;
 }
 
-class EveryElement : public testing::TestWithParam<std::string> {};
+class CauchyElement : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryElement, cauchy_is_cosserat_without_coupling) {
+TEST_P(CauchyElement, cauchy_is_cosserat_without_coupling) {
   const auto cauchy = solved_block(GetParam(), Continuum::cauchy, 0.5, 0.2);
   const auto uncoupled = solved_block(GetParam(), Continuum::cosserat, 1e-9, 0.2);
   const auto coupled = solved_block(GetParam(), Continuum::cosserat, 0.5, 0.2);
   std::cout << "[figure] cauchy against Gc = 1e-9 G, " << GetParam() << ": "
-            << difference(*cauchy, *uncoupled) << "; Gc = 0.5 G differs by " << difference(*cauchy, *coupled)
-            << '\n';
-  EXPECT_LT(difference(*cauchy, *uncoupled), 1e-8);  // proportional to Gc
-  EXPECT_GT(difference(*cauchy, *coupled), 1e-4);    // so the comparison can fail
+            << difference_of_cauchy(*cauchy, *uncoupled) << "; Gc = 0.5 G differs by "
+            << difference_of_cauchy(*cauchy, *coupled) << '\n';
+  EXPECT_LT(difference_of_cauchy(*cauchy, *uncoupled), 1e-8);  // proportional to Gc
+  EXPECT_GT(difference_of_cauchy(*cauchy, *coupled), 1e-4);    // so the comparison can fail
 }
 
-TEST_P(EveryElement, cauchy_stress_is_symmetric_and_knows_no_couples) {
+TEST_P(CauchyElement, cauchy_stress_is_symmetric_and_knows_no_couples) {
   const auto cauchy = solved_block(GetParam(), Continuum::cauchy, 0.5, 0.2);
   for (const Response<2>& response : cauchy->state().responses) {
     EXPECT_NEAR(response.stress(k12), response.stress(k21), 1e-16);
@@ -71,7 +71,7 @@ TEST_P(EveryElement, cauchy_stress_is_symmetric_and_knows_no_couples) {
   EXPECT_EQ(cauchy->state().displacement(2), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, CauchyElement, testing::ValuesIn(element_names<2>()));
 
 TEST(mean_dilatation, keeps_q4_from_locking_near_incompressibility) {
   // The work done on a block of nu = 0.4999 against fine Q8R: locking would show as a multiple.

@@ -17,7 +17,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfLarge = TimeTable::constant(0.0);
 
 Problem<2> elastic_block(const RectangleSpecification& size, const ElasticParameters<2>& parameters) {
   Problem<2> problem;
@@ -81,9 +81,9 @@ TEST(large_deformation, a_block_turned_by_a_full_circle_feels_nothing) {
 TEST(large_deformation, pressure_all_round_compresses_by_the_exponential) {
   // nu = 0 and the same pressure on every side: the stress is -p and rates add up to ln(size) = -p / E.
   Problem<2> problem = elastic_block({{2.0, 1.0}, {3, 2}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
-  problem.prescribed = {{"bottom_left", Dof::u1, kZero, {}},
-                        {"bottom_left", Dof::u2, kZero, {}},
-                        {"bottom_right", Dof::u2, kZero, {}}};
+  problem.prescribed = {{"bottom_left", Dof::u1, kZeroOfLarge, {}},
+                        {"bottom_left", Dof::u2, kZeroOfLarge, {}},
+                        {"bottom_right", Dof::u2, kZeroOfLarge, {}}};
   for (const char* side : {"left", "right", "bottom", "top"}) {
     problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::ramp(0.05e6)});
   }
@@ -134,7 +134,7 @@ TEST(large_deformation, tangent_under_pressure_is_the_derivative_of_the_residual
 
 TEST(large_deformation, newton_converges_quadratically_under_a_following_pressure) {
   Problem<2> problem = elastic_block({{2.0, 1.0}, {4, 2}}, {1e6, 0.3, 1e5, 0.1, Vector7::Zero()});
-  problem.prescribed = {{"bottom", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  problem.prescribed = {{"bottom", Dof::u1, kZeroOfLarge, {}}, {"bottom", Dof::u2, kZeroOfLarge, {}}};
   // Two tenths of Young's modulus on one side in five steps: bends and shears the block.
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::ramp(0.2e6)}};
   SolverOptions options;
@@ -164,8 +164,9 @@ TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
   constexpr double kLengthScale = 0.005;
   Problem<2> problem =
       elastic_block({{kLength, kDepth}, {40, 1}}, {kYoung, 0.0, 0.2e9, kLengthScale, Vector7::Zero()});
-  problem.prescribed = {
-      {"left", Dof::u1, kZero, {}}, {"bottom_left", Dof::u2, kZero, {}}, {"left", Dof::w, kZero, {}}};
+  problem.prescribed = {{"left", Dof::u1, kZeroOfLarge, {}},
+                        {"bottom_left", Dof::u2, kZeroOfLarge, {}},
+                        {"left", Dof::w, kZeroOfLarge, {}}};
   // docs/theory.md, E.1b: bending stiffness with couples; nu = 0, so G = E / 2.
   const double stiffness = kYoung * std::pow(kDepth, 3) / 12 + kYoung * kLengthScale * kLengthScale * kDepth;
   const double moment = stiffness * M_PI / kLength;
@@ -199,8 +200,8 @@ TEST(large_deformation, a_strip_is_bent_into_a_half_circle) {
 TEST(large_deformation, an_element_turned_inside_out_is_named) {
   Problem<2> problem = elastic_block({{2.0, 1.0}, {2, 1}}, {1e6, 0.0, 1e5, 0.1, Vector7::Zero()});
   // The top is pushed through the bottom in one go.
-  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
-                        {"bottom_left", Dof::u1, kZero, {}},
+  problem.prescribed = {{"bottom", Dof::u2, kZeroOfLarge, {}},
+                        {"bottom_left", Dof::u1, kZeroOfLarge, {}},
                         {"top", Dof::u2, TimeTable::ramp(-1.5), {}}};
   SolverOptions options;
   options.most_cuts = 0;

@@ -23,7 +23,7 @@ using namespace polargrain::fem;
 namespace {
 
 template <int dim>
-ElasticParameters<dim> parameters(double young, double poisson, double cosserat, double length) {
+ElasticParameters<dim> one_point_parameters(double young, double poisson, double cosserat, double length) {
   ElasticParameters<dim> made;
   made.young_modulus = young;
   made.poisson_ratio = poisson;
@@ -33,7 +33,7 @@ ElasticParameters<dim> parameters(double young, double poisson, double cosserat,
 }
 
 template <int dim>
-std::shared_ptr<Material<dim>> elastic(const ElasticParameters<dim>& of) {
+std::shared_ptr<Material<dim>> one_point_elastic(const ElasticParameters<dim>& of) {
   return std::make_shared<LocalMaterial<ElasticLaw<dim>>>(ElasticLaw<dim>(of));
 }
 
@@ -86,7 +86,7 @@ double deflection(const std::string& element, int high, std::string* doubt = nul
   Problem<3> problem;
   problem.mesh = box({{4.0, 1.0, 1.0}, {4 * high, high, high}}, element);
   problem.continuum = Continuum::cauchy;
-  problem.materials["all"] = elastic(parameters<3>(1000.0, 0.3, 0.0, 0.0));
+  problem.materials["all"] = one_point_elastic(parameters<3>(1000.0, 0.3, 0.0, 0.0));
   const TimeTable zero = TimeTable::constant(0.0);
   for (const Dof dof : {Dof::u1, Dof::u2, Dof::u3}) problem.prescribed.push_back({"left", dof, zero, {}});
   BoundaryLoad<3> load;
@@ -173,7 +173,7 @@ class SpaceStepOf {
     // As large as the moduli, so that every turn of it shows.
     of.initial_stress << -3e7, 4e6, 2e6, 6e6, -1e7, 3e6, 1e6, -2e6, -2e7, 2e5, -1e5, 1e5, 3e5, 1e5, -2e5, 1e5,
         2e5, 1e5;
-    law_ = elastic(of);
+    law_ = one_point_elastic(of);
     law_->allocate(start_.points());
     before_ = nodal(0.3, 0.02);
     increment = nodal(0.7, 0.2) - before_;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kShearModulus = 4000.0;
 constexpr double kCosseratModulus = 2000.0;
 constexpr double kInternalLength = 6.0;
-constexpr double kHeight = 100.0;
+constexpr double kHeightOfShearLayer = 100.0;
 
 struct Answer {
   double shear_stress;
@@ -33,9 +33,10 @@ enum class Sides {
 Answer solve_layer(int elements, const std::string& element, Sides sides = Sides::no_normal_displacement,
                    int columns = 1) {
   const TimeTable zero = TimeTable::constant(0.0);
-  const double width = kHeight / elements;
+  const double width = kHeightOfShearLayer / elements;
   Problem<2> problem;
-  problem.mesh = rectangle({{width, kHeight}, {columns, elements}, {0.0, -kHeight / 2}}, element);
+  problem.mesh = rectangle(
+      {{width, kHeightOfShearLayer}, {columns, elements}, {0.0, -kHeightOfShearLayer / 2}}, element);
   const ElasticParameters<2> parameters{2.5 * kShearModulus, 0.25, kCosseratModulus, kInternalLength,
                                         Vector7::Zero()};
   problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
@@ -54,7 +55,7 @@ Answer solve_layer(int elements, const std::string& element, Sides sides = Sides
   Answer answer{solver.reaction("top")(0) / width, 0.0};
   const auto exact = [&](double y) {
     return -answer.shear_stress / (2 * kShearModulus) *
-           (1 - std::cosh(y / decay) / std::cosh(kHeight / 2 / decay));
+           (1 - std::cosh(y / decay) / std::cosh(kHeightOfShearLayer / 2 / decay));
   };
   for (std::size_t node = 0; node < solver.problem().mesh.nodes.size(); ++node) {
     const double w = solver.state().displacement(3 * static_cast<Eigen::Index>(node) + 2);
@@ -68,9 +69,9 @@ Answer solve_layer(int elements, const std::string& element, Sides sides = Sides
 double exact_shear_stress() {
   const double decay =
       kInternalLength * std::sqrt((kShearModulus + kCosseratModulus) / (2 * kCosseratModulus));
-  const double softer = kCosseratModulus / (kShearModulus + kCosseratModulus) * 2 * decay / kHeight *
-                        std::tanh(kHeight / (2 * decay));
-  return kShearModulus / (1 - softer) / kHeight;
+  const double softer = kCosseratModulus / (kShearModulus + kCosseratModulus) * 2 * decay /
+                        kHeightOfShearLayer * std::tanh(kHeightOfShearLayer / (2 * decay));
+  return kShearModulus / (1 - softer) / kHeightOfShearLayer;
 }
 
 TEST(shear_layer, has_the_exact_stiffness) {

@@ -20,7 +20,7 @@ constexpr double kThick = 0.01;
 constexpr double kPressure = 100e3;
 
 template <int dim>
-std::shared_ptr<Material<dim>> sand(double weaker, double transpose) {
+std::shared_ptr<Material<dim>> slab_sand(double weaker, double transpose) {
   ElastoplasticParameters<dim> made;
   made.elastic.young_modulus = 40e6;
   made.elastic.poisson_ratio = 0.3;

@@ -19,32 +19,35 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kHeight = 100.0;
-constexpr double kShearModulus = 4000.0;
-constexpr double kCosseratModulus = 2000.0;
+constexpr double kHeightOfSofteningLayer = 100.0;
+constexpr double kShearModulusOfSofteningLayer = 4000.0;
+constexpr double kCosseratModulusOfSofteningLayer = 2000.0;
 constexpr double kYield = 100.0;
 const double kYieldStress = kYield / std::sqrt(3.0);
-const double kYieldDisplacement = kYieldStress * kHeight / kShearModulus;
+const double kYieldDisplacement = kYieldStress * kHeightOfSofteningLayer / kShearModulusOfSofteningLayer;
 
 /// @param softening h over G, negative. @param strength of the weak zone over that of the rest.
 std::shared_ptr<Material<2>> material(double internal_length, double softening, double strength) {
   ElastoplasticParameters<2> parameters;
-  parameters.elastic = {2.5 * kShearModulus, 0.25, kCosseratModulus, internal_length, Vector7::Zero()};
+  parameters.elastic = {2.5 * kShearModulusOfSofteningLayer, 0.25, kCosseratModulusOfSofteningLayer,
+                        internal_length, Vector7::Zero()};
   const double start = strength * kYield;
   const double residual = 0.2 * start;
-  parameters.cone = {
-      0.0, 0.0, PiecewiseLinear::ramp(start, residual, (residual - start) / (softening * kShearModulus))};
+  parameters.cone = {0.0, 0.0,
+                     PiecewiseLinear::ramp(start, residual,
+                                           (residual - start) / (softening * kShearModulusOfSofteningLayer))};
   return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
 }
 
 /// A column of elements; the top goes to the yield displacement at time 1, rotations are free at both ends.
 Problem<2> layer(int elements, double internal_length, double softening, double strength,
                  double weak_height) {
-  const double width = kHeight / elements;
+  const double width = kHeightOfSofteningLayer / elements;
   Problem<2> problem;
-  problem.mesh = rectangle({{width, kHeight}, {1, elements}, {0.0, -kHeight / 2}});
+  problem.mesh =
+      rectangle({{width, kHeightOfSofteningLayer}, {1, elements}, {0.0, -kHeightOfSofteningLayer / 2}});
   for (int e = 0; e < elements; ++e) {
-    const double centre = (e + 0.5) * width - kHeight / 2;
+    const double centre = (e + 0.5) * width - kHeightOfSofteningLayer / 2;
     problem.mesh.regions[std::abs(centre) < weak_height / 2 ? "weak" : "rest"].push_back(e);
   }
   problem.materials = {{"weak", material(internal_length, softening, strength)},
@@ -57,7 +60,7 @@ Problem<2> layer(int elements, double internal_length, double softening, double 
 }
 
 double stress_ratio(const Solver<2>& solver) {
-  const double width = kHeight / static_cast<double>(solver.problem().mesh.elements.size());
+  const double width = kHeightOfSofteningLayer / static_cast<double>(solver.problem().mesh.elements.size());
   return solver.reaction("top")(0) / width / kYieldStress;
 }
 
@@ -242,7 +245,7 @@ double active_height(const Solver<2>& solver) {
     material->fields(number, values);
     if (values[1] == 1.0) area += solver.volume_of_point(point);
   }
-  return area / (kHeight / static_cast<double>(solver.problem().mesh.elements.size()));
+  return area / (kHeightOfSofteningLayer / static_cast<double>(solver.problem().mesh.elements.size()));
 }
 
 struct Onset {

@@ -20,11 +20,11 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kWeight = 18e3;
+constexpr double kWeightOfStages = 18e3;
 constexpr double kModulus = 20e6;
 constexpr double kRatio = 0.3;
 const double kOedometric = kModulus * (1 - kRatio) / ((1 + kRatio) * (1 - 2 * kRatio));
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfStages = TimeTable::constant(0.0);
 
 std::shared_ptr<Material<2>> elastic() {
   return std::make_shared<LocalMaterial<ElasticLaw<2>>>(
@@ -82,16 +82,17 @@ Problem<2> ground_with_pit(const Pit& pit, int stages,
     problem.stages.push_back("dig " + name);
   }
   problem.materials["rest"] = law();
-  problem.prescribed = {{"left", Dof::u1, kZero},
-                        {"right", Dof::u1, kZero},
-                        {"bottom", Dof::u1, kZero},
-                        {"bottom", Dof::u2, kZero}};
+  problem.prescribed = {{"left", Dof::u1, kZeroOfStages},
+                        {"right", Dof::u1, kZeroOfStages},
+                        {"bottom", Dof::u1, kZeroOfStages},
+                        {"bottom", Dof::u2, kZeroOfStages}};
   if (pit.continuum == Continuum::cosserat) {
-    problem.prescribed.push_back({"left", Dof::w, kZero});
-    problem.prescribed.push_back({"right", Dof::w, kZero});
+    problem.prescribed.push_back({"left", Dof::w, kZeroOfStages});
+    problem.prescribed.push_back({"right", Dof::w, kZeroOfStages});
   }
-  problem.body_loads = {gravity(kWeight)};
-  problem.initial_stresses = {geostatic_stress({0.0, kWeight, pit.earth_pressure_ratio, pit.surcharge})};
+  problem.body_loads = {gravity(kWeightOfStages)};
+  problem.initial_stresses = {
+      geostatic_stress({0.0, kWeightOfStages, pit.earth_pressure_ratio, pit.surcharge})};
   if (pit.surcharge > 0.0)
     problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(pit.surcharge)}};
   return problem;
@@ -195,18 +196,20 @@ TEST(fill, that_comes_in_layers_settles_as_the_column_of_them_does) {
         problem.lifetimes[name] = {k, INT_MAX};
         problem.stages.push_back(name);
       }
-      problem.prescribed = {{"left", Dof::u1, kZero}, {"right", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}};
-      problem.body_loads = {gravity(kWeight)};
+      problem.prescribed = {{"left", Dof::u1, kZeroOfStages},
+                            {"right", Dof::u1, kZeroOfStages},
+                            {"bottom", Dof::u2, kZeroOfStages}};
+      problem.body_loads = {gravity(kWeightOfStages)};
       Solver<2> solver(std::move(problem), tight());
       go_through(solver, 3);
-      const double unit = kWeight * kHeight * kHeight / kOedometric;
+      const double unit = kWeightOfStages * kHeight * kHeight / kOedometric;
       for (int k = 1; k <= kLayers; ++k) {
         const double expected = -unit * (k - 0.5 + (kLayers - k) * k);
         // In large deformation layers get thinner by strains of up to 0.5 %.
         EXPECT_NEAR(displacement_at(solver, {0, k * kHeight}, Dof::u2) / expected, 1.0,
                     deformation == Deformation::small ? 1e-11 : 1.5e-2);
       }
-      EXPECT_NEAR(solver.reaction("bottom")(1) / (kWeight * kHeight * kLayers), 1.0, 1e-11);
+      EXPECT_NEAR(solver.reaction("bottom")(1) / (kWeightOfStages * kHeight * kLayers), 1.0, 1e-11);
     }
   }
 }
@@ -222,17 +225,19 @@ TEST(fill, that_comes_with_the_stress_of_its_weight_moves_with_the_ground_as_a_b
     problem.lifetimes["fill"] = {1, INT_MAX};
     problem.materials["fill"] = elastic();
     problem.materials["rest"] = elastic();
-    problem.prescribed = {{"left", Dof::u1, kZero}, {"right", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}};
-    problem.body_loads = {gravity(kWeight)};
-    problem.initial_stresses = {geostatic_stress({2.0 + height, kWeight, 0.4, 0.0}, "fill"),
-                                geostatic_stress({2.0, kWeight, 0.4, 0.0}, "rest")};
+    problem.prescribed = {{"left", Dof::u1, kZeroOfStages},
+                          {"right", Dof::u1, kZeroOfStages},
+                          {"bottom", Dof::u2, kZeroOfStages}};
+    problem.body_loads = {gravity(kWeightOfStages)};
+    problem.initial_stresses = {geostatic_stress({2.0 + height, kWeightOfStages, 0.4, 0.0}, "fill"),
+                                geostatic_stress({2.0, kWeightOfStages, 0.4, 0.0}, "rest")};
     Solver<2> solver(std::move(problem), tight());
     go_through(solver, 2);
-    const double settled = -kWeight * height * 2.0 / kOedometric;
+    const double settled = -kWeightOfStages * height * 2.0 / kOedometric;
     EXPECT_NEAR(displacement_at(solver, {0, 2}, Dof::u2) / settled, 1.0, 1e-11);
     EXPECT_NEAR(displacement_at(solver, {3, 2 + height}, Dof::u2) / settled, 1.0, 1e-11);
     for (std::size_t i = 0; i < solver.points(); ++i) {
-      const double vertical = -kWeight * (2.0 + height - solver.position_of_point(i).y());
+      const double vertical = -kWeightOfStages * (2.0 + height - solver.position_of_point(i).y());
       EXPECT_NEAR(solver.state().responses[i].stress(k22) / vertical, 1.0, 1e-9);
     }
   }
@@ -243,8 +248,8 @@ Problem<2> pressed_block(bool has_right_wall) {
   Problem<2> problem;
   problem.mesh = rectangle({{2.0, 1.0}, {4, 2}});
   problem.materials["all"] = elastic();
-  problem.prescribed = {{"left", Dof::u1, kZero}, {"bottom", Dof::u2, kZero}};
-  if (has_right_wall) problem.prescribed.push_back({"right", Dof::u1, kZero, {}, {0, 1}});
+  problem.prescribed = {{"left", Dof::u1, kZeroOfStages}, {"bottom", Dof::u2, kZeroOfStages}};
+  if (has_right_wall) problem.prescribed.push_back({"right", Dof::u1, kZeroOfStages, {}, {0, 1}});
   problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(50e3)}};
   return problem;
 }
@@ -267,7 +272,7 @@ TEST(support, that_begins_holds_where_the_body_is_then_or_brings_it_back) {
     Problem<2> problem = pressed_block(false);
     problem.stages = {"loaded", "held", "unloaded"};
     problem.boundary_loads.front().life = {0, 2};
-    problem.prescribed.push_back({"right", Dof::u1, kZero, {}, {1, INT_MAX}, from_here});
+    problem.prescribed.push_back({"right", Dof::u1, kZeroOfStages, {}, {1, INT_MAX}, from_here});
     Solver<2> solver(std::move(problem), tight());
     ASSERT_TRUE(solver.equilibrate().converged);
     const double there = displacement_at(solver, {2, 1}, Dof::u1);

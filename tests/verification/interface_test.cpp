@@ -9,12 +9,12 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegreeOfInterface = 3.14159265358979323846 / 180.0;
 
 InterfaceParameters rough(double normal_stiffness, double shear_stiffness, double friction) {
   return {.normal_stiffness = normal_stiffness,
           .shear_stiffness = shear_stiffness,
-          .tan_friction = std::tan(friction * kDegree)};
+          .tan_friction = std::tan(friction * kDegreeOfInterface)};
 }
 
 /// Supports that hold a body in space or the plane and no more: three corners of a side that carry no reaction.
@@ -70,7 +70,7 @@ TEST_P(InPlane, a_block_on_an_incline_sticks_and_slides) {
     const auto body = add_body<2>(problem, "bottom", rough(1e9, 1e9, 30.0));
     problem.prescribed.push_back({"body", Dof::u1, kZero, {}});
     problem.prescribed.push_back({"body", Dof::u2, kZero, {}});
-    const double angle = slope * kDegree;
+    const double angle = slope * kDegreeOfInterface;
     problem.body_loads = {{[=](const Eigen::Vector2d&) {
       return Eigen::Vector3d(20e3 * std::sin(angle), -20e3 * std::cos(angle), 0.0);
     }}};
@@ -89,9 +89,11 @@ TEST_P(InPlane, a_block_on_an_incline_sticks_and_slides) {
     const Eigen::Vector2d force = body.interface->force();
     const double weight = 20e3 * 0.5;
     EXPECT_NEAR(-force(1), weight * std::cos(angle), 1e-10 * weight);
-    EXPECT_NEAR(std::abs(force(0) / force(1)), std::tan((slides ? 30.0 : slope) * kDegree), 1e-9) << slope;
+    EXPECT_NEAR(std::abs(force(0) / force(1)), std::tan((slides ? 30.0 : slope) * kDegreeOfInterface), 1e-9)
+        << slope;
     if (slides) {
-      EXPECT_NEAR(spring->force(), weight * (std::sin(angle) - std::cos(angle) * std::tan(30.0 * kDegree)),
+      EXPECT_NEAR(spring->force(),
+                  weight * (std::sin(angle) - std::cos(angle) * std::tan(30.0 * kDegreeOfInterface)),
                   1e-9 * weight);
     }
   }
@@ -100,7 +102,7 @@ TEST_P(InPlane, a_block_on_an_incline_sticks_and_slides) {
 // The law's shear test through a body: the block moves without strain, so its reaction is the shear stress of the base.
 TEST_P(InPlane, the_shear_test_of_goodman) {
   InterfaceParameters joint = rough(1e8, 4e7, 30.0);
-  joint.tan_dilation = std::tan(10.0 * kDegree);
+  joint.tan_dilation = std::tan(10.0 * kDegreeOfInterface);
   joint.cohesion = 5e3;
   Problem<2> problem;
   problem.mesh = rectangle({{1.0, 0.1}, {4, 1}}, GetParam());
@@ -276,8 +278,9 @@ TEST_P(InSpace, a_block_on_an_incline_sticks_and_slides_in_any_direction) {
     problem.materials["all"] = elastic_ground<3>(100e6);
     const auto body = add_body<3>(problem, "bottom", rough(1e9, 1e9, 30.0));
     for (const Dof dof : {Dof::u1, Dof::u2, Dof::u3}) problem.prescribed.push_back({"body", dof, kZero, {}});
-    const double angle = slope * kDegree;
-    const Eigen::Vector3d down(std::cos(direction * kDegree), std::sin(direction * kDegree), 0.0);
+    const double angle = slope * kDegreeOfInterface;
+    const Eigen::Vector3d down(std::cos(direction * kDegreeOfInterface),
+                               std::sin(direction * kDegreeOfInterface), 0.0);
     Eigen::Matrix<double, 6, 1> density = Eigen::Matrix<double, 6, 1>::Zero();
     density.head<3>() = 20e3 * (std::sin(angle) * down - std::cos(angle) * Eigen::Vector3d::UnitZ());
     problem.body_loads = {{[=](const Eigen::Vector3d&) { return density; }}};
@@ -296,8 +299,8 @@ TEST_P(InSpace, a_block_on_an_incline_sticks_and_slides_in_any_direction) {
     const StepReport report = solver.equilibrate();
     ASSERT_TRUE(report.converged) << slope << report.message;
     const Eigen::Vector3d force = body.interface->force();
-    EXPECT_NEAR(force.head<2>().norm() / std::abs(force(2)), std::tan((slides ? 30.0 : slope) * kDegree),
-                slides ? 1e-7 : 1e-9)
+    EXPECT_NEAR(force.head<2>().norm() / std::abs(force(2)),
+                std::tan((slides ? 30.0 : slope) * kDegreeOfInterface), slides ? 1e-7 : 1e-9)
         << "directions of slip differ by the strain of the block over its way";
     EXPECT_NEAR(std::abs(force.head<2>().normalized().dot(down.head<2>())), 1.0, slides ? 1e-4 : 1e-9);
   }

@@ -37,7 +37,7 @@ CellDefinition quick_spheres() {
   return definition;
 }
 
-bool same_bits(const CellReply& a, const CellReply& b) {
+bool same_bits_of_sphere_cell(const CellReply& a, const CellReply& b) {
   return std::memcmp(a.response.stress.data(), b.response.stress.data(), sizeof(Eigen::Matrix3d)) == 0 &&
          std::memcmp(a.response.tangent.data(), b.response.tangent.data(), sizeof(Matrix18)) == 0 &&
          std::ranges::equal(a.state->bytes(), b.state->bytes());
@@ -49,7 +49,7 @@ TEST(SphereCell, SameRequestGivesTheSameBitsWhateverCameBetween) {
   const auto cell = make_cell_service(definition);
   const CellReply once = cell->evaluate(request(nullptr, some_strain()));
   cell->evaluate(request(once.state, -some_strain().transpose()));
-  EXPECT_TRUE(same_bits(once, cell->evaluate(request(nullptr, some_strain()))));
+  EXPECT_TRUE(same_bits_of_sphere_cell(once, cell->evaluate(request(nullptr, some_strain()))));
 
   // Another engine, and a state that went through bytes.
   const auto other = make_cell_service(definition);
@@ -57,8 +57,8 @@ TEST(SphereCell, SameRequestGivesTheSameBitsWhateverCameBetween) {
       std::vector<std::byte>(once.state->bytes().begin(), once.state->bytes().end()));
   EXPECT_EQ(state_fault(definition, *copy), "");
   const CellReply here = cell->evaluate(request(once.state, some_strain()));
-  EXPECT_TRUE(same_bits(here, other->evaluate(request(copy, some_strain()))));
-  EXPECT_FALSE(same_bits(here, once));
+  EXPECT_TRUE(same_bits_of_sphere_cell(here, other->evaluate(request(copy, some_strain()))));
+  EXPECT_FALSE(same_bits_of_sphere_cell(here, once));
   std::printf("[figure] state of 500 spheres: %.0f bytes a sphere\n",
               static_cast<double>(once.state->bytes().size()) / 500.0);
 }
@@ -92,7 +92,7 @@ TEST(SphereCell, ContactsThatStiffenGetAShorterTimeStep) {
       3e-3);  // pressed evenly, grains are led affinely and slide little: steps of either length suffice
   EXPECT_GT(reference.diagnostics.dem_steps, 1.5 * reply.diagnostics.dem_steps);
   // Other answers know nothing of it.
-  EXPECT_TRUE(same_bits(small, cell->evaluate(request(nullptr, some_strain()))));
+  EXPECT_TRUE(same_bits_of_sphere_cell(small, cell->evaluate(request(nullptr, some_strain()))));
 }
 
 TEST(SphereCell, ARotationOnTopOfAStrainTurnsTheStress) {

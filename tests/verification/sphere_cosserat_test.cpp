@@ -54,7 +54,7 @@ CellDefinition controlled(CellDefinition definition) {
 }
 
 /// 500 spheres with Hertz's contacts, rolling resistance and torsion; coarse and quick.
-CellDefinition quick_spheres() {
+CellDefinition quick_spheres_of_sphere_cosserat() {
   CellDefinition definition = controlled(test::rolling_spheres(test::hertz_spheres(), 1.0, 0.4));
   definition.control.inertial_number = 2e-3;
   definition.control.tangent = CellTangent::none;
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Lattices, CosseratLattice,
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(CosseratSpheres, SameRequestGivesTheSameBitsWhateverCameBetween) {
-  CellDefinition definition = quick_spheres();
+  CellDefinition definition = quick_spheres_of_sphere_cosserat();
   definition.control.tangent = CellTangent::condensed;
   const auto cell = make_cell_service(definition);
   const CellRequest request{nullptr, some_increment()};
@@ -167,7 +167,7 @@ TEST(CosseratSpheres, SameRequestGivesTheSameBitsWhateverCameBetween) {
 }
 
 TEST(CosseratSpheres, ARotationOnTopTurnsStressAndCoupleStress) {
-  const auto cell = make_cell_service(quick_spheres());
+  const auto cell = make_cell_service(quick_spheres_of_sphere_cosserat());
   const CellRequest plain{nullptr, some_increment()};
   const CellReply straight = cell->evaluate(plain);
   const Eigen::Vector3d axis = Eigen::Vector3d(1.0, 2.0, 3.0).normalized();
@@ -205,7 +205,7 @@ TEST(CosseratSpheres, ARotationOnTopTurnsStressAndCoupleStress) {
 
 TEST(CosseratSpheres, OtherBaseVectorsOfTheSameLatticeGiveTheSameAnswer) {
   // See SphereCell: other faces, other order of the contacts, another frame that turns in another way.
-  CellDefinition definition = quick_spheres();
+  CellDefinition definition = quick_spheres_of_sphere_cosserat();
   const CellRequest request{nullptr, some_increment()};
   const CellReply one = make_cell_service(definition)->evaluate(request);
   const Eigen::Matrix2d box = definition.packing.box;
@@ -224,7 +224,7 @@ TEST(CosseratSpheres, OtherBaseVectorsOfTheSameLatticeGiveTheSameAnswer) {
 TEST(CosseratSpheres, SkewStressAtItsLimit) {
   // All contacts slide as the grains turn about an axis a: sum of (l x f) . a = mu sum l f_n |n x a|, whose mean over all
   // directions is pi / 4, so the skew stress is (3 pi / 4) mu p.
-  CellDefinition definition = quick_spheres();
+  CellDefinition definition = quick_spheres_of_sphere_cosserat();
   definition.control.damping = 0.5;
   const auto cell = make_cell_service(definition);
   const Eigen::Vector3d axis = Eigen::Vector3d(1.0, 2.0, 2.0) / 3.0;
@@ -292,7 +292,7 @@ TEST(CosseratSpheres, CoupleStressOfMomentsAtTheirLimit) {
 TEST(CosseratSpheres, VirtualWorkOfAnyMotionIsThatOfTheStress) {
   // Hill-Mandel (C.4): for any strain and any motion of the grains whose weighted mean rotation vanishes, the work of the
   // contacts is V stress . strain, as exactly as the grains are balanced.
-  CellDefinition definition = quick_spheres();
+  CellDefinition definition = quick_spheres_of_sphere_cosserat();
   definition.control.unbalanced_force_ratio = definition.control.unbalanced_moment_ratio = 1e-6;
   definition.control.damping = 0.3;
   const auto cell = make_cell_service(definition);

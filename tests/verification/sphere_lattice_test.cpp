@@ -35,16 +35,16 @@ TEST(SphereLatticeForm, ModuliByHand) {
   EXPECT_NEAR(fcc(1, 3) / unit / (0.5 * (kNormal - kTangential)), 1.0, 1e-12);
 }
 
-struct Size {
+struct SizeOfSphereLattice {
   const char* name;
   Lattice (*lattice)();
   int repeats;
 };
-void PrintTo(const Size& size, std::ostream* out) {
+void PrintTo(const SizeOfSphereLattice& size, std::ostream* out) {
   *out << size.name << "_" << size.repeats;
 }
 
-class SphereLattice : public testing::TestWithParam<Size> {};
+class SphereLattice : public testing::TestWithParam<SizeOfSphereLattice> {};
 
 TEST_P(SphereLattice, TangentsAreTheClosedForm) {
   const Lattice lattice = GetParam().lattice();
@@ -96,11 +96,11 @@ TEST_P(SphereLattice, StressesFollowTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, SphereLattice,
-                         testing::Values(Size{"simple_cubic", simple_cubic, 4},
-                                         Size{"simple_cubic", simple_cubic, 6},
-                                         Size{"face_centred", face_centred, 3},
-                                         Size{"face_centred_tilted", face_centred_tilted, 4},
-                                         Size{"face_centred_tilted", face_centred_tilted, 6}),
+                         testing::Values(SizeOfSphereLattice{"simple_cubic", simple_cubic, 4},
+                                         SizeOfSphereLattice{"simple_cubic", simple_cubic, 6},
+                                         SizeOfSphereLattice{"face_centred", face_centred, 3},
+                                         SizeOfSphereLattice{"face_centred_tilted", face_centred_tilted, 4},
+                                         SizeOfSphereLattice{"face_centred_tilted", face_centred_tilted, 6}),
                          [](const auto& instance) {
                            return std::string(instance.param.name) + "_" +
                                   std::to_string(instance.param.repeats);

@@ -18,18 +18,18 @@
 namespace polargrain::dem {
 namespace {
 
-struct Models {
+struct ModelsOfSphereLoop {
   std::string name;
   std::string style;  ///< words behind `pair_style gran model`
 };
 
-void PrintTo(const Models& models, std::ostream* stream) {
+void PrintTo(const ModelsOfSphereLoop& models, std::ostream* stream) {
   *stream << models.style;
 }
 
 /// The spheres of the demonstration with other contact models. All parameters that any of them asks for are there; the
 /// stiffnesses are near those that the packing was made with.
-CellDefinition cell_of(const std::string& style) {
+CellDefinition sphere_cell_of(const std::string& style) {
   CellDefinition definition = test::linear_spheres();
   std::string& script = definition.script;
   const auto start = script.find("fix             contact_modulus");
@@ -66,7 +66,7 @@ CellDefinition cell_of(const std::string& style) {
   return definition;
 }
 
-const std::vector<Models> kCombinations{
+const std::vector<ModelsOfSphereLoop> kCombinationsOfSphereLoop{
     {"radii", "hooke/radii tangential history"},
     {"radii_damped", "hooke/radii tangential history damping on"},
     {"radii_limited", "hooke/radii tangential history damping on limitForce on"},
@@ -100,7 +100,7 @@ const std::vector<Models> kCombinations{
     {"hertz_torsion", "hertz tangential li_chu rolling_friction li_chu torsionTorque on"},
     {"hertz_full", "hertz tangential li_chu rolling_friction li_chu rollingFrictionForce on limitForce on"}};
 
-class SphereLoop : public testing::TestWithParam<Models> {
+class SphereLoop : public testing::TestWithParam<ModelsOfSphereLoop> {
  protected:
   /// Two increments with sliding, rolling and rotation of the box, about 1,000 steps in all. The settings are such that
   /// every run takes the same number of steps.
@@ -138,7 +138,7 @@ TEST_P(SphereLoop, AgreesWithTheEngineOverAThousandSteps) {
   for (const CellRotations rotations : {CellRotations::free, CellRotations::controlled}) {
     if (rotations == CellRotations::controlled && GetParam().style.find("epsd2") != std::string::npos)
       continue;  // the stock rolling law does not feel curvature; refused by cells
-    const CellDefinition definition = cell_of(GetParam().style);
+    const CellDefinition definition = sphere_cell_of(GetParam().style);
     const auto spheres = replies(definition, CellLoop::automatic, rotations);
     const auto engine = replies(definition, CellLoop::engine, rotations);
     for (std::size_t k = 0; k < spheres.size(); ++k) {
@@ -164,7 +164,7 @@ TEST_P(SphereLoop, AgreesWithTheEngineOverAThousandSteps) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Combinations, SphereLoop, testing::ValuesIn(kCombinations),
+INSTANTIATE_TEST_SUITE_P(Combinations, SphereLoop, testing::ValuesIn(kCombinationsOfSphereLoop),
                          [](const auto& tested) { return tested.param.name; });
 
 /// One increment on from a state, with the loop asked for.
@@ -184,7 +184,7 @@ TEST(SphereLoopStates, GoOnInTheEnginesLoop) {
   for (const char* const style :
        {"hooke/radii tangential history rolling_friction epsd2",
         "hooke/radii tangential li_chu rolling_friction li_chu torsionTorque on rollingFrictionForce on"}) {
-    const CellDefinition definition = cell_of(style);
+    const CellDefinition definition = sphere_cell_of(style);
     const StatePointer state = gone_on(definition, CellLoop::automatic, nullptr).state;
     const CellReply here = gone_on(definition, CellLoop::automatic, state);
     const CellReply there = gone_on(definition, CellLoop::engine, state);
@@ -199,7 +199,7 @@ TEST(SphereLoopStates, GoOnInTheEnginesLoop) {
 }
 
 TEST(SphereLoopStates, AreRefusedWhereTheEnginesLoopIsAskedFor) {
-  CellDefinition definition = cell_of("hooke/radii tangential history");
+  CellDefinition definition = sphere_cell_of("hooke/radii tangential history");
   const StatePointer state = gone_on(definition, CellLoop::automatic, nullptr).state;
   EXPECT_EQ(state_fault(definition, *state), "");
   definition.control.loop = CellLoop::engine;
@@ -229,7 +229,7 @@ TEST(SphereLoopChoice, IsSaidInALineWithTheReason) {
                                             "rollingDamping on"},
         {"tangential li_chu rollingFrictionForce on rollingFrictionForceDamping on",
          "rollingFrictionForceDamping on"}}) {
-    const std::string said = said_at_rest(cell_of("hooke/radii " + style));
+    const std::string said = said_at_rest(sphere_cell_of("hooke/radii " + style));
     EXPECT_NE(
         said.find("by LIGGGHTS's own loop, which is slower: the loop over spheres does not take " + setting),
         std::string::npos)

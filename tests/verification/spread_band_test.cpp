@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kDiameter = 0.01;  // m
 constexpr double kAcross = 20.0 * kDiameter, kUp = 40.0 * kDiameter;
-constexpr double kPressure = 100e3;
+constexpr double kPressureOfSpreadBand = 100e3;
 constexpr double kSpread = 5.0 * kDiameter;
 
 /// Turns the inner nodes about the middle, by `degrees` there and less towards the sides; middle nodes stay in the middle.
@@ -50,7 +50,7 @@ Problem<2> specimen(Mesh<2> mesh) {
   problem.mesh = std::move(mesh);
   problem.continuum = Continuum::cauchy;
   ElastoplasticParameters<2> parameters;
-  parameters.elastic.young_modulus = 200.0 * kPressure;
+  parameters.elastic.young_modulus = 200.0 * kPressureOfSpreadBand;
   parameters.elastic.poisson_ratio = 0.3;
   parameters.cone = {PiecewiseLinear::ramp(1.2, 0.6, 0.3), 0.3, 0.0};
   problem.materials["all"] = std::make_shared<SlipDrivenCone<2>>(parameters);
@@ -58,13 +58,13 @@ Problem<2> specimen(Mesh<2> mesh) {
                         {"bottom_left", Dof::u1, TimeTable::constant(0.0), {}},
                         {"top", Dof::u2, TimeTable::ramp(-1.0, 1.0), {}}};  // the time is the displacement, m
   for (const char* side : {"left", "right"})
-    problem.boundary_loads.push_back({side, TimeTable::constant(kPressure)});
+    problem.boundary_loads.push_back({side, TimeTable::constant(kPressureOfSpreadBand)});
   problem.initial_stresses.push_back({[](const Eigen::Vector2d& place) {
     const Eigen::Vector2d arm = Eigen::Rotation2Dd(-50.0 / 180.0 * M_PI) *
                                 (place - Eigen::Vector2d(0.5 * kAcross, 0.5 * kUp)) / kDiameter;
     const double share = std::exp(-std::pow(arm(0) / 6.0, 2) - std::pow(arm(1) / 2.0, 2));
     Vector7 stress = Vector7::Zero();
-    stress.head<3>() = -kPressure * Eigen::Vector3d(1.0, 1.0, 1.0 - 0.3 * share);
+    stress.head<3>() = -kPressureOfSpreadBand * Eigen::Vector3d(1.0, 1.0, 1.0 - 0.3 * share);
     return stress;
   }});
   add_spread_slip(problem, {kSpread});
@@ -150,7 +150,7 @@ Outcome outcome_of(Mesh<2> mesh) {
     const StepReport report = solver.advance(step * 3.0 * kDiameter / kSteps);
     EXPECT_TRUE(report.converged) << report.message;
     if (!report.converged) break;
-    outcome.loads.push_back(-solver.reaction("top")(1) / (kPressure * kAcross));
+    outcome.loads.push_back(-solver.reaction("top")(1) / (kPressureOfSpreadBand * kAcross));
     outcome.mean_iterations += static_cast<double>(report.iterations) / kSteps;
   }
   outcome.band = band_of(solver);

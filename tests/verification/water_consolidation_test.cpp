@@ -11,11 +11,12 @@ using namespace polargrain::fem;
 
 namespace {
 
-constexpr double kLoad = 1e5;    // Pa
-constexpr double kHeight = 2.0;  // m, drained at both ends
+constexpr double kLoadOfWaterConsolidation = 1e5;    // Pa
+constexpr double kHeightOfWaterConsolidation = 2.0;  // m, drained at both ends
 constexpr double kConsolidation =
     1.2e-5;  // cv = k Eoed / gw of E = 10 MPa, nu = 0.25, k = 1e-8 m/s, gw = 10 kN/m3, m2/s
-constexpr double kUnitTime = 0.25 * kHeight * kHeight / kConsolidation;  // Tv = 1, s
+constexpr double kUnitTime =
+    0.25 * kHeightOfWaterConsolidation * kHeightOfWaterConsolidation / kConsolidation;  // Tv = 1, s
 
 /// A column along the last axis, loaded at time 0 at its top, drained at top and bottom, its sides smooth and closed.
 template <int dim>
@@ -33,7 +34,7 @@ Problem<dim> column(Mesh<dim> mesh, double theta = 1.0) {
     problem.prescribed.push_back({"back", Dof::u2, zero, {}});
     problem.prescribed.push_back({"bottom", Dof::u3, zero, {}});
   }
-  problem.boundary_loads.push_back({"top", TimeTable::constant(kLoad)});
+  problem.boundary_loads.push_back({"top", TimeTable::constant(kLoadOfWaterConsolidation)});
   PoreWaterOptions options;
   options.unit_weight = 1e4;
   options.theta = theta;
@@ -67,9 +68,12 @@ double pressure_error(const Solver<dim>& solver, double time_factor) {
   const Problem<dim>& problem = solver.problem();
   double error = 0.0;
   for (const int node : problem.fields[0].nodes) {
-    const double depth = kHeight - problem.mesh.nodes[static_cast<std::size_t>(node)](dim - 1);
-    error = std::max(error, std::abs(solver.state().displacement(problem.places().entry(0, node)) / kLoad -
-                                     exact_pressure(time_factor, depth / (0.5 * kHeight))));
+    const double depth =
+        kHeightOfWaterConsolidation - problem.mesh.nodes[static_cast<std::size_t>(node)](dim - 1);
+    error = std::max(
+        error,
+        std::abs(solver.state().displacement(problem.places().entry(0, node)) / kLoadOfWaterConsolidation -
+                 exact_pressure(time_factor, depth / (0.5 * kHeightOfWaterConsolidation))));
   }
   return error;
 }
@@ -77,7 +81,7 @@ double pressure_error(const Solver<dim>& solver, double time_factor) {
 /// Settlement over its final value.
 template <int dim>
 double consolidation(const Solver<dim>& solver) {
-  const double final_settlement = kLoad * kHeight / 1.2e7;
+  const double final_settlement = kLoadOfWaterConsolidation * kHeightOfWaterConsolidation / 1.2e7;
   return -solver.mean_displacement("top")(dim - 1) / final_settlement;
 }
 
@@ -90,13 +94,14 @@ std::unique_ptr<Solver<dim>> started(Problem<dim> problem) {
 }
 
 std::unique_ptr<Solver<2>> plane_column(int elements, double theta = 1.0) {
-  return started(column<2>(rectangle({{0.25, kHeight}, {1, elements}}), theta));
+  return started(column<2>(rectangle({{0.25, kHeightOfWaterConsolidation}, {1, elements}}), theta));
 }
 
 // Six times on one path; half a percent of the load, as engineers need it.
 TEST(water_consolidation, terzaghi_at_six_times) {
   const auto solver = plane_column(32);
-  EXPECT_NEAR(pressure_at<2>(*solver, {0.0, 1.0}), kLoad, 1e-4 * kLoad);  // at once, undrained
+  EXPECT_NEAR(pressure_at<2>(*solver, {0.0, 1.0}), kLoadOfWaterConsolidation,
+              1e-4 * kLoadOfWaterConsolidation);  // at once, undrained
   struct Row {
     double time_factor;
     int steps;
@@ -137,13 +142,14 @@ TEST(water_consolidation, terzaghi_is_of_second_order_in_space) {
 // The neighbours: every pair of elements, the same column in space.
 TEST(water_consolidation, every_pair_of_elements_consolidates_alike) {
   for (const char* type : {"Q8R", "Q8", "T6"}) {
-    const auto solver = started(column<2>(rectangle({{0.25, kHeight}, {1, 16}}, type)));
+    const auto solver = started(column<2>(rectangle({{0.25, kHeightOfWaterConsolidation}, {1, 16}}, type)));
     go(*solver, 0.5 * kUnitTime, 40);
     EXPECT_NEAR(pressure_error(*solver, 0.5), 6.7e-3, 0.5e-3) << type;
     EXPECT_NEAR(consolidation(*solver), exact_consolidation(0.5), 6e-3) << type;
   }
   for (const char* type : {"H20R", "H20", "T10", "W15"}) {
-    const auto solver = started(column<3>(box({{0.25, 0.25, kHeight}, {1, 1, 16}}, type)));
+    const auto solver =
+        started(column<3>(box({{0.25, 0.25, kHeightOfWaterConsolidation}, {1, 1, 16}}, type)));
     go(*solver, 0.5 * kUnitTime, 40);
     EXPECT_NEAR(pressure_error(*solver, 0.5), 6.7e-3, 0.5e-3) << type;
     EXPECT_NEAR(consolidation(*solver), exact_consolidation(0.5), 6e-3) << type;

@@ -23,7 +23,7 @@ void map_nodes(Mesh<2>& mesh, const std::function<Eigen::Vector2d(const Eigen::V
       }
 }
 
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfWaterPlane = TimeTable::constant(0.0);
 
 /// A quarter of Mandel's block of 2 m by 1 m between stiff smooth plates, 100 kN/m on it; drained at x = 1 m.
 std::unique_ptr<Solver<2>> mandel(double storage, Continuum continuum) {
@@ -33,14 +33,14 @@ std::unique_ptr<Solver<2>> mandel(double storage, Continuum continuum) {
             [](const Eigen::Vector2d& x) { return Eigen::Vector2d(1.0 - std::pow(1.0 - x(0), 1.5), x(1)); });
   problem.continuum = continuum;
   problem.materials["all"] = elastic<2>(1e7, 0.2);
-  problem.prescribed = {{"left", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  problem.prescribed = {{"left", Dof::u1, kZeroOfWaterPlane, {}}, {"bottom", Dof::u2, kZeroOfWaterPlane, {}}};
   problem.equal_dofs = {{"top", Dof::u2}};
   problem.node_loads = {{"top_left", Dof::u2, TimeTable::constant(-1e5)}};
   PoreWaterOptions options;
   options.unit_weight = 1e4;
   // n = 1/2.
   add_pore_water<2>(problem, {{"all", {Permeability::constant(1e-8), 1.0, 0.5 / storage}}}, options);
-  problem.prescribed_fields = {{kPorePressure, "right", kZero}};
+  problem.prescribed_fields = {{kPorePressure, "right", kZeroOfWaterPlane}};
   auto solver = std::make_unique<Solver<2>>(std::move(problem), SolverOptions{});
   const StepReport report = solver->equilibrate();
   EXPECT_TRUE(report.converged) << report.message;
@@ -101,15 +101,15 @@ std::unique_ptr<Solver<2>> strip_load() {
   }
   problem.continuum = Continuum::cauchy;
   problem.materials["all"] = elastic<2>(1e7, 0.25);
-  problem.prescribed = {{"left", Dof::u1, kZero, {}},
-                        {"right", Dof::u1, kZero, {}},
-                        {"bottom", Dof::u1, kZero, {}},
-                        {"bottom", Dof::u2, kZero, {}}};
+  problem.prescribed = {{"left", Dof::u1, kZeroOfWaterPlane, {}},
+                        {"right", Dof::u1, kZeroOfWaterPlane, {}},
+                        {"bottom", Dof::u1, kZeroOfWaterPlane, {}},
+                        {"bottom", Dof::u2, kZeroOfWaterPlane, {}}};
   problem.boundary_loads.push_back({"strip", TimeTable::constant(1e5)});
   PoreWaterOptions options;
   options.unit_weight = 1e4;
   add_pore_water<2>(problem, {{"all", {Permeability::constant(1e-8), 0.7, kIncompressible}}}, options);
-  problem.prescribed_fields = {{kPorePressure, "top", kZero}};
+  problem.prescribed_fields = {{kPorePressure, "top", kZeroOfWaterPlane}};
   auto solver = std::make_unique<Solver<2>>(std::move(problem), SolverOptions{});
   const StepReport report = solver->equilibrate();
   EXPECT_TRUE(report.converged) << report.message;

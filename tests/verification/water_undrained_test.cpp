@@ -14,7 +14,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-const TimeTable kZero = TimeTable::constant(0.0);
+const TimeTable kZeroOfWaterUndrained = TimeTable::constant(0.0);
 
 /// A block of 1 m with its inner corners off their places, sides straight.
 Mesh<2> distorted_block(const char* type) {
@@ -80,7 +80,8 @@ TEST(water_undrained, biaxial_compression_of_elastic_ground) {
     problem.mesh = rectangle({{1.0, 1.0}, {3, 3}});
     problem.continuum = Continuum::cauchy;
     problem.materials["all"] = elastic<2>(1e7, 0.25);
-    problem.prescribed = {{"left", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+    problem.prescribed = {{"left", Dof::u1, kZeroOfWaterUndrained, {}},
+                          {"bottom", Dof::u2, kZeroOfWaterUndrained, {}}};
     problem.boundary_loads.push_back({"top", TimeTable::constant(1e5)});
     add_pore_water<2>(problem, {{"all", closed_water(row.storage)}}, water_of_10_kN());
     Solver<2> solver(std::move(problem), {});
@@ -103,8 +104,8 @@ struct Specimen {
     problem.continuum = Continuum::cauchy;
     problem.materials["all"] =
         std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
-    problem.prescribed = {{"left", Dof::u1, kZero, {}},
-                          {"bottom", Dof::u2, kZero, {}},
+    problem.prescribed = {{"left", Dof::u1, kZeroOfWaterUndrained, {}},
+                          {"bottom", Dof::u2, kZeroOfWaterUndrained, {}},
                           {"top", Dof::u2, TimeTable::ramp(-1.0), {}}};
     problem.boundary_loads.push_back({"right", TimeTable::constant(1e5)});
     add_pore_water<2>(problem, {{"all", closed_water(0.0)}}, water_of_10_kN());
@@ -148,8 +149,9 @@ Problem<2> ground_under_water() {
   problem.mesh = rectangle({{4.0, 5.0}, {4, 5}});
   problem.continuum = Continuum::cauchy;
   problem.materials["all"] = elastic<2>(1e7, 0.25);
-  problem.prescribed = {
-      {"left", Dof::u1, kZero, {}}, {"right", Dof::u1, kZero, {}}, {"bottom", Dof::u2, kZero, {}}};
+  problem.prescribed = {{"left", Dof::u1, kZeroOfWaterUndrained, {}},
+                        {"right", Dof::u1, kZeroOfWaterUndrained, {}},
+                        {"bottom", Dof::u2, kZeroOfWaterUndrained, {}}};
   problem.body_loads = {gravity<2>(2e4)};
   problem.boundary_loads.push_back({"top", TimeTable::constant(2e4)});
   problem.initial_stresses = {
@@ -182,7 +184,7 @@ TEST(water_flow, a_flux_brings_its_steady_gradient) {
   options.fluxes = {{"top", TimeTable::constant(4e-6)}};
   problem.fields.clear(), problem.contributions.clear();
   add_pore_water<2>(problem, {{"all", {Permeability::constant(1e-5), 0.7, kIncompressible}}}, options);
-  problem.prescribed_fields = {{kPorePressure, "bottom", kZero}};
+  problem.prescribed_fields = {{kPorePressure, "bottom", kZeroOfWaterUndrained}};
   Solver<2> solver(std::move(problem), {});
   expect_balance<2>(solver.equilibrate());
   expect_balance<2>(solver.advance(1e9));
@@ -204,7 +206,7 @@ TEST(water_flow, goes_on_from_an_archive_to_the_same_bits) {
     add_pore_water<2>(problem, {{"all", {Permeability::kozeny_carman({.diameter = 2e-5}, 1e4), 0.7, 2.2e9}}},
                       water_of_10_kN());
     problem.boundary_loads.push_back({"top", TimeTable::ramp(1e6, 10.0)});
-    problem.prescribed_fields = {{kPorePressure, "top", kZero}};
+    problem.prescribed_fields = {{kPorePressure, "top", kZeroOfWaterUndrained}};
     return problem;
   };
   Solver<2> through(make(), {});

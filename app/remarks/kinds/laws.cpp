@@ -16,7 +16,7 @@ namespace {
 
 /// Of Poisson's ratio; zero itself is taken for meant.
 constexpr double kLeastPoisson = 0.08;
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDegreeOfFriction = std::numbers::pi / 180.0;
 
 /// The largest value of a key: of a number, a list, or a table [[shear, value], ...].
 std::optional<double> largest_value(const Scene& scene, const SceneRegion& region, const char* key,
@@ -86,17 +86,17 @@ void strength_of_laws(const Scene& scene, Remarks& remarks) {
                          "check the decimal point; nu decides the stress against walls"});
     const auto friction = largest_value(scene, region, "friction_angle", coupler::Dimension::angle);
     const coupler::Entry& place = scene.place({"materials", region.material, "friction_angle"});
-    if (friction && *friction > 55.0 * kDegree)
+    if (friction && *friction > 55.0 * kDegreeOfFriction)
       remarks.push_back(
-          {Rank::doubtful, *friction / (50.0 * kDegree),
+          {Rank::doubtful, *friction / (50.0 * kDegreeOfFriction),
            place.fault(fmt::format("material '{}': a friction angle of {:.3g} deg (sand: 28 to 50)",
-                                   region.material, *friction / kDegree)),
+                                   region.material, *friction / kDegreeOfFriction)),
            "check the number and its unit (deg, rad)"});
-    else if (friction && *friction > 0.0 && *friction < 5.0 * kDegree)
+    else if (friction && *friction > 0.0 && *friction < 5.0 * kDegreeOfFriction)
       remarks.push_back(
-          {Rank::wrong, 5.0 * kDegree / *friction,
+          {Rank::wrong, 5.0 * kDegreeOfFriction / *friction,
            place.fault(fmt::format("material '{}': a friction angle of {:.3g} deg (sand: 28 to 50)",
-                                   region.material, *friction / kDegree)),
+                                   region.material, *friction / kDegreeOfFriction)),
            "check the unit: 0.6 rad is 34 deg; for undrained clay write 0"});
     const auto shear =
         scene.quantity({"materials", region.material, "hardening_shear"}, coupler::Dimension::number);

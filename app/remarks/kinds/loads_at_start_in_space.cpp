@@ -14,11 +14,11 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kSlack = 0.02;  // of the pressure: packings are at rest to 1e-3
-constexpr double kFar = 0.3;
+constexpr double kSlackInSpace = 0.02;  // of the pressure: packings are at rest to 1e-3
+constexpr double kFarInSpace = 0.3;
 
 /// By node: which displacements are prescribed.
-std::vector<std::array<bool, 3>> held_nodes(const fem::Problem<3>& problem) {
+std::vector<std::array<bool, 3>> held_nodes_in_space(const fem::Problem<3>& problem) {
   std::vector<std::array<bool, 3>> held(problem.mesh.nodes.size(), {false, false, false});
   for (const fem::PrescribedDof<3>& item : problem.prescribed) {
     if (fem::is_rotation(item.dof) || !problem.mesh.has_nodes_on(item.on)) continue;
@@ -69,7 +69,7 @@ bool has_other_loads(const fem::Problem<3>& problem) {
 void loads_at_start_in_space(const Scene& scene, Remarks& remarks) {
   const fem::Problem<3>& problem = *scene.the_case().space;
   if (has_other_loads(problem)) return;  // their balance takes a solution
-  const auto held = held_nodes(problem);
+  const auto held = held_nodes_in_space(problem);
   const auto carried = pressures_at_start(problem);
   for (const auto& [name, faces] : problem.mesh.boundaries) {
     double worst = 0.0;
@@ -89,11 +89,11 @@ void loads_at_start_in_space(const Scene& scene, Remarks& remarks) {
       here = load;
       behind = pressure;
     }
-    if (worst <= kSlack) continue;
+    if (worst <= kSlackInSpace) continue;
     const coupler::Entry* const value = scene.boundary_value(name, "pressure");
     const coupler::Entry& place = value != nullptr ? *value : scene.place({"boundary"});
     remarks.push_back(
-        {worst > kFar ? Rank::wrong : Rank::doubtful, std::max(1.0, worst / kSlack),
+        {worst > kFarInSpace ? Rank::wrong : Rank::doubtful, std::max(1.0, worst / kSlackInSpace),
          place.fault(fmt::format(
              "boundary: '{}' carries {} at time zero, its grains {}: the first step, 0, has to take up {:.0f} % of that "
              "pressure",

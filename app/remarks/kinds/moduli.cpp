@@ -10,16 +10,16 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kFar = 100.0;  // a slip from MPa to kPa or GPa is a thousand
+constexpr double kFarModulus = 100.0;  // a slip from MPa to kPa or GPa is a thousand
 
 void look_at(const Scene& scene, const SceneRegion& region, const char* key, double other,
              const std::string& of, Remarks& remarks) {
   const auto value = scene.quantity({"materials", region.material, key}, coupler::Dimension::pressure);
   if (!value || *value <= 0.0 || !(other > 0.0)) return;
   const double off = std::max(*value / other, other / *value);
-  if (off <= kFar) return;
+  if (off <= kFarModulus) return;
   remarks.push_back(
-      {Rank::doubtful, off / kFar,
+      {Rank::doubtful, off / kFarModulus,
        scene.place({"materials", region.material, key})
            .fault(fmt::format("material '{}': {} is {:.4g} MPa, {:.3g} times {} ({:.4g} MPa)",
                               region.material, key, 1e-6 * *value, *value / other, of, 1e-6 * other)),

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLarge = 0.5;       // of the body
 constexpr double kLargeSmall = 0.1;  // in small deformation
-constexpr double kNothing = 1e-7;
+constexpr double kNoMovement = 1e-7;
 
 template <int dim>
 void look_at(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
@@ -35,8 +35,8 @@ void look_at(const Scene& scene, const fem::Problem<dim>& problem, Remarks& rema
     else if (share > kLargeSmall && small)
       remarks.push_back({Rank::doubtful, share / kLargeSmall, place.fault(seen + ", in small deformation"),
                          "set 'deformation: large', or move less"});
-    else if (share < kNothing)
-      remarks.push_back({Rank::doubtful, kNothing / share,
+    else if (share < kNoMovement)
+      remarks.push_back({Rank::doubtful, kNoMovement / share,
                          place.fault(seen + ", less than rounding and grains can resolve"),
                          "check the units of the movement and of the mesh (Gmsh's numbers are in m)"});
   }

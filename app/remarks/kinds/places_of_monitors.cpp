@@ -12,7 +12,7 @@ namespace {
 
 using coupler::Monitor;
 
-const char* name_of(fem::Dof dof) {
+const char* displacement_name(fem::Dof dof) {
   return dof == fem::Dof::u1 ? "u1" : "u2";
 }
 
@@ -63,14 +63,14 @@ void look_at_force(const Scene& scene, const Monitor& monitor, Remarks& remarks)
                          .fault(fmt::format(
                              "monitor '{}': '{}' is moved along {}, and no monitor reads the force along it: "
                              "this one is along {}",
-                             monitor.name, on, name_of(other), name_of(monitor.dof))),
-                     fmt::format("write 'reaction: {}'", name_of(other))});
+                             monitor.name, on, displacement_name(other), displacement_name(monitor.dof))),
+                     fmt::format("write 'reaction: {}'", displacement_name(other))});
 }
 
 void look_at_displacement(const Scene& scene, const Monitor& monitor, Remarks& remarks) {
   const std::string& on = monitor.on.front();
   const int axis = fem::axis_of(monitor.dof);
-  const char* const dof = name_of(monitor.dof);
+  const char* const dof = displacement_name(monitor.dof);
   const coupler::Entry& place = scene.place({"monitors", monitor.name});
   // The mean along a side, from an end that is held to one that moves.
   for (const auto& [name, edges] : scene.mesh().boundaries) {

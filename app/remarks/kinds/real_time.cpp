@@ -21,7 +21,7 @@ using coupler::Entry;
 constexpr double kLight = 300.0;            // kg/m^3
 constexpr double kHeavy = 12e3;             // lead
 constexpr double kElementsOfAWave = 4.0;    // of elements with middle nodes
-constexpr double kLost = 0.02;              // of a motion
+constexpr double kLostMotion = 0.02;        // of a motion
 constexpr double kMostAcceleration = 50.0;  // m/s2, five times gravity: an earthquake has 0.1 to 10
 
 /// Speed of shear waves in a region, m/s; nothing where a modulus is not known.
@@ -75,7 +75,7 @@ void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
     last = std::max(last, table.number(row, 0));
     largest = std::max(largest, std::abs(table.number(row, 1)));
   }
-  if (last > *end * (1.0 + kLost))
+  if (last > *end * (1.0 + kLostMotion))
     remarks.push_back(
         {last > 2.0 * *end ? Rank::wrong : Rank::doubtful, last / *end,
          place.fault(fmt::format("boundary: the motion of '{}' lasts {:.4g} s, and the run ends at {:.4g} s",

@@ -9,7 +9,7 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kLongest = 20.0;
+constexpr double kLongestElement = 20.0;
 
 /// Longest over shortest side.
 double slenderness(const fem::Mesh<2>& mesh, const fem::Element<2>& element) {
@@ -34,12 +34,12 @@ void shape_of_elements(const Scene& scene, Remarks& remarks) {
   double largest = 0.0;
   for (const fem::Element<2>& element : scene.mesh().elements)
     largest = std::max(largest, slenderness(scene.mesh(), element));
-  if (largest <= kLongest) return;
-  remarks.push_back(
-      {Rank::doubtful, largest / kLongest,
-       scene.place({"mesh"}).fault(fmt::format(
-           "mesh: its elements are up to {:.3g} times as long as wide (at most {:.0f})", largest, kLongest)),
-       "divide the mesh so that elements are nearly square"});
+  if (largest <= kLongestElement) return;
+  remarks.push_back({Rank::doubtful, largest / kLongestElement,
+                     scene.place({"mesh"}).fault(fmt::format(
+                         "mesh: its elements are up to {:.3g} times as long as wide (at most {:.0f})",
+                         largest, kLongestElement)),
+                     "divide the mesh so that elements are nearly square"});
 }
 
 }  // namespace polargrain::app

@@ -12,7 +12,7 @@ namespace {
 using coupler::Entry;
 
 /// Weight of a region at its full value, N/m^3, downwards positive, in whatever stage.
-double weight_on(const Scene& scene, const SceneRegion& region) {
+double largest_weight_on(const Scene& scene, const SceneRegion& region) {
   double weight = 0.0;
   for (const fem::BodyLoad<2>& load : scene.the_case().problem.body_loads)
     if (load.region.empty() || load.region == region.name)
@@ -64,10 +64,11 @@ std::vector<double> begins_of(const Scene& scene) {
 
 void weight_of_parts(const Scene& scene, Remarks& remarks) {
   double largest = 0.0;
-  for (const SceneRegion& region : scene.regions()) largest = std::max(largest, weight_on(scene, region));
+  for (const SceneRegion& region : scene.regions())
+    largest = std::max(largest, largest_weight_on(scene, region));
   if (largest <= 0.0) return;
   for (const SceneRegion& region : scene.regions()) {
-    if (!region.comes_later || weight_on(scene, region) > 0.0) continue;
+    if (!region.comes_later || largest_weight_on(scene, region) > 0.0) continue;
     remarks.push_back(
         {Rank::wrong, 3.0,
          place_of(scene, region.name)

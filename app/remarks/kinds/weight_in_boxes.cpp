@@ -11,8 +11,8 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kSlack = 0.1;  // of the pressure of the packing
-constexpr double kFar = 0.5;
+constexpr double kSlackOfBoxes = 0.1;  // of the pressure of the packing
+constexpr double kFarOfBoxes = 0.5;
 
 double height_of(const Scene& scene, const SceneRegion& region) {
   double least = 1e300;
@@ -38,9 +38,9 @@ void weight_in_boxes(const Scene& scene, Remarks& remarks) {
         weight += load.factor.at(0.0) * load.density(scene.body().least).norm();
     const double height = height_of(scene, region);
     const double share = weight * height / pressure;
-    if (share <= kSlack) continue;
+    if (share <= kSlackOfBoxes) continue;
     remarks.push_back(
-        {share > kFar ? Rank::wrong : Rank::doubtful, 1.0 + share,
+        {share > kFarOfBoxes ? Rank::wrong : Rank::doubtful, 1.0 + share,
          scene.place({"body"}).fault(fmt::format(
              "body: the weight of {:.3g} m of region '{}' adds {:.4g} kPa from top to bottom at time zero, and all its boxes of "
              "grains are packed under {:.4g} kPa",

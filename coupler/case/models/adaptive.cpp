@@ -41,8 +41,8 @@ class AdaptiveRecipe : public MaterialRecipe {
   int ask_every_;  ///< explicit steps that are taken together; 0: Newton's method
 };
 
-std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+std::unique_ptr<MaterialRecipe> read_adaptive_model(const std::string& material, Section& section,
+                                                    Faults& faults, const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
@@ -62,7 +62,8 @@ std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& secti
 }  // namespace
 
 MaterialModel adaptive_model() {
-  return {"adaptive", "boxes of grains as `cell` has them, no more than a tolerance asks for", read};
+  return {"adaptive", "boxes of grains as `cell` has them, no more than a tolerance asks for",
+          read_adaptive_model};
 }
 
 }  // namespace polargrain::coupler

@@ -77,8 +77,8 @@ class CellRecipe : public MaterialRecipe {
   bool spreads_;  ///< its slips follow those of the nodes
 };
 
-std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+std::unique_ptr<MaterialRecipe> read_cell_model(const std::string& material, Section& section, Faults& faults,
+                                                const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   CellDefinition definition = read_cell_definition(material, section, faults, files);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
@@ -101,7 +101,7 @@ MaterialModel cell_model() {
   return {
       "cell",
       "the stress of a box of grains (script, packing) and, with free rotations, a Cosserat part (G, Gc, lc)",
-      read};
+      read_cell_model};
 }
 
 }  // namespace polargrain::coupler

@@ -48,8 +48,8 @@ std::unique_ptr<MaterialRecipe> read_elastic(Section& section, Faults& faults, c
   return std::make_unique<ElasticRecipe<dim>>(parameters);
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+std::unique_ptr<MaterialRecipe> read_elastic_model(const std::string&, Section& section, Faults& faults,
+                                                   const CaseFiles& files) {
   return files.dimension == 3 ? read_elastic<3>(section, faults, files)
                               : read_elastic<2>(section, faults, files);
 }
@@ -57,7 +57,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Fault
 }  // namespace
 
 MaterialModel elastic_model() {
-  return {"elastic", "isotropic Cosserat elasticity: E, nu, Gc, lc", read};
+  return {"elastic", "isotropic Cosserat elasticity: E, nu, Gc, lc", read_elastic_model};
 }
 
 }  // namespace polargrain::coupler

@@ -133,8 +133,8 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
                                                     std::move(note), files.spreads_slips);
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+std::unique_ptr<MaterialRecipe> read_elastoplastic_model(const std::string&, Section& section, Faults& faults,
+                                                         const CaseFiles& files) {
   return files.dimension == 3 ? read_law<3>(section, faults, files) : read_law<2>(section, faults, files);
 }
 
@@ -142,7 +142,7 @@ std::unique_ptr<MaterialRecipe> read(const std::string&, Section& section, Fault
 
 MaterialModel elastoplastic_model() {
   return {"elastoplastic", "Cosserat cone: elastic parameters, friction_angle, dilatancy_angle, cohesion",
-          read};
+          read_elastoplastic_model};
 }
 
 }  // namespace polargrain::coupler

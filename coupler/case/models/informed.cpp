@@ -113,8 +113,8 @@ std::unique_ptr<MaterialRecipe> read_for(const std::string& material, Section& s
   return std::make_unique<InformedRecipe<dim>>(std::move(definition), parameters, cosserat, files);
 }
 
-std::unique_ptr<MaterialRecipe> read(const std::string& material, Section& section, Faults& faults,
-                                     const CaseFiles& files) {
+std::unique_ptr<MaterialRecipe> read_informed_model(const std::string& material, Section& section,
+                                                    Faults& faults, const CaseFiles& files) {
   return files.dimension == 3 ? read_for<3>(material, section, faults, files)
                               : read_for<2>(material, section, faults, files);
 }
@@ -125,7 +125,7 @@ MaterialModel informed_model() {
   return {
       "informed",
       "a Cosserat cone whose friction and dilatancy come from a box of grains (script, packing; G, Gc, lc)",
-      read};
+      read_informed_model};
 }
 
 }  // namespace polargrain::coupler
