@@ -153,3 +153,14 @@ class Contribution {
 };
 
 }  // namespace polargrain::fem
+/// A term without a state: what it adds follows from the nodal values alone.
+template <int dim>
+class StatelessContribution : public Contribution<dim> {
+ public:
+  void allocate() override {}
+  void commit() override {}
+  void revert() override {}
+  void save(ArchiveWriter&) const override {}
+  void restore(ArchiveReader&) override {}
+};
+
