@@ -36,8 +36,8 @@ class StructureFiles {
       mobilised_.push_back(point.mobilised);
     }
   }
-  void add(const fem::Beam& beam) {
-    for (const fem::BeamResult& end : beam.results())
+  void add(const fem::Beam& beam, const fem::Problem<2>& problem) {
+    for (const fem::BeamResult& end : beam.results(problem))
       row("beam", beam.short_name(), end.place,
           {"", "", "", "", "", exact(end.axial), exact(end.shear), exact(end.moment)});
   }
@@ -92,7 +92,8 @@ void write_structures(const std::filesystem::path& directory, int step, const fe
     if (const auto* const anchor = dynamic_cast<const fem::Anchor<dim>*>(contribution.get()))
       files.add(*anchor);
     if constexpr (dim == 2)
-      if (const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get())) files.add(*beam);
+      if (const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get()))
+        files.add(*beam, solver.problem());
   }
   files.write(directory, step);
 }

@@ -144,6 +144,13 @@ class Contribution {
     (void)stage;
     return {};
   }
+  /// Adds its committed internal forces on the face that has these nodes, at their displacements in turn: by them a beam there
+  /// knows what it carries. @returns whether it acts on that face
+  virtual bool add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const {
+    (void)nodes;
+    (void)forces;
+    return false;
+  }
   [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
   /// Events of the last commits that a user should read in the log, a sentence each; then forgotten.
   [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
@@ -152,7 +159,6 @@ class Contribution {
   virtual void prepare(const NodalStep& step) { (void)step; }
 };
 
-}  // namespace polargrain::fem
 /// A term without a state: what it adds follows from the nodal values alone.
 template <int dim>
 class StatelessContribution : public Contribution<dim> {
@@ -164,3 +170,4 @@ class StatelessContribution : public Contribution<dim> {
   void restore(ArchiveReader&) override {}
 };
 
+}  // namespace polargrain::fem
