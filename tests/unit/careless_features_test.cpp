@@ -355,6 +355,48 @@ TEST(Motions, TooFastForTheElementsAreTold) {
                       Rank::doubtful))
       << app::text_of(remarks, true);
 }
+// The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
+TEST(Picture, ShowsFreeWater) {
+  const Scratch scratch("careless_picture");
+  write(scratch.path() / "case.yaml", replaced(replaced(kWet, "water: {permeability: 1e-8 m/s}",
+                                                        "water: {permeability: 1e-8 m/s, level: 3 m}"),
+                                               "{on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}",
+                                               "{on: top, free_water: [[0 d, 3 m], [9 d, 4 m]]}"));
+  const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  const coupler::Entry document =
+      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
+  const app::PackingsAtRest packings;
+  const std::string page = app::case_picture(app::Scene(the_case, document, packings), {});
+  EXPECT_NE(page.find("free water to 3 m"), std::string::npos);
+  EXPECT_NE(page.find("free water to 4 m"), std::string::npos);
+  std::size_t signs = 0;
+  for (std::size_t at = page.find(app::kWater); at != std::string::npos; at = page.find(app::kWater, at + 1))
+    ++signs;
+  EXPECT_GE(signs, 11U);
+}
+
+TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
+  const Scratch scratch("careless_start");
+  write(scratch.path() / "case.yaml", kBank);
+  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  the_case.start_from = scratch.path() / "first";
+  coupler::RunBefore before{"first", fem::Continuum::cosserat, {0.0, 0.0}, {20.0, 12.0}};
+  const auto told = [&](const std::string& message) {
+    the_case.run_before = before;
+    const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
+    return is_told(remarks, message, Rank::doubtful);
+  };
+  EXPECT_FALSE(told("measures"));
+  before.largest = {25.0, 12.0};
+  EXPECT_TRUE(told("the body in 'first' measures 25 m along 1, this one 20 m"));
+  the_case.problem.continuum = fem::Continuum::cauchy;
+  EXPECT_TRUE(told("'first' has micro-rotations and couple stresses"));
+  before.continuum = fem::Continuum::cauchy;
+  EXPECT_FALSE(told("couple stresses"));
+  the_case.problem.continuum = fem::Continuum::cosserat;
+  EXPECT_TRUE(told("'first' is of the classical continuum"));
+}
+
 
 TEST(Motions, AsLongAsTheRunAreRight) {
   const app::Remarks remarks = remarks_on_motion(201, 1.0);
