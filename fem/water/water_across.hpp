@@ -60,6 +60,8 @@ class WaterAcross final : public StatelessContribution<dim>, public TiesEntries 
   [[nodiscard]] bool depends_on_duration() const override { return true; }
 
   [[nodiscard]] const WaterAcrossOptions& options() const { return options_; }
+  /// Faces with ground on one side alone in a stage: closed. @param there as elements_in_stage has it
+  [[nodiscard]] std::size_t bare_faces(int stage, const std::vector<char>& there) const;
 
  private:
   struct Face {

@@ -177,6 +177,51 @@ const std::string kFooting = R"(title: A strip footing on clay
 continuum: cauchy
 mesh: {rectangle: {size: [4 m, 2 m], elements: [16, 8], lines: {footing: [0, 2 m, 1 m, 2 m], apron: [1 m, 2 m, 4 m, 2 m]}}}
 materials:
+const std::string kWet = R"(title: Clay between two curtains under a load
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [8, 4], regions: {right: [2 m, 0, 4 m, 2 m]}, lines: {line: [2 m, 0, 2 m, 2 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {right: clay, rest: clay}
+water: {permeability: 1e-8 m/s}
+interfaces: {curtain: {on: line, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: leaky, resistance: 1e8 s}}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}
+  - {on: left, drained: true}
+  - {on: right, flux: 0 m/s}
+steps: {duration: 9 d, count: 90, tolerance: 1e-8}
+monitors: {settled: {on: top, displacement: u2}}
+output: {table: [settled]}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Water, CarelessFeatures,
+    ::testing::Values(
+        Careless{"ADrainOfUndrainedGround",
+                 replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
+                          "  - {on: right, flux: 0 m/s}\n", ""),
+                 "water: {permeability: 1e-8 m/s}",
+                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
+                 "'drained' at 'left' does nothing: all 4 elements there are undrained", Rank::wrong},
+        Careless{"ALeakOfUndrainedGround",
+                 replaced(replaced(kWet, "  - {on: left, drained: true}\n", ""),
+                          "  - {on: right, flux: 0 m/s}\n", ""),
+                 "water: {permeability: 1e-8 m/s}",
+                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
+                 "interface 'curtain': it leaks with a resistance of 1e+08 s, and all ground is undrained",
+                 Rank::doubtful},
+        Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
+                 "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
+                 Rank::wrong},
+        Careless{
+            "ALeakWhoseFrontIsBare", kWet, "steps: {duration: 9 d, count: 90, tolerance: 1e-8}",
+            "steps: {tolerance: 1e-8, stages: [{name: load, until: 1 d, count: 10}, {name: dig, remove: right, until: 9 d, "
+            "count: 80}]}",
+            "4 of its faces have ground on one side alone in stage 'dig': there it is closed",
+            Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
   clay: {model: elastoplastic, E: 10 MPa, nu: 0.45, friction_angle: 0 deg, dilatancy_angle: 0 deg, cohesion: 20 kPa}
 regions: {all: clay}
 boundary:
