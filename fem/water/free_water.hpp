@@ -44,6 +44,7 @@ class FreeWater final : public StatelessContribution<dim> {
 
   [[nodiscard]] std::string name() const override { return "the water at '" + on_ + "'"; }
   [[nodiscard]] const std::string& on() const { return on_; }  ///< boundary or wall
+  [[nodiscard]] const TimeTable& level() const { return level_; }
   [[nodiscard]] std::size_t elements() const override { return faces_.size(); }
   [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return faces_[e].entries; }
   [[nodiscard]] bool takes_stages() const override { return true; }
@@ -72,8 +73,8 @@ class FreeWater final : public StatelessContribution<dim> {
   TimeTable level_;
   double unit_weight_;
   std::vector<Face> faces_;
-};
   double evaluated_level_ = -HUGE_VAL;
   double committed_level_ = -HUGE_VAL;
+};
 
 }  // namespace polargrain::fem

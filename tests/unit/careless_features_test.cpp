@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "app/picture/case_picture.hpp"
+#include "app/picture/symbols.hpp"
+#include "app/remarks/scene.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "tests/support/careless_scenes.hpp"
 
 namespace polargrain::testing {
@@ -173,10 +177,6 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.name; });
 
 /// Half of a strip footing 2 m wide, its edge in the middle of the surface.
-const std::string kFooting = R"(title: A strip footing on clay
-continuum: cauchy
-mesh: {rectangle: {size: [4 m, 2 m], elements: [16, 8], lines: {footing: [0, 2 m, 1 m, 2 m], apron: [1 m, 2 m, 4 m, 2 m]}}}
-materials:
 const std::string kWet = R"(title: Clay between two curtains under a load
 continuum: cauchy
 mesh: {rectangle: {size: [4 m, 2 m], elements: [8, 4], regions: {right: [2 m, 0, 4 m, 2 m]}, lines: {line: [2 m, 0, 2 m, 2 m]}}}
@@ -222,6 +222,10 @@ INSTANTIATE_TEST_SUITE_P(
             Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
+const std::string kFooting = R"(title: A strip footing on clay
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [16, 8], lines: {footing: [0, 2 m, 1 m, 2 m], apron: [1 m, 2 m, 4 m, 2 m]}}}
+materials:
   clay: {model: elastoplastic, E: 10 MPa, nu: 0.45, friction_angle: 0 deg, dilatancy_angle: 0 deg, cohesion: 20 kPa}
 regions: {all: clay}
 boundary:
@@ -351,6 +355,48 @@ app::Remarks remarks_on_motion(int rows, double amplitude) {
   return remarks_on_motion_of(scratch);
 }
 
+// The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
+TEST(Picture, ShowsFreeWater) {
+  const Scratch scratch("careless_picture");
+  write(scratch.path() / "case.yaml", replaced(replaced(kWet, "water: {permeability: 1e-8 m/s}",
+                                                        "water: {permeability: 1e-8 m/s, level: 3 m}"),
+                                               "{on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}",
+                                               "{on: top, free_water: [[0 d, 3 m], [9 d, 4 m]]}"));
+  const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  const coupler::Entry document =
+      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
+  const app::PackingsAtRest packings;
+  const std::string page = app::case_picture(app::Scene(the_case, document, packings), {});
+  EXPECT_NE(page.find("free water to 3 m"), std::string::npos);
+  EXPECT_NE(page.find("free water to 4 m"), std::string::npos);
+  std::size_t signs = 0;
+  for (std::size_t at = page.find(app::kWater); at != std::string::npos; at = page.find(app::kWater, at + 1))
+    ++signs;
+  EXPECT_GE(signs, 11U);
+}
+
+TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
+  const Scratch scratch("careless_start");
+  write(scratch.path() / "case.yaml", kBank);
+  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  the_case.start_from = scratch.path() / "first";
+  coupler::RunBefore before{"first", fem::Continuum::cosserat, {0.0, 0.0}, {20.0, 12.0}};
+  const auto told = [&](const std::string& message) {
+    the_case.run_before = before;
+    const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
+    return is_told(remarks, message, Rank::doubtful);
+  };
+  EXPECT_FALSE(told("measures"));
+  before.largest = {25.0, 12.0};
+  EXPECT_TRUE(told("the body in 'first' measures 25 m along 1, this one 20 m"));
+  the_case.problem.continuum = fem::Continuum::cauchy;
+  EXPECT_TRUE(told("'first' has micro-rotations and couple stresses"));
+  before.continuum = fem::Continuum::cauchy;
+  EXPECT_FALSE(told("couple stresses"));
+  the_case.problem.continuum = fem::Continuum::cosserat;
+  EXPECT_TRUE(told("'first' is of the classical continuum"));
+}
+
 TEST(RealTime, NeedsExplicitSteps) {
   const Scratch scratch("careless_method");
   for (const char* const method : {"", "method: newton, ", "method: automatic, "}) {
@@ -400,48 +446,6 @@ TEST(Motions, TooFastForTheElementsAreTold) {
                       Rank::doubtful))
       << app::text_of(remarks, true);
 }
-// The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
-TEST(Picture, ShowsFreeWater) {
-  const Scratch scratch("careless_picture");
-  write(scratch.path() / "case.yaml", replaced(replaced(kWet, "water: {permeability: 1e-8 m/s}",
-                                                        "water: {permeability: 1e-8 m/s, level: 3 m}"),
-                                               "{on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}",
-                                               "{on: top, free_water: [[0 d, 3 m], [9 d, 4 m]]}"));
-  const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
-  const coupler::Entry document =
-      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
-  const app::PackingsAtRest packings;
-  const std::string page = app::case_picture(app::Scene(the_case, document, packings), {});
-  EXPECT_NE(page.find("free water to 3 m"), std::string::npos);
-  EXPECT_NE(page.find("free water to 4 m"), std::string::npos);
-  std::size_t signs = 0;
-  for (std::size_t at = page.find(app::kWater); at != std::string::npos; at = page.find(app::kWater, at + 1))
-    ++signs;
-  EXPECT_GE(signs, 11U);
-}
-
-TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
-  const Scratch scratch("careless_start");
-  write(scratch.path() / "case.yaml", kBank);
-  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
-  the_case.start_from = scratch.path() / "first";
-  coupler::RunBefore before{"first", fem::Continuum::cosserat, {0.0, 0.0}, {20.0, 12.0}};
-  const auto told = [&](const std::string& message) {
-    the_case.run_before = before;
-    const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
-    return is_told(remarks, message, Rank::doubtful);
-  };
-  EXPECT_FALSE(told("measures"));
-  before.largest = {25.0, 12.0};
-  EXPECT_TRUE(told("the body in 'first' measures 25 m along 1, this one 20 m"));
-  the_case.problem.continuum = fem::Continuum::cauchy;
-  EXPECT_TRUE(told("'first' has micro-rotations and couple stresses"));
-  before.continuum = fem::Continuum::cauchy;
-  EXPECT_FALSE(told("couple stresses"));
-  the_case.problem.continuum = fem::Continuum::cosserat;
-  EXPECT_TRUE(told("'first' is of the classical continuum"));
-}
-
 
 TEST(Motions, AsLongAsTheRunAreRight) {
   const app::Remarks remarks = remarks_on_motion(201, 1.0);
