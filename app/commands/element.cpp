@@ -97,6 +97,7 @@ struct Tests {
   std::vector<double> pressures;  ///< Pa
   std::vector<ElementResult> results;
   std::vector<ElementMean> means;
+  Envelopes envelopes = {};  ///< under several pressures
   /// Under several pressures all tables say which, and there is an envelope.
   [[nodiscard]] bool are_several() const { return pressures.size() > 1; }
 };
@@ -161,7 +162,7 @@ std::string page_of(const std::string& title, const Tests& tests) {
       curve.name += fmt::format(" at {:.4g} kPa", 1e-3 * tests.pressures[k]);
       curves.push_back(std::move(curve));
     }
-  return element_page(title, columns, curves, {}, envelope_charts(tests.results, tests.pressures));
+  return element_page(title, columns, curves, {}, envelope_charts(tests.envelopes));
 }
 
 std::string summary_of(const Tests& tests) {
@@ -170,7 +171,7 @@ std::string summary_of(const Tests& tests) {
     if (tests.are_several()) text += fmt::format("under {:.4g} kPa\n", 1e-3 * tests.pressures[k]);
     text += summary_of(tests.results[k]) + undrained_summary(tests.results[k]);
   }
-  if (tests.are_several()) text += envelope_summary(tests.results, tests.pressures);
+  if (tests.are_several()) text += envelope_summary(tests.envelopes);
   return text;
 }
 
@@ -220,8 +221,10 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
   write_file(with_ending(options.output, ".csv"), table_of(tests));
   if (const std::string means = table_of_means(tests); !means.empty())
     write_file(with_ending(options.output, "_mean.csv"), means);
-  if (tests.are_several())
-    write_file(with_ending(options.output, "_envelope.csv"), envelope_table(tests.results, tests.pressures));
+  if (tests.are_several()) {
+    tests.envelopes = envelopes_of(tests.results, tests.pressures);
+    write_file(with_ending(options.output, "_envelope.csv"), envelope_table(tests.envelopes));
+  }
   const std::string& title = specifications.front().title;
   write_file(with_ending(options.output, ".html"), page_of(title.empty() ? "Element test" : title, tests));
   if (!options.quiet) tell(stdout, "{}", summary_of(tests));

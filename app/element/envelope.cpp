@@ -84,9 +84,17 @@ ChartSeries line_until(const std::string& name, const FailureLine& line, double 
   series.line = true;
   series.dashed = true;
   series.colour = "text";
+  const auto [sine, cosine] = sine_and_cosine(line.friction_angle);
+  const double slope = sine / cosine;
   for (const double at : {0.0, sigma})
-    series.points.emplace_back(1e-3 * at, 1e-3 * (line.cohesion + at * std::tan(line.friction_angle)));
+    series.points.emplace_back(1e-3 * at, 1e-3 * (line.cohesion + at * slope));
   return series;
+}
+
+/// Rounding puts the cohesion of dry sand on either side of zero, and "-0.000" reads as if it were less.
+std::string rounded(double value, int decimals) {
+  const double nought = 0.5 * power(10.0, -decimals);
+  return fmt::format("{:.{}f}", std::abs(value) < nought ? 0.0 : value, decimals);
 }
 
 }  // namespace
@@ -120,7 +128,9 @@ std::optional<FailureLine> failure_line(std::span<const StressCircle> circles) {
   return line;
 }
 
-std::vector<EnvelopeOfSpecimen> envelopes_of(std::span<const ElementResult> results,
+namespace {
+
+std::vector<EnvelopeOfSpecimen> envelopes_at(std::span<const ElementResult> results,
                                              std::span<const double> pressures, FailureState state) {
   std::vector<EnvelopeOfSpecimen> envelopes;
   for (std::size_t specimen = 0; specimen < results.front().curves.size(); ++specimen) {
@@ -137,18 +147,28 @@ std::vector<EnvelopeOfSpecimen> envelopes_of(std::span<const ElementResult> resu
   return envelopes;
 }
 
-std::string envelope_summary(std::span<const ElementResult> results, std::span<const double> pressures) {
-  std::string text = fmt::format("envelope over {} pressures\n{:<32} {:>16} {:>18} {:>14}\n",
-                                 pressures.size(), "", "angle, deg", "cohesion, kPa", "off, kPa");
-  for (const FailureState state : {FailureState::peak, FailureState::end}) {
-    const std::vector<EnvelopeOfSpecimen> envelopes = envelopes_of(results, pressures, state);
+}  // namespace
+
+Envelopes envelopes_of(std::span<const ElementResult> results, std::span<const double> pressures) {
+  Envelopes envelopes;
+  envelopes.pressures = pressures.size();
+  for (const FailureState state : {FailureState::peak, FailureState::end})
+    envelopes.at_states.emplace_back(state, envelopes_at(results, pressures, state));
+  return envelopes;
+}
+
+std::string envelope_summary(const Envelopes& all) {
+  std::string text = fmt::format("envelope over {} pressures\n{:<32} {:>16} {:>18} {:>14}\n", all.pressures,
+                                 "", "angle, deg", "cohesion, kPa", "off, kPa");
+  for (const auto& [state, envelopes] : all.at_states) {
     for (const EnvelopeOfSpecimen& envelope : envelopes) {
       const std::string name =
           fmt::format("{}, {} of {}", name_of(state), envelope.circles.size(), envelope.name);
       if (envelope.line)
-        text += fmt::format("{:<32} {:>16.2f} {:>18.3f} {:>14.3f}\n", name,
-                            envelope.line->friction_angle / kDegreeOfEnvelope, 1e-3 * envelope.line->cohesion,
-                            1e-3 * envelope.line->off);
+        text +=
+            fmt::format("{:<32} {:>16} {:>18} {:>14}\n", name,
+                        rounded(envelope.line->friction_angle / kDegreeOfEnvelope, 2),
+                        rounded(1e-3 * envelope.line->cohesion, 3), rounded(1e-3 * envelope.line->off, 3));
       else
         text += fmt::format("{:<32} {:>16}\n", name, "no line");
     }
@@ -158,17 +178,17 @@ std::string envelope_summary(std::span<const ElementResult> results, std::span<c
     const auto [cohesion, half_cohesion] = mean_and_interval(cohesions);
     text += fmt::format("{:<32} {:>16} {:>18}\n",
                         fmt::format("{}, mean of {}, 95 %", name_of(state), angles.size()),
-                        fmt::format("{:.2f} +- {:.2f}", angle, half_angle),
-                        fmt::format("{:.3f} +- {:.3f}", 1e-3 * cohesion, 1e-3 * half_cohesion));
+                        fmt::format("{} +- {:.2f}", rounded(angle, 2), half_angle),
+                        fmt::format("{} +- {:.3f}", rounded(1e-3 * cohesion, 3), 1e-3 * half_cohesion));
   }
   return text;
 }
 
-std::string envelope_table(std::span<const ElementResult> results, std::span<const double> pressures) {
+std::string envelope_table(const Envelopes& all) {
   std::string text = csv_row({"packing", "state", "pressure_Pa", "largest_Pa", "least_Pa",
                               "friction_angle_deg", "cohesion_Pa", "off_Pa"});
-  for (const FailureState state : {FailureState::peak, FailureState::end})
-    for (const EnvelopeOfSpecimen& envelope : envelopes_of(results, pressures, state))
+  for (const auto& [state, envelopes] : all.at_states)
+    for (const EnvelopeOfSpecimen& envelope : envelopes)
       for (std::size_t k = 0; k < envelope.circles.size(); ++k) {
         const FailureLine line = envelope.line.value_or(FailureLine{NAN, NAN, NAN});
         text +=
@@ -179,11 +199,11 @@ std::string envelope_table(std::span<const ElementResult> results, std::span<con
   return text;
 }
 
-std::string envelope_charts(std::span<const ElementResult> results, std::span<const double> pressures) {
+std::string envelope_charts(const Envelopes& all) {
   std::string html;
-  for (const FailureState state : {FailureState::peak, FailureState::end}) {
+  for (const auto& [state, envelopes] : all.at_states) {
     std::vector<ChartSeries> series;
-    for (const EnvelopeOfSpecimen& envelope : envelopes_of(results, pressures, state)) {
+    for (const EnvelopeOfSpecimen& envelope : envelopes) {
       double largest = 0.0;
       for (std::size_t k = 0; k < envelope.circles.size(); ++k) {
         series.push_back(
@@ -192,10 +212,10 @@ std::string envelope_charts(std::span<const ElementResult> results, std::span<co
         largest = std::max(largest, envelope.circles[k].largest);
       }
       if (envelope.line)
-        series.push_back(line_until(
-            fmt::format("{}: {:.4g} deg, {:.3g} kPa", envelope.name,
-                        envelope.line->friction_angle / kDegreeOfEnvelope, 1e-3 * envelope.line->cohesion),
-            *envelope.line, largest));
+        series.push_back(line_until(fmt::format("{}: {} deg, {} kPa", envelope.name,
+                                                rounded(envelope.line->friction_angle / kDegreeOfEnvelope, 2),
+                                                rounded(1e-3 * envelope.line->cohesion, 2)),
+                                    *envelope.line, largest));
     }
     html += fmt::format("<h2>Mohr's circles at the {}</h2>\n", name_of(state)) +
             chart({.title = "effective normal stress, kPa"}, {.title = "shear stress, kPa"}, series, true);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/element/run_element.hpp"
@@ -41,15 +42,20 @@ enum class FailureState {
   end    ///< the last row
 };
 
-/// Of each specimen, over the tests. @param results of one specification under these pressures
-std::vector<EnvelopeOfSpecimen> envelopes_of(std::span<const ElementResult> results,
-                                             std::span<const double> pressures, FailureState state);
+/// Of each specimen, over the tests, at each state.
+struct Envelopes {
+  std::size_t pressures = 0;
+  std::vector<std::pair<FailureState, std::vector<EnvelopeOfSpecimen>>> at_states;
+};
+
+/// @param results of one specification under these pressures
+Envelopes envelopes_of(std::span<const ElementResult> results, std::span<const double> pressures);
 
 /// For the terminal: angle and cohesion of each specimen, their mean and its 95 % interval, at the peak and at the end.
-std::string envelope_summary(std::span<const ElementResult> results, std::span<const double> pressures);
+std::string envelope_summary(const Envelopes& all);
 /// As CSV (docs/element_tests.md).
-std::string envelope_table(std::span<const ElementResult> results, std::span<const double> pressures);
+std::string envelope_table(const Envelopes& all);
 /// Circles and lines at the peak as a part of a page.
-std::string envelope_charts(std::span<const ElementResult> results, std::span<const double> pressures);
+std::string envelope_charts(const Envelopes& all);
 
 }  // namespace polargrain::app

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/remarks/in_units.hpp"
+#include "fem/water/free_water.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -78,6 +79,20 @@ void add_load(PlaceConditions<dim>& place, const fem::NodeLoad& load, double tim
   add(words, fmt::format("force {} of {:.4g} {} at each node", fem::name_of<dim>(load.dof), value, kForce));
 }
 
+template <int dim>
+void add_water(PlaceConditions<dim>& place, const fem::FreeWater<dim>& water, int last_stage, double end) {
+  const auto words = [&](double time) {
+    return fmt::format("free water to {:.4g} m", water.level().at(time));
+  };
+  const bool at_start = water.life.holds(0);
+  const bool at_end = water.life.holds(last_stage);
+  place.water_level = water.level().at(at_start && !at_end ? 0.0 : end);
+  if constexpr (dim == 3) place.pressed = true;
+  if (at_start) add(place.loads_at_start, words(0.0));
+  if (at_end) add(place.loads_at_end, words(end));
+  if (!at_start && !at_end) add(place.loads_at_end, words(end) + " for some stages");
+}
+
 /// Looks for the sides of places without conditions in places that have some: 'bottom_patch' is held where 'bottom' is.
 template <int dim>
 void find_elsewhere(const fem::Mesh<dim>& mesh, std::vector<PlaceConditions<dim>>& places) {
@@ -113,6 +128,13 @@ std::vector<PlaceConditions<dim>> conditions_of(const fem::Problem<dim>& problem
   for (const fem::PrescribedDof<dim>& item : problem.prescribed) names.insert(item.on);
   for (const fem::NodeLoad& load : problem.node_loads) names.insert(load.on);
   for (const fem::Tie& tie : problem.ties) names.insert({tie.on, tie.to});
+  std::vector<const fem::FreeWater<dim>*> waters;
+  for (const auto& contribution : problem.contributions)
+    if (const auto* const water = dynamic_cast<const fem::FreeWater<dim>*>(contribution.get())) {
+      waters.push_back(water);
+      names.insert(water->on());
+    }
+  const int last_stage = std::max(0, static_cast<int>(problem.stages.size()) - 1);
   std::vector<PlaceConditions<dim>> places;
   for (const std::string& name : names) {
     PlaceConditions<dim> place;
@@ -132,6 +154,8 @@ std::vector<PlaceConditions<dim>> conditions_of(const fem::Problem<dim>& problem
       add_load(place, load, 0.0, place.loads_at_start);
       add_load(place, load, end, place.loads_at_end);
     }
+    for (const fem::FreeWater<dim>* const water : waters)
+      if (water->on() == name) add_water(place, *water, last_stage, end);
     for (const fem::Tie& tie : problem.ties) {
       if (tie.on == name) place.tied_to = tie.to;
       if (tie.to == name) place.tied_to = tie.on;

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct PlaceConditions {
   bool pressed = false;                           ///< by a pressure, at the start or at the end
   double pressure_sign = 1.0;                     ///< -1: it pulls
   Direction pull = Direction::Zero();  ///< direction of tractions and forces of nodes; zero without
+  std::optional<double> water_level;   ///< of free water there, at the end of its life or of the run, m
   std::string tied_to;                 ///< empty: not tied
   std::string supports;                ///< in words
   std::string loads_at_start;          ///< in words

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "app/page/page.hpp"
@@ -81,11 +82,39 @@ std::string symbols_at(const PlaceConditions<2>& place, const Eigen::Vector2d& a
   return drawn;
 }
 
+/// Free water: its surface beside the place, and arrows where it presses on the outline below that.
+std::string water_drawn(const PlaceConditions<2>& place, const Scene& scene, const Frame& frame,
+                        const std::map<int, Eigen::Vector2d>& normals) {
+  std::string drawn;
+  double left = HUGE_VAL;
+  double right = -HUGE_VAL;
+  std::vector<Eigen::Vector2d> taken;
+  for (const int node : place.nodes) {
+    const Eigen::Vector2d& position = scene.mesh().nodes[static_cast<std::size_t>(node)];
+    const Eigen::Vector2d at = frame.at(position);
+    left = std::min(left, at.x());
+    right = std::max(right, at.x());
+    const auto normal = normals.find(node);
+    const auto is_near = [&](const Eigen::Vector2d& other) { return (at - other).norm() < kSpacing; };
+    if (normal == normals.end() || position.y() >= *place.water_level || std::ranges::any_of(taken, is_near))
+      continue;
+    taken.push_back(at);
+    const Eigen::Vector2d out = flipped(normal->second);
+    drawn += arrow(at + (kArrow + 4.0) * out, at + 4.0 * out, kWater);
+  }
+  // A level far above the body is shown at the edge of the drawing: the table has its value.
+  constexpr double kEdge = 14.0;
+  const double height =
+      std::clamp(frame.at({scene.body().least.x(), *place.water_level}).y(), kEdge, frame.height() - kEdge);
+  return drawn + water_surface({left - kArrow, height}, {right + kArrow, height});
+}
+
 std::string symbols_of(const PlaceConditions<2>& place, const Scene& scene, const Frame& frame) {
   std::map<int, Eigen::Vector2d> normals;
   if (place.is_boundary) normals = normals_of(edges_of(scene.mesh(), place.name));
   const Eigen::Vector2d middle = 0.5 * (scene.body().least + scene.body().largest);
   std::string drawn;
+  if (place.water_level) drawn += water_drawn(place, scene, frame, normals);
   std::vector<Eigen::Vector2d> taken;
   for (const int node : place.nodes) {
     const Eigen::Vector2d& position = scene.mesh().nodes[static_cast<std::size_t>(node)];
@@ -178,7 +207,7 @@ std::string plane_drawing(const Scene& scene, const std::vector<PlaceConditions<
       "<figure class='grains scene'>\n<div><svg viewBox='0 0 {0:.0f} {1:.0f}' style='min-width:{2:.0f}px' role='img' aria-label='mesh, supports and loads' "
       "font-size='14' font-weight='bold' fill='#222'>\n{3}</svg></div>\n<figcaption><span class='held'>&#9650; held</span> (filled: "
       "both displacements; a square: the micro-rotation), <span class='moved'>&#10140; moved</span>, <span "
-      "class='loaded'>&#10140; loaded</span>, <span class='free'>&#9476; free</span>. Arrows show directions alone.</figcaption>\n"
+      "class='loaded'>&#10140; loaded</span>, <span style='color:#3b8bc2'>&#9661; free water</span>, <span class='free'>&#9476; free</span>. Arrows show directions alone.</figcaption>\n"
       "</figure>\n",
       frame.width(), frame.height(), kLeastScale * frame.width(), drawn);
 }

@@ -34,6 +34,17 @@ std::string support(const Eigen::Vector2d& tip, const Eigen::Vector2d& outward, 
       point(ground - 0.8 * kSymbol * across), kSupport);
 }
 
+std::string water_surface(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const Eigen::Vector2d tip(0.5 * (from + to));
+  constexpr double kSize = 8.0;
+  return fmt::format(
+             "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}' stroke-width='1.6'/>\n",
+             from.x(), from.y(), to.x(), to.y(), kWater) +
+         fmt::format("<polygon points='{} {} {}' fill='none' stroke='{}' stroke-width='1.4'/>\n", point(tip),
+                     point(tip + Eigen::Vector2d(-0.6 * kSize, -kSize)),
+                     point(tip + Eigen::Vector2d(0.6 * kSize, -kSize)), kWater);
+}
+
 std::string square(const Eigen::Vector2d& at) {
   return fmt::format("<rect x='{:.1f}' y='{:.1f}' width='7' height='7' fill='{}'/>\n", at.x() - 3.5,
                      at.y() - 3.5, kSupport);

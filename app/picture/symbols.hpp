@@ -21,6 +21,7 @@ constexpr std::array<const char*, 6> kRegionColours{"#e9d8a6", "#b8d8ba", "#bcd4
 constexpr const char* kSupport = "#1d6996";
 constexpr const char* kMovement = "#0f8554";
 constexpr const char* kLoad = "#c4432b";
+constexpr const char* kWater = "#3b8bc2";
 constexpr const char* kFree = "#e17c05";
 
 std::string point(const Eigen::Vector2d& p);
@@ -30,6 +31,8 @@ std::string arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const 
 std::string support(const Eigen::Vector2d& tip, const Eigen::Vector2d& outward, bool is_filled);
 /// Of a micro-rotation that is held.
 std::string square(const Eigen::Vector2d& at);
+/// The sign of a free surface of water: a line with a triangle on it.
+std::string water_surface(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 /// A length of 1, 2 or 5 times a power of ten, about a fifth of the drawing, with its value.
 /// @param extent of the body, m @param scale units of the drawing a metre @param height of the drawing
 std::string scale_bar(double extent, double scale, double height);

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kRatioAtRest = 0.5;  ///< of sand: 1 - sin of 30 deg
 
-bool holds(const fem::InitialStress<2>& item, const SceneRegion& region) {
-  return item.region.empty() || item.region == region.name;
+bool holds(const fem::InitialStress<2>& item, const std::string& region) {
+  return item.region.empty() || item.region == region;
 }
 
 }  // namespace
 
-std::optional<Vector7> given_stress(const Scene& scene, const SceneRegion& region,
+std::optional<Vector7> given_stress(const Scene& scene, const std::string& region,
                                     const Eigen::Vector2d& place) {
   std::optional<Vector7> given;
   for (const fem::InitialStress<2>& item : scene.problem().initial_stresses)
@@ -26,7 +26,7 @@ std::optional<Vector7> given_stress(const Scene& scene, const SceneRegion& regio
   return given;
 }
 
-bool has_given_stress(const Scene& scene, const SceneRegion& region) {
+bool has_given_stress(const Scene& scene, const std::string& region) {
   return std::ranges::any_of(scene.problem().initial_stresses,
                              [&](const fem::InitialStress<2>& item) { return holds(item, region); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <optional>
+#include <string>
 
 #include "app/remarks/scene.hpp"
 
@@ -8,10 +9,10 @@ namespace polargrain::app {
 
 /// The stress that `initial_stress` of the case gives a place of a region, if it gives one. Where boxes measure K0,
 /// across with an estimate of it.
-std::optional<Vector7> given_stress(const Scene& scene, const SceneRegion& region,
+std::optional<Vector7> given_stress(const Scene& scene, const std::string& region,
                                     const Eigen::Vector2d& place);
 
 /// Whether it gives the region a stress.
-bool has_given_stress(const Scene& scene, const SceneRegion& region);
+bool has_given_stress(const Scene& scene, const std::string& region);
 
 }  // namespace polargrain::app

@@ -92,8 +92,7 @@ std::string with_number(std::size_t count) {
 
 Remarks remarks_on(const Scene& scene) {
   Remarks remarks;
-  // The stress at time zero of a run that starts from another one is not known here.
-  if (scene.the_case().start_from.empty()) {
+  if (scene.stress_at_start() != Scene::StressAtStart::run_before) {
     look_by(kAtTimeZero, scene, remarks);
     if (remarks.empty()) look_by(kBalance, scene, remarks);
   }

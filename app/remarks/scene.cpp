@@ -72,6 +72,12 @@ const coupler::Entry* Scene::boundary_value(const std::string& name, const std::
   return nullptr;
 }
 
+Scene::StressAtStart Scene::stress_at_start() const {
+  if (!case_.start_from.empty()) return StressAtStart::run_before;
+  const bool is_given = with_problem([](const auto& problem) { return !problem.initial_stresses.empty(); });
+  return is_given ? StressAtStart::given : StressAtStart::materials;
+}
+
 bool Scene::has_cells() const {
   return std::ranges::any_of(regions_, [](const SceneRegion& region) { return region.cell != nullptr; });
 }
@@ -84,7 +90,7 @@ double Scene::pressure_of(const SceneRegion& region) {
 std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
                                              const Eigen::Vector2d& position) const {
   if (region.comes_later) return {};
-  if (const auto given = given_stress(*this, region, position)) return given;
+  if (const auto given = given_stress(*this, region.name, position)) return given;
   Vector7 stress = Vector7::Zero();
   if (region.packing != nullptr) return region.packing->stress;
   if (region.cell != nullptr) {

@@ -62,6 +62,14 @@ class Scene {
   /// The value of `key` in the first item of `boundary` that is on `name` and has it; null where no item has it.
   [[nodiscard]] const coupler::Entry* boundary_value(const std::string& name, const std::string& key) const;
 
+  /// Where the stress at time zero comes from.
+  enum class StressAtStart {
+    materials,  ///< packings and laws
+    given,      ///< `initial_stress`, at least somewhere
+    run_before  ///< `start_from`: it is not known here
+  };
+  [[nodiscard]] StressAtStart stress_at_start() const;
+
   [[nodiscard]] bool has_cells() const;
   /// Pressure of the grains of a region, Pa: as the engine found it, else as the packing records it; 0 without cells.
   [[nodiscard]] static double pressure_of(const SceneRegion& region);

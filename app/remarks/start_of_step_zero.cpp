@@ -96,7 +96,7 @@ std::optional<StartOfStepZero> start_of_step_zero(const Scene& scene) {
   fem::Problem<2> problem = scene.problem();
   for (fem::InitialStress<2>& item : problem.initial_stresses)
     item.stress = [&scene, named = item.region](const Eigen::Vector2d& place) {
-      return given_stress(scene, SceneRegion{named, ""}, place).value_or(Vector7::Zero());
+      return given_stress(scene, named, place).value_or(Vector7::Zero());
     };
   problem.deformation = fem::Deformation::small;
   for (auto& [name, material] : problem.materials) {

@@ -22,7 +22,7 @@ class StructureFiles {
       const double shear = dim == 2 ? point.traction(0) : point.traction.template head<dim - 1>().norm();
       row("interface", interface.settings().name, point.geometry.place,
           {exact(point.traction(dim - 1)), exact(shear), exact(point.gap), exact(point.slip),
-           exact(point.mobilised), "", "", ""});
+           exact(point.mobilised), "", "", "", exact(point.pore_pressure)});
       Eigen::Vector3d place = Eigen::Vector3d::Zero();
       place.head<dim>() = point.geometry.place;
       points_.places.push_back(place);
@@ -34,22 +34,24 @@ class StructureFiles {
       gap_.push_back(point.gap);
       slip_.push_back(point.slip);
       mobilised_.push_back(point.mobilised);
+      water_.push_back(point.pore_pressure);
     }
   }
-  void add(const fem::Beam& beam) {
-    for (const fem::BeamResult& end : beam.results())
+  void add(const fem::Beam& beam, const fem::Problem<2>& problem) {
+    for (const fem::BeamResult& end : beam.results(problem))
       row("beam", beam.short_name(), end.place,
-          {"", "", "", "", "", exact(end.axial), exact(end.shear), exact(end.moment)});
+          {"", "", "", "", "", exact(end.axial), exact(end.shear), exact(end.moment), ""});
   }
   void add(const fem::Anchor<dim>& anchor) {
     rows_ += csv_row(
-        {"anchor", anchor.short_name(), "", "", "", "", "", "", "", "", exact(anchor.force()), "", ""});
+        {"anchor", anchor.short_name(), "", "", "", "", "", "", "", "", exact(anchor.force()), "", "", ""});
   }
 
   void write(const std::filesystem::path& directory, int step) {
     if (rows_.empty()) return;
-    const std::string head = csv_row({"kind", "name", "x1", "x2", "x3", "normal_stress", "shear_stress",
-                                      "gap", "slip", "mobilised", "axial_force", "shear_force", "moment"});
+    const std::string head =
+        csv_row({"kind", "name", "x1", "x2", "x3", "normal_stress", "shear_stress", "gap", "slip",
+                 "mobilised", "axial_force", "shear_force", "moment", "water_pressure"});
     fem::write_file(directory / fmt::format("structures-{:05}.csv", step), head + rows_);
     if (points_.places.empty()) return;
     points_.fields = {{"traction", 3, std::move(tractions_), "Pa", {"1", "2", "3"}},
@@ -57,7 +59,8 @@ class StructureFiles {
                       {"shear_stress", 1, std::move(shear_), "Pa"},
                       {"gap", 1, std::move(gap_), "m"},
                       {"slip", 1, std::move(slip_), "m"},
-                      {"mobilised", 1, std::move(mobilised_), "1"}};
+                      {"mobilised", 1, std::move(mobilised_), "1"},
+                      {"water_pressure", 1, std::move(water_), "Pa"}};
     fem::write_vtu(directory / fmt::format("interfaces-{:05}.vtu", step), points_);
   }
 
@@ -79,6 +82,7 @@ class StructureFiles {
   std::vector<double> gap_;
   std::vector<double> slip_;
   std::vector<double> mobilised_;
+  std::vector<double> water_;
 };
 
 }  // namespace
@@ -92,7 +96,8 @@ void write_structures(const std::filesystem::path& directory, int step, const fe
     if (const auto* const anchor = dynamic_cast<const fem::Anchor<dim>*>(contribution.get()))
       files.add(*anchor);
     if constexpr (dim == 2)
-      if (const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get())) files.add(*beam);
+      if (const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get()))
+        files.add(*beam, solver.problem());
   }
   files.write(directory, step);
 }

@@ -170,8 +170,7 @@ std::vector<fem::Figure> AdaptiveMaterial<dim>::figures() const {
   };
   const std::vector<fem::Figure> at_limits = at_limits_.figures();
   figures.insert(figures.end(), at_limits.begin(), at_limits.end());
-  const std::vector<fem::Figure> of_start = ground_.figures();
-  figures.insert(figures.end(), of_start.begin(), of_start.end());
+  ground_.add_figures(figures);
   if (!audits()) return figures;
   figures.push_back({"points_followed", count(followed_.size())});
   figures.push_back({"history_errors", count(errors_.count())});

@@ -63,6 +63,13 @@ struct CaseStage {
   bool resets_displacements = false;
 };
 
+/// The end of the run that another one starts from, as far as both are compared before anything runs.
+struct RunBefore {
+  std::string name;  ///< of its folder, as the case has it
+  fem::Continuum continuum = fem::Continuum::cosserat;
+  std::vector<double> least, largest;  ///< corners of the box around its body, m; empty: not known
+};
+
 /// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.
 struct Case {
   std::filesystem::path file;
@@ -91,9 +98,10 @@ struct Case {
   std::vector<Profile> profiles;
   std::filesystem::path
       start_from;  ///< result directory of the run whose end this one starts from; empty: it starts by itself
-  std::vector<std::string> table;  ///< monitors and built-in values shown at the end
-  int output_every = 1;            ///< steps between two .vtu files
-  bool output_points = true;       ///< whether there is one of the integration points beside each
+  std::optional<RunBefore> run_before;  ///< of start_from
+  std::vector<std::string> table;       ///< monitors and built-in values shown at the end
+  int output_every = 1;                 ///< steps between two .vtu files
+  bool output_points = true;            ///< whether there is one of the integration points beside each
   /// Integration points whose grains are written beside each, in the order of points-NNNNN.vtu.
   std::set<std::size_t> output_grains;
   PatienceLimits patience;   ///< with workers

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "coupler/case/parts.hpp"
 #include "coupler/case/quantity.hpp"
@@ -76,6 +77,65 @@ void check_water(const Entry& start, const CaseIdentity& before, const CaseIdent
                         run)));
 }
 
+RunBefore run_before_of(const Checkpoint& end, const std::string& name, int dimension) {
+  RunBefore before;
+  before.name = name;
+  for (const std::string key : {"continuum", "continuum.kind"})
+    if (const auto value = end.identity.values.find(key); value != end.identity.values.end())
+      before.continuum = value->second == "cauchy" ? fem::Continuum::cauchy : fem::Continuum::cosserat;
+  const auto nodes = end.state.all_doubles().find("solver/body/nodes");
+  const auto space = end.state.all_integers().find("solver/body/dimension");
+  if (nodes == end.state.all_doubles().end() || space == end.state.all_integers().end() ||
+      space->second != std::vector<std::int64_t>{dimension})
+    return before;
+  const auto axes = static_cast<std::size_t>(dimension);
+  before.least.assign(axes, HUGE_VAL);
+  before.largest.assign(axes, -HUGE_VAL);
+  for (std::size_t k = 0; k < nodes->second.size(); ++k) {
+    before.least[k % axes] = std::min(before.least[k % axes], nodes->second[k]);
+    before.largest[k % axes] = std::max(before.largest[k % axes], nodes->second[k]);
+  }
+  return before;
+}
+
+/// States of structures and water go over on the same mesh alone (fem::Solver::start_from).
+void check_mesh(const Entry& start, const Checkpoint& end, const std::string& run, CaseParts& parts) {
+  const auto nodes = end.state.all_doubles().find("solver/body/nodes");
+  if (nodes == end.state.all_doubles().end()) return;
+  parts.result.with_problem([&](const auto& problem) {
+    std::vector<double> here;
+    for (const auto& node : problem.mesh.nodes) here.insert(here.end(), node.begin(), node.end());
+    if (problem.contributions.empty() || here == nodes->second) return;
+    parts.faults.push_back(start.fault(fmt::format(
+        "start_from: '{}' has another mesh, of {} nodes, and this one has {}; {} can be taken over on the same mesh alone: use "
+        "its mesh, or 'place' what is new in a stage",
+        run, nodes->second.size() / static_cast<std::size_t>(parts.result.dimension()),
+        problem.mesh.nodes.size(), problem.contributions.front()->name())));
+  });
+}
+
+/// Ground that the other run does not have has no state to begin with.
+void check_body(const Entry& start, const RunBefore& before, CaseParts& parts) {
+  if (before.least.empty()) return;
+  parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    const std::vector<char> used = fem::nodes_of_elements(problem.mesh, fem::elements_in_stage(problem, 0));
+    constexpr double kRounding = 1e-6;
+    for (std::size_t node = 0; node < used.size(); ++node) {
+      if (used[node] == 0) continue;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
+        const double x = problem.mesh.nodes[node](static_cast<Eigen::Index>(i));
+        const double slack = kRounding * (before.largest[i] - before.least[i]);
+        if (x >= before.least[i] - slack && x <= before.largest[i] + slack) continue;
+        parts.faults.push_back(start.fault(fmt::format(
+            "start_from: the body in '{}' reaches from x{} = {:.4g} m to {:.4g} m, and this one has a node at {:.4g} m, where "
+            "that run has no state to give; keep to its body, or 'place' new ground in a stage",
+            before.name, i + 1, before.least[i], before.largest[i], x)));
+        return;
+      }
+    }
+  });
+}
+
 }  // namespace
 
 void read_start(Section& top, CaseParts& parts) {
@@ -115,6 +175,9 @@ void read_start(Section& top, CaseParts& parts) {
     const CaseIdentity now = identity_of(top.entry(), parts.directory);
     check_materials(start, end.identity, now, name, parts);
     check_water(start, end.identity, now, name, parts);
+    parts.result.run_before = run_before_of(end, name, parts.result.dimension());
+    check_body(start, *parts.result.run_before, parts);
+    check_mesh(start, end, name, parts);
   } catch (const InputError& of_file) {
     fault(of_file.what());
   }

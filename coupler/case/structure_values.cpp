@@ -39,9 +39,9 @@ double value_of(const fem::Interface<dim>& interface, const std::string& value) 
   return value == "gap" ? gap : mobilised;
 }
 
-double value_of(const fem::Beam& beam, const std::string& value) {
+double value_of(const fem::Beam& beam, const fem::Problem<2>& problem, const std::string& value) {
   double largest = 0.0;
-  for (const fem::BeamResult& end : beam.results()) {
+  for (const fem::BeamResult& end : beam.results(problem)) {
     const double here = value == "moment" ? end.moment : value == "axial" ? end.axial : end.shear;
     if (std::abs(here) > std::abs(largest)) largest = here;
   }
@@ -89,7 +89,7 @@ double value_of_structure(const fem::Problem<dim>& problem, const std::string& s
     if constexpr (dim == 2)
       if (const auto* const beam = dynamic_cast<const fem::Beam*>(one);
           beam && beam->short_name() == structure)
-        return value_of(*beam, value);
+        return value_of(*beam, problem, value);
   }
   throw RunError("there is no interface, beam or anchor '" + structure + "'");
 }

@@ -51,8 +51,7 @@ void CellMaterial<dim>::begin_in_ground() {
 template <int dim>
 std::vector<fem::Figure> CellMaterial<dim>::figures() const {
   std::vector<fem::Figure> figures = at_limits_.figures();
-  const std::vector<fem::Figure> of_start = ground_.figures();
-  figures.insert(figures.end(), of_start.begin(), of_start.end());
+  ground_.add_figures(figures);
   return figures;
 }
 

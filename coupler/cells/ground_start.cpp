@@ -176,14 +176,14 @@ void GroundStart<dim>::judge(std::size_t point, const Vector& stress) {
 }
 
 template <int dim>
-std::vector<fem::Figure> GroundStart<dim>::figures() const {
-  if (empty()) return {};
-  return {{"start_levels", report_.levels},
-          {"start_K0_least", report_.least_ratio},
-          {"start_K0_largest", report_.largest_ratio},
-          {"start_stress_off", report_.off},
-          {"start_stress_off_share", report_.off_share},
-          {"start_points_above_table", report_.above_table}};
+void GroundStart<dim>::add_figures(std::vector<fem::Figure>& figures) const {
+  if (empty()) return;
+  figures.insert(figures.end(), {{"start_levels", report_.levels},
+                                 {"start_K0_least", report_.least_ratio},
+                                 {"start_K0_largest", report_.largest_ratio},
+                                 {"start_stress_off", report_.off},
+                                 {"start_stress_off_share", report_.off_share},
+                                 {"start_points_above_table", report_.above_table}});
 }
 
 template <int dim>

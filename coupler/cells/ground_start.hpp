@@ -46,9 +46,9 @@ class GroundStart {
   /// The strains in the plane of the points, from their level to their own stress along its tangent; in space all.
   [[nodiscard]] Increment<dim> offset_of(std::size_t point) const;
 
-  /// start_levels, start_K0_least and _largest, start_stress_off (largest |s - target|, Pa), start_stress_off_share (of the
-  /// vertical stress, where the table reaches), start_points_above_table. The list is empty where the points begin at the packing.
-  [[nodiscard]] std::vector<fem::Figure> figures() const;
+  /// Appends start_levels, start_K0_least and _largest, start_stress_off (largest |s - target|, Pa), start_stress_off_share (of the
+  /// vertical stress, where the table reaches), start_points_above_table; nothing where the points begin at the packing.
+  void add_figures(std::vector<fem::Figure>& figures) const;
   /// Texts for the user on these figures; empty where all is well.
   [[nodiscard]] std::vector<std::string> notes() const;
   void save(ArchiveWriter& archive) const;

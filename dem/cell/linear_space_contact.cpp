@@ -65,18 +65,16 @@ SpaceContactStiffness::SpaceContactStiffness(const Contact& contact, const Eigen
   sliding.limit = contact.friction * std::max(0.0, normal_force);
   sliding.slip = slip.sliding;
   sliding.at_limit = contact.sliding();
-  SlippedSpring bending;
-  bending.stiffness = contact.rolling_stiffness;
-  bending.value = across * moment;
-  bending.limit = contact.rolling_at_limit ? bending.value.norm() : contact.rolling_limit;
-  bending.slip = slip.bending;
-  bending.at_limit = contact.rolling_at_limit;
-  SlippedSpring torsion;
-  torsion.stiffness = contact.torsion_stiffness;
-  torsion.value = along * moment;
-  torsion.limit = contact.torsion_at_limit ? torsion.value.norm() : contact.rolling_limit;
-  torsion.slip = slip.torsion;
-  torsion.at_limit = contact.torsion_at_limit;
+  const auto of_moment = [&](double stiffness, const Eigen::Matrix3d& directions, double slipped,
+                             bool at_limit) {
+    const Eigen::Vector3d value = directions * moment;
+    return SlippedSpring{stiffness, value, at_limit ? value.norm() : contact.rolling_limit, slipped,
+                         at_limit};
+  };
+  const SlippedSpring bending =
+      of_moment(contact.rolling_stiffness, across, slip.bending, contact.rolling_at_limit);
+  const SlippedSpring torsion =
+      of_moment(contact.torsion_stiffness, along, slip.torsion, contact.torsion_at_limit);
 
   const LinearSpring slides = linear(sliding, across, normal_force, n);
   force_of_opening = contact.normal_stiffness * (along + slides.of_opening) + slides.of_motion;

@@ -166,17 +166,34 @@ std::vector<std::string> Beam::faults(const Problem<2>& problem) const {
   return {};
 }
 
-std::vector<BeamResult> Beam::results() const {
+// The share of an element's load at the node of its end is carried past the element, so nodal forces alone miss it in N and V.
+Eigen::VectorXd Beam::carried_by(const Part& part, const Problem<2>& problem) {
+  const auto nodes = static_cast<Eigen::Index>(part.element.nodes.size());
+  Eigen::VectorXd internal = Eigen::VectorXd::Zero(2 * nodes);
+  bool is_known = false;
+  for (const auto& contribution : problem.contributions)
+    is_known = contribution->add_forces_on_face(part.element.nodes, internal) || is_known;
+  if (is_known) return -internal;
+  // Nodes that the ground shares: of its forces the middle node tells, as of a uniform load.
+  if (nodes == 3)
+    for (const Eigen::Index end : {0, 1})
+      internal.segment<2>(2 * end) = 0.25 * part.committed_forces.segment<2>(4);
+  return internal;
+}
+
+std::vector<BeamResult> Beam::results(const Problem<2>& problem) const {
   std::vector<BeamResult> all;
   if (!active_) return all;
   double along = 0.0;
   for (const Part& part : parts_) {
     const auto nodes = static_cast<Eigen::Index>(part.element.nodes.size());
+    const Eigen::VectorXd carried = carried_by(part, problem);
     for (const std::size_t end : {0, 1}) {
       // The nodal forces of the first end act on the element from outside, against its own forces there.
       const double sign = end == 0 ? -1.0 : 1.0;
       const auto node = static_cast<Eigen::Index>(end);
-      const Eigen::Vector2d force = sign * part.committed_forces.segment<2>(2 * node);
+      const Eigen::Vector2d force =
+          sign * (part.committed_forces.segment<2>(2 * node) - carried.segment<2>(2 * node));
       all.push_back({part.places[end], along + (end == 0 ? 0.0 : part.length),
                      sign * part.committed_forces(2 * nodes + node), force.dot(part.tangents[end]),
                      force.dot(left_of(part.tangents[end]))});

@@ -32,8 +32,8 @@ struct BeamResult {
 
 /// A wall, plate or lining of the plane: Timoshenko beams with a rotation of their own (a nodal field), small deformation.
 /// Displacement and rotation are quadratic on sides with a middle node (2 points) and linear on others (1 point), as in the
-/// ground, so that nothing locks. A beam that a stage places is free of forces as it is then. The forces at nodes come from the nodal forces of elements: the points would miss the peak
-/// below a concentrated load.
+/// ground, so that nothing locks. A beam that a stage places is free of forces as it is then. Moments at nodes come from the nodal forces of elements: the
+/// points would miss the peak below a concentrated load. N and V are in balance with these and with what the element carries.
 class Beam : public Contribution<2> {
  public:
   Beam(const Mesh<2>& mesh, std::string name, const BeamSection& section, std::vector<BeamElement> elements);
@@ -57,7 +57,7 @@ class Beam : public Contribution<2> {
   [[nodiscard]] std::vector<std::string> faults(const Problem<2>& problem) const override;
 
   /// Both ends of each element in turn.
-  [[nodiscard]] std::vector<BeamResult> results() const;
+  [[nodiscard]] std::vector<BeamResult> results(const Problem<2>& problem) const;
   /// Whether a point has yielded.
   [[nodiscard]] bool yields() const;
 
@@ -79,6 +79,9 @@ class Beam : public Contribution<2> {
     Eigen::VectorXd committed_forces;
     Eigen::VectorXd born;  ///< values of the entries at which it has no forces; empty: zero
   };
+
+  /// Loads along an element, as forces on its nodes in turn.
+  [[nodiscard]] static Eigen::VectorXd carried_by(const Part& part, const Problem<2>& problem);
 
   std::string name_;
   BeamSection section_;

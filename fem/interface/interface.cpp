@@ -390,6 +390,27 @@ std::vector<std::string> Interface<dim>::faults(const Problem<dim>& problem) con
 }
 
 template <int dim>
+bool Interface<dim>::add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const {
+  bool is_here = false;
+  for (const Element& element : elements_) {
+    if (!std::ranges::is_permutation(element.face.nodes_b, nodes)) continue;
+    is_here = true;
+    if (!element.active) continue;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto node = static_cast<Eigen::Index>(std::ranges::find(element.face.nodes_b, nodes[a]) -
+                                                  element.face.nodes_b.begin());
+      for (const Point& point : element.points) {
+        FaceVector<dim> total = point.committed_answer.traction;
+        total(dim - 1) -= point.committed_pressure;
+        forces.segment<dim>(dim * static_cast<Eigen::Index>(a)) +=
+            point.geometry.area * point.geometry.shape(node) * (point.geometry.axes.transpose() * total);
+      }
+    }
+  }
+  return is_here;
+}
+
+template <int dim>
 std::vector<std::string> Interface<dim>::take_notes() {
   return std::exchange(notes_, {});
 }

@@ -85,6 +85,7 @@ class Interface : public Contribution<dim> {
   void restore(ArchiveReader& archive) override;
   [[nodiscard]] std::vector<std::pair<int, int>> joined_nodes() const override;
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
+  bool add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const override;
   [[nodiscard]] std::vector<std::string> take_notes() override;
 
   /// The pore water of a problem (add_pore_water) presses on the faces from now on, and fills the gap between them. Before the

@@ -86,12 +86,16 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
     }
   }
   std::vector<std::size_t> tied;
+  const std::vector<char> has_element = nodes_of_elements(mesh, {});
   for (const auto& contribution : problem.contributions) {
     for (const auto& [one, other] : contribution->tied_nodes(stage)) {
       has_ties_ = true;
-      for (const Dof dof : node_dofs<dim>())
-        join(entry_of<dim>(static_cast<std::size_t>(one), dof),
-             entry_of<dim>(static_cast<std::size_t>(other), dof));
+      for (const Dof dof : node_dofs<dim>()) {
+        const auto first = entry_of<dim>(static_cast<std::size_t>(one), dof);
+        const auto second = entry_of<dim>(static_cast<std::size_t>(other), dof);
+        join(first, second);
+        tied.insert(tied.end(), {first, second});
+      }
     }
     const auto* const ties = dynamic_cast<const TiesEntries*>(contribution.get());
     if (ties == nullptr) continue;
@@ -109,14 +113,18 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
   }
   leader_.resize(equation_.size());
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) leader_[entry] = find(entry);
-  // Entries that share a value with one that is given are given it too.
+  // Entries that share a value with one that is given are given it too. What holds a wall's own nodes does not hold the ground
+  // around a wall that has not come yet.
   std::map<std::size_t, Given> given_at;  // by leader, the first one
   if (!tied.empty())
-    for (const Given& item : given_) given_at.try_emplace(leader_[item.entry], item);
+    for (const Given& item : given_)
+      if (item.entry >= mechanics || has_element[item.entry / Cosserat<dim>::dofs] != 0)
+        given_at.try_emplace(leader_[item.entry], item);
   for (const std::size_t entry : tied) {
     const auto given = given_at.find(leader_[entry]);
     if (given == given_at.end() || equation_[entry] < 0) continue;
     equation_[entry] = -1;
+    carried_.emplace_back(entry, given->second.entry);
     given_.push_back(given->second);
     given_.back().entry = entry;
   }

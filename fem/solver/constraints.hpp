@@ -33,6 +33,8 @@ class Constraints {
   /// Number of the unknown at an entry of a nodal vector; -1 where the entry is given.
   [[nodiscard]] int equation(std::size_t entry) const { return equation_[entry]; }
   [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
+  /// Entries that are given since one that they are tied to is, and that one: a reaction there belongs to its support.
+  [[nodiscard]] const std::vector<std::pair<std::size_t, std::size_t>>& carried() const { return carried_; }
 
   /// Makes given displacements unknowns, behind those there are. @param entries of nodal vectors, those tied to them too; free
   /// ones stay as they are
@@ -64,6 +66,7 @@ class Constraints {
   };
   FieldPlaces<dim> places_;
   std::vector<Given> given_;
+  std::vector<std::pair<std::size_t, std::size_t>> carried_;
   std::vector<int> equation_;
   std::vector<std::size_t> first_;   ///< of each equation: the entry where forces are summed
   std::vector<std::size_t> leader_;  ///< of each entry: the one that it moves with, itself without a tie

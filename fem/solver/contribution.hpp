@@ -144,12 +144,30 @@ class Contribution {
     (void)stage;
     return {};
   }
+  /// Adds its committed internal forces on the face that has these nodes, at their displacements in turn: by them a beam there
+  /// knows what it carries. @returns whether it acts on that face
+  virtual bool add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const {
+    (void)nodes;
+    (void)forces;
+    return false;
+  }
   [[nodiscard]] virtual std::vector<Figure> figures() const { return {}; }
   /// Events of the last commits that a user should read in the log, a sentence each; then forgotten.
   [[nodiscard]] virtual std::vector<std::string> take_notes() { return {}; }
   /// Told of each step that is evaluated before the materials are: for materials that follow nodal values beside the strain.
   /// The predictor of a step, whose increment is zero, asks the materials nothing, and does not tell.
   virtual void prepare(const NodalStep& step) { (void)step; }
+};
+
+/// A term without a state: what it adds follows from the nodal values alone.
+template <int dim>
+class StatelessContribution : public Contribution<dim> {
+ public:
+  void allocate() override {}
+  void commit() override {}
+  void revert() override {}
+  void save(ArchiveWriter&) const override {}
+  void restore(ArchiveReader&) override {}
 };
 
 }  // namespace polargrain::fem

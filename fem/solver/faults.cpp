@@ -155,9 +155,39 @@ GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, int stage, M
   return first;
 }
 
+/// Ground is one body along a wall or an interface that has not come yet: what moves one of the nodes there moves the others too
+/// (Constraints), so two values at one place cannot be.
+template <int dim>
+void check_ground_in_one(const Problem<dim>& problem, const GivenValues<dim>& given, int stage,
+                         Messages& messages) {
+  const std::vector<char> has_element = nodes_of_elements(problem.mesh, {});
+  const auto at = [](int node) { return static_cast<std::size_t>(node); };
+  for (const auto& contribution : problem.contributions) {
+    std::map<int, std::vector<int>> in_one;
+    for (const auto& [one, other] : contribution->tied_nodes(stage))
+      if (has_element[at(one)] != 0 && has_element[at(other)] != 0) in_one[one].push_back(other);
+    for (const Dof dof : node_dofs<dim>())
+      for (const auto& [node, others] : in_one)
+        for (const int other : others) {
+          const auto a = given.find({node, dof});
+          const auto b = given.find({other, dof});
+          if (a == given.end() || b == given.end() ||
+              gives_alike(problem, *a->second, node, *b->second, other))
+            continue;
+          messages.push_back(fmt::format(
+              "{} is given two different values at {}, on '{}' and on '{}', where the ground is one body until "
+              "{} comes; give it once there",
+              name_of<dim>(dof), place_text<dim>(problem.mesh.nodes[at(node)]), a->second->on, b->second->on,
+              contribution->name()));
+          return;
+        }
+  }
+}
+
 /// A support of one side of a tie must hold the other alike.
 template <int dim>
-void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, Messages& messages) {
+void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, int stage, Messages& messages) {
+  check_ground_in_one(problem, given, stage, messages);
   const Mesh<dim>& mesh = problem.mesh;
   const auto item_at = [&](int node, Dof dof) {
     const auto place = given.find({node, dof});
@@ -192,7 +222,7 @@ void check_stage(const Problem<dim>& problem, int stage, Messages& messages) {
     messages.emplace_back("no element is left");
     return;
   }
-  check_ties(problem, check_prescribed_once(problem, stage, messages), messages);
+  check_ties(problem, check_prescribed_once(problem, stage, messages), stage, messages);
   for (const BoundaryLoad<dim>& load : problem.boundary_loads) {
     if (load.life.begin != stage || !sides_in_stage(problem.mesh, load.on, there).empty()) continue;
     messages.push_back(fmt::format(
@@ -326,7 +356,7 @@ Messages faults(const Problem<dim>& problem) {
   const bool has_stages = problem.stages.size() > 1;
   if (!messages.empty() && has_stages) return messages;  // names that a stage needs are missing
   const GivenValues<dim> given = check_prescribed_once(problem, 0, messages);
-  check_ties(problem, given, messages);
+  check_ties(problem, given, 0, messages);
   check_equal_dofs(problem, given, messages);
   const bool has_fields = check_fields(problem, messages);
   if (has_fields) check_prescribed_fields(problem, 0, messages);

@@ -359,12 +359,21 @@ typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::
   const Eigen::VectorXd supplied =
       state().reactions.size() > 0 ? state().reactions : internal_forces() - external_forces();
   typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
+  std::vector<char> is_on(problem().mesh.nodes.size(), 0);
   for (const int node : problem().mesh.nodes_on(on)) {
+    is_on[static_cast<std::size_t>(node)] = 1;
     for (const Dof dof : node_dofs<dim>()) {
       const int entry = entry_of<dim>(node, dof);
       if (!implementation_->constraints.is_free(static_cast<std::size_t>(entry)))
         sum(place_of<dim>(dof)) += supplied(entry);
     }
+  }
+  const auto mechanics = static_cast<std::size_t>(implementation_->constraints.places().mechanics());
+  for (const auto& [entry, giver] : implementation_->constraints.carried()) {
+    if (giver >= mechanics || is_on[giver / Cosserat<dim>::dofs] == 0 ||
+        is_on[entry / Cosserat<dim>::dofs] != 0)
+      continue;
+    sum(place_of<dim>(dof_at<dim>(entry))) += supplied(static_cast<Eigen::Index>(entry));
   }
   return sum;
 }

@@ -39,7 +39,7 @@ inline constexpr const char* kSpreadFields[] = {kSlip, kOverstress, kSlipBetween
 /// would have a cusp, which sources on the staircase of nodes along an inclined band cut off (docs/theory/spread.md). Materials answer at the slip g (SlipDriven). Slip and
 /// overstress have values at the corners of elements. Small deformation.
 template <int dim>
-class SpreadSlip final : public Contribution<dim> {
+class SpreadSlip final : public StatelessContribution<dim> {
  public:
   /// @param field number of the first of its fields @param materials SlipDriven ones of the problem, by region
   SpreadSlip(const Problem<dim>& problem, std::size_t field,
@@ -48,15 +48,10 @@ class SpreadSlip final : public Contribution<dim> {
   [[nodiscard]] std::string name() const override { return "spread slips"; }
   [[nodiscard]] std::size_t elements() const override { return elements_.size(); }
   [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return elements_[e].entries; }
-  void allocate() override {}
   void learn(const Discretisation<dim>& discretisation, std::span<const Response<dim>> committed) override;
   void prepare(const NodalStep& step) override;
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
-  void commit() override {}
-  void revert() override {}
-  void save(ArchiveWriter&) const override {}
-  void restore(ArchiveReader&) override {}
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
 
  private:

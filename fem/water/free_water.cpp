@@ -132,10 +132,26 @@ Eigen::VectorXd FreeWater<dim>::forces_on(const Face& face, double level) const 
 
 template <int dim>
 std::string FreeWater<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
-  const double level = level_.at(step.time);
+  evaluated_level_ = level_.at(step.time);
   for (const Face& face : faces_)
-    if (face.active) forces.internal(face.entries) -= forces_on(face, level);
+    if (face.active) forces.internal(face.entries) -= forces_on(face, evaluated_level_);
   return {};
+}
+
+template <int dim>
+bool FreeWater<dim>::add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const {
+  bool is_here = false;
+  for (const Face& face : faces_) {
+    if (!face.bare.wall || !std::ranges::is_permutation(face.bare.nodes, nodes)) continue;
+    is_here = true;
+    if (!face.active) continue;
+    const Eigen::VectorXd pressed = forces_on(face, committed_level_);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto node = std::ranges::find(face.bare.nodes, nodes[a]) - face.bare.nodes.begin();
+      forces.segment<dim>(dim * static_cast<Eigen::Index>(a)) -= pressed.segment<dim>(dim * node);
+    }
+  }
+  return is_here;
 }
 
 template <int dim>

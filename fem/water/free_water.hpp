@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,7 +36,7 @@ std::vector<BareFace<dim>> bare_sides_of_wall(const std::shared_ptr<const Interf
 /// Free water at rest: a river, a harbour, a pit that is full. It presses on bare faces with its weight over their depth, and not above
 /// its level. The pressure in the pores of the ground there is a PrescribedField. Small deformation.
 template <int dim>
-class FreeWater final : public Contribution<dim> {
+class FreeWater final : public StatelessContribution<dim> {
  public:
   /// @param level height of the water along the last axis, m @param unit_weight N/m^3
   FreeWater(const Mesh<dim>& mesh, std::string on, TimeTable level, double unit_weight,
@@ -43,19 +44,17 @@ class FreeWater final : public Contribution<dim> {
 
   [[nodiscard]] std::string name() const override { return "the water at '" + on_ + "'"; }
   [[nodiscard]] const std::string& on() const { return on_; }  ///< boundary or wall
+  [[nodiscard]] const TimeTable& level() const { return level_; }
   [[nodiscard]] std::size_t elements() const override { return faces_.size(); }
   [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return faces_[e].entries; }
-  void allocate() override {}
   [[nodiscard]] bool takes_stages() const override { return true; }
   [[nodiscard]] bool is_there(std::size_t e, int stage, const std::vector<char>& there) const override;
   void set_stage(int stage, const std::vector<char>& there) override;
   [[nodiscard]] bool is_active(std::size_t e) const override { return faces_[e].active; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
-  void commit() override {}
-  void revert() override {}
-  void save(ArchiveWriter&) const override {}
-  void restore(ArchiveReader&) override {}
+  void commit() override { committed_level_ = evaluated_level_; }
+  bool add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const override;
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
   [[nodiscard]] std::vector<std::string> faults_of_stage(const Problem<dim>& problem,
                                                          int stage) const override;
@@ -74,6 +73,8 @@ class FreeWater final : public Contribution<dim> {
   TimeTable level_;
   double unit_weight_;
   std::vector<Face> faces_;
+  double evaluated_level_ = -HUGE_VAL;
+  double committed_level_ = -HUGE_VAL;
 };
 
 }  // namespace polargrain::fem

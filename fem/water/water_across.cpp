@@ -76,6 +76,15 @@ bool WaterAcross<dim>::is_there(std::size_t e, int stage, const std::vector<char
 }
 
 template <int dim>
+std::size_t WaterAcross<dim>::bare_faces(int stage, const std::vector<char>& there) const {
+  if (there.empty() || !this->life.holds(stage)) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(faces_, [&](const Face& face) {
+    return (there[static_cast<std::size_t>(face.element_a)] != 0) !=
+           (there[static_cast<std::size_t>(face.element_b)] != 0);
+  }));
+}
+
+template <int dim>
 std::vector<std::pair<int, int>> WaterAcross<dim>::tied_entries(int stage) const {
   if (options_.passage != Passage::permeable && stage >= this->life.begin) return {};
   std::vector<std::pair<int, int>> pairs;

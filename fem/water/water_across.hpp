@@ -41,7 +41,7 @@ struct WaterAcrossOptions {
 /// The flow of water across a curve with ground on both sides, with or without a wall between. Until the stage that begins its life
 /// the curve is not there for water. Where ground has gone on one side, the other side is closed.
 template <int dim>
-class WaterAcross final : public Contribution<dim>, public TiesEntries {
+class WaterAcross final : public StatelessContribution<dim>, public TiesEntries {
  public:
   /// Faces with a dry side are left out. @param problem with pore water (add_pore_water)
   WaterAcross(const Problem<dim>& problem, WaterAcrossOptions options,
@@ -50,7 +50,6 @@ class WaterAcross final : public Contribution<dim>, public TiesEntries {
   [[nodiscard]] std::string name() const override { return "the water across '" + options_.name + "'"; }
   [[nodiscard]] std::size_t elements() const override { return faces_.size(); }
   [[nodiscard]] const std::vector<int>& entries(std::size_t e) const override { return faces_[e].entries; }
-  void allocate() override {}
   [[nodiscard]] bool takes_stages() const override { return true; }
   [[nodiscard]] bool is_there(std::size_t e, int stage, const std::vector<char>& there) const override;
   [[nodiscard]] std::vector<std::pair<int, int>> tied_entries(int stage) const override;
@@ -58,13 +57,11 @@ class WaterAcross final : public Contribution<dim>, public TiesEntries {
   [[nodiscard]] bool is_active(std::size_t e) const override { return faces_[e].active; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
-  void commit() override {}
-  void revert() override {}
-  void save(ArchiveWriter&) const override {}
-  void restore(ArchiveReader&) override {}
   [[nodiscard]] bool depends_on_duration() const override { return true; }
 
   [[nodiscard]] const WaterAcrossOptions& options() const { return options_; }
+  /// Faces with ground on one side alone in a stage: closed. @param there as elements_in_stage has it
+  [[nodiscard]] std::size_t bare_faces(int stage, const std::vector<char>& there) const;
 
  private:
   struct Face {

@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "app/picture/case_picture.hpp"
+#include "app/picture/symbols.hpp"
+#include "app/remarks/scene.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "tests/support/careless_scenes.hpp"
 
 namespace polargrain::testing {
@@ -174,6 +178,51 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.name; });
 
 /// Half of a strip footing 2 m wide, its edge in the middle of the surface.
+const std::string kWet = R"(title: Clay between two curtains under a load
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [8, 4], regions: {right: [2 m, 0, 4 m, 2 m]}, lines: {line: [2 m, 0, 2 m, 2 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {right: clay, rest: clay}
+water: {permeability: 1e-8 m/s}
+interfaces: {curtain: {on: line, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: leaky, resistance: 1e8 s}}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}
+  - {on: left, drained: true}
+  - {on: right, flux: 0 m/s}
+steps: {duration: 9 d, count: 90, tolerance: 1e-8}
+monitors: {settled: {on: top, displacement: u2}}
+output: {table: [settled]}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Water, CarelessFeatures,
+    ::testing::Values(
+        Careless{"ADrainOfUndrainedGround",
+                 replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
+                          "  - {on: right, flux: 0 m/s}\n", ""),
+                 "water: {permeability: 1e-8 m/s}",
+                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
+                 "'drained' at 'left' does nothing: all 4 elements there are undrained", Rank::wrong},
+        Careless{"ALeakOfUndrainedGround",
+                 replaced(replaced(kWet, "  - {on: left, drained: true}\n", ""),
+                          "  - {on: right, flux: 0 m/s}\n", ""),
+                 "water: {permeability: 1e-8 m/s}",
+                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
+                 "interface 'curtain': it leaks with a resistance of 1e+08 s, and all ground is undrained",
+                 Rank::doubtful},
+        Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
+                 "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
+                 Rank::wrong},
+        Careless{
+            "ALeakWhoseFrontIsBare", kWet, "steps: {duration: 9 d, count: 90, tolerance: 1e-8}",
+            "steps: {tolerance: 1e-8, stages: [{name: load, until: 1 d, count: 10}, {name: dig, remove: right, until: 9 d, "
+            "count: 80}]}",
+            "4 of its faces have ground on one side alone in stage 'dig': there it is closed",
+            Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
 const std::string kFooting = R"(title: A strip footing on clay
 continuum: cauchy
 mesh: {rectangle: {size: [4 m, 2 m], elements: [16, 8], lines: {footing: [0, 2 m, 1 m, 2 m], apron: [1 m, 2 m, 4 m, 2 m]}}}
@@ -305,6 +354,48 @@ app::Remarks remarks_on_motion(int rows, double amplitude) {
     table += fmt::format("{},{}\n", 0.01 * row, amplitude * std::sin(0.12 * row));
   write(scratch.path() / "quake.csv", table);
   return remarks_on_motion_of(scratch);
+}
+
+// The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
+TEST(Picture, ShowsFreeWater) {
+  const Scratch scratch("careless_picture");
+  write(scratch.path() / "case.yaml", replaced(replaced(kWet, "water: {permeability: 1e-8 m/s}",
+                                                        "water: {permeability: 1e-8 m/s, level: 3 m}"),
+                                               "{on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}",
+                                               "{on: top, free_water: [[0 d, 3 m], [9 d, 4 m]]}"));
+  const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  const coupler::Entry document =
+      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
+  const app::PackingsAtRest packings;
+  const std::string page = app::case_picture(app::Scene(the_case, document, packings), {});
+  EXPECT_NE(page.find("free water to 3 m"), std::string::npos);
+  EXPECT_NE(page.find("free water to 4 m"), std::string::npos);
+  std::size_t signs = 0;
+  for (std::size_t at = page.find(app::kWater); at != std::string::npos; at = page.find(app::kWater, at + 1))
+    ++signs;
+  EXPECT_GE(signs, 11U);
+}
+
+TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
+  const Scratch scratch("careless_start");
+  write(scratch.path() / "case.yaml", kBank);
+  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  the_case.start_from = scratch.path() / "first";
+  coupler::RunBefore before{"first", fem::Continuum::cosserat, {0.0, 0.0}, {20.0, 12.0}};
+  const auto told = [&](const std::string& message) {
+    the_case.run_before = before;
+    const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
+    return is_told(remarks, message, Rank::doubtful);
+  };
+  EXPECT_FALSE(told("measures"));
+  before.largest = {25.0, 12.0};
+  EXPECT_TRUE(told("the body in 'first' measures 25 m along 1, this one 20 m"));
+  the_case.problem.continuum = fem::Continuum::cauchy;
+  EXPECT_TRUE(told("'first' has micro-rotations and couple stresses"));
+  before.continuum = fem::Continuum::cauchy;
+  EXPECT_FALSE(told("couple stresses"));
+  the_case.problem.continuum = fem::Continuum::cosserat;
+  EXPECT_TRUE(told("'first' is of the classical continuum"));
 }
 
 TEST(RealTime, NeedsExplicitSteps) {

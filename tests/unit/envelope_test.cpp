@@ -39,6 +39,28 @@ TEST(Envelope, OfOneCircleOrNoneOfItsKindIsNoLine) {
   EXPECT_FALSE(failure_line(steep));
 }
 
+// Sand without cohesion: rounding leaves -1e-12 Pa or so, which is nothing.
+TEST(Envelope, OfDrySandHasNoNegativeCohesion) {
+  ElementResult result;
+  result.columns = {"s11_Pa", "s22_Pa", "s33_Pa", "friction_angle_deg"};
+  std::vector<ElementResult> results;
+  const std::vector<double> pressures{25e3, 50e3, 200e3};
+  for (const double least : pressures) {
+    const StressCircle circle = at_limit(least, 35.0 * kDegree, -1e-9);
+    ElementCurve curve;
+    curve.name = "sand";
+    curve.rows = {{-circle.least, -circle.largest, -circle.least, 35.0}};
+    result.curves = {curve};
+    results.push_back(result);
+  }
+  const Envelopes envelopes = envelopes_of(results, pressures);
+  EXPECT_LT(envelopes.at_states.front().second.front().line->cohesion, 0.0);
+  const std::string text = envelope_summary(envelopes);
+  EXPECT_EQ(text.find("-0.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("35.00"), std::string::npos) << text;
+  EXPECT_NE(envelope_charts(envelopes).find("sand: 35.00 deg, 0.00 kPa"), std::string::npos);
+}
+
 ElementCurve undrained(const std::vector<double>& mean_stress) {
   ElementCurve curve;
   for (std::size_t k = 0; k < mean_stress.size(); ++k) {

@@ -4,12 +4,11 @@
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/problem.hpp"
+#include "tests/support/structures.hpp"
 
 using namespace polargrain::fem;
 
 namespace {
-
-const TimeTable kZero = TimeTable::constant(0.0);
 
 Mesh<2> block() {
   return rectangle({{0.04, 0.08}, {2, 4}});
@@ -127,6 +126,75 @@ TEST(faults, what_holds_one_side_of_a_tie_holds_the_other) {
   problem.prescribed.push_back({"top_right", Dof::u1, TimeTable::ramp(2.0), {}});
   EXPECT_EQ(faults(problem).size(), 1U);
   problem.prescribed.back().value = TimeTable::ramp(1.0);
+  EXPECT_EQ(faults(problem), Strings{});
+}
+
+/// Ground that is one body as yet: a stage behind parts it at x = 0.5. Half of its top, left of there, is moved.
+template <int dim>
+Problem<dim> ground_in_one(const Mesh<dim>& mesh, bool has_interface) {
+  Problem<dim> problem;
+  problem.mesh = mesh;
+  problem.materials["all"] = elastic_ground<dim>(1e7);
+  problem.stages = {"first", "later"};
+  name_nodes(problem.mesh, "line", [](const auto& x) { return x(0) == 0.5; });
+  std::vector<BoundarySide>& half = problem.mesh.boundaries["half"];
+  for (const BoundarySide& side : problem.mesh.boundaries.at("top"))
+    if (problem.mesh.element_positions(side.element).col(0).mean() < 0.5) half.push_back(side);
+  constexpr Dof up = dim == 2 ? Dof::u2 : Dof::u3;
+  for (const Dof dof : node_dofs<dim>()) problem.prescribed.push_back({"bottom", dof, kZero, {}});
+  problem.prescribed.push_back({"half", up, TimeTable::ramp(-1e-3), {}});
+  if (!has_interface) return problem;
+  std::vector<std::vector<TwoSidedFace<dim>>> curves{faces_along(problem.mesh, "line")};
+  split_along(problem.mesh, curves);
+  std::vector<InterfaceFace<dim>> faces;
+  for (const TwoSidedFace<dim>& face : curves[0])
+    faces.push_back(
+        {face.type, face.first_nodes, face.second_nodes, {face.first.element, face.second->element}, {}});
+  InterfaceSettings settings{"joint", glue(1e9, 1e9), {}};
+  settings.parts_ground = true;
+  problem.contributions.push_back(std::make_shared<Interface<dim>>(problem.mesh, settings, std::move(faces)));
+  problem.contributions.back()->life.begin = 1;
+  return problem;
+}
+
+template <int dim>
+void expect_that_the_support_holds_both_copies(const Mesh<dim>& mesh) {
+  constexpr Dof up = dim == 2 ? Dof::u2 : Dof::u3;
+  std::vector<double> reactions;
+  for (const bool has_interface : {false, true}) {
+    Problem<dim> problem = ground_in_one<dim>(mesh, has_interface);
+    EXPECT_EQ(faults(problem), Strings{});
+    Solver<dim> solver(problem);
+    ASSERT_TRUE(solver.equilibrate().converged);
+    ASSERT_TRUE(solver.advance(1.0).converged);
+    // All nodes at the end of the moved half are at the end of the line too.
+    for (const int node : solver.problem().mesh.nodes_on("line"))
+      if (solver.problem().mesh.nodes[static_cast<std::size_t>(node)](dim - 1) == 1.0)
+        EXPECT_EQ(solver.shown_displacement()(entry_of<dim>(node, up)), -1e-3) << node;
+    reactions.push_back(solver.reaction({"half"})(dim - 1));
+  }
+  EXPECT_NEAR(reactions[1] / reactions[0], 1.0, 1e-9);
+}
+
+TEST(Constraints, a_support_of_one_copy_holds_the_others_until_an_interface_parts_them) {
+  expect_that_the_support_holds_both_copies<2>(rectangle({{1.0, 1.0}, {2, 2}}));
+  expect_that_the_support_holds_both_copies<3>(box({{1.0, 1.0, 1.0}, {2, 1, 2}}));
+}
+
+TEST(faults, copies_of_a_node_are_not_given_two_values_while_they_are_one) {
+  Problem<2> problem = ground_in_one<2>(rectangle({{1.0, 1.0}, {2, 2}}), true);
+  std::vector<BoundarySide>& other = problem.mesh.boundaries["other half"];
+  for (const BoundarySide& side : problem.mesh.boundaries.at("top"))
+    if (problem.mesh.element_positions(side.element).col(0).mean() > 0.5) other.push_back(side);
+  problem.prescribed.push_back({"other half", Dof::u2, TimeTable::ramp(-1e-3), {}});
+  EXPECT_EQ(faults(problem), Strings{});
+  problem.prescribed.back().value = kZero;
+  ASSERT_EQ(faults(problem).size(), 1U);
+  EXPECT_NE(
+      faults(problem)[0].find("u2 is given two different values at (0.5, 1), on 'half' and on 'other half'"),
+      std::string::npos)
+      << faults(problem)[0];
+  problem.prescribed.back().life.begin = 1;
   EXPECT_EQ(faults(problem), Strings{});
 }
 

@@ -104,7 +104,9 @@ std::vector<CellReply> started(GroundStart<2>& start, const CellCalls<2>& calls,
 }
 
 double figure(const GroundStart<2>& start, const std::string& name) {
-  for (const fem::Figure& figure : start.figures())
+  std::vector<fem::Figure> figures;
+  start.add_figures(figures);
+  for (const fem::Figure& figure : figures)
     if (figure.name == name) return figure.value;
   ADD_FAILURE() << name;
   return NAN;

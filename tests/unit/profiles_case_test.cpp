@@ -2,6 +2,8 @@
 // Values at places, along lines, and the start from another run as a case file has them: faults with line and remedy.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "coupler/checkpoint/checkpoint.hpp"
 #include "tests/support/edited_case.hpp"
 
@@ -84,6 +86,34 @@ TEST_F(ProfilesCase, SpreadSlipsTakeNoRunOver) {
       fault(kCaseOfProfilesCase, text),
       "15: case: start_from: slips that are spread begin at zero and take no run over yet; leave out 'spread' "
       "or this key");
+}
+
+// The block measures 2 m x 1 m.
+TEST_F(ProfilesCase, TheBodyOfTheRunBeforeIsCompared) {
+  const auto keep_body = [&](double width, double height) {
+    end_.state = {};
+    end_.state.write("solver/body/nodes", std::span<const double>(std::vector<double>{
+                                              0.0, 0.0, width, 0.0, width, height, 0.0, height}));
+    end_.state.write("solver/body/dimension", std::span<const std::int64_t>(std::array<std::int64_t, 1>{2}));
+    keep();
+  };
+  keep_body(2.0, 1.0);
+  EXPECT_EQ(read().run_before->largest, (std::vector<double>{2.0, 1.0}));
+  EXPECT_EQ(read().run_before->continuum, fem::Continuum::cosserat);
+  end_.identity.values["continuum"] = "cauchy";
+  keep_body(3.0, 1.0);
+  EXPECT_EQ(read().run_before->largest, (std::vector<double>{3.0, 1.0}));
+  EXPECT_EQ(read().run_before->continuum, fem::Continuum::cauchy);
+  keep_body(2.0, 0.8);
+  EXPECT_EQ(
+      fault(),
+      "15: start_from: the body in 'first' reaches from x2 = 0 m to 0.8 m, and this one has a node at 1 m, where that run "
+      "has no state to give; keep to its body, or 'place' new ground in a stage");
+  keep_body(2.0, 1.0);
+  EXPECT_EQ(
+      fault("start_from: first", "beams: {sheet: {on: right, EA: 1 GN/m, EI: 1 MNm2/m}}\nstart_from: first"),
+      "16: start_from: 'first' has another mesh, of 4 nodes, and this one has 37; the beam 'sheet' can be taken over on the "
+      "same mesh alone: use its mesh, or 'place' what is new in a stage");
 }
 
 TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {

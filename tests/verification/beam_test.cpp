@@ -68,7 +68,7 @@ std::array<double, 3> beam_on_springs(int elements, double shear_stiffness) {
   const StepReport report = solver.advance(1.0);
   EXPECT_TRUE(report.converged) << report.message;
   return {-solver.mean_displacement("middle")(1), -solver.mean_displacement("end")(1),
-          moment_at(beam->results(), 4.0)};
+          moment_at(beam->results(solver.problem()), 4.0)};
 }
 
 // Hetenyi's closed form for a stiff shear area; errors of quadratic elements as the independent code has them.
@@ -108,7 +108,7 @@ TEST_P(EveryBeam, a_cantilever_is_exact_at_its_nodes) {
   const auto tip = solver.mean_displacement("tip");
   EXPECT_NEAR(tip(1), 5e3 * 27 / (3 * 2e6) + 5e3 * 3 / 1e7, 1e-11);
   EXPECT_NEAR(tip(0), 7e3 * 3 / 1e8, 1e-13);
-  for (const BeamResult& end : beam->results()) {
+  for (const BeamResult& end : beam->results(solver.problem())) {
     // The way along the top of an element runs to the left: N has its sign, V turns with the way, M does not.
     EXPECT_NEAR(std::abs(end.moment), 5e3 * (3.0 - end.place(0)), 1e-5);
     EXPECT_NEAR(end.axial, 7e3, 1e-5);
@@ -129,14 +129,15 @@ TEST(beam, yields_at_its_plastic_moment) {
   Solver<2> solver(std::move(scene.problem), kTightOfBeam);
   ASSERT_TRUE(solver.equilibrate().converged);
   ASSERT_TRUE(solver.advance(1.0).converged);
-  EXPECT_NEAR(std::abs(beam->results().front().moment), 2e6 * 3e-3 / 2.0, 1e-5);
+  EXPECT_NEAR(std::abs(beam->results(solver.problem()).front().moment), 2e6 * 3e-3 / 2.0, 1e-5);
   EXPECT_FALSE(beam->yields());
   const StepReport report = solver.advance(2.0);
   ASSERT_TRUE(report.converged) << report.message;
   EXPECT_TRUE(beam->yields());
-  for (const BeamResult& end : beam->results()) EXPECT_NEAR(std::abs(end.moment), 8e3 * 0.75, 1e-5);
+  for (const BeamResult& end : beam->results(solver.problem()))
+    EXPECT_NEAR(std::abs(end.moment), 8e3 * 0.75, 1e-5);
   ASSERT_TRUE(solver.advance(3.0).converged);
-  for (const BeamResult& end : beam->results())
+  for (const BeamResult& end : beam->results(solver.problem()))
     EXPECT_NEAR(std::abs(end.moment), 6e3 - 2e6 * 2e-3 / 2.0, 1e-4);
 }
 
@@ -174,7 +175,7 @@ TEST(beam, a_portal_frame_pushed_sideways) {
   EXPECT_NEAR(solver.mean_displacement("head")(0), 6e3 * 27 * (3 * k + 2) / (12 * bending * (6 * k + 1)),
               1e-7);
   double at_foot = 0.0;
-  for (const BeamResult& end : beam->results())
+  for (const BeamResult& end : beam->results(solver.problem()))
     if (end.place.norm() < 1e-9) at_foot = std::abs(end.moment);
   EXPECT_NEAR(at_foot, 6e3 * 3 * (3 * k + 1) / (2 * (6 * k + 1)), 0.05);
 }
@@ -207,6 +208,29 @@ TEST(beam, welded_to_the_ground_it_stiffens_it) {
   EXPECT_NEAR(deflection(0.0), 1e3 * 512 / (3 * of_ground), 0.01 * 1e3 * 512 / (3 * of_ground));
   const double both = of_ground + 2e6;
   EXPECT_NEAR(deflection(2e6), 1e3 * 512 / (3 * both), 0.01 * 1e3 * 512 / (3 * both));
+}
+
+// A plate of soft ground pressed from above, clamped on its left: the beam along its bottom carries nearly all, its shear at the foot
+// q L, at the middle of the way q L / 2, at the tip nothing.
+TEST(beam, shear_of_a_welded_beam_is_in_balance_with_its_load) {
+  for (const int elements : {1, 2, 5}) {
+    Problem<2> problem;
+    problem.mesh = rectangle({{2.0, 0.1}, {elements, 1}}, "Q8R");
+    problem.continuum = Continuum::cauchy;
+    problem.materials["all"] = elastic_ground<2>(1.0, 0.0);
+    const auto faces = faces_along(problem.mesh, "bottom");
+    std::vector<std::vector<int>> nodes;
+    for (const auto& face : faces) nodes.push_back(face.first_nodes);
+    const auto beam = add_beam(problem, {1e8, 2e6, 1e7}, faces, nodes);
+    problem.prescribed_fields.push_back({kBeamRotation, "bottom_left", kZero, {}, {}});
+    for (const Dof dof : {Dof::u1, Dof::u2}) problem.prescribed.push_back({"left", dof, kZero, {}});
+    problem.boundary_loads = {{.on = "bottom", .pressure = TimeTable::ramp(6e3)}};
+    Solver<2> solver(std::move(problem), kTight);
+    ASSERT_TRUE(solver.equilibrate().converged);
+    ASSERT_TRUE(solver.advance(1.0).converged);
+    for (const BeamResult& end : beam->results(solver.problem()))
+      EXPECT_NEAR(std::abs(end.shear), 6e3 * (2.0 - end.place(0)), 1.0) << elements;
+  }
 }
 
 TEST(anchor, holds_its_prestress_and_yields) {

@@ -14,10 +14,11 @@ constexpr double kWeight = 10e3;  // of the water, N/m3
 
 /// A wall of 3 m, held at its foot, on the left of ground that is held all over and slides along it without friction: nothing but
 /// water loads the wall.
-std::string cantilever(const std::string& boundary) {
+std::string cantilever(const std::string& boundary, int sides = 3, const std::string& element = "Q8R") {
   return "title: A wall that water alone loads\n"
-         "continuum: cauchy\n"
-         "mesh: {rectangle: {size: [2 m, 3 m], elements: [2, 3]}}\n"
+         "continuum: cauchy\n" +
+         fmt::format("mesh: {{element: {}, rectangle: {{size: [2 m, 3 m], elements: [2, {}]}}}}\n", element,
+                     sides) +
          "materials: {sand: {model: elastic, E: 20 MPa, nu: 0.3}}\n"
          "regions: {all: sand}\n"
          "water: {unit_weight: 10 kN/m3, permeability: 1e-4 m/s, level: 3 m}\n"
@@ -34,14 +35,29 @@ std::string cantilever(const std::string& boundary) {
          "           push: {interface: skin, value: water}, p: {on: left, water: pressure}}\n";
 }
 
-// gw h^3 / 6, gw h^2 / 2: the loads of nodes are consistent, so the foot of a cantilever has all digits. The share of the foot's
-// node itself, a sixth of a side of 1 m, goes straight into its support.
+// gw h^3 / 6, gw h^2 / 2: the loads of nodes are consistent, so the foot of a cantilever has all digits.
 TEST(WaterAtWalls, ThePoresLoadAWallHydrostatically) {
   const RunOfLaws run(cantilever(""));
   EXPECT_NEAR(std::abs(run.last("moment")), kWeight * 27.0 / 6.0, 1e-9 * kWeight * 27.0);
-  EXPECT_NEAR(std::abs(run.last("shear")), kWeight * (9.0 / 2.0 - 3.0 / 6.0), 1e-9 * kWeight * 9.0);
+  EXPECT_NEAR(std::abs(run.last("shear")), kWeight * 9.0 / 2.0, 1e-9 * kWeight * 9.0);
   EXPECT_NEAR(run.last("push"), kWeight * 9.0 / 2.0, 1e-9 * kWeight * 9.0);
   EXPECT_NEAR(run.last("p"), kWeight * 1.5, 1e-6 * kWeight);
+}
+
+// The load of the foot's own node is carried too, whatever the share of the wall that it takes.
+TEST(WaterAtWalls, TheShearAtTheFootIsAllThatTheWallCarries) {
+  for (const std::string element : {"Q8R", "Q4"})
+    for (const int sides : {1, 2, 3, 7})
+      for (const double level : {0.0, 1.3, 3.0, 4.0}) {
+        const RunOfLaws run(
+            cantilever(fmt::format("  - {{on: sheet, free_water: {} m}}\n", level), sides, element));
+        const double above = std::max(level - 3.0, 0.0);
+        const double wet = std::min(level, 3.0);
+        const double carried = kWeight * (9.0 / 2.0 - wet * wet / 2.0 - above * wet);
+        // With all water on both sides the head's shear is the largest: rounding.
+        EXPECT_NEAR(std::abs(run.last("shear")), std::abs(carried), 1e-8 * kWeight * 9.0)
+            << element << ' ' << sides << ' ' << level;
+      }
 }
 
 // Free water on the other side, its level in the middle of a side of an element, takes its part away.

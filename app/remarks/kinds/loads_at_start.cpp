@@ -119,7 +119,7 @@ std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
     sum.carried += edge.length * (pushed - out.dot(n));
     sum.along += edge.length * std::abs(out.x() * n.y() - out.y() * n.x());
     sum.scale += edge.length * std::max(-0.5 * (s(k11) + s(k22)), 0.0);
-    sum.has_cells = sum.has_cells || (region.cell != nullptr && !has_given_stress(scene, region));
+    sum.has_cells = sum.has_cells || (region.cell != nullptr && !has_given_stress(scene, region.name));
     sum.region = &region;
     length += edge.length;
   }

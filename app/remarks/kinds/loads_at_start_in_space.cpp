@@ -60,15 +60,16 @@ bool has_other_loads(const fem::Problem<3>& problem) {
   const auto pulls = [](const fem::BoundaryLoad<3>& load) {
     return std::ranges::any_of(load.traction, [](const fem::TimeTable& t) { return t.at(0.0) != 0.0; });
   };
-  return !problem.initial_stresses.empty() || !problem.ties.empty() || !problem.node_loads.empty() ||
-         !problem.body_loads.empty() || std::ranges::any_of(problem.boundary_loads, pulls);
+  return !problem.ties.empty() || !problem.node_loads.empty() || !problem.body_loads.empty() ||
+         std::ranges::any_of(problem.boundary_loads, pulls);
 }
 
 }  // namespace
 
 void loads_at_start_in_space(const Scene& scene, Remarks& remarks) {
   const fem::Problem<3>& problem = *scene.the_case().space;
-  if (has_other_loads(problem)) return;  // their balance takes a solution
+  if (scene.stress_at_start() != Scene::StressAtStart::materials || has_other_loads(problem))
+    return;  // their balance takes a solution
   const auto held = held_nodes_in_space(problem);
   const auto carried = pressures_at_start(problem);
   for (const auto& [name, faces] : problem.mesh.boundaries) {

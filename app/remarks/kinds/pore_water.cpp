@@ -10,6 +10,7 @@
 
 #include "app/remarks/kinds.hpp"
 #include "fem/water/free_water.hpp"
+#include "fem/water/water_across.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -64,15 +65,80 @@ class Look {
       : scene_(scene), problem_(problem), water_(water), remarks_(remarks) {}
 
   void at_drains() {
-    const bool flows =
-        std::ranges::any_of(water_.regions(), [](const auto& region) { return !region.second.undrained; });
-    if (!problem_.prescribed_fields.empty() || !flows) return;
+    if (!problem_.prescribed_fields.empty() || !flows()) return;
     const bool fed = !water_.options().fluxes.empty();
     add(fed ? Rank::wrong : Rank::doubtful, 10.0, {"boundary"},
         fmt::format("boundary: all boundaries are closed to water{}",
                     fed ? ", and a flux brings some in: its pressure rises for ever"
                         : ": excess pressures stay in the body"),
         "give a boundary 'drained: true' or 'pore_pressure', or the water 'undrained: true'");
+  }
+
+  /// Conditions of water at ground in which none flows: they are read, and nothing comes of them.
+  void at_undrained() {
+    std::set<int> dry;  // elements in which no water flows
+    for (const auto& [name, region] : water_.regions())
+      if (region.undrained)
+        dry.insert(problem_.mesh.regions.at(name).begin(), problem_.mesh.regions.at(name).end());
+    if (dry.empty()) return;
+    std::vector<const coupler::Entry*> lists{scene_.find({"boundary"})};
+    if (const coupler::Entry* const stages = scene_.find({"steps", "stages"}))
+      for (const coupler::Entry& stage : stages->items) lists.push_back(stage.find("boundary"));
+    for (const coupler::Entry* const list : lists)
+      if (list != nullptr)
+        for (const coupler::Entry& item : list->items)
+          for (const char* const key : {"drained", "pore_pressure", "water_level", "flux"})
+            if (const coupler::Entry* const value = item.find(key); value != nullptr)
+              look_at_undrained(item, key, *value, dry);
+  }
+
+  /// A flux into nodes whose pressure is given goes straight out again there.
+  void at_fluxes() {
+    std::set<int> given;
+    for (const auto& item : problem_.prescribed_fields)
+      if (item.field == fem::kPorePressure)
+        for (const int node : problem_.mesh.nodes_on(item.on)) given.insert(node);
+    for (const auto& flux : water_.options().fluxes) {
+      const std::vector<int> nodes = problem_.mesh.nodes_on(flux.on);
+      if (nodes.empty() || !std::ranges::all_of(nodes, [&](int node) { return given.contains(node); }))
+        continue;
+      add(Rank::wrong, 1.0, {"boundary"},
+          fmt::format(
+              "boundary: the flux into '{}' changes nothing: all of its {} nodes have a given pressure, and it leaves "
+              "there at once",
+              flux.on, nodes.size()),
+          "give that boundary either 'flux' or a pressure ('drained', 'pore_pressure', 'water_level')");
+    }
+  }
+
+  /// Water passes a wall from ground to ground alone.
+  void at_bare_walls() {
+    const int stages = std::max(1, static_cast<int>(problem_.stages.size()));
+    for (const auto& contribution : problem_.contributions) {
+      const auto* const across = dynamic_cast<const fem::WaterAcross<dim>*>(contribution.get());
+      if (across == nullptr || across->options().passage == fem::Passage::impervious) continue;
+      if (across->options().passage == fem::Passage::leaky && !flows())
+        add(Rank::doubtful, 1.0, {"interfaces", across->options().name},
+            fmt::format(
+                "interface '{}': it leaks with a resistance of {:.3g} s, and all ground is undrained: no water comes to it",
+                across->options().name, across->options().resistance),
+            "leave out 'undrained: true' and give 'permeability', or leave out 'water: leaky'");
+      for (int stage = 0; stage < stages; ++stage) {
+        const std::size_t bare = across->bare_faces(stage, fem::elements_in_stage(problem_, stage));
+        if (bare == 0) continue;
+        const std::string& name = across->options().name;
+        add(Rank::doubtful, 1.0, {"interfaces", name},
+            fmt::format(
+                "interface '{}': water passes it, and {} of its faces have ground on one side alone{}: there it is closed",
+                name, bare,
+                problem_.stages.empty()
+                    ? std::string()
+                    : fmt::format(" in stage '{}'", problem_.stages[static_cast<std::size_t>(stage)])),
+            "say 'water: impervious' where none comes through; else keep the ground, or leave out the interface and give "
+            "the side that is bare its 'pore_pressure' or 'drained: true'");
+        break;
+      }
+    }
   }
 
   void at_weight() {
@@ -167,6 +233,32 @@ class Look {
   [[nodiscard]] double end_of_first_step() const {
     return scene_.the_case().plan.empty() ? 0.0 : scene_.the_case().plan.front().amount;
   }
+  [[nodiscard]] bool flows() const {
+    return std::ranges::any_of(water_.regions(), [](const auto& region) { return !region.second.undrained; });
+  }
+  void look_at_undrained(const coupler::Entry& item, const std::string& key, const coupler::Entry& value,
+                         const std::set<int>& dry) {
+    const coupler::Entry* const on = item.find("on");
+    if (on == nullptr || value.text == "false" || value.text == "no") return;
+    std::vector<std::string> names{on->text};
+    for (const coupler::Entry& word : on->items) names.push_back(word.text);
+    for (const std::string& name : names) {
+      const auto boundary = problem_.mesh.boundaries.find(name);
+      if (boundary == problem_.mesh.boundaries.end() || boundary->second.empty() ||
+          !std::ranges::all_of(boundary->second,
+                               [&](const fem::BoundarySide& side) { return dry.contains(side.element); }))
+        continue;
+      remarks_.push_back(
+          {Rank::wrong, 1.0,
+           value.fault(fmt::format(
+               "boundary: '{}' at '{}' does nothing: all {} elements there are undrained, and no water "
+               "leaves or enters these",
+               key, name, boundary->second.size())),
+           fmt::format(
+               "where water flows leave out 'undrained: true' and give 'permeability'; else leave out '{}'",
+               key)});
+    }
+  }
   /// Whether the first step bears a load at once, and without most of it by a straight rise.
   [[nodiscard]] bool jumps_at_start() const {
     for (const auto& load : problem_.boundary_loads) {
@@ -215,6 +307,9 @@ void pore_water(const Scene& scene, Remarks& remarks) {
     if (water == nullptr) return;
     Look<dim> at(scene, problem, *water, remarks);
     at.at_drains();
+    at.at_undrained();
+    at.at_fluxes();
+    at.at_bare_walls();
     at.at_weight();
     at.at_loads();
     at.at_steps();

@@ -22,7 +22,7 @@ double weight_on(const Scene& scene, const SceneRegion& region) {
 }  // namespace
 
 void weight_at_once(const Scene& scene, Remarks& remarks) {
-  if (!scene.the_case().start_from.empty()) return;  // its weight acts already
+  if (scene.stress_at_start() == Scene::StressAtStart::run_before) return;  // its weight acts already
   const auto& monitors = scene.the_case().monitors;
   const auto reads =
       std::ranges::find(monitors, coupler::Monitor::Kind::displacement, &coupler::Monitor::kind);

@@ -30,7 +30,8 @@ double height_of(const Scene& scene, const SceneRegion& region) {
 void weight_in_boxes(const Scene& scene, Remarks& remarks) {
   for (const SceneRegion& region : scene.regions()) {
     const double pressure = Scene::pressure_of(region);
-    if (region.cell == nullptr || region.comes_later || pressure <= 0.0 || has_given_stress(scene, region))
+    if (region.cell == nullptr || region.comes_later || pressure <= 0.0 ||
+        has_given_stress(scene, region.name))
       continue;
     double weight = 0.0;
     for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
