@@ -113,7 +113,7 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
   }
   leader_.resize(equation_.size());
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) leader_[entry] = find(entry);
-  // Entries that share a value with one that is given are given it too. What holds a wall's own nodes does not hold the ground
+  // Entries that share a value with one that is given are given it too. Supports of a wall's own nodes do not hold the ground
   // around a wall that has not come yet.
   std::map<std::size_t, Given> given_at;  // by leader, the first one
   if (!tied.empty())

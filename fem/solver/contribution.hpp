@@ -159,7 +159,7 @@ class Contribution {
   virtual void prepare(const NodalStep& step) { (void)step; }
 };
 
-/// A term without a state: what it adds follows from the nodal values alone.
+/// A term without a state: the nodal values alone give its forces.
 template <int dim>
 class StatelessContribution : public Contribution<dim> {
  public:

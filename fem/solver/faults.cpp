@@ -155,7 +155,7 @@ GivenValues<dim> check_prescribed_once(const Problem<dim>& problem, int stage, M
   return first;
 }
 
-/// Ground is one body along a wall or an interface that has not come yet: what moves one of the nodes there moves the others too
+/// Ground is one body along a wall or an interface that has not come yet: a movement of one node there moves the others too
 /// (Constraints), so two values at one place cannot be.
 template <int dim>
 void check_ground_in_one(const Problem<dim>& problem, const GivenValues<dim>& given, int stage,

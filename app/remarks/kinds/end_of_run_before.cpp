@@ -52,8 +52,8 @@ void compare_bodies(const Scene& scene, const coupler::RunBefore& before, Remark
       if (!(largest - least < (1.0 - kSlack) * there)) continue;
       add(scene, there / (largest - least),
           fmt::format(
-              "the body in '{}' measures {:.4g} m along {}, this one {:.4g} m: what the ground that is left out has "
-              "carried is let go at once",
+              "the body in '{}' measures {:.4g} m along {}, this one {:.4g} m: the ground that is left out has carried "
+              "something, which is let go at once",
               before.name, there, i + 1, largest - least),
           "keep that body, and remove ground in a stage: {name: cut, remove: REGION, count: 5}", remarks);
       return;

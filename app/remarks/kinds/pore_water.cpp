@@ -74,7 +74,7 @@ class Look {
         "give a boundary 'drained: true' or 'pore_pressure', or the water 'undrained: true'");
   }
 
-  /// Conditions of water at ground in which none flows: they are read, and nothing comes of them.
+  /// Conditions of water at ground in which none flows: reading them changes nothing in the run.
   void at_undrained() {
     std::set<int> dry;  // elements in which no water flows
     for (const auto& [name, region] : water_.regions())
@@ -134,7 +134,7 @@ class Look {
                 problem_.stages.empty()
                     ? std::string()
                     : fmt::format(" in stage '{}'", problem_.stages[static_cast<std::size_t>(stage)])),
-            "say 'water: impervious' where none comes through; else keep the ground, or leave out the interface and give "
+            "say 'water: impervious' for a wall that lets no water through; else keep the ground, or leave out the interface and give "
             "the side that is bare its 'pore_pressure' or 'drained: true'");
         break;
       }
