@@ -74,7 +74,7 @@ class Look {
         "give a boundary 'drained: true' or 'pore_pressure', or the water 'undrained: true'");
   }
 
-  /// Conditions of water at ground in which none flows: reading them changes nothing in the run.
+  /// Conditions of water at ground without any flow: they change nothing in the run.
   void at_undrained() {
     std::set<int> dry;  // elements in which no water flows
     for (const auto& [name, region] : water_.regions())
