@@ -20,9 +20,7 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kPlate = 3.0;    ///< depth of the plates, mean radii
-constexpr double kRoom = 0.3;     ///< above and below, heights
-constexpr double kFrame = 0.005;  ///< shear between two frames
+constexpr double kRoom = 0.3;  ///< above and below, heights
 /// Drag while what the cut surfaces have lost comes to rest, of the critical one of a grain on a contact.
 constexpr double kDrag = 0.06;
 
@@ -40,9 +38,13 @@ double modulus_of(const std::vector<std::string>& words) {
   }
 }
 
-/// The packing as a data file, with room above and below. @returns its height, m
-double open_packing(const Packing& packing, const std::filesystem::path& file) {
-  const double height = packing.box.determinant() / packing.box.col(0).norm();
+double height_of(const Packing& packing) {
+  return packing.box.determinant() / packing.box.col(0).norm();
+}
+
+/// The packing as a data file, with room above and below.
+void open_packing(const Packing& packing, const std::filesystem::path& file) {
+  const double height = height_of(packing);
   std::istringstream in(packing_data(packing));
   std::string text;
   for (std::string line; std::getline(in, line);) {
@@ -53,7 +55,6 @@ double open_packing(const Packing& packing, const std::filesystem::path& file) {
     text += line + '\n';
   }
   write_file(file, text);
-  return height;
 }
 
 }  // namespace
@@ -92,11 +93,18 @@ LayerScript layer_script(const std::string& script, const std::string& file) {
 
 void shear_layer(const Packing& packing, const LayerScript& script, const LayerShear& shear,
                  const std::filesystem::path& folder, const PackingTools& tools, bool quiet) {
+  const double depth = kPlateDepth * packing.mean_radius();
+  shear_between(packing, {depth, height_of(packing) - depth}, script, shear, folder, tools, quiet);
+}
+
+void shear_between(const Packing& packing, const Plates& plates, const LayerScript& script,
+                   const LayerShear& shear, const std::filesystem::path& folder, const PackingTools& tools,
+                   bool quiet) {
   if (std::filesystem::exists(folder / "done")) return;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder / "grains");
   const std::filesystem::path place = std::filesystem::absolute(folder);
-  const double height = open_packing(packing, place / "layer.data");
+  open_packing(packing, place / "layer.data");
   write_file(place / "layer.in", script.text);
   const double radius = packing.mean_radius();
   double mass = 0.0;
@@ -104,10 +112,11 @@ void shear_layer(const Packing& packing, const LayerScript& script, const LayerS
   // A disc of unit thickness in the engine: its mass and the force per thickness belong together.
   const double critical = 2.0 * std::sqrt(script.modulus * radius * mass);
   const std::vector<std::pair<std::string, double>> variables{
-      {"low", kPlate * radius},
-      {"high", height - kPlate * radius},
-      {"frames", std::ceil(shear.shear / kFrame - 1e-9)},
-      {"frame", kFrame},
+      {"low", plates.low},
+      {"high", plates.high},
+      {"rest", static_cast<double>(shear.rest)},
+      {"frames", std::ceil(shear.shear / shear.frame - 1e-9)},
+      {"frame", shear.frame},
       {"rate", shear.inertial_number / (2.0 * radius) * std::sqrt(shear.pressure / shear.density)},
       {"pressure", shear.pressure},
       {"modulus", script.modulus},

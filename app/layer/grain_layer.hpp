@@ -20,12 +20,16 @@ struct LayerScript {
 /// @throws InputError where it has no modulus that can be read, or is of grains in space
 LayerScript layer_script(const std::string& script, const std::string& file);
 
+inline constexpr double kPlateDepth = 3.0;  ///< of rough plates, mean radii
+
 /// How a layer is sheared.
 struct LayerShear {
   double pressure = 0.0;  ///< Pa
   double density = 0.0;   ///< of the grains, kg/m^3
   double inertial_number = 2e-4;
-  double shear = 0.16;  ///< displacement of the upper plate over the height
+  double shear = 0.16;   ///< displacement of the upper plate over the height
+  double frame = 0.005;  ///< shear between two frames
+  int rest = 4000;       ///< steps to come to rest in, twice
 };
 
 /// Opens a packing above and below, glues the outermost grains, three mean radii deep, to rough plates, and shears it
@@ -33,6 +37,17 @@ struct LayerShear {
 /// @throws RunError in the engine's words
 void shear_layer(const Packing& packing, const LayerScript& script, const LayerShear& shear,
                  const std::filesystem::path& folder, const PackingTools& tools, bool quiet);
+
+/// Grains whose centres lie below and above are the plates, m.
+struct Plates {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The same between plates that are given. The packing has no periodic images above and below.
+void shear_between(const Packing& packing, const Plates& plates, const LayerScript& script,
+                   const LayerShear& shear, const std::filesystem::path& folder, const PackingTools& tools,
+                   bool quiet);
 
 /// The result of shear_layer. @throws InputError naming file and line
 Shearing read_layer(const std::filesystem::path& folder, double pressure);

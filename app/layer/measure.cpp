@@ -11,13 +11,13 @@
 #include "app/commands/csv_file.hpp"
 #include "app/layer/column.hpp"
 #include "app/layer/grain_layer.hpp"
+#include "app/layer/jobs.hpp"
 #include "app/layer/lengths.hpp"
 #include "app/pack/read_specification.hpp"
 #include "app/run/interrupt.hpp"
 #include "common/error.hpp"
 #include "common/mean_and_interval.hpp"
 #include "common/packing_file.hpp"
-#include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
 #include "coupler/case/data_files.hpp"
@@ -25,33 +25,6 @@
 
 namespace polargrain::app {
 namespace {
-
-/// Tells what is next, and how long what is like it has taken.
-class Jobs {
- public:
-  Jobs(std::size_t count, bool quiet) : count_(count), quiet_(quiet) {}
-
-  /// @param there whether it was made before
-  void next(const std::string& what, bool there) {
-    stop_if_interrupted();
-    ++number_;
-    if (there || quiet_) return;
-    std::string left;
-    if (made_ > 0) {
-      const double minutes = seconds_since(start_) / made_ * static_cast<double>(count_ - number_ + 1) / 60.0;
-      left = fmt::format(", about {:.0f} min left", std::ceil(minutes));
-    }
-    tell(stderr, "{} ({} of {}{})\n", what, number_, count_, left);
-    ++made_;
-  }
-
- private:
-  std::size_t count_;
-  bool quiet_;
-  std::size_t number_ = 0;
-  int made_ = 0;
-  Clock::time_point start_ = Clock::now();
-};
 
 class Measurement {
  public:

@@ -6,6 +6,7 @@
 #include "common/state.hpp"
 #include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/measured_interface.hpp"
 #include "coupler/case/measured_length.hpp"
 
 namespace polargrain::coupler {
@@ -54,6 +55,18 @@ std::string shown(const std::map<std::string, std::string>& values, const std::s
 CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory) {
   CaseIdentity identity;
   collect(document, "", directory, identity);
+  // `friction: measured` is what stands beside the packing.
+  const Entry* const interfaces = document.find("interfaces");
+  if (interfaces == nullptr) return identity;
+  for (const Entry::Member& member : interfaces->members) {
+    const Entry* const friction = member.value.find("friction");
+    if (friction == nullptr || friction->text != "measured") continue;
+    const auto file =
+        find_data_file(packing_of_interface(member.value, document.find("materials")), directory);
+    if (file)
+      identity.files["interfaces." + member.key + ".friction"] =
+          name_of_content(interface_file_of(*file), "");
+  }
   return identity;
 }
 

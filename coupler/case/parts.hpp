@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupler/case/case.hpp"
+#include "coupler/case/measured_interface.hpp"
 #include "coupler/case/section.hpp"
 #include "fem/water/pore_water.hpp"
 #include "fem/water/water_across.hpp"
@@ -43,7 +44,8 @@ struct CaseParts {
   /// The mesh, with the nodes of its structures; while it is false, names of boundaries and regions cannot be checked.
   bool has_mesh = false;
   Faults& faults;
-  bool builds = false;  ///< parts come or go in some stage
+  const Entry* materials = nullptr;  ///< of the document, known before they are read
+  bool builds = false;               ///< parts come or go in some stage
 
   /// The stage of construction whose items are read; by default the case itself.
   struct Now {
@@ -114,6 +116,8 @@ struct CaseParts {
 void read_mesh(const Entry& entry, CaseParts& parts);
 /// Behind the mesh and before all that names parts of it. @param interfaces, beams, anchors null where the case lacks them
 void read_structures(const Entry* interfaces, const Entry* beams, const Entry* anchors, CaseParts& parts);
+/// Reads `packing` and `roughness` of an interface with `friction: measured`. @returns nothing, with faults, when that was not measured
+std::optional<MeasuredWall> read_measured_friction(Section& section, CaseParts& parts);
 /// Checks and completes the supports that they need: to be called when these have been read.
 void finish_structures(CaseParts& parts);
 /// Reads a monitor of an interface, a beam or an anchor. @returns false, with nothing read, when it is one of something else

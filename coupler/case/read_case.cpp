@@ -43,6 +43,7 @@ class CaseReader {
       problem.deformation = large ? fem::Deformation::large : fem::Deformation::small;
     });
     read_continuum(continuum, document_, parts_);
+    parts_.materials = document_.find("materials");
     read_structures(top.find("interfaces"), top.find("beams"), top.find("anchors"), parts_);
     if (const Entry* entry = top.require("materials", "a map of materials by name")) read_materials(*entry);
     if (case_.spread > 0.0) check_spread_slips(*continuum, parts_);

@@ -49,6 +49,7 @@ class StructuresReader {
     const Entry* entry;
     fem::InterfaceSettings settings;
     bool holds_rotation = false;
+    std::optional<MeasuredWall> measured = {};
   };
   struct BeamHere {
     std::string name;
@@ -114,10 +115,18 @@ class StructuresReader {
                     "mobilised friction beside it, such as 2/3");
     } else if (has_share) {
       here.settings.share = read_share(section);
+    } else if (is_measured(section)) {
+      here.measured = read_measured_friction(section, parts_);
+      if (here.measured) {
+        law.over_slip = std::make_shared<fem::FrictionCurve>(here.measured->curve);
+        // The largest one, for what the tension is held against.
+        for (const auto& point : here.measured->curve)
+          law.tan_friction = std::max(law.tan_friction, point.friction);
+      }
     } else {
       law.tan_friction = tangent(section, "friction", 0.0);
     }
-    law.tan_dilation = tangent(section, "dilation", 0.0);
+    if (!is_measured(section)) law.tan_dilation = tangent(section, "dilation", 0.0);
     if (!has_share && law.tan_dilation > law.tan_friction)
       section.fault("dilation", "dilation: must not be larger than the friction");
     law.cohesion = section.quantity_or("cohesion", Dimension::pressure, Limit::not_negative, 0.0);
@@ -127,9 +136,21 @@ class StructuresReader {
                     "tension: must not be larger than cohesion / tan(friction), where the friction ends");
     law.normal_stiffness = section.quantity_or("normal_stiffness", Dimension::bedding, Limit::positive, 0.0);
     law.shear_stiffness = section.quantity_or("shear_stiffness", Dimension::bedding, Limit::positive, 0.0);
-    law.dilation_until = section.quantity_or("dilation_until", Dimension::length, Limit::positive, HUGE_VAL);
+    if (!is_measured(section))
+      law.dilation_until =
+          section.quantity_or("dilation_until", Dimension::length, Limit::positive, HUGE_VAL);
     law.cohesion_lasts = section.choice_or("cohesion_after_opening", {"lost", "kept"}, "lost") == "kept";
-    here.holds_rotation = section.choice_or("rotation", {"free", "held"}, "free") == "held";
+    const std::string rotation = section.choice_or("rotation", {"free", "held", "measured"}, "free");
+    here.holds_rotation = rotation != "free";
+    if (rotation == "measured") {
+      if (!is_measured(section))
+        section.fault(
+            "rotation",
+            "rotation: measured: comes from the box that 'friction: measured' reads; write that, or "
+            "'held' or 'free'");
+      else if (here.measured)
+        here.settings.turning = here.measured->turning / here.measured->mean_diameter;
+    }
     if (here.holds_rotation && problem_.continuum == fem::Continuum::cauchy)
       section.fault("rotation",
                     "rotation: the classical continuum has no micro-rotation to hold; leave it out");
@@ -152,6 +173,11 @@ class StructuresReader {
     const double share = section.quantity("share", Dimension::number, Limit::not_negative);
     if (share > 1.0) section.fault("share", "share: at most 1, the whole friction beside the interface");
     return share;
+  }
+
+  static bool is_measured(Section& section) {
+    const Entry* const friction = section.find("friction");
+    return friction != nullptr && friction->text == "measured";
   }
 
   double tangent(Section& section, const std::string& key, double otherwise) {

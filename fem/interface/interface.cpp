@@ -203,6 +203,21 @@ std::string Interface<dim>::evaluate(const NodalStep& step, NodalForces& forces)
 }
 
 template <int dim>
+typename Interface<dim>::Rolling Interface<dim>::rolling(const Point& point) const {
+  Rolling rolling;
+  const typename Cosserat<dim>::Place normal = point.geometry.axes.row(dim - 1).transpose();
+  for (int i = 0; i + 1 < dim; ++i) {
+    const typename Cosserat<dim>::Place tangent = point.geometry.axes.row(i).transpose();
+    if constexpr (dim == 2) {
+      rolling(0, i) = normal(0) * tangent(1) - normal(1) * tangent(0);
+    } else {
+      rolling.col(i) = normal.cross(tangent);
+    }
+  }
+  return settings_.turning * rolling;
+}
+
+template <int dim>
 Eigen::VectorXd Interface<dim>::forces_of(const Element& element, const Eigen::VectorXd& values) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(element.entries.size()));
   const auto nodes = static_cast<int>(element.face.nodes_a.size());
@@ -221,8 +236,11 @@ Eigen::VectorXd Interface<dim>::forces_of(const Element& element, const Eigen::V
     if (element.face.rotation_b.empty()) continue;
     constexpr int rotations = Cosserat<dim>::rotations;
     const int first = 2 * dim * nodes;
+    const Eigen::Matrix<double, dim - 1, 1> slip =
+        (point.answer.state.plastic_jump - point.birth).template head<dim - 1>();
+    const Eigen::Matrix<double, rotations, 1> rolled = rolling(point) * slip;
     for (int k = 0; k < rotations; ++k) {
-      double difference = 0.0;
+      double difference = rolled(k);
       for (int a = 0; a < nodes; ++a)
         difference += point.geometry.shape(a) *
                       (values(element.places[static_cast<std::size_t>(first + rotations * (nodes + a) + k)]) -
@@ -273,6 +291,19 @@ Eigen::MatrixXd Interface<dim>::tangent(std::size_t e) const {
           tangent(place(first + rotations * a + k), place(first + rotations * b + k)) +=
               point.geometry.area * element.rotation_stiffness * signed_shape(point, a) *
               signed_shape(point, b);
+    if (settings_.turning == 0.0) continue;
+    // The slip is the jump less the elastic part of it.
+    Eigen::Matrix<double, dim - 1, dim> slip =
+        -point.answer.tangent.template topRows<dim - 1>() / point.parameters.shear_stiffness;
+    slip.template leftCols<dim - 1>().diagonal().array() += 1.0;
+    const Eigen::Matrix<double, rotations, dim> rolled = rolling(point) * slip * point.geometry.axes;
+    for (int a = 0; a < 2 * nodes; ++a)
+      for (int b = 0; b < 2 * nodes; ++b)
+        for (int k = 0; k < rotations; ++k)
+          for (int j = 0; j < dim; ++j)
+            tangent(place(first + rotations * a + k), place(dim * b + j)) +=
+                point.geometry.area * element.rotation_stiffness * signed_shape(point, a) *
+                signed_shape(point, b) * rolled(k, j);
   }
   add_water_tangent(element, tangent);
   return tangent;
@@ -325,6 +356,13 @@ void Interface<dim>::save(ArchiveWriter& archive) const {
     }
   }
   archive.write("points", std::span<const double>(values));
+  if (settings_.turning != 0.0) {
+    std::vector<double> births;
+    for (const Element& element : elements_)
+      for (const Point& point : element.points)
+        births.insert(births.end(), point.birth.begin(), point.birth.end());
+    archive.write("births", std::span<const double>(births));
+  }
   if (is_dry()) return;
   std::vector<double> pressures;
   for (const Element& element : elements_)
@@ -362,6 +400,13 @@ void Interface<dim>::restore(ArchiveReader& archive) {
     element.rotation_stiffness =
         element.points.front().parameters.shear_stiffness * element.size * element.size;
     element.knows_stiffness = element.rotation_stiffness > 0.0;
+  }
+  if (settings_.turning != 0.0) {
+    const std::vector<double> births = read_lists(archive, "births", points, dim);
+    auto birth = births.begin();
+    for (Element& element : elements_)
+      for (Point& point : element.points)
+        for (double& x : point.birth) x = *birth++;
   }
   if (!is_dry()) {
     const std::vector<double> pressures = read_lists(archive, "pressures", points, 1);

@@ -33,6 +33,9 @@ struct InterfaceSettings {
   InterfaceParameters parameters;
   /// Friction as a share of the mobilised friction of the neighbours at the start of each step, in the place of tan_friction.
   std::optional<double> share = {};
+  /// Where rotations are joined (InterfaceFace::rotation_b): rotation of side a against b over the slip, rad/m, positive where the
+  /// ground rolls along the wall; 0: it turns with the wall.
+  double turning = 0.0;
   /// Whether the ground is one body along it until the stage that places it (Contribution::life); a rigid wall beside the ground
   /// is only there from then on.
   bool parts_ground = false;
@@ -109,7 +112,8 @@ class Interface : public Contribution<dim> {
     InterfaceAnswer<dim> committed_answer;
     FaceVector<dim> jump;
     FaceVector<dim> committed_jump;
-    double pressure = 0.0;  ///< of the water
+    FaceVector<dim> birth = FaceVector<dim>::Zero();  ///< jump from which its slip counts
+    double pressure = 0.0;                            ///< of the water
     double committed_pressure = 0.0;
     Eigen::VectorXd wet_shape;  ///< share of each of Element::pressures
   };
@@ -127,6 +131,9 @@ class Interface : public Contribution<dim> {
   };
 
   [[nodiscard]] static std::vector<int> all_entries(const InterfaceFace<dim>& face);
+  using Rolling = Eigen::Matrix<double, Cosserat<dim>::rotations, dim - 1>;
+  /// Rotations of the ground against the wall over the tangential slip at a point, rad/m.
+  [[nodiscard]] Rolling rolling(const Point& point) const;
   [[nodiscard]] Eigen::VectorXd forces_of(const Element& element, const Eigen::VectorXd& values) const;
   void set_stiffness(Element& element, double stiffness);
   /// Jump at a point, in the axes of the face. @param values of the element's entries

@@ -2,6 +2,9 @@
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
+#include <memory>
+
+#include "fem/interface/friction_curve.hpp"
 
 namespace polargrain::fem {
 
@@ -15,6 +18,8 @@ struct InterfaceParameters {
   double tension = 0.0;              ///< tensile strength ft, Pa, at most cohesion / tan_friction
   double dilation_until = HUGE_VAL;  ///< slip at which dilation ends, m
   bool cohesion_lasts = false;       ///< also where it has been open
+  /// Friction and dilation over the slip, in the place of tan_friction, tan_dilation and dilation_until; null: these.
+  std::shared_ptr<const FrictionCurve> over_slip = {};
 };
 
 /// Jumps and stress vectors in the axes of the face: tangential components first, the normal one last.
@@ -41,8 +46,13 @@ struct InterfaceAnswer {
   InterfaceState<dim> state;  ///< to be committed
 };
 
+/// tan(delta) after a way of sliding, m.
+double tan_friction_at(const InterfaceParameters& parameters, double slip);
+
 /// Closed-form return to |t_t| + t_n tan(delta) <= c, t_n <= ft from the trial stress t_0 + k (g - g_p). Sliding opens by
-/// tan(psi) times its way. An open point has no stress; it closes where it opened, and without shear.
+/// tan(psi) times its way. An open point has no stress; it closes where it opened, and without shear. Under a curve over the slip
+/// the return ends at the first slip whose friction carries the shear; where friction falls faster than the shear stiffness
+/// follows, that is behind the fall.
 /// @param jump displacement of side b less that of side a, m, normal from a to b
 /// @param committed state at the start of the step
 template <int dim>

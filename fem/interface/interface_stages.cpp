@@ -15,6 +15,7 @@ namespace polargrain::fem {
 template <int dim>
 void Interface<dim>::forget(Point& point) {
   point.committed = {};
+  point.birth = FaceVector<dim>::Zero();
   point.jump = point.committed_jump = FaceVector<dim>::Zero();
   point.answer = {FaceVector<dim>::Zero(), Eigen::Matrix<double, dim, dim>::Zero(), Contact::sticks, {}};
   point.committed_answer = point.answer;
@@ -53,7 +54,7 @@ void Interface<dim>::begin_stage(const StageBegin<dim>& now) {
     const Eigen::VectorXd values = now.nodal(element.entries);
     for (Point& point : element.points) {
       point.jump = point.committed_jump = jump_at(element, point, values);
-      point.committed.plastic_jump = point.jump;
+      point.committed.plastic_jump = point.birth = point.jump;
     }
   }
   if (settings_.parts_ground && this->life.begin == now.stage) carry_stress_of_ground(now, born);

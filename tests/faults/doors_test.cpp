@@ -186,8 +186,8 @@ TEST_F(Doors, NamesThatAreTooLongOrLeadInCirclesEndNothing) {
   fs::create_symlink("circle", at("circle"));
   for (const std::string& name :
        {std::string("circle"), std::string(300, 'x'), std::string(5000, 'x'), std::string()}) {
-    for (const char* const command : {"check", "run", "pack", "bench", "layer", "report", "verify", "band",
-                                      "grains", "keys", "element"}) {
+    for (const char* const command : {"check", "run", "pack", "bench", "layer", "interface", "report",
+                                      "verify", "band", "grains", "keys", "element"}) {
       const Outcome outcome = polargrain(std::string(command) + " '" + name + "'");
       EXPECT_TRUE(outcome.status == 1 || outcome.status == 2) << command << ' ' << name << '\n'
                                                               << outcome.status;

@@ -25,7 +25,9 @@ InterfaceParameters joint() {
 class ShearBox {
  public:
   explicit ShearBox(const InterfaceParameters& parameters, double normal_stress)
-      : parameters_(parameters), normal_stress_(normal_stress) {}
+      : parameters_(parameters),
+        normal_stress_(normal_stress),
+        normal_jump_(normal_stress / parameters.normal_stiffness) {}
 
   /// @returns the shear stress
   double shear_to(double u) {
@@ -48,7 +50,7 @@ class ShearBox {
  private:
   InterfaceParameters parameters_;
   double normal_stress_;
-  double normal_jump_ = 0.0;
+  double normal_jump_;
   InterfaceState<2> state_;
   InterfaceAnswer<2> answer_;
 };
@@ -90,7 +92,8 @@ struct Drawn {
     for (double& x : drawn) x = uniform(random);
     return drawn;
   }
-  explicit Drawn(std::mt19937& random) {
+  /// @param over_slip with friction and dilation that change over the slip
+  explicit Drawn(std::mt19937& random, bool over_slip = false) {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     parameters.normal_stiffness = 1e8 * (0.1 + share(random));
     parameters.shear_stiffness = 1e8 * (0.1 + share(random));
@@ -99,16 +102,25 @@ struct Drawn {
     parameters.cohesion = 2e4 * share(random);
     parameters.tension = std::min(1e5, parameters.cohesion / parameters.tan_friction) *
                          (share(random) < 0.5 ? 0.0 : share(random));
+    if (!over_slip) return;
+    // Up to a peak and down again, within the slips that are drawn; opening too.
+    std::vector<FrictionCurve::Measured> points{{0.0, 0.2 * share(random), 0.0}};
+    for (int k = 1; k < 6; ++k)
+      points.push_back({points.back().slip + 4e-4 * (0.1 + share(random)), 0.1 + 0.8 * share(random),
+                        points.back().opening + 1e-4 * share(random)});
+    parameters.over_slip = std::make_shared<FrictionCurve>(points);
+    parameters.tension = 0.0;
   }
 };
 
 template <int dim>
-void check_tangents(int states) {
+void check_tangents(int states, bool over_slip = false) {
   std::mt19937 random(20240 + dim);
   int of_kind[3] = {0, 0, 0};
   for (int i = 0; i < states; ++i) {
-    const Drawn drawn(random);
+    const Drawn drawn(random, over_slip);
     InterfaceState<dim> state;
+    if (over_slip) state.slip = 2e-5 * (i % 50);
     state.initial_traction = Drawn::vector<dim>(random, 1e5);
     state.plastic_jump = Drawn::vector<dim>(random, 1e-3);
     const FaceVector<dim> jump = Drawn::vector<dim>(random, 2e-3);
@@ -123,6 +135,9 @@ void check_tangents(int states) {
       const auto ahead = respond<dim>(drawn.parameters, state, plus);
       const auto behind = respond<dim>(drawn.parameters, state, minus);
       if (ahead.contact != behind.contact) continue;  // a kink between them
+      if (over_slip && drawn.parameters.over_slip->piece_at(ahead.state.slip) !=
+                           drawn.parameters.over_slip->piece_at(behind.state.slip))
+        continue;
       const FaceVector<dim> slope = (ahead.traction - behind.traction) / (2 * step);
       EXPECT_LT((slope - answer.tangent.col(j)).norm(), 1e-7 * drawn.parameters.normal_stiffness + 1.0)
           << "state " << i << ", column " << j;
@@ -137,6 +152,45 @@ TEST(interface_law, tangent_is_the_slope_in_the_plane) {
 }
 TEST(interface_law, tangent_is_the_slope_in_space) {
   check_tangents<3>(300);
+}
+
+TEST(interface_law, tangent_is_the_slope_where_friction_changes_over_the_slip) {
+  check_tangents<2>(300, true);
+  check_tangents<3>(300, true);
+}
+
+// Under a constant normal stress the shear stress follows the curve, however long the steps are: slip = u - shear / kt.
+TEST(interface_law, shear_follows_the_measured_curve_in_steps_of_any_length) {
+  const auto curve = std::make_shared<FrictionCurve>(std::vector<FrictionCurve::Measured>{
+      {0.0, 0.1, 0.0}, {1e-3, 0.5, 1e-4}, {3e-3, 0.3, 4e-4}, {4e-3, 0.3, 3e-4}});
+  const InterfaceParameters parameters{.normal_stiffness = 1e9, .shear_stiffness = 1e9, .over_slip = curve};
+  // tan(delta) and opening at slips of 0.5, 2 and 5 mm, by hand; an opening that falls stays.
+  const double slips[] = {0.5e-3, 2e-3, 5e-3};
+  const double frictions[] = {0.3, 0.4, 0.3};
+  const double openings[] = {0.5e-4, 2.5e-4, 4e-4};
+  for (const int parts : {1, 7}) {
+    ShearBox box(parameters, -100e3);
+    double before = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double after = slips[i] + frictions[i] * 100e3 / 1e9;
+      double shear = 0.0;
+      for (int part = 1; part <= parts; ++part)
+        shear = box.shear_to(before + (after - before) * part / parts);
+      EXPECT_NEAR(shear, 100e3 * frictions[i], 1e-5) << slips[i] << " in " << parts;
+      EXPECT_NEAR(box.dilation(), openings[i], 1e-12) << slips[i] << " in " << parts;
+      before = after;
+    }
+  }
+}
+
+// A spring of 1 MPa/m does not follow a fall of 100 MPa/m: the joint slips behind it, to where the friction carries the shear.
+TEST(interface_law, a_fall_steeper_than_the_stiffness_is_passed) {
+  const auto curve = std::make_shared<FrictionCurve>(
+      std::vector<FrictionCurve::Measured>{{0.0, 0.5, 0.0}, {1e-4, 0.4, 0.0}});
+  const InterfaceParameters parameters{.normal_stiffness = 1e9, .shear_stiffness = 1e6, .over_slip = curve};
+  ShearBox box(parameters, -100e3);
+  EXPECT_NEAR(box.shear_to(0.0499), 49.9e3, 1e-6);
+  EXPECT_NEAR(box.shear_to(0.0501), 40e3, 1e-6);
 }
 
 TEST(interface_law, stress_obeys_the_limits_at_random_states) {

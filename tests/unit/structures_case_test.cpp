@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "coupler/case/case.hpp"
+#include "coupler/case/measured_interface.hpp"
 #include "coupler/case/structure_values.hpp"
 #include "fem/interface/interface.hpp"
 
@@ -114,6 +115,74 @@ TEST(StructuresCase, FaultsNamePlaceAndRemedy) {
          "no interface 'b'");
   expect("interfaces: {a: {on: joint, friction: 20 deg}}\nmonitors: {m: {interface: a, value: moment}}\n",
          "pressure");
+}
+
+constexpr const char* kMeasured =
+    "mean_diameter: 0.01 m\nscript: 0123\npressure: 100000 Pa\nboxes: 3\nheight: 10\nwalls:\n"
+    "  - roughness: 0.25\n    friction: [[0, 0.2], [0.001, 0.4], [0.01, 0.3]]\n    friction_interval: [0.1, 0.1, 0.1]\n"
+    "    opening: [[0, 0], [0.001, 1e-4], [0.01, 5e-4]]\n    turning: 0.15\n    peak: [0.4, 0.1]\n    end: [0.3, 0.1]\n"
+    "  - {roughness: 1, friction: [[0, 0.5]], opening: [[0, 0]], turning: 0}\n";
+
+/// A packing of two grains of 10 mm, and what was measured of such.
+class MeasuredFriction : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(packing_) << "# cell xx=0.02 xy=0 yx=0 yy=0.02 z=1\nid,x,y,r,mass,Izz\n"
+                               "1,0.005,0.005,0.005,1,1\n2,0.015,0.015,0.005,1,1\n";
+    measure(kMeasured);
+  }
+  void TearDown() override {
+    std::filesystem::remove(packing_);
+    std::filesystem::remove(file_);
+  }
+  void measure(const std::string& text) { std::ofstream(file_) << text; }
+  [[nodiscard]] std::string wall(const std::string& keys) const {
+    return "interfaces: {wall: {on: left, friction: measured, packing: " + packing_.string() + ", " + keys +
+           "}}\n";
+  }
+
+  const std::string body_ = "  - {on: wall, fix: [u1, u2]}\n";
+  const std::filesystem::path packing_ =
+      std::filesystem::temp_directory_path() / ("measured." + std::to_string(getpid()) + ".csv");
+  const std::filesystem::path file_ = interface_file_of(packing_);
+};
+
+TEST_F(MeasuredFriction, IsTheLawOfTheInterface) {
+  const Case the_case = read(wall("roughness: 0.25, rotation: measured"), body_);
+  const auto* const wall = dynamic_cast<const fem::Interface<2>*>(the_case.problem.contributions[0].get());
+  ASSERT_NE(wall, nullptr);
+  const fem::InterfaceParameters& law = wall->settings().parameters;
+  ASSERT_NE(law.over_slip, nullptr);
+  EXPECT_DOUBLE_EQ(law.over_slip->friction(0.5e-3), 0.3);
+  EXPECT_DOUBLE_EQ(law.over_slip->friction(1.0), 0.3);
+  EXPECT_DOUBLE_EQ(law.over_slip->pieces()[0].tan_dilation, 0.1);
+  EXPECT_DOUBLE_EQ(wall->settings().turning, 15.0) << "rad/m";
+  EXPECT_FALSE(wall->face(0).rotation_b.empty());
+  EXPECT_EQ(the_case.identity.files.count("interfaces.wall.friction"), 1U) << "a checkpoint knows it";
+}
+
+TEST_F(MeasuredFriction, FaultsNamePlaceAndRemedy) {
+  const auto expect = [&](const std::string& lines, const std::string& part) {
+    const std::string faults = faults_of(lines, body_);
+    EXPECT_NE(faults.find(part), std::string::npos) << lines << "\n" << faults;
+    EXPECT_NE(faults.find("yaml:9: interface 'wall'"), std::string::npos) << "file and line: " << faults;
+  };
+  expect(wall("roughness: 0.5"), "has 0.25, 1; take one of these, or measure with 'polargrain interface");
+  expect(wall("rotation: held"), "roughness");
+  expect(wall("roughness: 1, dilation: 3 deg"), "dilation: comes with 'friction: measured'");
+  expect("interfaces: {wall: {on: left, friction: measured, roughness: 1}}\n", "write 'packing: FILE'");
+  expect("interfaces: {wall: {on: left, friction: measured, roughness: 1, packing: none.h5}}\n",
+         "there is no file 'none.h5'");
+  expect("interfaces: {wall: {on: left, friction: 20 deg, rotation: measured}}\n",
+         "comes from the box that 'friction: measured' reads");
+  std::string other = kMeasured;
+  measure(other.replace(other.find("0.01 m"), 6, "0.02 m"));
+  expect(wall("roughness: 1"), "is of grains of 20 mm, the grains of the packing have 10 mm");
+  other = kMeasured;
+  measure(other.replace(other.find("[0, 0.2]"), 8, "[1, 0.2]"));
+  expect(wall("roughness: 1"), "interface.yaml:8: wall: friction: the first value of a pair must be larger");
+  std::filesystem::remove(file_);
+  expect(wall("roughness: 1"), "--roughness 1' makes the experiment and writes it, or give an angle");
 }
 
 }  // namespace

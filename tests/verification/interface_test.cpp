@@ -133,6 +133,49 @@ TEST_P(InPlane, the_shear_test_of_goodman) {
   }
 }
 
+// A block that slides over a wall whose grains roll: free grains of the ground turn with them, by the slip times the turning, in
+// the sense of a wheel on a floor.
+TEST_P(InPlane, grains_roll_along_a_wall) {
+  InterfaceParameters joint = rough(1e8, 4e7, 30.0);
+  constexpr double kTurning = 3.0;  // rad/m
+  Problem<2> problem;
+  problem.mesh = rectangle({{1.0, 0.1}, {4, 1}}, GetParam());
+  // Skew stress that is nothing beside the others leaves the rotation to the wall.
+  ElasticParameters<2> ground;
+  ground.young_modulus = 1e7;
+  ground.cosserat_shear_modulus = 10.0;
+  ground.internal_length = 0.1;
+  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(ground));
+  name_nodes(problem.mesh, "block", [](const auto&) { return true; });
+  const auto faces = faces_along(problem.mesh, "bottom");
+  const OwnNodes<2> own = add_own_nodes(problem.mesh, faces);
+  problem.mesh.node_sets["body"] = own.nodes;
+  std::vector<InterfaceFace<2>> of_interface;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    InterfaceFace<2>& face = of_interface.emplace_back(InterfaceFace<2>{
+        faces[f].type, faces[f].first_nodes, own.face_nodes[f], {faces[f].first.element}, {}});
+    for (const int node : face.nodes_b) face.rotation_b.push_back(entry_of<2>(node, Dof::w));
+  }
+  InterfaceSettings settings{"wall", joint, {}};
+  settings.turning = kTurning;
+  const auto interface = std::make_shared<Interface<2>>(problem.mesh, settings, std::move(of_interface));
+  problem.contributions.push_back(interface);
+  for (const Dof dof : {Dof::u1, Dof::u2, Dof::w}) problem.prescribed.push_back({"body", dof, kZero, {}});
+  problem.prescribed.push_back({"block", Dof::u1, TimeTable::ramp(5e-3), {}});
+  problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(50e3)}};
+  Solver<2> solver(std::move(problem), {.force_tolerance = 1e-10, .moment_tolerance = 1e-9});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  ASSERT_TRUE(report.converged) << report.message;
+  // Newton's method with the exact tangent: the first iterations slip, the others finish.
+  EXPECT_LE(report.iterations, 6);
+  const double slip = 5e-3 - 50e3 * joint.tan_friction / 4e7;
+  // 2 Gc w = 0.3 Pa of skew stress over kt.
+  EXPECT_NEAR(interface->results().front().slip, slip, 1e-8);
+  // Over the wall's penalty, kt times the square of a face, it is 1e-7.
+  EXPECT_NEAR(solver.mean_displacement("bottom")(2), -kTurning * slip, 1e-5 * kTurning * slip);
+}
+
 /// A stiff strip of length 1 that presses on a bed with an eccentric force; the bed takes no tension.
 std::vector<InterfacePointResult<2>> pressed_strip(int elements, double eccentricity) {
   Problem<2> problem;
