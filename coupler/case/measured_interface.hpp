@@ -31,12 +31,12 @@ struct MeasuredInterface {
 };
 
 /// Texts of a key of all materials that have a packing, or of those with one packing alone where it is given. @param materials of a
-/// case; null: it has none
+/// case, null for a case without any
 std::set<std::string> of_materials_with_packing(const Entry* materials, const std::string& key,
                                                 const std::string& packing = {});
 
 /// The packing that `friction: measured` of an interface means, as it is written: its own, or the only one of the materials; empty
-/// where there is none such.
+/// where that packing does not exist.
 std::string packing_of_interface(const Entry& interface, const Entry* materials);
 
 /// NAME.interface.yaml beside NAME.h5

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `friction: measured` of an interface: which packing it means, and the errors of what is not measured.
+// `friction: measured` of an interface: its packing, and errors where no measurement fits.
 #include <fmt/format.h>
 
 #include <cmath>
