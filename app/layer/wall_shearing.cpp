@@ -82,7 +82,7 @@ WallFigures wall_figures(const WallShearing& shearing, double diameter, double w
   const double last = std::min(at.back(), way * diameter);
   double peak_at = 0.0;
   for (const double slip : at) {
-    // The mean of half a diameter, none of it before the start or behind the end.
+    // The mean of half a diameter, within start and end.
     if (slip < reach || slip > last - reach) continue;
     const double ratio = mean_between(at, shearing.layer.ratios, slip - reach, slip + reach);
     if (ratio <= figures.peak) continue;

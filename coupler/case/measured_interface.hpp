@@ -19,7 +19,7 @@ struct MeasuredWall {
   double mean_diameter = 0.0;  ///< of the grains, m
 };
 
-/// What `polargrain interface` has measured on boxes of the grains of a packing under a script. It is kept beside the packing in
+/// Friction that `polargrain interface` has measured on boxes of the grains of a packing under a script. It is kept beside the packing in
 /// PACKING.interface.yaml and read where a case says `friction: measured` (docs/file_formats.md).
 struct MeasuredInterface {
   double mean_diameter = 0.0;  ///< of the grains, m
