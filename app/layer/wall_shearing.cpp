@@ -17,7 +17,7 @@ namespace {
 constexpr double kAtWall = 1.0;      ///< grains whose centres lie so near turn at the wall, d
 constexpr double kBandAtWall = 5.0;  ///< thickness of a band of grains, d
 
-/// The mean of values whose places lie in [from, to]; not-a-number where there are none.
+/// The mean of values whose places lie in [from, to]; not-a-number for a wall without any.
 double mean_between(const std::vector<double>& places, const std::vector<double>& values, double from,
                     double to) {
   double sum = 0.0;
