@@ -87,7 +87,7 @@ std::shared_ptr<Material<2>> grainy(const GrainyLaw& law) {
 }
 
 /// Compression by 1 % of strain between rough plates.
-Problem<2> block(const GrainyLaw& law) {
+Problem<2> grainy_block(const GrainyLaw& law) {
   Problem<2> problem;
   problem.mesh = rectangle({{0.04, 0.08}, {3, 6}});
   problem.materials["all"] = grainy(law);
@@ -99,13 +99,13 @@ Problem<2> block(const GrainyLaw& law) {
 }
 
 StepReport compress(const GrainyLaw& law, const SolverOptions& options) {
-  Solver<2> solver(block(law), options);
+  Solver<2> solver(grainy_block(law), options);
   EXPECT_TRUE(solver.equilibrate().converged);
   return solver.advance(1.0);
 }
 
 TEST(noise, what_it_leaves_of_the_residual_is_foreseen) {
-  const Problem<2> problem = block({});
+  const Problem<2> problem = grainy_block({});
   for (const Continuum continuum : {Continuum::cosserat, Continuum::cauchy}) {
     const Discretisation<2> discretisation(problem.mesh, continuum);
     std::vector<Response<2>> responses(discretisation.points());
@@ -209,7 +209,7 @@ struct UnbalancedLaw {
 };
 
 TEST(rounding, does_not_excuse_rotations_that_have_gone_astray) {
-  Problem<2> problem = block({});
+  Problem<2> problem = grainy_block({});
   problem.materials["all"] = std::make_shared<LocalMaterial<UnbalancedLaw>>(UnbalancedLaw{});
   SolverOptions options;
   options.most_cuts = 0;
@@ -296,7 +296,7 @@ TEST(acceleration, takes_no_jump_for_stiffness) {
 }
 
 TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_at_once) {
-  Problem<2> problem = block({.fails_beyond = 0.003});
+  Problem<2> problem = grainy_block({.fails_beyond = 0.003});
   problem.prescribed = {{"bottom", Dof::u2, kZeroOfNoise, {}},
                         {"bottom_left", Dof::u1, kZeroOfNoise, {}},
                         {"top", Dof::u2, TimeTable::constant(-0.0008), {}}};
@@ -317,7 +317,7 @@ TEST(equilibrate, lets_an_imbalance_go_in_shares_when_a_material_cannot_follow_a
 }
 
 TEST(equilibrate, gives_up_with_a_reason) {
-  Problem<2> problem = block({.fails_beyond = 1e-7});
+  Problem<2> problem = grainy_block({.fails_beyond = 1e-7});
   problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(100e3)}};
   Solver<2> solver(std::move(problem), {});
   const StepReport report = solver.equilibrate();
@@ -329,7 +329,7 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
   double asked = 0.0;
   enum class Control { time, measure };
   const auto column = [&](SolverOptions options, Control control) {
-    Problem<2> problem = block({.largest_asked = &asked});
+    Problem<2> problem = grainy_block({.largest_asked = &asked});
     problem.mesh = rectangle({{0.04, 0.08}, {1, 20}});
     problem.mesh.regions["band"] = {10};
     for (int e = 0; e < 20; ++e) {
@@ -372,7 +372,7 @@ TEST(absurd_corrections, cut_the_step_when_there_is_no_other_way) {
   double asked = 0.0;
   SolverOptions options;
   options.largest_strain = 0.004;
-  Solver<2> solver(block({.largest_asked = &asked}), options);
+  Solver<2> solver(grainy_block({.largest_asked = &asked}), options);
   ASSERT_TRUE(solver.equilibrate().converged);
   const StepReport report = solver.advance(1.0);  // a strain of more than 0.01 at once
   ASSERT_TRUE(report.converged) << report.message;
@@ -386,7 +386,7 @@ TEST(rotations, that_nothing_resists_are_refused_before_the_first_iteration) {
   parameters.cosserat_shear_modulus = 0.0;
   const auto equilibrate = [&](bool fixed, double internal_length) {
     parameters.internal_length = internal_length;
-    Problem<2> problem = block({});
+    Problem<2> problem = grainy_block({});
     problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(parameters));
     if (fixed) problem.prescribed.push_back({"bottom_left", Dof::w, kZeroOfNoise, {}});
     Solver<2> solver(std::move(problem), {});

@@ -39,7 +39,7 @@ TEST_P(ProbedElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
     node.x() =
         columns[column] + (node.x() - static_cast<double>(column)) * (columns[column + 1] - columns[column]);
   }
-  problem.materials["all"] = elastic<2>();
+  problem.materials["all"] = elastic_probed<2>();
   problem.prescribed = {
       {"left", Dof::u1, kZeroOfProbe}, {"right", Dof::u1, kZeroOfProbe}, {"bottom", Dof::u2, kZeroOfProbe}};
   problem.body_loads = {gravity(kWeight)};
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Elements, ProbedElement, testing::ValuesIn(element_name
 TEST(displacement_at, a_place_of_stretched_ground_is_that_of_the_stretch) {
   Problem<3> problem;
   problem.mesh = box({{2.0, 1.0, 3.0}, {2, 1, 3}}, "H20R");
-  problem.materials["all"] = elastic<3>();
+  problem.materials["all"] = elastic_probed<3>();
   problem.prescribed = {{"left", Dof::u1, kZeroOfProbe},   {"front", Dof::u2, kZeroOfProbe},
                         {"bottom", Dof::u3, kZeroOfProbe}, {"right", Dof::u1, kZeroOfProbe},
                         {"back", Dof::u2, kZeroOfProbe},   {"top", Dof::u3, TimeTable::constant(-3e-3)}};
@@ -98,7 +98,7 @@ TEST(find_place, outside_of_the_body_finds_nothing) {
   problem.mesh = rectangle({{4.0, 3.0}, {4, 3}});
   EXPECT_TRUE(find_place<2>(problem.mesh, {4.1, 1.0}).elements.empty());
   EXPECT_EQ(find_place<2>(problem.mesh, {2.0, 1.0}).elements.size(), 4U);
-  problem.materials["all"] = elastic<2>();
+  problem.materials["all"] = elastic_probed<2>();
   problem.prescribed = {
       {"left", Dof::u1, kZeroOfProbe}, {"bottom", Dof::u2, kZeroOfProbe}, {"bottom", Dof::w, kZeroOfProbe}};
   Solver<2> solver(std::move(problem), {});

@@ -239,7 +239,7 @@ TEST(InformedMaterial, APointThatHasLeftItsLawGoesByItsCell) {
     step.displacement_gradient << 4e-4, 0.0, 0.0, -1e-3;
     const std::vector<Increment<2>> increments{step, Increment<2>{}};
     std::vector<Response<2>> responses(2);
-    Vector7 of_law;
+    Vector7 of_law = Vector7::Zero();
     int left_at = 0;
     for (int number = 1; number <= 8; ++number) {
       sand.evaluate(increments, responses);

@@ -49,8 +49,8 @@ Law answers_of(const ElastoplasticParameters<2>& parameters) {
 }
 
 /// A periodic column of one element across, sheared; the strength of its middle diameter, or of the half one at `weak`, is 2 % lower.
-Problem<2> column(int elements, double width = kWidth, double weak = 0.5 * kHeight,
-                  Law (*law)(const ElastoplasticParameters<2>&) = cone) {
+Problem<2> softening_column(int elements, double width = kWidth, double weak = 0.5 * kHeight,
+                            Law (*law)(const ElastoplasticParameters<2>&) = cone) {
   Problem<2> problem;
   const double size = kHeight / elements;
   problem.mesh = rectangle({{size, kHeight}, {1, elements}});
@@ -169,7 +169,7 @@ double width_of(const Solver<2>& solver) {
 TEST(spread_slip, column_has_the_thickness_and_the_stress_of_the_closed_form_on_each_mesh) {
   // 20 to 80 elements over 20 d; slip lies on one or two nodes, so the closed form, with one, is a little thinner.
   for (const int elements : {20, 40, 80}) {
-    Solver<2> solver(column(elements), {});
+    Solver<2> solver(softening_column(elements), {});
     ASSERT_TRUE(solver.equilibrate().converged);
     constexpr int kSteps = 60;
     int iterations = 0;
@@ -195,7 +195,7 @@ TEST(spread_slip, column_has_the_thickness_and_the_stress_of_the_closed_form_on_
 TEST(spread_slip, column_of_a_law_known_by_its_answers_is_that_of_the_law) {
   // The law yields by its own strain, which has (T - s)/G more slip: up to 0.3 % of what softens it.
   for (const int elements : {20, 40}) {
-    Solver<2> solver(column(elements, kWidth, 0.5 * kHeight, answers_of), {});
+    Solver<2> solver(softening_column(elements, kWidth, 0.5 * kHeight, answers_of), {});
     ASSERT_TRUE(solver.equilibrate().converged);
     for (int step = 1; step <= 60; ++step) {
       const double displacement = step * 0.8e-3;
@@ -211,7 +211,7 @@ TEST(spread_slip, column_of_a_law_known_by_its_answers_is_that_of_the_law) {
 }
 
 TEST(spread_slip, column_of_a_wider_spread_is_as_much_thicker) {
-  Solver<2> solver(column(40, 2.0 * kWidth), {});
+  Solver<2> solver(softening_column(40, 2.0 * kWidth), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
   ClosedForm exact;
@@ -220,7 +220,7 @@ TEST(spread_slip, column_of_a_wider_spread_is_as_much_thicker) {
 }
 
 TEST(spread_slip, ends_can_hold_the_slip) {
-  Problem<2> problem = column(80);
+  Problem<2> problem = softening_column(80);
   for (const char* field : kSpreadFields)
     for (const char* end : {"bottom", "top"})
       problem.prescribed_fields.push_back({field, end, TimeTable::constant(0.0)});
@@ -234,7 +234,7 @@ TEST(spread_slip, ends_can_hold_the_slip) {
 }
 
 TEST(spread_slip, end_is_a_mirror) {
-  Solver<2> solver(column(80, kWidth, 0.0), {});
+  Solver<2> solver(softening_column(80, kWidth, 0.0), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.4e-3).converged);
   const std::map<double, double> slips = slips_of(solver);
@@ -505,7 +505,7 @@ TEST(spread_slip, tangent_is_symmetric_where_flow_is_associated) {
 
 TEST(spread_slip, goes_on_from_an_archive_to_the_same_bits) {
   for (Law (*law)(const ElastoplasticParameters<2>&) : {cone, answers_of}) {
-    const auto made = [&] { return column(20, kWidth, 0.5 * kHeight, law); };
+    const auto made = [&] { return softening_column(20, kWidth, 0.5 * kHeight, law); };
     Solver<2> through(made(), {});
     ASSERT_TRUE(through.equilibrate().converged);
     for (int step = 1; step <= 10; ++step) ASSERT_TRUE(through.advance(step * 0.8e-3).converged);
@@ -521,7 +521,7 @@ TEST(spread_slip, goes_on_from_an_archive_to_the_same_bits) {
 }
 
 TEST(spread_slip, slip_goes_on_neither_in_unloading_nor_in_reloading_below_strength) {
-  Solver<2> solver(column(20), {});
+  Solver<2> solver(softening_column(20), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (int step = 1; step <= 10; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
   const Eigen::Index first = solver.problem().places().start(0), last = solver.problem().places().start(1);
@@ -536,7 +536,7 @@ TEST(spread_slip, slip_goes_on_neither_in_unloading_nor_in_reloading_below_stren
 }
 
 TEST(spread_slip, faults_are_named) {
-  Problem<2> problem = column(20);
+  Problem<2> problem = softening_column(20);
   problem.deformation = Deformation::large;
   const std::vector<std::string> messages = problem.contributions.front()->faults(problem);
   ASSERT_EQ(messages.size(), 1U);

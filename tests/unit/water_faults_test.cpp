@@ -25,7 +25,7 @@ const std::vector<std::pair<std::string, std::string>> kGood{
     {"steps", "steps: {duration: 1 d, count: 2}"},
     {"monitors", "monitors: {p: {on: bottom, water: pressure}}"}};
 
-Case read(const std::vector<std::pair<std::string, std::string>>& changes) {
+Case wet_case(const std::vector<std::pair<std::string, std::string>>& changes) {
   std::string text = "title: a block\n";
   for (const auto& [key, line] : kGood) {
     std::string taken = line;
@@ -43,7 +43,7 @@ Case read(const std::vector<std::pair<std::string, std::string>>& changes) {
 
 std::string faults_of(const std::vector<std::pair<std::string, std::string>>& changes) {
   try {
-    (void)read(changes);
+    (void)wet_case(changes);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -57,7 +57,7 @@ void expect(const std::vector<std::pair<std::string, std::string>>& changes, con
 }
 
 TEST(WaterInACase, GivesTheProblemItsPressures) {
-  const Case the_case = read({});
+  const Case the_case = wet_case({});
   ASSERT_EQ(the_case.problem.fields.size(), 1U);
   EXPECT_EQ(the_case.problem.fields[0].name, fem::kPorePressure);
   EXPECT_EQ(the_case.problem.fields[0].nodes.size(), 15U);  // the corners
@@ -68,12 +68,13 @@ TEST(WaterInACase, GivesTheProblemItsPressures) {
 }
 
 TEST(WaterInACase, RegionsHaveKeysOfTheirOwn) {
-  const Case the_case = read({{"water",
-                               "water: {void_ratio: 0.6, regions: {low: {permeability: {kozeny_carman: "
-                               "{diameter: 0.2 mm}}, bulk_modulus: 1 GPa}}}"},
-                              {"boundary",
-                               "boundary: [{on: bottom, fix: [u1, u2], pore_pressure: [[0 s, 0 kPa], [1 h, "
-                               "5 kPa]]}, {on: left, flux: 1 mm/s}]"}});
+  const Case the_case =
+      wet_case({{"water",
+                 "water: {void_ratio: 0.6, regions: {low: {permeability: {kozeny_carman: "
+                 "{diameter: 0.2 mm}}, bulk_modulus: 1 GPa}}}"},
+                {"boundary",
+                 "boundary: [{on: bottom, fix: [u1, u2], pore_pressure: [[0 s, 0 kPa], [1 h, "
+                 "5 kPa]]}, {on: left, flux: 1 mm/s}]"}});
   const auto& regions = fem::pore_water_of(the_case.problem)->regions();
   ASSERT_EQ(regions.size(), 1U);
   const fem::WaterOfRegion& low = regions.at("low");
@@ -85,7 +86,7 @@ TEST(WaterInACase, RegionsHaveKeysOfTheirOwn) {
 }
 
 TEST(WaterInACase, StepsMayGrow) {
-  const Case the_case = read({{"steps", "steps: {duration: 10 h, count: 10, first: 1 min}"}});
+  const Case the_case = wet_case({{"steps", "steps: {duration: 10 h, count: 10, first: 1 min}"}});
   EXPECT_NEAR(the_case.plan[0].amount, 60.0, 1e-9);
   EXPECT_DOUBLE_EQ(the_case.plan[9].amount, 36000.0);
   const double ratio = (the_case.plan[1].amount - the_case.plan[0].amount) / 60.0;
