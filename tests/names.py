@@ -11,12 +11,14 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# Comments, and all that may hold braces and is no code.
+TEXTS = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|//[^\n]*', re.DOTALL)
 LIBRARIES = ["app", "band", "common", "coupler", "dem", "element", "fem", "grains_io"]
 
 
 def hidden_declarations(text):
     """Beginnings of the declarations in the nameless namespaces of a source: what stands before a body, or before a semicolon."""
-    text = re.sub(r"//.*", "", text)
+    text = TEXTS.sub("", text)
     for opened in re.finditer(r"^namespace \{$", text, re.MULTILINE):
         depth, declaration = 1, ""
         for letter in text[opened.end():]:
@@ -50,6 +52,8 @@ def libraries():
     for topic in sorted((ROOT / "tests").glob("*/*.cmake")):
         for kind, library, files in re.findall(r"polargrain_tests\((\w+) (\w+)(?: MAIN \S+)?\s+([^)]*)\)", topic.read_text()):
             found.setdefault(f"tests, {kind} of {library}", []).extend(ROOT / "tests" / name for name in files.split())
+        for name, files in re.findall(r"polargrain_test\((\w+) \w+\s+([^)]*?)(?: LIBS [^)]*)?\)", topic.read_text()):
+            found[f"tests, {name}"] = [ROOT / "tests" / file for file in files.split() if file.endswith(".cpp")]
     return found
 
 

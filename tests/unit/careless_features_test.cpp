@@ -115,7 +115,7 @@ monitors: {base: {on: bottom, reaction: u3}}
 output: {table: [base]}
 )";
 
-bool is_told_of_careless_features(const app::Remarks& remarks, const std::string& message, Rank rank) {
+bool is_told_of_features(const app::Remarks& remarks, const std::string& message, Rank rank) {
   return std::ranges::any_of(remarks, [&](const app::Remark& remark) {
     return remark.rank == rank && remark.at.line > 0 && !remark.remedy.empty() &&
            remark.at.message.find(message) != std::string::npos;
@@ -126,7 +126,7 @@ class CarelessFeatures : public ::testing::TestWithParam<Careless> {};
 
 TEST_P(CarelessFeatures, IsTold) {
   const app::Remarks remarks = remarks_of(GetParam());
-  EXPECT_TRUE(is_told_of_careless_features(remarks, GetParam().message, GetParam().rank))
+  EXPECT_TRUE(is_told_of_features(remarks, GetParam().message, GetParam().rank))
       << app::text_of(remarks, true);
 }
 
@@ -385,7 +385,7 @@ TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
   const auto told = [&](const std::string& message) {
     the_case.run_before = before;
     const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
-    return is_told(remarks, message, Rank::doubtful);
+    return is_told_of_features(remarks, message, Rank::doubtful);
   };
   EXPECT_FALSE(told("measures"));
   before.largest = {25.0, 12.0};
@@ -425,14 +425,14 @@ TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
 
 TEST(Motions, ThatGoOnBehindTheRunAreTold) {
   const app::Remarks remarks = remarks_on_motion(501, 1.0);
-  EXPECT_TRUE(is_told_of_careless_features(
-      remarks, "the motion of 'quake.csv' lasts 5 s, and the run ends at 2 s", Rank::wrong))
+  EXPECT_TRUE(is_told_of_features(remarks, "the motion of 'quake.csv' lasts 5 s, and the run ends at 2 s",
+                                  Rank::wrong))
       << app::text_of(remarks, true);
 }
 
 TEST(Motions, InCentimetresAreTold) {
   const app::Remarks remarks = remarks_on_motion(201, 100.0);
-  EXPECT_TRUE(is_told_of_careless_features(remarks, "m/s2, 10 times gravity", Rank::wrong))
+  EXPECT_TRUE(is_told_of_features(remarks, "m/s2, 10 times gravity", Rank::wrong))
       << app::text_of(remarks, true);
 }
 
@@ -444,7 +444,7 @@ TEST(Motions, TooFastForTheElementsAreTold) {
   for (int row = 0; row <= 200; ++row) table += fmt::format("{},{}\n", 0.01 * row, row % 2 == 0 ? 1.0 : -1.0);
   write(scratch.path() / "quake.csv", table);
   const app::Remarks remarks = remarks_on_motion_of(scratch);
-  EXPECT_TRUE(is_told_of_careless_features(
+  EXPECT_TRUE(is_told_of_features(
       remarks, "has 50 Hz in the mean, whose shear wave is 1.75 m long in region 'all': 2.5 elements",
       Rank::doubtful))
       << app::text_of(remarks, true);

@@ -12,18 +12,18 @@ TEST_P(OddButRightTest, HasNoRemark) {
   EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
 }
 
-const std::string kSides = "pressure: 100 kPa}";
+const std::string kPressureOfSides = "pressure: 100 kPa}";
 
 INSTANTIATE_TEST_SUITE_P(
     All, OddButRightTest,
     ::testing::Values(
         Careless{"GrainsAsTheyAre", kGrains, "", ""}, Careless{"GroundAsItIs", kGround, "", ""},
-        Careless{"UnloadedOverSteps", kGrains, kSides, "pressure: [[0, 100 kPa], [1, 60 kPa]]}"},
-        Careless{"AlmostThePressure", kGrains, kSides, "pressure: 98 kPa}"},
+        Careless{"UnloadedOverSteps", kGrains, kPressureOfSides, "pressure: [[0, 100 kPa], [1, 60 kPa]]}"},
+        Careless{"AlmostThePressure", kGrains, kPressureOfSides, "pressure: 98 kPa}"},
         Careless{"PressureAsTraction", kGrains, "{on: [left, right], pressure: 100 kPa}",
                  "{on: left, traction: {u1: 100 kPa}}\n  - {on: right, traction: {u1: -100 kPa}}"},
-        Careless{"InPascals", kGrains, kSides, "pressure: 100000}"},
-        Careless{"KilonewtonsASquareMetre", kGrains, kSides, "pressure: 100 kN/m2}"},
+        Careless{"InPascals", kGrains, kPressureOfSides, "pressure: 100000}"},
+        Careless{"KilonewtonsASquareMetre", kGrains, kPressureOfSides, "pressure: 100 kN/m2}"},
         Careless{"HeldSides", kGrains, "{on: [left, right], pressure: 100 kPa}",
                  "{on: [left, right], fix: [u1]}"},
         Careless{"PerCentInAFormula", kGrains, "-shortening / 0.4 m", "-100 * shortening / 0.4 m"},

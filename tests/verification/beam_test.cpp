@@ -225,7 +225,7 @@ TEST(beam, shear_of_a_welded_beam_is_in_balance_with_its_load) {
     problem.prescribed_fields.push_back({kBeamRotation, "bottom_left", kZero, {}, {}});
     for (const Dof dof : {Dof::u1, Dof::u2}) problem.prescribed.push_back({"left", dof, kZero, {}});
     problem.boundary_loads = {{.on = "bottom", .pressure = TimeTable::ramp(6e3)}};
-    Solver<2> solver(std::move(problem), kTight);
+    Solver<2> solver(std::move(problem), kTightOfBeam);
     ASSERT_TRUE(solver.equilibrate().converged);
     ASSERT_TRUE(solver.advance(1.0).converged);
     for (const BeamResult& end : beam->results(solver.problem()))
