@@ -68,8 +68,8 @@ int zero_modes(int along, const ElasticParameters<dim>& of, bool with_springs) {
 
 // One point has 18 strains (7 with s_33 in the plane, of which 6 are free): the rest of 48 (12) unknowns is unresisted without springs.
 TEST(OnePoint, LeavesTheRigidMotionsAlone) {
-  const auto space = parameters<3>(2.5, 0.25, 0.5, 0.3);
-  const auto plane = parameters<2>(2.5, 0.25, 0.5, 0.3);
+  const auto space = one_point_parameters<3>(2.5, 0.25, 0.5, 0.3);
+  const auto plane = one_point_parameters<2>(2.5, 0.25, 0.5, 0.3);
   EXPECT_EQ(zero_modes<3>(1, space, false), 48 - 18);
   EXPECT_EQ(zero_modes<2>(1, plane, false), 12 - 6);
   for (const int along : {1, 2, 3}) {
@@ -77,8 +77,8 @@ TEST(OnePoint, LeavesTheRigidMotionsAlone) {
     EXPECT_EQ(zero_modes<2>(along, plane, true), 3) << along;
   }
   // Without skew stiffness, uniform micro-rotations are free, as with every element.
-  EXPECT_EQ(zero_modes<3>(2, parameters<3>(2.5, 0.25, 0.0, 0.3), true), 9);
-  EXPECT_EQ(zero_modes<2>(2, parameters<2>(2.5, 0.25, 0.0, 0.3), true), 4);
+  EXPECT_EQ(zero_modes<3>(2, one_point_parameters<3>(2.5, 0.25, 0.0, 0.3), true), 9);
+  EXPECT_EQ(zero_modes<2>(2, one_point_parameters<2>(2.5, 0.25, 0.0, 0.3), true), 4);
 }
 
 /// A classical cantilever of length 4 and height 1 under a shear traction at its end: deflection of the end's middle.
@@ -86,7 +86,7 @@ double deflection(const std::string& element, int high, std::string* doubt = nul
   Problem<3> problem;
   problem.mesh = box({{4.0, 1.0, 1.0}, {4 * high, high, high}}, element);
   problem.continuum = Continuum::cauchy;
-  problem.materials["all"] = one_point_elastic(parameters<3>(1000.0, 0.3, 0.0, 0.0));
+  problem.materials["all"] = one_point_elastic(one_point_parameters<3>(1000.0, 0.3, 0.0, 0.0));
   const TimeTable zero = TimeTable::constant(0.0);
   for (const Dof dof : {Dof::u1, Dof::u2, Dof::u3}) problem.prescribed.push_back({"left", dof, zero, {}});
   BoundaryLoad<3> load;
@@ -114,7 +114,7 @@ double squeezed(const std::string& element, int along, int explicit_steps) {
   else
     problem.mesh = box({{0.04, 0.04, 0.08}, {along, along, 2 * along}}, element);
   ElastoplasticParameters<dim> sand;
-  sand.elastic = parameters<dim>(40e6, 0.3, 10e6, 3e-3);
+  sand.elastic = one_point_parameters<dim>(40e6, 0.3, 10e6, 3e-3);
   for (int i = 0; i < dim; ++i) sand.elastic.initial_stress(Cosserat<dim>::stress_place(i, i)) = -pressure;
   if constexpr (dim == 2) sand.elastic.initial_stress(k33) = -pressure;
   sand.cone = hardening_cone({PiecewiseLinear(35.0), PiecewiseLinear(5.0), PiecewiseLinear(1e3)},
@@ -169,7 +169,7 @@ class SpaceStepOf {
       : mesh_(box({{0.1, 0.08, 0.09}, {1, 1, 1}}, element)),
         start_(mesh_, Continuum::cosserat),
         end_(mesh_, Continuum::cosserat) {
-    ElasticParameters<3> of = parameters<3>(50e6, 0.25, 20e6, 0.02);
+    ElasticParameters<3> of = one_point_parameters<3>(50e6, 0.25, 20e6, 0.02);
     // As large as the moduli, so that every turn of it shows.
     of.initial_stress << -3e7, 4e6, 2e6, 6e6, -1e7, 3e6, 1e6, -2e6, -2e7, 2e5, -1e5, 1e5, 3e5, 1e5, -2e5, 1e5,
         2e5, 1e5;
@@ -232,7 +232,8 @@ TEST(OnePoint, SpringsTurnWithTheBody) {
   }
   const Discretisation<3> discretisation(mesh, Continuum::cosserat);
   std::vector<Response<3>> answers(discretisation.points());
-  for (Response<3>& answer : answers) answer.tangent = elastic_stiffness(parameters<3>(2.5, 0.25, 0.5, 0.3));
+  for (Response<3>& answer : answers)
+    answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
   const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat);
   springs->learn(discretisation, answers);
   const auto forces_of = [&](const Eigen::VectorXd& values) {

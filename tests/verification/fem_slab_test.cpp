@@ -55,8 +55,8 @@ History biaxial(const std::array<std::string, 2>& element, Deformation deformati
   problem.mesh.regions["rest"].clear();
   for (int e = 1; e < static_cast<int>(problem.mesh.elements.size()); ++e)
     problem.mesh.regions["rest"].push_back(e);
-  problem.materials["weak"] = sand<dim>(0.95, transpose);
-  problem.materials["rest"] = sand<dim>(1.0, transpose);
+  problem.materials["weak"] = slab_sand<dim>(0.95, transpose);
+  problem.materials["rest"] = slab_sand<dim>(1.0, transpose);
   const std::string low = dim == 2 ? "bottom" : "front";
   const std::string high = dim == 2 ? "top" : "back";
   const TimeTable zero = TimeTable::constant(0.0);
