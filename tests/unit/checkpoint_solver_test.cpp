@@ -129,7 +129,7 @@ struct Trace {
   }
 };
 
-class Interrupted : public testing::TestWithParam<Scene> {};
+class Interrupted : public ::testing::TestWithParam<Scene> {};
 
 TEST_P(Interrupted, goes_on_with_the_same_bits) {
   const Scene& scene = GetParam();
@@ -177,7 +177,7 @@ TEST_P(Interrupted, shows_the_same_values_right_after_it_was_restored) {
   EXPECT_EQ(saved.all_doubles(), again.all_doubles());
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Interrupted, testing::ValuesIn(scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Interrupted, ::testing::ValuesIn(scenes()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(solver_archive, of_another_mesh_is_refused) {

@@ -88,8 +88,8 @@ const std::vector<Front> kFronts{{1, 1, 1},   {3, 3, 3},   {3, 15, 7},  {7, 8, 7
                                  {12, 20, 7}, {16, 17, 1}, {24, 24, 7}, {45, 93, 7}, {120, 120, 3}};
 
 template <typename Number>
-class DenseKernels : public testing::Test {};
-using Numbers = testing::Types<double, float>;
+class DenseKernels : public ::testing::Test {};
+using Numbers = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(DenseKernels, Numbers);
 
 TYPED_TEST(DenseKernels, GiveTheSameBitsWithEveryInstructionSet) {

@@ -34,7 +34,7 @@ void for_many_sizes(const std::function<void(int rows, int columns, int depth)>&
   for (const int rows : {0, 1, 7, 8, 9, 63, 64, 65, 200})
     for (const int columns : {0, 1, 3, 4, 5, 32, 131})
       for (const int depth : {1, 2, 31, 32, 64, 65}) {
-        SCOPED_TRACE(testing::Message() << rows << " x " << columns << ", depth " << depth);
+        SCOPED_TRACE(::testing::Message() << rows << " x " << columns << ", depth " << depth);
         check(rows, columns, depth);
       }
 }

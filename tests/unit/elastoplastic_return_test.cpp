@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kStates = 1200;
 
-class ReturnMapping : public testing::TestWithParam<Variant> {
+class ReturnMapping : public ::testing::TestWithParam<Variant> {
  protected:
   ReturnMapping() : moduli(sand_elasticity(), GetParam().weights) {}
   SubspaceModuli moduli;
@@ -186,7 +186,7 @@ TEST_P(ReturnMapping, ApexJoinsTheSide) {
   EXPECT_LE(worst, 1e-11);  // 45 halvings leave 3e-14 of the line between the two states
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, ReturnMapping, testing::ValuesIn(variants()),
+INSTANTIATE_TEST_SUITE_P(Variants, ReturnMapping, ::testing::ValuesIn(variants()),
                          [](const auto& info) { return info.param.name; });
 
 /// Without hardening and with the default weights the multiplier is known in closed form.

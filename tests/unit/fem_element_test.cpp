@@ -14,7 +14,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-class EveryElementType : public testing::TestWithParam<std::string> {
+class EveryElementType : public ::testing::TestWithParam<std::string> {
  protected:
   /// One strongly distorted element with curved sides where it has middle nodes.
   Mesh<2> distorted() const {
@@ -105,6 +105,6 @@ TEST_P(EveryElementType, has_three_zero_modes_when_distorted) {
   EXPECT_GT(values(3) / largest, 1e-4);             // ten orders above rounding: a real stiffness
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElementType, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElementType, ::testing::ValuesIn(element_names<2>()));
 
 }  // namespace

@@ -34,7 +34,7 @@ Problem<2> ground(const std::string& element) {
   return problem;
 }
 
-class GeostaticElement : public testing::TestWithParam<std::string> {};
+class GeostaticElement : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(GeostaticElement, ground_at_rest_stays_at_rest) {
   Problem<2> problem = ground(GetParam());
@@ -51,7 +51,7 @@ TEST_P(GeostaticElement, ground_at_rest_stays_at_rest) {
   EXPECT_NEAR(solver.reaction("left")(0) / (0.5 * (3 * 3 / 2.0 * kWeightOfGeostatic + 3 * 10e3)), 1.0, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, GeostaticElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, GeostaticElement, ::testing::ValuesIn(element_names<2>()));
 
 TEST(gravity, switched_on_slowly_gives_the_elastic_pressure_at_rest) {
   // Confined elastic compression: K0 = nu / (1 - nu); it stays inside the cone.

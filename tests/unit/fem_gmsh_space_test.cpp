@@ -61,7 +61,7 @@ void expect_nodes_in_order(const Mesh<3>& mesh) {
   }
 }
 
-class GmshBody : public testing::TestWithParam<std::string> {};
+class GmshBody : public ::testing::TestWithParam<std::string> {};
 
 /// Two unit cubes side by side along x1. Gmsh writes 16 digits of what it computed to about 1e-13, hence 1e-11.
 TEST_P(GmshBody, HasItsGroupsAndItsNodesInOrder) {
@@ -109,9 +109,9 @@ TEST_P(GmshBody, MirroredElementsAreTurnedRound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, GmshBody,
-                         testing::Values("two_blocks_hex20.msh", "two_blocks_hex20_msh2.msh",
-                                         "two_blocks_hex8.msh", "two_blocks_tet10.msh",
-                                         "two_blocks_wedge15.msh"));
+                         ::testing::Values("two_blocks_hex20.msh", "two_blocks_hex20_msh2.msh",
+                                           "two_blocks_hex8.msh", "two_blocks_tet10.msh",
+                                           "two_blocks_wedge15.msh"));
 
 TEST(GmshBody, ElementsAreThoseOfTheFile) {
   const auto name_in = [](const char* file, std::string_view serendipity = "H20R") {

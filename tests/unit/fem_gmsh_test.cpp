@@ -18,7 +18,7 @@ namespace {
 
 const std::filesystem::path kData = "tests/data/fem";
 
-class GmshFile : public testing::TestWithParam<std::string> {};
+class GmshFile : public ::testing::TestWithParam<std::string> {};
 
 /// Gmsh writes 16 digits of what it computed to about 1e-13, hence 1e-11. Two unit squares side by side,
 /// `soft` and `stiff`; Gmsh's surface of the second is clockwise, and one of its points belongs to no
@@ -59,8 +59,8 @@ TEST_P(GmshFile, has_its_groups_and_counter_clockwise_elements) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, GmshFile,
-                         testing::Values("two_blocks_q8_msh2.msh", "two_blocks_q8_msh4.msh",
-                                         "two_blocks_t6_msh2.msh", "two_blocks_t6_msh4.msh"));
+                         ::testing::Values("two_blocks_q8_msh2.msh", "two_blocks_q8_msh4.msh",
+                                           "two_blocks_t6_msh2.msh", "two_blocks_t6_msh4.msh"));
 
 TEST(gmsh, both_versions_of_the_format_give_the_same_mesh) {
   const Mesh<2> two = read_gmsh(kData / "two_blocks_q8_msh2.msh");

@@ -10,7 +10,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-class EveryElement : public testing::TestWithParam<std::string> {};
+class EveryElement : public ::testing::TestWithParam<std::string> {};
 
 double area(const Mesh<2>& mesh) {
   double sum = 0.0;
@@ -53,7 +53,7 @@ TEST_P(EveryElement, boundaries_lie_on_the_outline_and_point_outwards) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, ::testing::ValuesIn(element_names<2>()));
 
 TEST(rectangle, names_its_corners) {
   const Mesh<2> mesh = rectangle({{2.0, 1.0}, {3, 2}});

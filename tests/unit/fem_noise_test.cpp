@@ -227,7 +227,7 @@ struct Untrue {
   double noise;
 };
 
-class Acceleration : public testing::TestWithParam<Untrue> {};
+class Acceleration : public ::testing::TestWithParam<Untrue> {};
 
 TEST_P(Acceleration, needs_fewer_iterations_where_the_tangent_is_not_true) {
   const auto [factor, noise] = GetParam();
@@ -254,8 +254,8 @@ TEST_P(Acceleration, needs_fewer_iterations_where_the_tangent_is_not_true) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tangents, Acceleration,
-                         testing::Values(Untrue{3.0, 0.0}, Untrue{3.0, 20.0}, Untrue{6.0, 20.0},
-                                         Untrue{0.45, 0.0}));
+                         ::testing::Values(Untrue{3.0, 0.0}, Untrue{3.0, 20.0}, Untrue{6.0, 20.0},
+                                           Untrue{0.45, 0.0}));
 
 TEST(acceleration, leaves_a_true_tangent_alone) {
   SolverOptions options;

@@ -65,7 +65,7 @@ struct ShowingLaw : ElasticLaw<2> {
   void fields(const State&, std::span<double> values) const { values[0] = 0.62; }
 };
 
-class Output : public testing::TestWithParam<std::string> {
+class Output : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     folder_ =
@@ -226,7 +226,7 @@ TEST(stress_measures, are_those_of_the_circle_by_hand) {
   EXPECT_EQ(measures_of(stress).first_direction, Eigen::Vector2d::UnitX());
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, Output, testing::Values("Q8R", "Q4", "T6"));
+INSTANTIATE_TEST_SUITE_P(Elements, Output, ::testing::Values("Q8R", "Q4", "T6"));
 
 TEST(pvd, lists_its_files) {
   const auto file = own_file("fem_output_test.pvd");

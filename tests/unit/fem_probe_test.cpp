@@ -27,7 +27,7 @@ std::shared_ptr<Material<dim>> elastic_probed() {
       ElasticLaw<dim>(ElasticParameters<dim>{20e6, 0.25, 8e6, 0.2}));
 }
 
-class ProbedElement : public testing::TestWithParam<std::string> {};
+class ProbedElement : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ProbedElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
   Problem<2> problem;
@@ -59,7 +59,7 @@ TEST_P(ProbedElement, ground_at_rest_has_the_stress_of_its_depth_at_any_place) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, ProbedElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, ProbedElement, ::testing::ValuesIn(element_names<2>()));
 
 TEST(displacement_at, a_place_of_stretched_ground_is_that_of_the_stretch) {
   Problem<3> problem;

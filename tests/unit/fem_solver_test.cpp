@@ -213,7 +213,7 @@ std::shared_ptr<LocalMaterial<BrittleLaw>> brittle(double longest_step, Quality 
       BrittleLaw{elastic_stiffness(sand()), longest_step, beyond, nonlinearity});
 }
 
-class Brittle : public testing::TestWithParam<Quality> {};
+class Brittle : public ::testing::TestWithParam<Quality> {};
 
 TEST_P(Brittle, steps_are_cut_rolled_back_and_grow_back) {
   // The whole path strains by about 0.011 in norm: steps of a quarter of it pass.
@@ -233,7 +233,7 @@ TEST_P(Brittle, steps_are_cut_rolled_back_and_grow_back) {
   EXPECT_NEAR(solver.reaction("top")(1) / (axial * 0.04), 1.0, 1e-10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Qualities, Brittle, testing::Values(Quality::failed, Quality::unreliable));
+INSTANTIATE_TEST_SUITE_P(Qualities, Brittle, ::testing::Values(Quality::failed, Quality::unreliable));
 
 TEST(solver, a_step_that_cannot_be_made_is_never_committed_nor_called_converged) {
   const auto material = brittle(1e-6, Quality::failed);

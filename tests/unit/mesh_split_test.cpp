@@ -62,8 +62,8 @@ void expect_pairs_at_one_place(const Mesh<dim>& mesh, const std::vector<TwoSided
   }
 }
 
-class EveryPlaneElement : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Elements, EveryPlaneElement, testing::ValuesIn(element_names<2>()));
+class EveryPlaneElement : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Elements, EveryPlaneElement, ::testing::ValuesIn(element_names<2>()));
 
 TEST_P(EveryPlaneElement, a_curve_through_the_body_parts_it_in_two) {
   Mesh<2> mesh = rectangle({{4.0, 2.0}, {4, 4}}, GetParam());
@@ -138,8 +138,8 @@ TEST_P(EveryPlaneElement, own_nodes_lie_on_those_of_the_body) {
     }
 }
 
-class EverySpaceElement : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Elements, EverySpaceElement, testing::ValuesIn(element_names<3>()));
+class EverySpaceElement : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Elements, EverySpaceElement, ::testing::ValuesIn(element_names<3>()));
 
 TEST_P(EverySpaceElement, a_surface_through_the_body_parts_it_in_two) {
   Mesh<3> mesh = box({{2.0, 2.0, 2.0}, {2, 2, 2}}, GetParam());

@@ -50,11 +50,11 @@ PreparedPacking some_packing_in_space() {
   return prepared;
 }
 
-class PackingFileTest : public testing::Test {
+class PackingFileTest : public ::testing::Test {
  protected:
   std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_pack_file_test.h5");
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "_pack_file_test.h5");
 };
 
 TEST_F(PackingFileTest, KeepsTheHeightsOfGrainsInSpaceAndTheLeanOfTheirBox) {

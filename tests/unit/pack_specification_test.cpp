@@ -23,11 +23,11 @@ const std::string kGood =
     "friction: 0\n"
     "seed: 1\n";
 
-class Specification : public testing::Test {
+class Specification : public ::testing::Test {
  protected:
   ~Specification() override { std::filesystem::remove(file_); }
   // A name of its own: ctest runs the cases of this file beside each other.
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
+  std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) /
                                 ("pack_specification_" + std::to_string(getpid()) + ".yaml");
   std::string fault(const std::string& from, const std::string& to) {
     std::string text = kGood;

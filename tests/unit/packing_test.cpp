@@ -14,11 +14,12 @@ namespace {
 
 const std::string kHeader = "# cell base vectors xx=0.2 xy=0.01 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n";
 
-class PackingFile : public testing::Test {
+class PackingFile : public ::testing::Test {
  protected:
-  std::string file_ = (std::filesystem::path(testing::TempDir()) /
-                       (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv"))
-                          .string();
+  std::string file_ =
+      (std::filesystem::path(::testing::TempDir()) /
+       (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv"))
+          .string();
   Packing read(const std::string& text) {
     std::ofstream(file_) << text;
     return read_packing(file_);

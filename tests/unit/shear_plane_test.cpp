@@ -65,7 +65,7 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::asin(std::min(1.0, a.cross(b).norm())) / kDegreeOfShearPlane;
 }
 
-class KnownPlane : public testing::TestWithParam<TruthOfShearPlane> {};
+class KnownPlane : public ::testing::TestWithParam<TruthOfShearPlane> {};
 
 // The samples are a spacing apart and shaken; the profile is steps of a quarter of a spacing.
 TEST_P(KnownPlane, NormalThicknessAndPlace) {
@@ -91,17 +91,17 @@ TEST_P(KnownPlane, NormalThicknessAndPlace) {
 
 INSTANTIATE_TEST_SUITE_P(
     Planes, KnownPlane,
-    testing::Values(TruthOfShearPlane{}, TruthOfShearPlane{.dip = 62.0, .dip_direction = 137.0},
-                    TruthOfShearPlane{.is_round = true, .dip = 48.0, .dip_direction = -71.0},
-                    // Unseen while the search was written.
-                    TruthOfShearPlane{.size = {0.3, 0.2, 0.1},
-                                      .dip = 35.0,
-                                      .dip_direction = 20.0,
-                                      .thickness = 0.04,
-                                      .through = {0.14, 0.11, 0.05}},
-                    TruthOfShearPlane{
-                        .is_round = true, .dip = 70.0, .dip_direction = 91.0, .thickness = 0.035},
-                    TruthOfShearPlane{.dip = 4.0, .dip_direction = -160.0, .through = {0.075, 0.075, 0.2}}));
+    ::testing::Values(
+        TruthOfShearPlane{}, TruthOfShearPlane{.dip = 62.0, .dip_direction = 137.0},
+        TruthOfShearPlane{.is_round = true, .dip = 48.0, .dip_direction = -71.0},
+        // Unseen while the search was written.
+        TruthOfShearPlane{.size = {0.3, 0.2, 0.1},
+                          .dip = 35.0,
+                          .dip_direction = 20.0,
+                          .thickness = 0.04,
+                          .through = {0.14, 0.11, 0.05}},
+        TruthOfShearPlane{.is_round = true, .dip = 70.0, .dip_direction = 91.0, .thickness = 0.035},
+        TruthOfShearPlane{.dip = 4.0, .dip_direction = -160.0, .through = {0.075, 0.075, 0.2}}));
 
 // Grains scatter: a factor of exp(+-0.6) on every sample.
 TEST(Plane, NoiseMovesItLittle) {

@@ -128,7 +128,7 @@ void run(SphereBox& box, int steps) {
   box.run(steps - steps / 2 + 10);
 }
 
-class SphereKernelsOf : public testing::TestWithParam<Laws> {};
+class SphereKernelsOf : public ::testing::TestWithParam<Laws> {};
 
 TEST_P(SphereKernelsOf, GiveTheSameBitsWithEveryInstructionSet) {
   const Packing made = packing();
@@ -173,7 +173,7 @@ TEST_P(SphereKernelsOf, SlideAndRollInTheTestOfTheirBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, SphereKernelsOf, testing::ValuesIn(kLaws),
+INSTANTIATE_TEST_SUITE_P(Laws, SphereKernelsOf, ::testing::ValuesIn(kLaws),
                          [](const auto& tested) { return tested.param.name; });
 
 // Against a search over all pairs and images.

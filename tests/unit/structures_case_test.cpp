@@ -124,7 +124,7 @@ constexpr const char* kMeasured =
     "  - {roughness: 1, friction: [[0, 0.5]], opening: [[0, 0]], turning: 0}\n";
 
 /// A packing of two grains of 10 mm, and what was measured of such.
-class MeasuredFriction : public testing::Test {
+class MeasuredFriction : public ::testing::Test {
  protected:
   void SetUp() override {
     std::ofstream(packing_) << "# cell xx=0.02 xy=0 yx=0 yy=0.02 z=1\nid,x,y,r,mass,Izz\n"

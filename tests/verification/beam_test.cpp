@@ -91,8 +91,8 @@ TEST(beam, on_springs_with_its_shear) {
   EXPECT_NEAR(std::abs(found[2]), 21369.699, 1e-3);
 }
 
-class EveryBeam : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Sides, EveryBeam, testing::Values("Q8R", "T6"));
+class EveryBeam : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Sides, EveryBeam, ::testing::Values("Q8R", "T6"));
 
 // Exact at nodes: P L^3 / 3 EI + P L / GA, and M = -P (L - x) at each node.
 TEST_P(EveryBeam, a_cantilever_is_exact_at_its_nodes) {

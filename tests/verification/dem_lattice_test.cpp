@@ -40,7 +40,7 @@ const double kShear = std::sqrt(3.0) / 4.0 * (kNormal + kTangential) / kThicknes
 const double kCouple = std::sqrt(3.0) * kRolling / kThickness;
 const double kCosserat = std::sqrt(3.0) / 2.0 * kTangential / kThickness;
 
-class Lattice : public testing::TestWithParam<int> {};
+class Lattice : public ::testing::TestWithParam<int> {};
 
 TEST_P(Lattice, FreeRotationsGiveTheClassicalModuli) {
   const auto cell = make_plane_cell(lattice(GetParam(), GetParam(), CellRotations::free));
@@ -170,7 +170,7 @@ TEST(LatticeFlip, ChangesNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, Lattice, testing::Values(4, 8, 12));
+INSTANTIATE_TEST_SUITE_P(Sizes, Lattice, ::testing::Values(4, 8, 12));
 
 }  // namespace
 }  // namespace polargrain::dem

@@ -39,7 +39,7 @@ std::vector<Row> reference_paths() {
   return rows;
 }
 
-class Paths : public testing::TestWithParam<std::string> {};
+class Paths : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Paths, FollowTheIndependentCode) {
   const std::unique_ptr<PlaneCell> cell = make_plane_cell(test::demo_cell());
@@ -82,7 +82,7 @@ TEST_P(Paths, FollowTheIndependentCode) {
   EXPECT_LE(worst_of_ten, 0.06);
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, Paths, testing::Values("isochoric", "oedometric"),
+INSTANTIATE_TEST_SUITE_P(Reference, Paths, ::testing::Values("isochoric", "oedometric"),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

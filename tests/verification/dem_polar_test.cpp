@@ -121,7 +121,7 @@ Matrix7 condensed(const TwoRadii& lattice, int size) {
   return CondensedTangent().cosserat(network, weights).value();
 }
 
-class Polar : public testing::TestWithParam<TwoRadii> {};
+class Polar : public ::testing::TestWithParam<TwoRadii> {};
 
 TEST_P(Polar, CellsAreAsStiffAgainstCurvatureAsLatticesThatAreBent) {
   const double bent = bent_couple_modulus(GetParam());
@@ -144,10 +144,10 @@ TEST_P(Polar, CellsAreAsStiffAgainstCurvatureAsLatticesThatAreBent) {
 
 INSTANTIATE_TEST_SUITE_P(
     Lattices, Polar,
-    testing::Values(TwoRadii{5e-3, 5e-3, 1e6, 4e5, 2.0}, TwoRadii{5e-3, 5e-3, 1e6, 4e5, 0.0},
-                    TwoRadii{3e-3, 7e-3, 1e6, 4e5, 0.0}, TwoRadii{3e-3, 7e-3, 1e6, 4e5, 2.0},
-                    TwoRadii{2e-3, 8e-3, 1e6, 1e6, 0.0}, TwoRadii{4e-3, 5e-3, 1e6, 2e5, 0.5},
-                    TwoRadii{1e-3, 9e-3, 1e6, 1e5, 0.0}, TwoRadii{2e-3, 3e-3, 1e5, 9e4, 0.02}));
+    ::testing::Values(TwoRadii{5e-3, 5e-3, 1e6, 4e5, 2.0}, TwoRadii{5e-3, 5e-3, 1e6, 4e5, 0.0},
+                      TwoRadii{3e-3, 7e-3, 1e6, 4e5, 0.0}, TwoRadii{3e-3, 7e-3, 1e6, 4e5, 2.0},
+                      TwoRadii{2e-3, 8e-3, 1e6, 1e6, 0.0}, TwoRadii{4e-3, 5e-3, 1e6, 2e5, 0.5},
+                      TwoRadii{1e-3, 9e-3, 1e6, 1e5, 0.0}, TwoRadii{2e-3, 3e-3, 1e5, 9e4, 0.02}));
 
 /// The same lattice as a packing, pressed together a little.
 CellDefinition packed(const TwoRadii& radii, int size, const std::string& models) {

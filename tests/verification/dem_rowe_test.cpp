@@ -24,7 +24,7 @@ Eigen::Matrix2d box(double branch, double beta) {
   return base;
 }
 
-class Rowe : public testing::TestWithParam<double> {};
+class Rowe : public ::testing::TestWithParam<double> {};
 
 TEST_P(Rowe, StressRatioFollowsTheContactAngle) {
   const double friction = GetParam();
@@ -76,7 +76,7 @@ TEST_P(Rowe, StressRatioFollowsTheContactAngle) {
   EXPECT_LT(largest, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(Friction, Rowe, testing::Values(0.2, 0.3));
+INSTANTIATE_TEST_SUITE_P(Friction, Rowe, ::testing::Values(0.2, 0.3));
 
 }  // namespace
 }  // namespace polargrain::dem

@@ -93,7 +93,7 @@ const std::vector<Models> kCombinations{
     {"hertz_li_chu_epsd2", "hertz tangential li_chu rolling_friction epsd2"},
     {"hertz_full", "hertz tangential li_chu rolling_friction li_chu rollingFrictionForce on limitForce on"}};
 
-class DiscLoop : public testing::TestWithParam<Models> {
+class DiscLoop : public ::testing::TestWithParam<Models> {
  protected:
   /// Two increments with sliding, rolling and rotation of the box, about 1,000 steps in all. The settings are
   /// such that every run takes the same number of steps.
@@ -164,7 +164,7 @@ TEST_P(DiscLoop, GivesTheBitsOfItsPlainTwin) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Combinations, DiscLoop, testing::ValuesIn(kCombinations),
+INSTANTIATE_TEST_SUITE_P(Combinations, DiscLoop, ::testing::ValuesIn(kCombinations),
                          [](const auto& tested) { return tested.param.name; });
 
 // Base vectors b1, b2 + b1 span the same lattice: what is computed must not know which ones were given.

@@ -15,14 +15,14 @@
 namespace polargrain::fem::test {
 namespace {
 
-using testing::Curve;
-using testing::elasticity;
-using testing::kCohesion;
-using testing::kLateral;
-using testing::kStandstill;
-using testing::kStrain;
-using testing::kSubSteps;
-using testing::micro_strength;
+using polargrain::testing::Curve;
+using polargrain::testing::elasticity;
+using polargrain::testing::kCohesion;
+using polargrain::testing::kLateral;
+using polargrain::testing::kStandstill;
+using polargrain::testing::kStrain;
+using polargrain::testing::kSubSteps;
+using polargrain::testing::micro_strength;
 
 ElastoplasticParameters<2> sand() {
   return {elasticity(), {}, micro_strength()};

@@ -15,14 +15,14 @@ namespace polargrain::fem::test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kLateral = -100e3;
+constexpr double kLateralStress = -100e3;
 
 struct Strength {
   MohrCoulomb mohr_coulomb;
   InvariantWeights weights;
 };
 
-class PlaneStrainLimit : public testing::TestWithParam<Strength> {};
+class PlaneStrainLimit : public ::testing::TestWithParam<Strength> {};
 
 TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   const auto& [strength, weights] = GetParam();
@@ -32,7 +32,7 @@ TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   sand.elastic.poisson_ratio = 0.3;
   sand.elastic.cosserat_shear_modulus = 10e6;
   sand.elastic.internal_length = 1e-3;
-  sand.elastic.initial_stress << kLateral, kLateral, kLateral, 0.0, 0.0, 0.0, 0.0;
+  sand.elastic.initial_stress << kLateralStress, kLateralStress, kLateralStress, 0.0, 0.0, 0.0, 0.0;
   sand.weights = weights;
   sand.cone = {cone.friction, cone.dilatancy, cone.cohesion};
   const ElastoplasticLaw<2> law(sand);
@@ -42,7 +42,7 @@ TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   Increment<2> increment;
   Response<2> response;
   for (int step = 0; step < 400; ++step) {
-    increment = biaxial_step(-1e-3, kLateral, [&](const Increment<2>& guess) {
+    increment = biaxial_step(-1e-3, kLateralStress, [&](const Increment<2>& guess) {
       response = law.integrate(state, guess, trial);
       return response;
     });
@@ -52,7 +52,8 @@ TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
   const double sin_phi = std::sin(strength.friction_angle * kDegree);
   const double cos_phi = std::cos(strength.friction_angle * kDegree);
   // Vertical stress at collapse: -s22 (1 - sin) = -s11 (1 + sin) + 2 c cos.
-  const double expected = (kLateral * (1.0 + sin_phi) - 2.0 * strength.cohesion * cos_phi) / (1.0 - sin_phi);
+  const double expected =
+      (kLateralStress * (1.0 + sin_phi) - 2.0 * strength.cohesion * cos_phi) / (1.0 - sin_phi);
   const double stress_error = std::abs(s(k22) / expected - 1.0);
   // In the plane: d eps_v / d gamma_max of the last increment, all plastic when the stress stands still.
   const auto& h = increment.displacement_gradient;
@@ -80,10 +81,10 @@ TEST_P(PlaneStrainLimit, CollapsesAtTheMatchedAngles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strengths, PlaneStrainLimit,
-                         testing::Values(Strength{{40.0, 10.0, 0.0}, {}}, Strength{{30.0, 0.0, 0.0}, {}},
-                                         Strength{{35.0, 35.0, 0.0}, {}}, Strength{{30.0, -10.0, 0.0}, {}},
-                                         Strength{{25.0, 5.0, 20e3}, {}}, Strength{{0.0, 0.0, 50e3}, {}},
-                                         Strength{{48.0, 15.0, 1e3}, {0.75, -0.25, 0.125}}),
+                         ::testing::Values(Strength{{40.0, 10.0, 0.0}, {}}, Strength{{30.0, 0.0, 0.0}, {}},
+                                           Strength{{35.0, 35.0, 0.0}, {}}, Strength{{30.0, -10.0, 0.0}, {}},
+                                           Strength{{25.0, 5.0, 20e3}, {}}, Strength{{0.0, 0.0, 50e3}, {}},
+                                           Strength{{48.0, 15.0, 1e3}, {0.75, -0.25, 0.125}}),
                          [](const auto& info) { return "case" + std::to_string(info.index); });
 
 }  // namespace

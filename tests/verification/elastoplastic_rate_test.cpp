@@ -133,7 +133,7 @@ Point runge_kutta(const Rates& rates, Point point, double from, int steps) {
   return point;
 }
 
-class RateEquations : public testing::TestWithParam<InvariantWeights> {};
+class RateEquations : public ::testing::TestWithParam<InvariantWeights> {};
 
 TEST_P(RateEquations, StepsConvergeToThemWithFirstOrder) {
   const ElastoplasticParameters<2> parameters = sand(GetParam());
@@ -178,8 +178,8 @@ TEST_P(RateEquations, StepsConvergeToThemWithFirstOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Weights, RateEquations,
-                         testing::Values(InvariantWeights{}, InvariantWeights{0.375, 0.125, 0.25},
-                                         InvariantWeights{0.75, -0.25, 0.125}),
+                         ::testing::Values(InvariantWeights{}, InvariantWeights{0.375, 0.125, 0.25},
+                                           InvariantWeights{0.75, -0.25, 0.125}),
                          [](const auto& info) { return "weights" + std::to_string(info.index); });
 
 }  // namespace

@@ -126,7 +126,7 @@ const std::vector<Reference> kReferences{{3e-3,
                                            {40, 3.3741},
                                            {50, 3.3609}}}};
 
-class Biaxial : public testing::TestWithParam<Reference> {};
+class Biaxial : public ::testing::TestWithParam<Reference> {};
 
 TEST_P(Biaxial, follows_the_reference_through_the_peak_and_the_band) {
   const Reference& reference = GetParam();
@@ -228,7 +228,7 @@ TEST(biaxial_newton, converges_quadratically_while_the_band_softens) {
   EXPECT_GT(order, 1.6);
 }
 
-INSTANTIATE_TEST_SUITE_P(References, Biaxial, testing::ValuesIn(kReferences), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(References, Biaxial, ::testing::ValuesIn(kReferences), [](const auto& info) {
   return "lc_" + std::to_string(int(info.param.internal_length * 1e3 + 0.5)) + "mm_" +
          std::to_string(info.param.columns) + "_columns";
 });

@@ -48,7 +48,7 @@ double difference_of_cauchy(const Solver<2>& one, const Solver<2>& other) {
   return largest / scale;
 }
 
-class CauchyElement : public testing::TestWithParam<std::string> {};
+class CauchyElement : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(CauchyElement, cauchy_is_cosserat_without_coupling) {
   const auto cauchy = solved_block(GetParam(), Continuum::cauchy, 0.5, 0.2);
@@ -71,7 +71,7 @@ TEST_P(CauchyElement, cauchy_stress_is_symmetric_and_knows_no_couples) {
   EXPECT_EQ(cauchy->state().displacement(2), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, CauchyElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, CauchyElement, ::testing::ValuesIn(element_names<2>()));
 
 TEST(mean_dilatation, keeps_q4_from_locking_near_incompressibility) {
   // The work done on a block of nu = 0.4999 against fine Q8R: locking would show as a multiple.

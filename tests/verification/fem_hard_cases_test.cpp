@@ -9,7 +9,7 @@ using namespace polargrain::fem;
 
 namespace {
 
-class HardCase : public testing::TestWithParam<Block> {};
+class HardCase : public ::testing::TestWithParam<Block> {};
 
 TEST_P(HardCase, ends_or_says_why) {
   check_block(GetParam());
@@ -55,7 +55,7 @@ std::vector<Block> blocks() {
   };
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, HardCase, testing::ValuesIn(blocks()));
+INSTANTIATE_TEST_SUITE_P(Blocks, HardCase, ::testing::ValuesIn(blocks()));
 
 TEST(hard_cases, dilatancy_above_friction_is_refused) {
   Block block;

@@ -73,7 +73,7 @@ double stress_at_the_hole(const Solver<2>& solver) {
   return 0.0;
 }
 
-class HoleTest : public testing::TestWithParam<Hole> {};
+class HoleTest : public ::testing::TestWithParam<Hole> {};
 
 TEST_P(HoleTest, concentrates_stress_as_the_closed_form_says) {
   const Hole& hole = GetParam();
@@ -101,10 +101,10 @@ TEST_P(HoleTest, concentrates_stress_as_the_closed_form_says) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, HoleTest,
-                         testing::Values(Hole{0.3, 1.063, 0.25, 2.84937}, Hole{0.3, 1.063, 0.50, 2.55485},
-                                         Hole{0.3, 1.063, 0.75, 2.28659}, Hole{0.3, 1.063, 0.90, 2.15796},
-                                         Hole{0.3, 10.63, 0.50, 2.93553}, Hole{0.3, 10.63, 0.90, 2.92334},
-                                         Hole{0.25, 1.0, 0.50, 2.52445}, Hole{0.0, 3.0, 0.70, 2.50315},
-                                         Hole{0.49, 2.0, 0.30, 2.86513}));
+                         ::testing::Values(Hole{0.3, 1.063, 0.25, 2.84937}, Hole{0.3, 1.063, 0.50, 2.55485},
+                                           Hole{0.3, 1.063, 0.75, 2.28659}, Hole{0.3, 1.063, 0.90, 2.15796},
+                                           Hole{0.3, 10.63, 0.50, 2.93553}, Hole{0.3, 10.63, 0.90, 2.92334},
+                                           Hole{0.25, 1.0, 0.50, 2.52445}, Hole{0.0, 3.0, 0.70, 2.50315},
+                                           Hole{0.49, 2.0, 0.30, 2.86513}));
 
 }  // namespace

@@ -130,7 +130,7 @@ double relative_error(const Case& test, Mesh<2> mesh) {
   return error / scale;
 }
 
-class EveryElement : public testing::TestWithParam<std::string> {};
+class EveryElement : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryElement, passes_the_patch_tests) {
   for (const Case& test : patch_cases()) {
@@ -143,9 +143,9 @@ TEST_P(EveryElement, passes_the_patch_tests) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, testing::ValuesIn(element_names<2>()));
+INSTANTIATE_TEST_SUITE_P(Elements, EveryElement, ::testing::ValuesIn(element_names<2>()));
 
-class QuadraticElement : public testing::TestWithParam<std::string> {};
+class QuadraticElement : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(QuadraticElement, bends_exactly) {
   // E.1b: a quadratic field, so quadratic elements have it exactly; serendipity elements only as
@@ -171,6 +171,6 @@ TEST_P(QuadraticElement, bends_exactly) {
   EXPECT_LT(error, 1e-10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, QuadraticElement, testing::Values("Q8R", "Q8", "T6"));
+INSTANTIATE_TEST_SUITE_P(Elements, QuadraticElement, ::testing::Values("Q8R", "Q8", "T6"));
 
 }  // namespace

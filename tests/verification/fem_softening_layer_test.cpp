@@ -79,7 +79,7 @@ DisplacementMeasure slip_of_the_band(const Mesh<2>& mesh) {
   return {{{nearest(10.0), Dof::u1, 1.0}, {nearest(-10.0), Dof::u1, -1.0}}};
 }
 
-class SofteningLayer : public testing::TestWithParam<int> {};
+class SofteningLayer : public ::testing::TestWithParam<int> {};
 
 TEST_P(SofteningLayer, follows_the_reference_and_snaps_back) {
   const int elements = GetParam();
@@ -147,7 +147,7 @@ TEST_P(SofteningLayer, follows_the_reference_and_snaps_back) {
   EXPECT_LT(solver.state().time, farthest - 5e-3);  // it has come back
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, SofteningLayer, testing::Values(40, 80, 160));
+INSTANTIATE_TEST_SUITE_P(Meshes, SofteningLayer, ::testing::Values(40, 80, 160));
 
 TEST(arc_length, follows_the_same_path) {
   // Two ways round the limit point must pass through the same states: stress against displacement of the top.
@@ -255,7 +255,7 @@ struct Onset {
   double width;  ///< exact, docs/theory.md, E.4
 };
 
-class OnsetOfLocalisation : public testing::TestWithParam<Onset> {};
+class OnsetOfLocalisation : public ::testing::TestWithParam<Onset> {};
 
 TEST_P(OnsetOfLocalisation, has_the_exact_width) {
   const auto [elements, length, softening, exact] = GetParam();
@@ -277,8 +277,8 @@ TEST_P(OnsetOfLocalisation, has_the_exact_width) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Softening, OnsetOfLocalisation,
-                         testing::Values(Onset{160, 3.0, -0.25, 33.322}, Onset{240, 3.0, -0.25, 33.322},
-                                         Onset{320, 3.0, -0.25, 33.322}, Onset{160, 6.0, -0.5, 34.629},
-                                         Onset{240, 6.0, -0.5, 34.629}, Onset{320, 6.0, -0.5, 34.629}));
+                         ::testing::Values(Onset{160, 3.0, -0.25, 33.322}, Onset{240, 3.0, -0.25, 33.322},
+                                           Onset{320, 3.0, -0.25, 33.322}, Onset{160, 6.0, -0.5, 34.629},
+                                           Onset{240, 6.0, -0.5, 34.629}, Onset{320, 6.0, -0.5, 34.629}));
 
 }  // namespace

@@ -156,7 +156,7 @@ const Patch kTurned{"turned", 1e-3 * Eigen::Vector3d(.3, -.2, .5), Eigen::Matrix
 const Patch kCurved{"curved", 1e-3 * Eigen::Vector3d(.3, -.2, .5),
                     1e-3 * (Eigen::Matrix3d() << 1, .5, -.4, .3, -.6, .2, -.7, .9, .4).finished()};
 
-class SpacePatch : public testing::TestWithParam<std::string> {};
+class SpacePatch : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(SpacePatch, ConstantStrainAndRotationOnAShakenMesh) {
   EXPECT_LT(patch_error(GetParam(), true, kClassical, 0.0, 0.0), 1e-11);
@@ -170,7 +170,7 @@ TEST_P(SpacePatch, ConstantCurvature) {
   EXPECT_LT(patch_error(GetParam(), shaken, kCurved, 12.0, 8.0), 1e-11);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, SpacePatch, testing::ValuesIn(element_names<3>()));
+INSTANTIATE_TEST_SUITE_P(Elements, SpacePatch, ::testing::ValuesIn(element_names<3>()));
 
 /// Stiffness of a mesh with no supports. @returns its eigenvalues below 1e-9 of the largest
 int zero_modes(const std::string& element, std::array<int, 3> elements, const ElasticParameters<3>& of) {

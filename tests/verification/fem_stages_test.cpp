@@ -151,7 +151,7 @@ TEST(excavation, of_an_elastic_half_plane_meets_the_figures_of_an_independent_pr
   }
 }
 
-class EveryPit : public testing::TestWithParam<Pit> {};
+class EveryPit : public ::testing::TestWithParam<Pit> {};
 
 TEST_P(EveryPit, elastic_ground_does_not_know_in_how_many_stages_it_was_dug) {
   const auto dug = [](int stages, int steps) {
@@ -175,9 +175,10 @@ TEST_P(EveryPit, elastic_ground_does_not_know_in_how_many_stages_it_was_dug) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pits, EveryPit,
-                         testing::Values(Pit{}, Pit{.width = 6, .depth = 3, .continuum = Continuum::cosserat},
-                                         Pit{.width = 2, .depth = 4, .earth_pressure_ratio = 1.4},
-                                         Pit{.width = 8, .depth = 2, .surcharge = 20e3}));
+                         ::testing::Values(Pit{},
+                                           Pit{.width = 6, .depth = 3, .continuum = Continuum::cosserat},
+                                           Pit{.width = 2, .depth = 4, .earth_pressure_ratio = 1.4},
+                                           Pit{.width = 8, .depth = 2, .surcharge = 20e3}));
 
 /// Closed form: each layer comes without stress, and its weight compresses it and all below.
 TEST(fill, that_comes_in_layers_settles_as_the_column_of_them_does) {

@@ -116,7 +116,7 @@ TEST(start_from, the_end_of_a_run_on_the_same_mesh_is_that_end) {
   EXPECT_EQ(report.moved, 0.0);
 }
 
-class OnAnotherMesh : public testing::TestWithParam<std::tuple<int, std::string>> {};
+class OnAnotherMesh : public ::testing::TestWithParam<std::tuple<int, std::string>> {};
 
 // Linear functions smear the jump of the stress under the edges of the strip over an element of the old mesh. What is out of balance
 // there acts over half of a metre, as a share of a strip of two metres; measured: it moves by 0.09 to 0.12 of the load's movement
@@ -144,8 +144,8 @@ TEST_P(OnAnotherMesh, the_difference_is_that_of_the_old_mesh) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, OnAnotherMesh,
-                         testing::Values(std::tuple{1, "Q8R"}, std::tuple{3, "Q8R"}, std::tuple{4, "Q8R"},
-                                         std::tuple{2, "T6"}, std::tuple{4, "Q4"}, std::tuple{8, "Q8R"}));
+                         ::testing::Values(std::tuple{1, "Q8R"}, std::tuple{3, "Q8R"}, std::tuple{4, "Q8R"},
+                                           std::tuple{2, "T6"}, std::tuple{4, "Q4"}, std::tuple{8, "Q8R"}));
 
 // Linear stresses and displacements come out as they are, on any mesh, so nothing moves.
 TEST(start_from, ground_at_rest_that_is_stretched_stays_as_it_is) {

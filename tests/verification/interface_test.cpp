@@ -24,8 +24,8 @@ void expect_converged(Solver<dim>& solver, double time) {
   ASSERT_TRUE(report.converged) << report.message;
 }
 
-class InPlane : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Elements, InPlane, testing::ValuesIn(element_names<2>()));
+class InPlane : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Elements, InPlane, ::testing::ValuesIn(element_names<2>()));
 
 // Uniform stress with 30 kPa of shear and 100 kPa of pressure on the joint, on a distorted mesh.
 TEST_P(InPlane, a_uniform_stress_passes_the_joint) {
@@ -272,8 +272,8 @@ TEST(interface, pull_out_of_an_elastic_bar) {
   (void)before;
 }
 
-class InSpace : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Elements, InSpace, testing::ValuesIn(element_names<3>()));
+class InSpace : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Elements, InSpace, ::testing::ValuesIn(element_names<3>()));
 
 TEST_P(InSpace, a_uniform_stress_passes_the_joint) {
   Problem<3> problem;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-class SafetyOfCase : public testing::Test {
+class SafetyOfCase : public ::testing::Test {
  protected:
   SafetyOfCase()
       : directory_(std::filesystem::temp_directory_path() / ("safety_test." + std::to_string(getpid()))) {
@@ -99,8 +99,8 @@ TEST_P(EverySlope, fails_at_the_factor_of_davis) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Slopes, EverySlope,
-                         testing::Values(InfiniteSlope{20, 30, 0, 1e3}, InfiniteSlope{20, 30, 30, 1e3},
-                                         InfiniteSlope{20, 30, 10, 4e3}));
+                         ::testing::Values(InfiniteSlope{20, 30, 0, 1e3}, InfiniteSlope{20, 30, 30, 1e3},
+                                           InfiniteSlope{20, 30, 10, 4e3}));
 
 TEST(InfiniteSlope, has_the_factors_of_an_independent_program) {
   EXPECT_NEAR((InfiniteSlope{20, 30, 0, 1e3}.exact()), 1.519138, 1e-6);

@@ -78,7 +78,7 @@ void PrintTo(const Size& size, std::ostream* out) {
   *out << size.name;
 }
 
-class CosseratLattice : public testing::TestWithParam<Size> {};
+class CosseratLattice : public ::testing::TestWithParam<Size> {};
 
 TEST_P(CosseratLattice, AnswersEveryStrainAndCurvatureAsTheClosedFormAtAnySize) {
   // 1, 8 and 27 cells of the lattice: in the smallest one a sphere touches nothing but its own images.
@@ -141,9 +141,9 @@ TEST_P(CosseratLattice, ARelativeRotationIsASkewStrain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lattices, CosseratLattice,
-                         testing::Values(Size{"simple_cubic", test::simple_cubic},
-                                         Size{"face_centred", test::face_centred},
-                                         Size{"face_centred_tilted", test::face_centred_tilted}),
+                         ::testing::Values(Size{"simple_cubic", test::simple_cubic},
+                                           Size{"face_centred", test::face_centred},
+                                           Size{"face_centred_tilted", test::face_centred_tilted}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(CosseratSpheres, SameRequestGivesTheSameBitsWhateverCameBetween) {

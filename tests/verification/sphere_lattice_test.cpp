@@ -44,7 +44,7 @@ void PrintTo(const SizeOfSphereLattice& size, std::ostream* out) {
   *out << size.name << "_" << size.repeats;
 }
 
-class SphereLattice : public testing::TestWithParam<SizeOfSphereLattice> {};
+class SphereLattice : public ::testing::TestWithParam<SizeOfSphereLattice> {};
 
 TEST_P(SphereLattice, TangentsAreTheClosedForm) {
   const Lattice lattice = GetParam().lattice();
@@ -96,11 +96,12 @@ TEST_P(SphereLattice, StressesFollowTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, SphereLattice,
-                         testing::Values(SizeOfSphereLattice{"simple_cubic", simple_cubic, 4},
-                                         SizeOfSphereLattice{"simple_cubic", simple_cubic, 6},
-                                         SizeOfSphereLattice{"face_centred", face_centred, 3},
-                                         SizeOfSphereLattice{"face_centred_tilted", face_centred_tilted, 4},
-                                         SizeOfSphereLattice{"face_centred_tilted", face_centred_tilted, 6}),
+                         ::testing::Values(SizeOfSphereLattice{"simple_cubic", simple_cubic, 4},
+                                           SizeOfSphereLattice{"simple_cubic", simple_cubic, 6},
+                                           SizeOfSphereLattice{"face_centred", face_centred, 3},
+                                           SizeOfSphereLattice{"face_centred_tilted", face_centred_tilted, 4},
+                                           SizeOfSphereLattice{"face_centred_tilted", face_centred_tilted,
+                                                               6}),
                          [](const auto& instance) {
                            return std::string(instance.param.name) + "_" +
                                   std::to_string(instance.param.repeats);

@@ -100,7 +100,7 @@ const std::vector<ModelsOfSphereLoop> kCombinationsOfSphereLoop{
     {"hertz_torsion", "hertz tangential li_chu rolling_friction li_chu torsionTorque on"},
     {"hertz_full", "hertz tangential li_chu rolling_friction li_chu rollingFrictionForce on limitForce on"}};
 
-class SphereLoop : public testing::TestWithParam<ModelsOfSphereLoop> {
+class SphereLoop : public ::testing::TestWithParam<ModelsOfSphereLoop> {
  protected:
   /// Two increments with sliding, rolling and rotation of the box, about 1,000 steps in all. The settings are such that
   /// every run takes the same number of steps.
@@ -164,7 +164,7 @@ TEST_P(SphereLoop, AgreesWithTheEngineOverAThousandSteps) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Combinations, SphereLoop, testing::ValuesIn(kCombinationsOfSphereLoop),
+INSTANTIATE_TEST_SUITE_P(Combinations, SphereLoop, ::testing::ValuesIn(kCombinationsOfSphereLoop),
                          [](const auto& tested) { return tested.param.name; });
 
 /// One increment on from a state, with the loop asked for.

@@ -42,7 +42,7 @@ Eigen::Matrix3d row_gradient(const Eigen::Matrix3d& l, double parts) {
   return whole - Eigen::Matrix3d::Identity();
 }
 
-class SpherePaths : public testing::TestWithParam<PathsOfSpherePaths> {};
+class SpherePaths : public ::testing::TestWithParam<PathsOfSpherePaths> {};
 
 TEST_P(SpherePaths, FollowTheIndependentCode) {
   const PathsOfSpherePaths& asked = GetParam();
@@ -157,26 +157,26 @@ TEST(SphereContacts, CarryTheForcesOfTheIndependentCode) {
 
 INSTANTIATE_TEST_SUITE_P(
     Reference, SpherePaths,
-    testing::Values(PathsOfSpherePaths{"linear_fine_triaxial", test::linear_spheres,
-                                       "tests/data/fine1000.csv", "triax_iso", 20, 4000.0, 5e-5, 2e-3},
-                    PathsOfSpherePaths{"linear_fine_shear", test::linear_spheres, "tests/data/fine1000.csv",
-                                       "shear13", 20, 4000.0, 5e-5, 2e-3},
-                    PathsOfSpherePaths{"hertz_fine_triaxial", test::hertz_spheres,
-                                       "tests/data/fine500_hertz.csv", "triax_iso", 20, 4000.0, 5e-5, 5e-3},
-                    // Two runs of the independent code itself differ by 0.2 % here.
-                    PathsOfSpherePaths{"linear_triaxial", test::linear_spheres, "tests/data/paths1000.csv",
-                                       "triax_iso", 2, 4000.0, 5e-5, 5e-3},
-                    PathsOfSpherePaths{"linear_shear", test::linear_spheres, "tests/data/paths1000.csv",
-                                       "shear13", 2, 4000.0, 5e-5, 5e-3},
-                    PathsOfSpherePaths{"hertz_triaxial", test::hertz_spheres, "tests/data/paths500_hertz.csv",
-                                       "triax_iso", 2, 4000.0, 5e-5, 5e-3},
-                    // Chaos by now: two runs of the independent code itself differ by 2 %.
-                    PathsOfSpherePaths{"linear_far", test::linear_spheres, "tests/data/paths1000.csv",
-                                       "triax_iso", 20, 4000.0, 2e-4, 3e-2},
-                    PathsOfSpherePaths{"linear_spin", test::linear_spheres, "tests/data/paths1000.csv",
-                                       "triax_rot", 20, 4000.0, 2e-4, 3e-2},
-                    PathsOfSpherePaths{"hertz_far", test::hertz_spheres, "tests/data/paths500_hertz.csv",
-                                       "triax_iso", 20, 4000.0, 2e-4, 3e-2}),
+    ::testing::Values(PathsOfSpherePaths{"linear_fine_triaxial", test::linear_spheres,
+                                         "tests/data/fine1000.csv", "triax_iso", 20, 4000.0, 5e-5, 2e-3},
+                      PathsOfSpherePaths{"linear_fine_shear", test::linear_spheres, "tests/data/fine1000.csv",
+                                         "shear13", 20, 4000.0, 5e-5, 2e-3},
+                      PathsOfSpherePaths{"hertz_fine_triaxial", test::hertz_spheres,
+                                         "tests/data/fine500_hertz.csv", "triax_iso", 20, 4000.0, 5e-5, 5e-3},
+                      // Two runs of the independent code itself differ by 0.2 % here.
+                      PathsOfSpherePaths{"linear_triaxial", test::linear_spheres, "tests/data/paths1000.csv",
+                                         "triax_iso", 2, 4000.0, 5e-5, 5e-3},
+                      PathsOfSpherePaths{"linear_shear", test::linear_spheres, "tests/data/paths1000.csv",
+                                         "shear13", 2, 4000.0, 5e-5, 5e-3},
+                      PathsOfSpherePaths{"hertz_triaxial", test::hertz_spheres,
+                                         "tests/data/paths500_hertz.csv", "triax_iso", 2, 4000.0, 5e-5, 5e-3},
+                      // Chaos by now: two runs of the independent code itself differ by 2 %.
+                      PathsOfSpherePaths{"linear_far", test::linear_spheres, "tests/data/paths1000.csv",
+                                         "triax_iso", 20, 4000.0, 2e-4, 3e-2},
+                      PathsOfSpherePaths{"linear_spin", test::linear_spheres, "tests/data/paths1000.csv",
+                                         "triax_rot", 20, 4000.0, 2e-4, 3e-2},
+                      PathsOfSpherePaths{"hertz_far", test::hertz_spheres, "tests/data/paths500_hertz.csv",
+                                         "triax_iso", 20, 4000.0, 2e-4, 3e-2}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -91,7 +91,7 @@ Packing face_centred_in_plane_strain() {
           }};
 }
 
-class SphereRowe : public testing::TestWithParam<std::tuple<Packing (*)(), double>> {};
+class SphereRowe : public ::testing::TestWithParam<std::tuple<Packing (*)(), double>> {};
 
 TEST_P(SphereRowe, StressRatioFollowsTheAngleOfTheContacts) {
   const Packing packing = std::get<0>(GetParam())();
@@ -161,10 +161,10 @@ TEST_P(SphereRowe, StressRatioFollowsTheAngleOfTheContacts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Packings, SphereRowe,
-                         testing::Combine(testing::Values(face_centred_along_edge,
-                                                          face_centred_along_diagonal, body_centred,
-                                                          face_centred_in_plane_strain),
-                                          testing::Values(0.2, 0.3)));
+                         ::testing::Combine(::testing::Values(face_centred_along_edge,
+                                                              face_centred_along_diagonal, body_centred,
+                                                              face_centred_in_plane_strain),
+                                            ::testing::Values(0.2, 0.3)));
 
 }  // namespace
 }  // namespace polargrain::dem

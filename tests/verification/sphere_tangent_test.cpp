@@ -194,7 +194,7 @@ TEST(SphereTangent, OfControlledRotationsIsTheDerivativeOfTheWholeStressAtRest) 
   EXPECT_LT(condensed.mixed, 0.02);
 }
 
-class SlidingAndRolling : public testing::TestWithParam<double> {};
+class SlidingAndRolling : public ::testing::TestWithParam<double> {};
 
 TEST_P(SlidingAndRolling, OfControlledRotationsIsKnownByTheIncrement) {
   CellDefinition definition = controlled_spheres();
@@ -229,7 +229,7 @@ TEST_P(SlidingAndRolling, OfControlledRotationsIsKnownByTheIncrement) {
   EXPECT_LT(condensed.forces, 0.1);
   EXPECT_LT(condensed.couples, 0.1);
 }
-INSTANTIATE_TEST_SUITE_P(ByIncrement, SlidingAndRolling, testing::Values(0.1, 1.0));
+INSTANTIATE_TEST_SUITE_P(ByIncrement, SlidingAndRolling, ::testing::Values(0.1, 1.0));
 
 /// A spring with a limit of 1 that is carried along a way of straight pieces, in small steps.
 Eigen::Vector2d carried(const std::vector<Eigen::Vector2d>& pieces, const Eigen::Vector2d& start) {
