@@ -43,8 +43,8 @@ TEST(InterfaceCommand, MeasuresFrictionThatACaseReadsAndGoesOnWhereItWas) {
   const auto measured =
       coupler::read_measured_interface(scratch.path() / "out/grains100-seed1.interface.yaml");
   ASSERT_EQ(measured.walls.size(), 2u);
-  // The file has six digits.
-  EXPECT_NEAR(measured.walls[1].curve.back().slip, 2.0 * measured.mean_diameter, 1e-7);
+  // Two diameters of each box; the grains of two boxes differ in the mean by less than a thousandth.
+  EXPECT_NEAR(measured.walls[1].curve.back().slip / measured.mean_diameter, 2.0, 2e-3);
   std::cout << "[figure] friction at the end: " << measured.walls[0].curve.back().friction
             << " on grains of 0.1 d, " << measured.walls[1].curve.back().friction << " of 1 d\n";
 
