@@ -17,6 +17,7 @@ target_compile_definitions(polargrain_options INTERFACE EIGEN_NO_CPUID)
 if(POLARGRAIN_SANITIZE)
   target_compile_options(polargrain_options INTERFACE -fsanitize=${POLARGRAIN_SANITIZE} -fno-sanitize-recover=all
                                                      -fno-omit-frame-pointer)
+  target_compile_options(polargrain_options INTERFACE -Wno-maybe-uninitialized)  # g++ 12 is wrong about it among the checks
   target_link_options(polargrain_options INTERFACE -fsanitize=${POLARGRAIN_SANITIZE})
   if(POLARGRAIN_SANITIZE_WITHOUT)
     target_compile_options(polargrain_options INTERFACE -fno-sanitize=${POLARGRAIN_SANITIZE_WITHOUT})

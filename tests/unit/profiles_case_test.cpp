@@ -111,7 +111,8 @@ TEST_F(ProfilesCase, TheBodyOfTheRunBeforeIsCompared) {
       "has no state to give; keep to its body, or 'place' new ground in a stage");
   keep_body(2.0, 1.0);
   EXPECT_EQ(
-      fault("start_from: first", "beams: {sheet: {on: right, EA: 1 GN/m, EI: 1 MNm2/m}}\nstart_from: first"),
+      fault("start_from: first",
+            "beams: {sheet: {on: right, EA: 1000 MN/m, EI: 1 MNm2/m}}\nstart_from: first"),
       "16: start_from: 'first' has another mesh, of 4 nodes, and this one has 37; the beam 'sheet' can be taken over on the "
       "same mesh alone: use its mesh, or 'place' what is new in a stage");
 }
