@@ -124,9 +124,13 @@ class StructuresReader {
           law.tan_friction = std::max(law.tan_friction, point.friction);
       }
     } else {
-      law.tan_friction = tangent(section, "friction", 0.0);
+      const auto angle =
+          section.quantity_or_word("friction", Dimension::angle, Limit::not_negative, {"measured"});
+      law.tan_friction = tangent(section, "friction", angle);
     }
-    if (!is_measured(section)) law.tan_dilation = tangent(section, "dilation", 0.0);
+    if (!is_measured(section))
+      law.tan_dilation = tangent(section, "dilation",
+                                 section.quantity_or("dilation", Dimension::angle, Limit::not_negative, 0.0));
     if (!has_share && law.tan_dilation > law.tan_friction)
       section.fault("dilation", "dilation: must not be larger than the friction");
     law.cohesion = section.quantity_or("cohesion", Dimension::pressure, Limit::not_negative, 0.0);
@@ -180,10 +184,9 @@ class StructuresReader {
     return friction != nullptr && friction->text == "measured";
   }
 
-  double tangent(Section& section, const std::string& key, double otherwise) {
-    const double angle = section.quantity_or(key, Dimension::angle, Limit::not_negative, otherwise);
+  double tangent(Section& section, const std::string& key, std::optional<double> angle) {
     constexpr double kSteepest = 1.4;  // 80 degrees
-    if (angle < kSteepest) return std::tan(angle);
+    if (!angle || *angle < kSteepest) return std::tan(angle.value_or(0.0));
     section.fault(key, fmt::format("{}: must be below 80 deg", key));
     return 0.0;
   }
