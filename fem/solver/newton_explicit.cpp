@@ -19,6 +19,7 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
     return {
         false,
         "a point would be strained by more than `largest_strain` in one explicit step: the nodes move too fast"};
+  if (!contributions.is_empty()) contributions.learn(discretisation, state.responses);
   evaluate(iterate, report);
   ++report.iterations;
   if (const Response<dim>& worst = worst_response(); worst.quality == Quality::failed)

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 
 #include "common/packed_values.hpp"
+#include "fem/material/rotation.hpp"
 #include "fem/solver/discretisation.hpp"
 #include "fem/solver/solver.hpp"
 
@@ -15,10 +16,17 @@ namespace {
 /// Part of the elastic energy of the deformation in the patterns; two elements through a bent plate have a quarter, four 6 %.
 constexpr double kNoticeable = 0.1;
 constexpr double kRounding = 1e-10;  ///< strains of a body that nothing has moved
+/// A point whose grains have parted leaves its patterns this part of their springs, so that the system stays regular.
+constexpr double kLeastSecant = 1e-4;
 
-/// Young's modulus (plane strain: the modulus of bending, E / (1 - nu^2)) of a tangent taken as isotropic, Pa.
+/// Of a tangent taken as isotropic, Pa.
+struct Moduli {
+  double shear = 0.0;
+  double bending = 0.0;  ///< Young's modulus; in plane strain E / (1 - nu^2)
+};
+
 template <int dim>
-double bending_modulus(const typename Cosserat<dim>::Matrix& tangent) {
+Moduli moduli_of(const typename Cosserat<dim>::Matrix& tangent) {
   using Counts = Cosserat<dim>;
   double constrained = 0.0;
   double shear = 0.0;
@@ -31,8 +39,8 @@ double bending_modulus(const typename Cosserat<dim>::Matrix& tangent) {
       shear += 0.5 * (tangent(ij, ij) + tangent(ij, Counts::stress_place(j, i))) / (dim * (dim - 1));
     }
   }
-  if constexpr (dim == 2) return 4.0 * shear * (constrained - shear) / constrained;
-  return shear * (3.0 * constrained - 4.0 * shear) / (constrained - shear);
+  if constexpr (dim == 2) return {shear, 4.0 * shear * (constrained - shear) / constrained};
+  return {shear, shear * (3.0 * constrained - 4.0 * shear) / (constrained - shear)};
 }
 
 /// Mean stiffness against curvature, N.
@@ -40,6 +48,23 @@ template <int dim>
 double couple_modulus(const typename Cosserat<dim>::Matrix& tangent) {
   using Counts = Cosserat<dim>;
   return tangent.template bottomRightCorner<Counts::couples, Counts::couples>().trace() / Counts::couples;
+}
+
+/// Norm of the symmetric part less its mean.
+template <int dim>
+double deviator_norm(const typename Cosserat<dim>::Gradient& tensor) {
+  typename Cosserat<dim>::Gradient symmetric = 0.5 * (tensor + tensor.transpose());
+  symmetric.diagonal().array() -= symmetric.trace() / dim;
+  return symmetric.norm();
+}
+
+void raise(double& largest, double value) {
+  largest = std::max(largest, value);
+}
+
+/// A norm over that of the first tangent. Without strain the point is as it was.
+double over_first(double there, double expected, double rounding) {
+  return expected > rounding ? std::clamp(there / expected, kLeastSecant, 1.0) : 1.0;
 }
 
 }  // namespace
@@ -59,7 +84,9 @@ Stabilisation<dim>::Stabilisation(const Mesh<dim>& mesh, Continuum continuum, do
     if (element.type->averaged.empty()) continue;
     OfElement& made = elements_.emplace_back();
     made.number = static_cast<int>(e);
-    made.hourglass = hourglass_modes<dim>(*element.type, mesh.element_positions(made.number));
+    const VectorRows<dim> nodes = mesh.element_positions(made.number);
+    made.hourglass = hourglass_modes<dim>(*element.type, nodes);
+    made.gradient = point_geometries<dim>(*element.type, nodes).front().gradient;
     for (const int node : element.nodes)
       for (const Dof dof : node_dofs<dim>()) made.entries.push_back(entry_of<dim>(node, dof));
   }
@@ -67,54 +94,113 @@ Stabilisation<dim>::Stabilisation(const Mesh<dim>& mesh, Continuum continuum, do
 
 template <int dim>
 void Stabilisation<dim>::allocate() {
-  for (OfElement& element : elements_) element.displacement_modulus = element.rotation_modulus = 0.0;
-  energy_ = trial_energy_ = 0.0;
+  for (OfElement& element : elements_) {
+    element.shear_modulus = 0.0;
+    element.modulus = {};
+    element.largest_stress = element.largest_elastic_stress = {};
+    element.secant = {1.0, 1.0};
+    element.first_stress.setZero();
+    element.committed = element.trial = {};
+  }
 }
 
-// Later tangents may be those of plastic flow, which would let the patterns grow.
+// Moduli are those of the first tangent: later ones may be of plastic flow, which would let the patterns grow. A secant stays
+// above zero.
 template <int dim>
 void Stabilisation<dim>::learn(const Discretisation<dim>& discretisation,
                                std::span<const Response<dim>> committed) {
   for (OfElement& element : elements_) {
-    if (element.displacement_modulus > 0.0) continue;
-    const auto& tangent =
-        committed[discretisation.first_point(static_cast<std::size_t>(element.number))].tangent;
-    element.displacement_modulus = share_ * bending_modulus<dim>(tangent);
-    if (continuum_ == Continuum::cosserat) element.rotation_modulus = share_ * couple_modulus<dim>(tangent);
+    const Response<dim>& answer =
+        committed[discretisation.first_point(static_cast<std::size_t>(element.number))];
+    if (element.modulus.displacement > 0.0) {
+      follow(element, answer.stress);
+      continue;
+    }
+    const Moduli first = moduli_of<dim>(answer.tangent);
+    element.shear_modulus = first.shear;
+    element.modulus.displacement = share_ * first.bending;
+    if (continuum_ == Continuum::cosserat)
+      element.modulus.rotation = share_ * couple_modulus<dim>(answer.tangent);
+    element.first_stress = answer.stress;
   }
+}
+
+// Deviators, since the patterns bend and shear. They are compared in the axes of the material as it was first.
+template <int dim>
+void Stabilisation<dim>::follow(OfElement& element, const typename Cosserat<dim>::Vector& stress) const {
+  using Counts = Cosserat<dim>;
+  Increment<dim> all;
+  all.configuration = Configuration::start;
+  all.displacement_gradient = element.committed.gradient;
+  const StretchAndTurn<dim> path = stretch_and_turn(all);
+  const typename Counts::Vector change = rotated(stress, inverse(path.turn)) - element.first_stress;
+  typename Counts::Gradient tensor;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) tensor(i, j) = change(Counts::stress_place(i, j));
+  const double elastic = 2.0 * element.shear_modulus;
+  const double couples = element.modulus.rotation / share_;
+  Pair& largest = element.largest_stress;
+  Pair& expected = element.largest_elastic_stress;
+  raise(largest.displacement, deviator_norm<dim>(tensor));
+  raise(expected.displacement, elastic * deviator_norm<dim>(path.stretch.displacement_gradient));
+  raise(largest.rotation, change.template tail<Counts::couples>().norm());
+  raise(expected.rotation, couples * element.committed.curvature);
+  element.secant = {over_first(largest.displacement, expected.displacement, elastic * kRounding),
+                    over_first(largest.rotation, expected.rotation, 0.0)};
 }
 
 template <int dim>
 Eigen::VectorXd Stabilisation<dim>::stiffness(const OfElement& element, int component) const {
-  return (component < dim ? element.displacement_modulus : element.rotation_modulus) *
+  return (component < dim ? element.modulus.displacement * element.secant.displacement
+                          : element.modulus.rotation * element.secant.rotation) *
          element.hourglass.weights;
 }
 
 template <int dim>
 std::string Stabilisation<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
-  trial_energy_ = 0.0;
-  for (const OfElement& element : elements_) {
-    if (!(element.displacement_modulus > 0.0))
+  using Counts = Cosserat<dim>;
+  for (OfElement& element : elements_) {
+    if (!(element.modulus.displacement > 0.0))
       return fmt::format("element {} has no stiffness at the start that its patterns could be held by",
                          element.number);
     const Eigen::VectorXd values = step.end(element.entries);
-    const Eigen::Map<const Eigen::Matrix<double, Cosserat<dim>::dofs, Eigen::Dynamic>> of_nodes(
-        values.data(), Cosserat<dim>::dofs, values.size() / Cosserat<dim>::dofs);
+    const Eigen::Map<const Eigen::Matrix<double, Counts::dofs, Eigen::Dynamic>> of_nodes(
+        values.data(), Counts::dofs, values.size() / Counts::dofs);
     const Eigen::MatrixXd patterns = of_nodes * element.hourglass.modes;  // a row an unknown, a column a mode
     Eigen::MatrixXd resisted = patterns;
-    for (int i = 0; i < Cosserat<dim>::dofs; ++i)
+    for (int i = 0; i < Counts::dofs; ++i)
       resisted.row(i).array() *= stiffness(element, i).transpose().array();
-    trial_energy_ += 0.5 * patterns.cwiseProduct(resisted).sum();
     const Eigen::MatrixXd own = resisted * element.hourglass.modes.transpose();
     forces.internal(element.entries) += own.reshaped();
+
+    const Eigen::VectorXd squares = patterns.array().square().matrix() * element.hourglass.weights;
+    element.trial.energy = {0.5 * element.modulus.displacement * squares.head(dim).sum(),
+                            0.5 * element.modulus.rotation * squares.tail(Counts::rotations).sum()};
+    element.trial.gradient = of_nodes.template topRows<dim>() * element.gradient;
+    element.trial.curvature = (of_nodes.template bottomRows<Counts::rotations>() * element.gradient).norm();
   }
   return {};
+}
+
+template <int dim>
+void Stabilisation<dim>::commit() {
+  for (OfElement& element : elements_) element.committed = element.trial;
+}
+
+template <int dim>
+double Stabilisation<dim>::stored_energy() const {
+  double sum = 0.0;
+  for (const OfElement& element : elements_)
+    sum += element.secant.displacement * element.committed.energy.displacement +
+           element.secant.rotation * element.committed.energy.rotation;
+  return sum;
 }
 
 // Both parts are energies of elastic elements, whatever the material has become: this is a statement on the deformation.
 template <int dim>
 std::string Stabilisation<dim>::doubt(const Solver<dim>& solver) const {
   double seen = 0.0;
+  double unseen = 0.0;
   double at_rest = 0.0;  // of strains that are rounding alone
   std::size_t point = 0;
   for (const OfElement& element : elements_) {
@@ -123,11 +209,11 @@ std::string Stabilisation<dim>::doubt(const Solver<dim>& solver) const {
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j)
         strain(i, j) = solver.state().strain[point](Cosserat<dim>::stress_place(i, j));
-    const double stiffness = 0.5 * element.displacement_modulus / share_ * solver.volume_of_point(point);
+    const double stiffness = 0.5 * element.modulus.displacement / share_ * solver.volume_of_point(point);
     seen += stiffness * (0.5 * (strain + strain.transpose())).squaredNorm();
+    unseen += (element.committed.energy.displacement + element.committed.energy.rotation) / share_;
     at_rest += stiffness * kRounding * kRounding;
   }
-  const double unseen = energy_ / share_;
   const double part = unseen / (seen + unseen);
   if (unseen <= at_rest || part <= kNoticeable) return {};
   return fmt::format(
@@ -154,21 +240,37 @@ Eigen::MatrixXd Stabilisation<dim>::tangent(std::size_t number) const {
 
 template <int dim>
 void Stabilisation<dim>::save(ArchiveWriter& archive) const {
-  std::vector<double> moduli{energy_};
+  std::vector<double> values;
   for (const OfElement& element : elements_) {
-    moduli.push_back(element.displacement_modulus);
-    moduli.push_back(element.rotation_modulus);
+    const Deformation& deformation = element.committed;
+    for (const Pair& pair : {element.modulus, element.largest_stress, element.largest_elastic_stress,
+                             element.secant, deformation.energy})
+      values.insert(values.end(), {pair.displacement, pair.rotation});
+    values.insert(values.end(), {element.shear_modulus, deformation.curvature});
+    values.insert(values.end(), element.first_stress.begin(), element.first_stress.end());
+    values.insert(values.end(), deformation.gradient.reshaped().begin(),
+                  deformation.gradient.reshaped().end());
   }
-  archive.write("stabilisation", std::span<const double>(moduli));
+  archive.write("stabilisation", std::span<const double>(values));
 }
 
 template <int dim>
 void Stabilisation<dim>::restore(ArchiveReader& archive) {
-  const std::vector<double> moduli = read_lists(archive, "stabilisation", 1, 1 + 2 * elements_.size());
-  energy_ = trial_energy_ = moduli[0];
-  for (std::size_t k = 0; k < elements_.size(); ++k) {
-    elements_[k].displacement_modulus = moduli[1 + 2 * k];
-    elements_[k].rotation_modulus = moduli[2 + 2 * k];
+  constexpr std::size_t kLength = 12 + Cosserat<dim>::components + dim * dim;
+  const std::vector<double> values = read_lists(archive, "stabilisation", elements_.size(), kLength);
+  auto value = values.begin();
+  for (OfElement& element : elements_) {
+    Deformation& deformation = element.committed;
+    for (Pair* const pair : {&element.modulus, &element.largest_stress, &element.largest_elastic_stress,
+                             &element.secant, &deformation.energy}) {
+      pair->displacement = *value++;
+      pair->rotation = *value++;
+    }
+    element.shear_modulus = *value++;
+    deformation.curvature = *value++;
+    for (double& stress : element.first_stress) stress = *value++;
+    for (double& part : deformation.gradient.reshaped()) part = *value++;
+    element.trial = deformation;
   }
 }
 

@@ -14,11 +14,13 @@ class Solver;
 
 /// Springs against the hourglass patterns of elements with one integration point (hourglass.hpp), of displacements and of
 /// micro-rotations. Their energy is a square of nodal values counted from the mesh as it was made, so that rigid turns of any
-/// size leave it alone, and no state is needed. Their stiffness is a share of the tangent that the element has first.
+/// size leave it alone. Their stiffness is a share of the tangent that the element has first, times the secant of its point:
+/// the largest stress so far over that of the first tangent for the largest strain. A reversal of the strain leaves it. Elastic springs would carry ever more load
+/// where grains flow (docs/theory/solver.md, elements with one point).
 template <int dim>
 class Stabilisation final : public Contribution<dim> {
  public:
-  /// Of the bending stiffness of an elastic element: plastic flow is hardly held back, and no pattern grows.
+  /// Of the bending stiffness of an elastic element, and of a flowing one by its secant.
   static constexpr double kShare = 0.1;
 
   /// @return nothing where no element has one point alone. @param mesh must outlive this object
@@ -36,30 +38,47 @@ class Stabilisation final : public Contribution<dim> {
   /// Where springs hold a noticeable part of the deformation, with their small share of its stiffness, as where few elements bend:
   /// the message for the user, empty elsewhere. @param solver of a problem that these springs are in
   [[nodiscard]] std::string doubt(const Solver<dim>& solver) const;
-  void commit() override { energy_ = trial_energy_; }
+  void commit() override;
   void revert() override {}
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
   [[nodiscard]] bool takes_explicit_steps() const override { return true; }
-  [[nodiscard]] double stored_energy() const override { return energy_; }
+  [[nodiscard]] double stored_energy() const override;
 
  private:
+  /// Displacements, and micro-rotations.
+  struct Pair {
+    double displacement = 0.0;
+    double rotation = 0.0;
+  };
+  /// From the mesh as it was made.
+  struct Deformation {
+    typename Cosserat<dim>::Gradient gradient = Cosserat<dim>::Gradient::Zero();  ///< mean d u_i / d x_j
+    double curvature = 0.0;  ///< norm of the mean d w_j / d x_i, 1/m
+    Pair energy;             ///< of patterns held by springs with a secant of 1, J
+  };
   struct OfElement {
     int number;
     std::vector<int> entries;
     HourglassModes hourglass;
-    double displacement_modulus = 0.0;  ///< Pa, 0 until it is learned
-    double rotation_modulus = 0.0;      ///< N
+    VectorRows<dim> gradient;    ///< mean of those of the shape functions, 1/m
+    double shear_modulus = 0.0;  ///< of the first tangent, Pa
+    Pair modulus;                ///< share of the first tangent: Pa, 0 until it is learned, and N
+    Pair
+        largest_stress;  ///< of the point, change since the first: norm of its deviator, Pa, and of couples, N/m
+    Pair largest_elastic_stress;  ///< the same by the first tangent
+    Pair secant{1.0, 1.0};        ///< one over the other; at most 1
+    typename Cosserat<dim>::Vector first_stress = Cosserat<dim>::Vector::Zero();
+    Deformation committed, trial;
   };
   Stabilisation(const Mesh<dim>& mesh, Continuum continuum, double share);
+  void follow(OfElement& element, const typename Cosserat<dim>::Vector& stress) const;
   /// Stiffness of each mode against an unknown of a node. @param component of node_dofs
   [[nodiscard]] Eigen::VectorXd stiffness(const OfElement& element, int component) const;
 
   Continuum continuum_;
   double share_;
   std::vector<OfElement> elements_;
-  double energy_ = 0.0;        ///< J, committed
-  double trial_energy_ = 0.0;  ///< of the last evaluation
 };
 
 /// Stabilisation::doubt of the springs of a problem; empty without springs.
