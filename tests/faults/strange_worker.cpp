@@ -11,7 +11,7 @@
 //     forgets      has no state when it is asked for one
 //     lies         brings another state than the one it named
 //     nan          its states hold a NaN
-//     short, empty, huge   its states have 100 bytes, none, 200 MB
+//     short, empty, huge   its states have 100 bytes, none, 20 MB
 //     misnames     names states that its cells do not come to, and goes when they are fetched
 //     falsifies    the same, and its stresses are a little off
 //     diagnostics  a NaN among its diagnostics
@@ -40,7 +40,7 @@ namespace {
 using namespace polargrain;
 using namespace polargrain::coupler;
 
-constexpr std::size_t kHuge = 200'000'000;
+constexpr std::size_t kHuge = 20'000'000;
 
 StatePointer state_of(std::vector<double> content) {
   const auto bytes = std::as_bytes(std::span(content));
