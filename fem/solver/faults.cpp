@@ -367,7 +367,7 @@ Messages faults(const Problem<dim>& problem) {
       messages.push_back("stages of construction do not take " + contribution->name() + " yet");
   }
   check_contributions(problem, 0, messages);
-  if (has_stages && Stabilisation<dim>::of(problem.mesh, problem.continuum))
+  if (has_stages && Stabilisation<dim>::of(problem.mesh, problem.continuum, problem.deformation))
     messages.push_back("stages of construction do not take elements with one integration point yet");
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion : free_rigid_motions(problem, 0)) {

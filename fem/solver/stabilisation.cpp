@@ -50,6 +50,39 @@ double couple_modulus(const typename Cosserat<dim>::Matrix& tangent) {
   return tangent.template bottomRightCorner<Counts::couples, Counts::couples>().trace() / Counts::couples;
 }
 
+/// Of a tangent taken as isotropic, N: of the trace of the curvature, of its transpose, of itself.
+template <int dim>
+std::array<double, 3> couple_moduli_of(const typename Cosserat<dim>::Matrix& tangent) {
+  using Counts = Cosserat<dim>;
+  if constexpr (dim == 2) {
+    return {0.0, 0.0, couple_modulus<dim>(tangent)};
+  } else {
+    std::array<double, 3> sums{};
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) {
+        if (i == j) continue;
+        const int ij = Counts::couple_place(i, j);
+        sums[0] += tangent(Counts::couple_place(i, i), Counts::couple_place(j, j));
+        sums[1] += tangent(ij, Counts::couple_place(j, i));
+        sums[2] += tangent(ij, ij);
+      }
+    for (double& sum : sums) sum /= dim * (dim - 1);
+    return sums;
+  }
+}
+
+/// Of the couple stresses that these moduli answer to a curvature, N/m.
+template <int dim, class Curvature>
+double norm_of_couples(const std::array<double, 3>& moduli, const Curvature& curvature) {
+  if constexpr (dim == 2) {
+    return moduli[2] * curvature.norm();
+  } else {
+    Eigen::Matrix3d couples = moduli[1] * curvature.transpose() + moduli[2] * curvature;
+    couples.diagonal().array() += moduli[0] * curvature.trace();
+    return couples.norm();
+  }
+}
+
 /// Norm of the symmetric part less its mean.
 template <int dim>
 double deviator_norm(const typename Cosserat<dim>::Gradient& tensor) {
@@ -71,14 +104,15 @@ double over_first(double there, double expected, double rounding) {
 
 template <int dim>
 std::shared_ptr<Stabilisation<dim>> Stabilisation<dim>::of(const Mesh<dim>& mesh, Continuum continuum,
-                                                           double share) {
-  std::shared_ptr<Stabilisation> made(new Stabilisation(mesh, continuum, share));
+                                                           Deformation deformation, double share) {
+  std::shared_ptr<Stabilisation> made(new Stabilisation(mesh, continuum, deformation, share));
   return made->elements_.empty() ? nullptr : made;
 }
 
 template <int dim>
-Stabilisation<dim>::Stabilisation(const Mesh<dim>& mesh, Continuum continuum, double share)
-    : continuum_(continuum), share_(share) {
+Stabilisation<dim>::Stabilisation(const Mesh<dim>& mesh, Continuum continuum, Deformation deformation,
+                                  double share)
+    : continuum_(continuum), deformation_(deformation), share_(share) {
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Element<dim>& element = mesh.elements[e];
     if (element.type->averaged.empty()) continue;
@@ -96,6 +130,7 @@ template <int dim>
 void Stabilisation<dim>::allocate() {
   for (OfElement& element : elements_) {
     element.shear_modulus = 0.0;
+    element.couple_moduli = {};
     element.modulus = {};
     element.largest_stress = element.largest_elastic_stress = {};
     element.secant = {1.0, 1.0};
@@ -119,8 +154,10 @@ void Stabilisation<dim>::learn(const Discretisation<dim>& discretisation,
     const Moduli first = moduli_of<dim>(answer.tangent);
     element.shear_modulus = first.shear;
     element.modulus.displacement = share_ * first.bending;
-    if (continuum_ == Continuum::cosserat)
+    if (continuum_ == Continuum::cosserat) {
+      element.couple_moduli = couple_moduli_of<dim>(answer.tangent);
       element.modulus.rotation = share_ * couple_modulus<dim>(answer.tangent);
+    }
     element.first_stress = answer.stress;
   }
 }
@@ -129,22 +166,27 @@ void Stabilisation<dim>::learn(const Discretisation<dim>& discretisation,
 template <int dim>
 void Stabilisation<dim>::follow(OfElement& element, const typename Cosserat<dim>::Vector& stress) const {
   using Counts = Cosserat<dim>;
-  Increment<dim> all;
-  all.configuration = Configuration::start;
-  all.displacement_gradient = element.committed.gradient;
-  const StretchAndTurn<dim> path = stretch_and_turn(all);
-  const typename Counts::Vector change = rotated(stress, inverse(path.turn)) - element.first_stress;
+  typename Counts::Vector change = stress;
+  typename Counts::Gradient strain = element.committed.gradient;
+  if (deformation_ == Deformation::large) {
+    Increment<dim> all;
+    all.configuration = Configuration::start;
+    all.displacement_gradient = strain;
+    const StretchAndTurn<dim> path = stretch_and_turn(all);
+    change = rotated(stress, inverse(path.turn));
+    strain = path.stretch.displacement_gradient;
+  }
+  change -= element.first_stress;
   typename Counts::Gradient tensor;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j) tensor(i, j) = change(Counts::stress_place(i, j));
   const double elastic = 2.0 * element.shear_modulus;
-  const double couples = element.modulus.rotation / share_;
   Pair& largest = element.largest_stress;
   Pair& expected = element.largest_elastic_stress;
   raise(largest.displacement, deviator_norm<dim>(tensor));
-  raise(expected.displacement, elastic * deviator_norm<dim>(path.stretch.displacement_gradient));
+  raise(expected.displacement, elastic * deviator_norm<dim>(strain));
   raise(largest.rotation, change.template tail<Counts::couples>().norm());
-  raise(expected.rotation, couples * element.committed.curvature);
+  raise(expected.rotation, norm_of_couples<dim>(element.couple_moduli, element.committed.curvature));
   element.secant = {over_first(largest.displacement, expected.displacement, elastic * kRounding),
                     over_first(largest.rotation, expected.rotation, 0.0)};
 }
@@ -177,7 +219,7 @@ std::string Stabilisation<dim>::evaluate(const NodalStep& step, NodalForces& for
     element.trial.energy = {0.5 * element.modulus.displacement * squares.head(dim).sum(),
                             0.5 * element.modulus.rotation * squares.tail(Counts::rotations).sum()};
     element.trial.gradient = of_nodes.template topRows<dim>() * element.gradient;
-    element.trial.curvature = (of_nodes.template bottomRows<Counts::rotations>() * element.gradient).norm();
+    element.trial.curvature = of_nodes.template bottomRows<Counts::rotations>() * element.gradient;
   }
   return {};
 }
@@ -242,35 +284,37 @@ template <int dim>
 void Stabilisation<dim>::save(ArchiveWriter& archive) const {
   std::vector<double> values;
   for (const OfElement& element : elements_) {
-    const Deformation& deformation = element.committed;
+    const Moved& moved = element.committed;
     for (const Pair& pair : {element.modulus, element.largest_stress, element.largest_elastic_stress,
-                             element.secant, deformation.energy})
+                             element.secant, moved.energy})
       values.insert(values.end(), {pair.displacement, pair.rotation});
-    values.insert(values.end(), {element.shear_modulus, deformation.curvature});
+    values.push_back(element.shear_modulus);
+    values.insert(values.end(), element.couple_moduli.begin(), element.couple_moduli.end());
+    values.insert(values.end(), moved.curvature.reshaped().begin(), moved.curvature.reshaped().end());
     values.insert(values.end(), element.first_stress.begin(), element.first_stress.end());
-    values.insert(values.end(), deformation.gradient.reshaped().begin(),
-                  deformation.gradient.reshaped().end());
+    values.insert(values.end(), moved.gradient.reshaped().begin(), moved.gradient.reshaped().end());
   }
   archive.write("stabilisation", std::span<const double>(values));
 }
 
 template <int dim>
 void Stabilisation<dim>::restore(ArchiveReader& archive) {
-  constexpr std::size_t kLength = 12 + Cosserat<dim>::components + dim * dim;
+  constexpr std::size_t kLength = 14 + Cosserat<dim>::components + dim * dim + dim * Cosserat<dim>::rotations;
   const std::vector<double> values = read_lists(archive, "stabilisation", elements_.size(), kLength);
   auto value = values.begin();
   for (OfElement& element : elements_) {
-    Deformation& deformation = element.committed;
+    Moved& moved = element.committed;
     for (Pair* const pair : {&element.modulus, &element.largest_stress, &element.largest_elastic_stress,
-                             &element.secant, &deformation.energy}) {
+                             &element.secant, &moved.energy}) {
       pair->displacement = *value++;
       pair->rotation = *value++;
     }
     element.shear_modulus = *value++;
-    deformation.curvature = *value++;
+    for (double& modulus : element.couple_moduli) modulus = *value++;
+    for (double& part : moved.curvature.reshaped()) part = *value++;
     for (double& stress : element.first_stress) stress = *value++;
-    for (double& part : deformation.gradient.reshaped()) part = *value++;
-    element.trial = deformation;
+    for (double& part : moved.gradient.reshaped()) part = *value++;
+    element.trial = moved;
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <array>
 #include <memory>
 
 #include "fem/element/hourglass.hpp"
@@ -24,9 +25,11 @@ class Stabilisation final : public Contribution<dim> {
   static constexpr double kShare = 0.1;
 
   /// @return nothing where no element has one point alone. @param mesh must outlive this object
-  static std::shared_ptr<Stabilisation> of(const Mesh<dim>& mesh, Continuum continuum, double share = kShare);
+  static std::shared_ptr<Stabilisation> of(const Mesh<dim>& mesh, Continuum continuum,
+                                           Deformation deformation, double share = kShare);
 
-  [[nodiscard]] std::string name() const override { return "elements with one integration point"; }
+  static constexpr const char* kName = "elements with one integration point";
+  [[nodiscard]] std::string name() const override { return kName; }
   [[nodiscard]] std::size_t elements() const override { return elements_.size(); }
   [[nodiscard]] const std::vector<int>& entries(std::size_t element) const override {
     return elements_[element].entries;
@@ -51,11 +54,12 @@ class Stabilisation final : public Contribution<dim> {
     double displacement = 0.0;
     double rotation = 0.0;
   };
+  using CurvatureTensor = Eigen::Matrix<double, Cosserat<dim>::rotations, dim>;
   /// From the mesh as it was made.
-  struct Deformation {
+  struct Moved {
     typename Cosserat<dim>::Gradient gradient = Cosserat<dim>::Gradient::Zero();  ///< mean d u_i / d x_j
-    double curvature = 0.0;  ///< norm of the mean d w_j / d x_i, 1/m
-    Pair energy;             ///< of patterns held by springs with a secant of 1, J
+    CurvatureTensor curvature = CurvatureTensor::Zero();                          ///< mean d w_i / d x_j, 1/m
+    Pair energy;  ///< of patterns held by springs with a secant of 1, J
   };
   struct OfElement {
     int number;
@@ -63,20 +67,23 @@ class Stabilisation final : public Contribution<dim> {
     HourglassModes hourglass;
     VectorRows<dim> gradient;    ///< mean of those of the shape functions, 1/m
     double shear_modulus = 0.0;  ///< of the first tangent, Pa
-    Pair modulus;                ///< share of the first tangent: Pa, 0 until it is learned, and N
+    /// The same against curvature: d w_k / d x_k on the diagonal, transposed, and as it is; N.
+    std::array<double, 3> couple_moduli{};
+    Pair modulus;  ///< share of the first tangent: Pa, 0 until it is learned, and N
     Pair
         largest_stress;  ///< of the point, change since the first: norm of its deviator, Pa, and of couples, N/m
     Pair largest_elastic_stress;  ///< the same by the first tangent
     Pair secant{1.0, 1.0};        ///< one over the other; at most 1
     typename Cosserat<dim>::Vector first_stress = Cosserat<dim>::Vector::Zero();
-    Deformation committed, trial;
+    Moved committed, trial;
   };
-  Stabilisation(const Mesh<dim>& mesh, Continuum continuum, double share);
+  Stabilisation(const Mesh<dim>& mesh, Continuum continuum, Deformation deformation, double share);
   void follow(OfElement& element, const typename Cosserat<dim>::Vector& stress) const;
   /// Stiffness of each mode against an unknown of a node. @param component of node_dofs
   [[nodiscard]] Eigen::VectorXd stiffness(const OfElement& element, int component) const;
 
   Continuum continuum_;
+  Deformation deformation_;
   double share_;
   std::vector<OfElement> elements_;
 };

@@ -54,7 +54,7 @@ int zero_modes(int along, const ElasticParameters<dim>& of, bool with_springs) {
   std::vector<Response<dim>> answers(discretisation.points());
   for (Response<dim>& answer : answers) answer.tangent = elastic_stiffness(of);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(discretisation.nodal_size(), discretisation.nodal_size());
-  const auto springs = Stabilisation<dim>::of(mesh, Continuum::cosserat);
+  const auto springs = Stabilisation<dim>::of(mesh, Continuum::cosserat, Deformation::large);
   springs->learn(discretisation, answers);
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
     const std::vector<int>& dofs = discretisation.element_dofs(e);
@@ -236,7 +236,7 @@ TEST(OnePoint, SpringsTurnWithTheBody) {
   std::vector<Response<3>> answers(discretisation.points());
   for (Response<3>& answer : answers)
     answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
-  const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat);
+  const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat, Deformation::large);
   springs->learn(discretisation, answers);
   const auto forces_of = [&](const Eigen::VectorXd& values) {
     NodalForces forces;
@@ -282,6 +282,63 @@ TEST(OnePoint, SpringsYieldWithTheirPoint) {
             << ", Q4R " << plane << '\n';
   EXPECT_NEAR(space, 1.0, 0.08);
   EXPECT_NEAR(plane, 1.0, 0.05);
+}
+
+/// A beam of 2 x 0.2 x 0.4 m whose right support settles before its load comes, both in small deformation: sag of its top at the end.
+double sag_after_settlement(double settlement) {
+  Problem<3> problem;
+  problem.mesh = box({{2.0, 0.2, 0.4}, {20, 1, 8}}, "H8R");
+  problem.continuum = Continuum::cauchy;
+  problem.materials["all"] = one_point_elastic(one_point_parameters<3>(30e9, 0.2, 0.0, 0.0));
+  const TimeTable zero = TimeTable::constant(0.0);
+  for (const Dof dof : {Dof::u1, Dof::u2, Dof::u3})
+    problem.prescribed.push_back({"bottom_left", dof, zero, {}});
+  problem.prescribed.push_back({"bottom_right", Dof::u2, zero, {}});
+  problem.prescribed.push_back({"bottom_right", Dof::u3, TimeTable({{0.0, 0.0}, {1.0, -settlement}}), {}});
+  BoundaryLoad<3> load;
+  load.on = "top";
+  load.pressure = TimeTable({{0.0, 0.0}, {1.0, 0.0}, {2.0, 100e3}});
+  problem.boundary_loads.push_back(load);
+  Solver<3> solver(std::move(problem), {});
+  EXPECT_TRUE(solver.equilibrate().converged);
+  Eigen::VectorXd settled;
+  for (const double time : {0.5, 1.0, 1.25, 1.5, 2.0}) {
+    EXPECT_TRUE(solver.advance(time).converged);
+    if (time == 1.0) settled = solver.state().displacement;
+  }
+  double sum = 0.0;
+  const std::vector<int> top = solver.problem().mesh.nodes_on("top");
+  for (const int node : top)
+    sum += solver.state().displacement(entry_of<3>(node, Dof::u3)) - settled(entry_of<3>(node, Dof::u3));
+  return sum / static_cast<double>(top.size());
+}
+
+// Small deformation knows no turn: neither does the secant.
+TEST(OnePoint, ATurnLeavesTheSpringsOfAnElasticBeam) {
+  const double sag = sag_after_settlement(0.0);
+  EXPECT_LT(sag, -1e-5);
+  EXPECT_NEAR(sag_after_settlement(0.06) / sag, 1.0, 1e-6);
+}
+
+// Three moduli against curvature: twisted and bent elements stay elastic.
+TEST(OnePoint, CoupleModuliOfSpaceAreElastic) {
+  Problem<3> problem;
+  problem.mesh = unit_elements<3>(3, "H8R");
+  ElasticParameters<3> of = one_point_parameters<3>(10e6, 0.3, 4e6, 1.5);
+  of.couple_trace_ratio = 5.0;
+  of.couple_transpose_ratio = 0.5;
+  problem.materials["all"] = one_point_elastic(of);
+  for (const Dof dof : node_dofs<3>())
+    problem.prescribed.push_back({"bottom", dof, TimeTable::constant(0.0), {}});
+  for (const Dof dof : {Dof::w1, Dof::w2})
+    problem.prescribed.push_back({"top_front_left", dof, TimeTable::ramp(0.01), {}});
+  Solver<3> solver(std::move(problem), {});
+  EXPECT_TRUE(solver.equilibrate().converged);
+  EXPECT_TRUE(solver.advance(0.25).converged);
+  const auto quarter = solver.reaction("top_front_left");
+  for (const double time : {0.5, 0.75, 1.0}) EXPECT_TRUE(solver.advance(time).converged);
+  const auto whole = solver.reaction("top_front_left");
+  EXPECT_LT((whole - 4.0 * quarter).norm(), 1e-6 * whole.norm());
 }
 
 // As fast as Newton's steps allow; the difference is that of explicit steps with every element (fem_explicit_test).
