@@ -203,6 +203,34 @@ double largest_pressure(const std::vector<InterfacePointResult<2>>& points) {
 }
 
 // Contact over 3 (L/2 - e), the largest pressure 2 N over it. Stiff: 1e5 times the bed, so 1e-4.
+// An iteration in which all points slip sends the block out of sight, where any imbalance is within rounding: that is no balance.
+TEST(interface, a_block_that_nothing_holds_finds_no_balance) {
+  Problem<2> problem;
+  problem.mesh = rectangle({{2.0, 1.0}, {4, 2}}, "Q8R");
+  problem.materials["all"] = elastic_ground<2>(50e6);
+  const auto body = add_body<2>(problem, "bottom", rough(4e9, 4e9, 8.0));
+  problem.prescribed.push_back({"body", Dof::u1, kZero, {}});
+  problem.prescribed.push_back({"body", Dof::u2, kZero, {}});
+  BoundaryLoad<2> load;
+  load.on = "top";
+  load.traction[1] = TimeTable::constant(-80e3);
+  problem.boundary_loads.push_back(load);
+  problem.body_loads = {
+      {[](const Eigen::Vector2d&) { return Eigen::Vector3d(0.0, -20e3, 0.0); }},
+      {[](const Eigen::Vector2d&) { return Eigen::Vector3d(18.2e3, 0.0, 0.0); }, TimeTable::ramp(1.0)}};
+  Solver<2> solver(std::move(problem), {.force_tolerance = 1e-6, .moment_tolerance = 1e-6});
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const double strength = 200e3 * std::tan(8.0 * kDegreeOfInterface);
+  for (const double time : {0.25, 0.5, 0.75}) {
+    const StepReport report = solver.advance(time);
+    ASSERT_TRUE(report.converged) << time << report.message;
+    EXPECT_NEAR(std::abs(body.interface->force()(0)), 36.4e3 * time, 1.0) << time;
+  }
+  EXPECT_FALSE(solver.advance(1.0).converged);
+  EXPECT_LE(std::abs(body.interface->force()(0)), strength * (1.0 + 1e-5));
+  EXPECT_GE(std::abs(body.interface->force()(0)), strength * 0.97);
+}
+
 TEST(interface, opens_under_a_moment) {
   for (const int elements : {4, 8}) {
     const auto points = pressed_strip(elements, 0.25);
