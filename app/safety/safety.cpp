@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/memory_archive.hpp"
 #include "common/standard_streams.hpp"
+#include "fem/interface/interface.hpp"
 #include "fem/spread/spread_slip.hpp"
 #include "fem/water/pore_water.hpp"
 
@@ -80,7 +81,7 @@ class StrengthReduction {
                                                 : fmt::format("there are {}", fmt::join(names, ", ")))});
   }
 
-  /// A solver with the strength of all materials divided by a factor.
+  /// A solver with the strength of all materials divided by a factor. It shares the interfaces of the case.
   [[nodiscard]] std::unique_ptr<fem::Solver<dim>> solver_at(double factor) const {
     fem::Problem<dim> problem = case_.template problem_of<dim>();
     for (auto& [region, material] : problem.materials) {
@@ -90,6 +91,13 @@ class StrengthReduction {
     }
     if (case_.spread > 0.0) fem::add_spread_slip<dim>(problem, {case_.spread});
     return std::make_unique<fem::Solver<dim>>(std::move(problem), case_.solver);
+  }
+
+  /// After a restart, which brings the friction of the state.
+  void divide_interfaces(double factor) const {
+    for (const auto& contribution : case_.template problem_of<dim>().contributions)
+      if (auto* const interface = dynamic_cast<fem::Interface<dim>*>(contribution.get()))
+        interface->divide_strength(factor);
   }
 
   fem::StepReport take(int step, fem::Solver<dim>& solver) const {
@@ -120,6 +128,7 @@ class StrengthReduction {
     const std::unique_ptr<fem::Solver<dim>> solver = solver_at(factor);
     MemoryArchive from = end_;
     solver->restore(from);
+    divide_interfaces(factor);
     const fem::StepReport report = solver->redistribute();
     const Eigen::VectorXd moved = solver->state().displacement - displacement_;
     double largest = 0.0;

@@ -27,6 +27,15 @@ class FrictionCurve {
   /// close by sliding.
   explicit FrictionCurve(const std::vector<Measured>& points);
 
+  /// The same with tan(delta) divided by a factor.
+  [[nodiscard]] FrictionCurve divided(double factor) const {
+    FrictionCurve made = *this;
+    for (Piece& piece : made.pieces_) {
+      piece.friction /= factor;
+      piece.friction_slope /= factor;
+    }
+    return made;
+  }
   /// One behind the other, from a slip of zero to infinity.
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   /// The piece that a slip lies in, at a point between two the one behind it. @param slip m, not negative

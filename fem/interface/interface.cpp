@@ -120,6 +120,22 @@ void Interface<dim>::set_stiffness(Element& element, double stiffness) {
 }
 
 template <int dim>
+void Interface<dim>::divide_strength(double factor) {
+  const InterfaceParameters& given = settings_.parameters;
+  const auto curve =
+      given.over_slip ? std::make_shared<const FrictionCurve>(given.over_slip->divided(factor)) : nullptr;
+  for (Element& element : elements_)
+    for (Point& point : element.points) {
+      InterfaceParameters& own = point.parameters;
+      own.tan_friction = given.tan_friction / factor;
+      own.tan_dilation = std::min(given.tan_dilation, own.tan_friction);
+      own.cohesion = given.cohesion / factor;
+      own.tension = given.tension / factor;
+      own.over_slip = curve;
+    }
+}
+
+template <int dim>
 void Interface<dim>::learn(const Discretisation<dim>& discretisation,
                            std::span<const Response<dim>> committed) {
   const bool sets_stiffness =

@@ -95,6 +95,10 @@ class Interface : public Contribution<dim> {
   /// solver is made.
   void take_water(const Problem<dim>& problem);
 
+  /// From now on friction, cohesion and tensile strength are those of the settings over a factor. A share of the ground's friction
+  /// follows the ground.
+  void divide_strength(double factor);
+
   [[nodiscard]] const InterfaceSettings& settings() const { return settings_; }
   [[nodiscard]] const InterfaceFace<dim>& face(std::size_t e) const { return elements_[e].face; }
   [[nodiscard]] std::vector<InterfacePointResult<dim>> results() const;
