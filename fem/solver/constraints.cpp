@@ -40,8 +40,7 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       Given& value = given_.emplace_back(
           Given{entry, item.profile ? item.profile(mesh.nodes[number]) : 1.0, &item.value});
       if (offsets.size() == 0) continue;
-      value.offset = offsets(static_cast<Eigen::Index>(entry));
-      value.fades = !item.from_here;
+      (item.from_here ? value.offset : value.fading) = offsets(static_cast<Eigen::Index>(entry));
     }
   }
   for (const PrescribedField<dim>* const item : fields_in_precedence(problem, stage)) {
@@ -51,8 +50,8 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       if (entry < 0 || equation_[static_cast<std::size_t>(entry)] < 0) continue;
       equation_[static_cast<std::size_t>(entry)] = -1;
       const typename Cosserat<dim>::Place& place = mesh.nodes[static_cast<std::size_t>(node)];
-      given_.push_back(
-          {static_cast<std::size_t>(entry), item->factor_at(place), &item->value, item->offset_at(place)});
+      given_.push_back({static_cast<std::size_t>(entry), item->factor_at(place), &item->value,
+                        item->offset_at(place), offsets.size() == 0 ? 0.0 : offsets(entry)});
     }
   }
   const auto mechanics = static_cast<std::size_t>(places_.mechanics());
@@ -174,9 +173,15 @@ template <int dim>
 Eigen::VectorXd Constraints<dim>::new_offsets(const Problem<dim>& problem, const SolverState<dim>& state,
                                               int stage) {
   struct Giver {
-    const PrescribedDof<dim>* item = nullptr;
+    const void* item = nullptr;
+    const TimeTable* value = nullptr;
     double factor = 1.0;
+    double offset = 0.0;
+    bool from_here = false;
+
+    [[nodiscard]] double at(double time) const { return factor * value->at(time) + offset; }
   };
+  const FieldPlaces<dim> places = problem.places();
   const auto givers_in = [&](int of) {
     std::vector<Giver> givers(static_cast<std::size_t>(state.displacement.size()));
     for (const PrescribedDof<dim>* const item : in_precedence(problem, of)) {
@@ -184,7 +189,18 @@ Eigen::VectorXd Constraints<dim>::new_offsets(const Problem<dim>& problem, const
         const auto number = static_cast<std::size_t>(node);
         Giver& giver = givers[entry_of<dim>(number, item->dof)];
         if (giver.item != nullptr) continue;
-        giver = {item, item->profile ? item->profile(problem.mesh.nodes[number]) : 1.0};
+        giver = {item, &item->value, item->profile ? item->profile(problem.mesh.nodes[number]) : 1.0, 0.0,
+                 item->from_here};
+      }
+    }
+    for (const PrescribedField<dim>* const item : fields_in_precedence(problem, of)) {
+      const std::size_t field = number_of_field(problem.fields, item->field);
+      for (const int node : problem.mesh.nodes_on(item->on)) {
+        const int entry = places.entry(field, node);
+        if (entry < 0 || givers[static_cast<std::size_t>(entry)].item != nullptr) continue;
+        const typename Cosserat<dim>::Place& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
+        givers[static_cast<std::size_t>(entry)] = {item, &item->value, item->factor_at(place),
+                                                   item->offset_at(place), false};
       }
     }
     return givers;
@@ -195,9 +211,10 @@ Eigen::VectorXd Constraints<dim>::new_offsets(const Problem<dim>& problem, const
   for (std::size_t k = 0; k < now.size(); ++k) {
     if (now[k].item == nullptr) continue;
     const auto entry = static_cast<Eigen::Index>(k);
+    if (entry >= places.mechanics() && before[k].item == nullptr) continue;
     if (now[k].item != before[k].item) {
-      offsets(entry) = state.displacement(entry) - now[k].factor * now[k].item->value.at(state.time);
-    } else if (state.offsets.size() > 0 && now[k].item->from_here) {
+      offsets(entry) = state.displacement(entry) - now[k].at(state.time);
+    } else if (state.offsets.size() > 0 && now[k].from_here) {
       offsets(entry) = state.offsets(entry);
     }
   }
@@ -209,7 +226,8 @@ void Constraints<dim>::apply(double time, Eigen::VectorXd& nodal, double release
   for (const Given& item : given_) {
     double& value = nodal(static_cast<Eigen::Index>(item.entry));
     value = item.factor * item.value->at(time);
-    if (item.offset != 0.0) value += item.fades ? (1.0 - released) * item.offset : item.offset;
+    if (item.offset != 0.0) value += item.offset;
+    if (item.fading != 0.0) value += (1.0 - released) * item.fading;
   }
 }
 

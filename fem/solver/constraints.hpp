@@ -21,7 +21,7 @@ class Constraints {
   Constraints(const Problem<dim>& problem, int stage, const Eigen::VectorXd& offsets);
 
   /// The offsets when a stage begins: an entry that another item gives from now on is where it is, less the value of that
-  /// item.
+  /// item. An entry of a field that no item gave before takes its value at once.
   /// @param state of the stage before @param stage that begins
   static Eigen::VectorXd new_offsets(const Problem<dim>& problem, const SolverState<dim>& state, int stage);
 
@@ -62,7 +62,7 @@ class Constraints {
     double factor;
     const TimeTable* value;
     double offset = 0.0;
-    bool fades = false;  ///< the offset, as `released` grows
+    double fading = 0.0;  ///< an offset that goes as `released` grows
   };
   FieldPlaces<dim> places_;
   std::vector<Given> given_;

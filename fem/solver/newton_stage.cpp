@@ -105,6 +105,8 @@ void Newton<dim>::count_supports_from_here() {
   Eigen::VectorXd given = state.displacement;
   constraints.apply(state.time, given);
   state.offsets = state.displacement - given;
+  const Eigen::Index mechanics = constraints.places().mechanics();
+  state.offsets.tail(state.offsets.size() - mechanics).setZero();  // fields take their values at once
   enter_stage();
 }
 

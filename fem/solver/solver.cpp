@@ -378,14 +378,25 @@ typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::
   return sum;
 }
 
+namespace {
+
+/// Nodes of places whose elements are there. Where all elements have gone, all nodes count.
+template <int dim>
+std::vector<int> nodes_there(const Problem<dim>& problem, int stage, const std::vector<std::string>& on) {
+  std::vector<int> nodes = problem.mesh.nodes_on(on);
+  const std::vector<char> there = elements_in_stage(problem, stage);
+  if (there.empty()) return nodes;
+  const std::vector<char> has_element = nodes_of_elements(problem.mesh, there);
+  const auto is_left = [&](int node) { return has_element[static_cast<std::size_t>(node)] != 0; };
+  if (std::ranges::any_of(nodes, is_left)) std::erase_if(nodes, [&](int node) { return !is_left(node); });
+  return nodes;
+}
+
+}  // namespace
+
 template <int dim>
 typename Cosserat<dim>::NodeValues Solver<dim>::mean_displacement(const std::vector<std::string>& on) const {
-  std::vector<int> nodes = problem().mesh.nodes_on(on);
-  if (const std::vector<char> there = elements_in_stage(problem(), state().stage); !there.empty()) {
-    const std::vector<char> has_element = nodes_of_elements(problem().mesh, there);
-    const auto is_left = [&](int node) { return has_element[static_cast<std::size_t>(node)] != 0; };
-    if (std::ranges::any_of(nodes, is_left)) std::erase_if(nodes, [&](int node) { return !is_left(node); });
-  }
+  const std::vector<int> nodes = nodes_there(problem(), state().stage, on);
   const Eigen::VectorXd shown = shown_displacement();
   typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
   for (const int node : nodes) sum += shown.template segment<Cosserat<dim>::dofs>(entry_of<dim>(node));
@@ -396,7 +407,7 @@ template <int dim>
 double Solver<dim>::mean_field(std::size_t field, const std::vector<std::string>& on) const {
   double sum = 0.0;
   int count = 0;
-  for (const int node : problem().mesh.nodes_on(on)) {
+  for (const int node : nodes_there(problem(), state().stage, on)) {
     const int entry = implementation_->constraints.places().entry(field, node);
     if (entry < 0) continue;
     sum += state().displacement(entry);

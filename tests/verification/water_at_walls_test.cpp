@@ -284,6 +284,90 @@ TEST(WaterAtWalls, APitIsDugUnderWaterAndPumpedDry) {
   }
 }
 
+// Free water on a bed leaves effective stress alone, whatever its level: pressures in pores and load go one way along the stage.
+TEST(WaterAtWalls, ALevelOfAStageMovesNoGround) {
+  const auto sea = [](const char* name, int until, const char* level) {
+    return fmt::format(
+        "    - {{name: {}, until: {} d, count: 4, boundary: [{{name: sea, on: top, free_water: {} m}}]}}\n",
+        name, until, level);
+  };
+  const RunOfLaws run(
+      "title: A sea that rises and falls\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [1 m, 2 m], elements: [1, 2]}}\n"
+      "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
+      "regions: {all: clay}\n"
+      "water: {permeability: 1e-2 m/s, level: 4 m, unit_weight: 10 kN/m3}\n"
+      "boundary:\n"
+      "  - {on: [left, right], fix: [u1]}\n"
+      "  - {on: bottom, fix: [u1, u2]}\n"
+      "  - {name: sea, on: top, free_water: 4 m}\n"
+      "body: [{unit_weight: 20 kN/m3}]\n"
+      "initial_stress: [{surface: 2 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 20 kPa}]\n"
+      "steps:\n"
+      "  tolerance: 1e-8\n"
+      "  stages:\n"
+      "    - {name: rest, until: 1 d, count: 1}\n" +
+      sea("flood", 11, "10") + sea("ebb", 21, "3") +
+      "monitors: {u: {on: top, displacement: u2}, p: {on: top, water: pressure}}\n");
+  for (std::size_t step = 0; step <= run.steps(); ++step)
+    EXPECT_NEAR(run.value("u", step), 0.0, 1e-9)
+        << "step " << step << "; 1 kPa more or less moves it by 0.17 mm";
+  EXPECT_NEAR(run.value("p", 3), 50e3, 1e-3) << "half way from 4 m to 10 m";
+  EXPECT_NEAR(run.value("p", 5), 80e3, 1e-3);
+  EXPECT_NEAR(run.last("p"), 10e3, 1e-3);
+}
+
+// A face that is wet in part, of one element over the height: gw h^2 / 2 and gw h^3 / 6 of the moment, at any level.
+TEST(WaterAtWalls, FreeWaterInSpaceEndsAtItsLevel) {
+  for (const char* const element : {"H20R", "H20"})
+    for (const double level : {0.3, 0.9, 1.0, 1.7, 2.0}) {
+      const RunOfLaws run(
+          "title: A block in water\n"
+          "continuum: cauchy\n"
+          "mesh: {box: {size: [1 m, 1 m, 2 m], elements: [1, 1, 1]}, element: " +
+          std::string(element) +
+          "}\n"
+          "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
+          "regions: {all: clay}\n"
+          "water: {undrained: true, bulk_modulus: 1 GPa, void_ratio: 0.7, level: 0 m, unit_weight: 10 kN/m3}\n"
+          "boundary:\n"
+          "  - {on: bottom, fix: [u1, u2, u3]}\n"
+          "  - {on: left, free_water: " +
+          std::to_string(level) +
+          " m}\n"
+          "steps: {duration: 1 d, count: 1, tolerance: 1e-8}\n"
+          "monitors: {push: {on: bottom, reaction: u1}}\n");
+      EXPECT_NEAR(run.last("push"), -0.5 * 10e3 * level * level, 1e-6 * 10e3) << element << ' ' << level;
+    }
+}
+
+// Corners of ground that has gone do not count.
+TEST(WaterAtWalls, AMeanPressureIsOfTheGroundThatIsLeft) {
+  const RunOfLaws run(
+      "title: Half of the top is dug away\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4], regions: {pit: [0, 2 m, 2 m, 4 m]}, lines: {keep: [2 m, 4 m, 4 m, 4 m]}}}\n"
+      "materials: {clay: {model: elastic, E: 10 MPa, nu: 0}}\n"
+      "regions: {pit: clay, rest: clay}\n"
+      "water: {permeability: 1e-4 m/s, level: 4 m, unit_weight: 10 kN/m3}\n"
+      "boundary:\n"
+      "  - {on: [left, right], fix: [u1]}\n"
+      "  - {on: bottom, fix: [u1, u2]}\n"
+      "  - {name: below, on: bottom, drained: true}\n"
+      "body: [{unit_weight: 20 kN/m3}]\n"
+      "initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5}]\n"
+      "steps:\n"
+      "  tolerance: 1e-6\n"
+      "  stages:\n"
+      "    - {name: rest, until: 1 d, count: 1}\n"
+      "    - {name: dig, remove: pit, until: 10 d, count: 1}\n"
+      "    - {name: raise, until: 40 d, count: 1, boundary: [{name: below, on: bottom, water_level: 5 m}]}\n"
+      "monitors: {all: {on: top, water: pressure}, left: {on: keep, water: pressure}}\n");
+  EXPECT_GT(std::abs(run.last("left")), 1e3);
+  EXPECT_DOUBLE_EQ(run.last("all"), run.last("left"));
+}
+
 TEST(WaterAtWalls, FaultsNameTheRemedy) {
   const auto fault_of = [](const std::string& stages, const std::string& passage = "impervious") {
     return polargrain::testing::faults_of(pit(stages, passage));
