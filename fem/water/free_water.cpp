@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
@@ -40,12 +41,59 @@ std::vector<PressedPoint<2>> wet_points(const ElementType<1>& type, const Vector
   return points;
 }
 
+/// The part of a side below the level, as a polygon of its reference coordinates; heights go straight along its edges.
+std::vector<Eigen::Vector2d> wet_polygon(const ElementType<2>& type, const VectorRows<3>& positions,
+                                         double level) {
+  std::vector<Eigen::Vector2d> wet;
+  for (int a = 0; a < type.corners; ++a) {
+    const int b = (a + 1) % type.corners;
+    const Eigen::Vector2d& here = type.node_positions[static_cast<std::size_t>(a)];
+    const Eigen::Vector2d& next = type.node_positions[static_cast<std::size_t>(b)];
+    const double below = level - positions(a, 2);
+    const double next_below = level - positions(b, 2);
+    if (below >= 0.0) wet.push_back(here);
+    if ((below > 0.0 && next_below < 0.0) || (below < 0.0 && next_below > 0.0))
+      wet.emplace_back(here + below / (below - next_below) * (next - here));
+  }
+  return wet;
+}
+
+/// Points of a triangle of reference coordinates, exact to the fourth degree: squares that collapse at the first corner.
+std::vector<QuadraturePoint<2>> points_of_triangle(const Eigen::Vector2d& first,
+                                                   const Eigen::Vector2d& second,
+                                                   const Eigen::Vector2d& third) {
+  const Eigen::Vector2d one = second - first;
+  const Eigen::Vector2d other = third - second;
+  const double twice_area = one(0) * other(1) - one(1) * other(0);
+  std::vector<QuadraturePoint<2>> points;
+  for (const LinePoint& out : gauss_line(3))
+    for (const LinePoint& across : gauss_line(3)) {
+      const double r = 0.5 * (1.0 + out.position);
+      points.push_back({first + r * (one + 0.5 * (1.0 + across.position) * other),
+                        0.25 * out.weight * across.weight * r * twice_area});
+    }
+  return points;
+}
+
 std::vector<PressedPoint<3>> wet_points(const ElementType<2>& type, const VectorRows<3>& positions,
                                         double level) {
+  if (positions.col(2).minCoeff() >= level) return {};
   std::vector<PressedPoint<3>> points;
-  for (const InterfacePoint<3>& point : interface_points<3>(type, positions))
-    if (point.place(2) < level)
+  const std::vector<InterfacePoint<3>> whole = interface_points<3>(type, positions);
+  if (positions.col(2).maxCoeff() <= level) {
+    for (const InterfacePoint<3>& point : whole)
       points.push_back({point.shape, point.place(2), point.area * point.axes.row(2).transpose()});
+    return points;
+  }
+  const std::vector<Eigen::Vector2d> wet = wet_polygon(type, positions, level);
+  for (std::size_t k = 2; k < wet.size(); ++k)
+    for (const QuadraturePoint<2>& at : points_of_triangle(wet[0], wet[k - 1], wet[k])) {
+      const ShapeFunctions<2> shape = type.shape_functions(at.position);
+      const Eigen::Matrix<double, 3, 2> along = positions.transpose() * shape.derivative;
+      const Eigen::Vector3d area = at.weight * along.col(0).cross(along.col(1));
+      const bool is_along = area.dot(whole.front().axes.row(2)) > 0.0;
+      points.push_back({shape.value, (positions.transpose() * shape.value)(2), is_along ? area : -area});
+    }
   return points;
 }
 
