@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // start_from: the end of another run in the place of packings and initial stresses.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "coupler/case/parts.hpp"
 #include "coupler/case/quantity.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "fem/solver/stabilisation.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -114,6 +116,29 @@ void check_mesh(const Entry& start, const Checkpoint& end, const std::string& ru
   });
 }
 
+/// States of structures go over one by one, in their order.
+void check_structures(const Entry& start, const Checkpoint& end, const std::string& run, CaseParts& parts) {
+  std::vector<std::string> before;
+  const auto& numbers = end.state.all_integers();
+  for (auto name = numbers.find("solver/contributions/0/name"); name != numbers.end();
+       name = numbers.find(fmt::format("solver/contributions/{}/name", before.size())))
+    before.emplace_back(name->second.begin(), name->second.end());
+  // The solver adds these itself, behind all others.
+  std::erase(before, fem::Stabilisation<2>::kName);
+  std::vector<std::string> now;
+  parts.result.with_problem([&](const auto& problem) {
+    for (const auto& contribution : problem.contributions) now.push_back(contribution->name());
+  });
+  if (before == now) return;
+  const auto told = [](const std::vector<std::string>& names) {
+    return names.empty() ? std::string("nothing of the kind") : fmt::format("{}", fmt::join(names, ", "));
+  };
+  parts.faults.push_back(start.fault(fmt::format(
+      "start_from: '{}' ends with {}, and this case has {}: their states go over one by one, so give this case the same in the "
+      "same order; a part comes or goes in a stage",
+      run, told(before), told(now))));
+}
+
 /// Ground that the other run does not have has no state to begin with.
 void check_body(const Entry& start, const RunBefore& before, CaseParts& parts) {
   if (before.least.empty()) return;
@@ -178,6 +203,7 @@ void read_start(Section& top, CaseParts& parts) {
     parts.result.run_before = run_before_of(end, name, parts.result.dimension());
     check_body(start, *parts.result.run_before, parts);
     check_mesh(start, end, name, parts);
+    if (parts.faults.empty()) check_structures(start, end, name, parts);
   } catch (const InputError& of_file) {
     fault(of_file.what());
   }

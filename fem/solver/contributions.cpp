@@ -80,6 +80,8 @@ template <int dim>
 void Contributions<dim>::save(ArchiveWriter& archive) const {
   for (std::size_t k = 0; k < all_.size(); ++k) {
     PrefixedWriter own(archive, prefix_of(k));
+    const std::string name = all_[k]->name();
+    own.write("name", std::span<const std::int64_t>(std::vector<std::int64_t>(name.begin(), name.end())));
     all_[k]->save(own);
   }
 }

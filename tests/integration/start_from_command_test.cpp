@@ -49,6 +49,29 @@ TEST_F(StartFromCommand, DoesNotEraseItsStart) {
   EXPECT_EQ(program("run second.yaml -o second --quiet").status, 0);
 }
 
+// States of structures go over by their order: one that is left out would give its state to the next.
+TEST_F(StartFromCommand, OtherStructuresAreAFault) {
+  const std::string low = "low: {from: bottom_right, to: [4 m, 0 m], EA: 10 MN/m}";
+  const std::string up = "up: {from: top_right, to: [4 m, 1 m], EA: 10 MN/m}";
+  const auto second = [&](const std::string& anchors) {
+    write(scratch_.path() / "second.yaml",
+          block("[[0, 20 kPa], [1, 25 kPa]]", "anchors: {" + anchors + "}\nstart_from: first\n"));
+    return program("check second.yaml");
+  };
+  write(scratch_.path() / "first.yaml",
+        block("[[0, 0], [1, 20 kPa]]", "anchors: {" + low + ", " + up + "}\n"));
+  ASSERT_EQ(program("run first.yaml -o first --quiet").status, 0);
+  const Outcome refused = second(up);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(
+      (refused.out + refused.errors)
+          .find(
+              "start_from: 'first' ends with the anchor 'low', the anchor 'up', and this case has the anchor 'up'"),
+      std::string::npos)
+      << refused.out << refused.errors;
+  EXPECT_EQ(second(low + ", " + up).status, 0);
+}
+
 TEST_F(StartFromCommand, ARunThatFailedIsRemarked) {
   write(scratch_.path() / "first.yaml", block("[[0, 0], [1, 60 kPa]]"));
   ASSERT_EQ(program("run first.yaml -o first --quiet").status, 1);
