@@ -196,6 +196,39 @@ monitors: {settled: {on: top, displacement: u2}}
 output: {table: [settled]}
 )";
 
+const std::string kSea = R"(title: Ground below the sea
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4]}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {all: clay}
+water: {permeability: 1e-8 m/s, level: 10 m, unit_weight: 10 kN/m3}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, free_water: 10 m}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 60 kPa}]
+steps: {duration: 60 d, count: 10, first: 1 h, tolerance: 1e-6}
+monitors: {settlement: {on: top, displacement: u2}}
+output: {table: [settlement]}
+)";
+
+const std::string kFillOnASheet = R"(title: Fill comes on a sheet
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [4, 4], regions: {fill: [0, 1 m, 4 m, 2 m]}, lines: {seam: [0, 1 m, 4 m, 1 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {fill: clay, rest: clay}
+interfaces: {sheet: {on: seam, friction: 20 deg}}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: [left, right], fix: [u1]}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 1 m, unit_weight: 20 kN/m3, K0: 0.5, region: rest}]
+steps: {tolerance: 1e-6, stages: [{name: rest, count: 1}, {name: fill, place: fill, count: 2}]}
+monitors: {base: {on: bottom, reaction: u2}}
+output: {table: [base]}
+)";
+
 INSTANTIATE_TEST_SUITE_P(
     Water, CarelessFeatures,
     ::testing::Values(
@@ -212,6 +245,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
                  "interface 'curtain': it leaks with a resistance of 1e+08 s, and all ground is undrained",
                  Rank::doubtful},
+        Careless{"TheSeaIsNotInTheStress", kSea, ", surcharge: 60 kPa", "",
+                 "water stands 6 m above the surface and weighs 60 kPa, and the surcharge is 0 kPa",
+                 Rank::wrong},
         Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
                  "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
                  Rank::wrong},
@@ -289,6 +325,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
         Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
                  "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
+        Careless{"FillOnASheet", kFillOnASheet, "", ""}, Careless{"BelowTheSea", kSea, "", ""},
         Careless{"AFooting", kFooting, "", ""},
         Careless{"ALineAcrossAHole", kBank, kReadAlong,
                  kReadAlong + "profiles: {slope: {from: [2 m, 9 m], to: [12 m, 12 m], values: [u2]}}\n"},

@@ -96,6 +96,24 @@ void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
        "give the height of the mesh's surface; for ground above it a surcharge, and a pressure on the surface"});
 }
 
+/// Stresses are effective: water above the ground weighs on its surface, and the given stress must hold that.
+void look_at_water_above(const Scene& scene, const Entry& item, Remarks& remarks) {
+  const auto surface = number(item, "surface", Dimension::length);
+  const auto level = scene.quantity({"water", "level"}, Dimension::length);
+  const auto weight = scene.quantity({"water", "unit_weight"}, Dimension::unit_weight);
+  if (!surface || !level || !weight || *level <= *surface) return;
+  const double water = *weight * (*level - *surface);
+  const double carried = number(item, "surcharge", Dimension::pressure).value_or(0.0);
+  if (carried >= 0.95 * water) return;
+  remarks.push_back(
+      {Rank::wrong, water / std::max(carried, 0.01 * water),
+       item.find("surface")->fault(fmt::format(
+           "initial_stress: water stands {:.4g} m above the surface and weighs {:.4g} kPa, and the surcharge is {:.4g} kPa: the "
+           "ground is in tension at its surface",
+           *level - *surface, 1e-3 * water, 1e-3 * carried)),
+       fmt::format("give that weight to the stress: surcharge: {:.4g} kPa", 1e-3 * water)});
+}
+
 void look_at_components(const Entry& item, Remarks& remarks) {
   const Entry* const stress = item.find("stress");
   if (stress == nullptr || stress->items.size() != 4) return;
@@ -134,6 +152,7 @@ void ground_stress(const Scene& scene, Remarks& remarks) {
   for (const Entry& item : list->items) {
     look_at_ratio(scene, item, remarks);
     look_at_surface(scene, item, remarks);
+    look_at_water_above(scene, item, remarks);
     look_at_components(item, remarks);
   }
 }

@@ -47,10 +47,12 @@ void open_seams(const Scene& scene, Remarks& remarks) {
         if (a < b && twice.contains(a) && twice.contains(b)) joined.emplace(a, b);
   // An interface joins both of its sides, perhaps by a wall between them.
   std::set<int> held;
-  for (const auto& [a, b] : fem::joined_nodes(scene.problem())) {
-    held.insert(a);
-    held.insert(b);
-  }
+  const int stages = std::max(1, static_cast<int>(scene.problem().stages.size()));
+  for (int stage = 0; stage < stages; ++stage)
+    for (const auto& [a, b] : fem::joined_nodes(scene.problem(), stage)) {
+      held.insert(a);
+      held.insert(b);
+    }
   int count = 0;
   const Eigen::Vector2d* first = nullptr;
   for (const auto& [place, nodes] : places)

@@ -33,12 +33,18 @@ const Entry& place_of(const Scene& scene, const std::string& region) {
   return scene.place({"steps", "stages"});
 }
 
+/// A number, or seconds where it has a unit.
+std::optional<double> time_of(const std::string& text) {
+  if (const auto plain = coupler::parse_quantity(text, coupler::Dimension::number)) return plain;
+  return coupler::parse_quantity(text, coupler::Dimension::duration);
+}
+
 /// The last time of a table [[time, value], ...] below an entry; nothing where no table is there.
 std::optional<double> last_time_of(const Entry& entry) {
   std::optional<double> last;
   for (const Entry& item : entry.items) {
     if (entry.kind == Entry::Kind::sequence && item.kind == Entry::Kind::sequence && item.items.size() == 2)
-      if (const auto time = coupler::parse_quantity(item.items[0].text, coupler::Dimension::number)) {
+      if (const auto time = time_of(item.items[0].text)) {
         last = std::max(last.value_or(*time), *time);
         continue;
       }
