@@ -65,6 +65,17 @@ double mean_element_size(const Discretisation<dim>& discretisation) {
   return dim == 2 ? std::sqrt(mean) : power(mean, 1.0 / 3.0);
 }
 
+template <int dim>
+double size_of_box(const Mesh<dim>& mesh) {
+  typename Cosserat<dim>::Place least = mesh.nodes.front();
+  typename Cosserat<dim>::Place largest = least;
+  for (const auto& node : mesh.nodes) {
+    least = least.cwiseMin(node);
+    largest = largest.cwiseMax(node);
+  }
+  return (largest - least).norm();
+}
+
 }  // namespace
 
 template <int dim>
@@ -79,6 +90,7 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
       reference_length(options.reference_length > 0.0
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
+      body_size_(size_of_box(problem.mesh)),
       tangent_(discretisation, constraints, problem.contributions),
       linear_solver_(coarse_space<dim>(problem.mesh, constraints)),
       anderson_(options.acceleration_depth, reference_length, dim, constraints.places().mechanics()),
@@ -389,51 +401,6 @@ void Newton<dim>::remember(const Iterate& iterate) {
   const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
   anderson_.remember({iterate.displacement, iterate.time}, free_part(iterate.unbalanced),
                      noise.size() > 0 ? free_part(noise) : noise);
-}
-
-namespace {
-
-/// A body that nothing holds any more, as where all points of an interface slip, is sent so far by one iteration that forces are
-/// lost in the rounding of places: any imbalance would pass.
-template <int dim>
-bool is_out_of_sight(const Eigen::VectorXd& increment, const Mesh<dim>& mesh) {
-  constexpr double kSight = 1e3;  // sizes of the body
-  typename Cosserat<dim>::Place least = mesh.nodes.front();
-  typename Cosserat<dim>::Place largest = least;
-  double moved = 0.0;
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    least = least.cwiseMin(mesh.nodes[node]);
-    largest = largest.cwiseMax(mesh.nodes[node]);
-    const auto entry = static_cast<Eigen::Index>(entry_of<dim>(node, Dof::u1));
-    moved = std::max(moved, increment.template segment<dim>(entry).cwiseAbs().maxCoeff());
-  }
-  return !(moved <= kSight * (largest - least).norm());
-}
-
-}  // namespace
-
-template <int dim>
-Newton<dim>::Balance Newton<dim>::balance_of(const Iterate& iterate, bool last_chance) const {
-  const Residual& residual = iterate.residual;
-  if (is_out_of_sight<dim>(iterate.displacement, problem.mesh)) return Balance::none;
-  if (excess(residual) <= 1.0) return Balance::within_tolerance;
-  const auto within = [&](const Eigen::VectorXd& forces, double factor) {
-    const Residual floor = relative(forces);
-    for (std::size_t k = 0; k < residual.fields.size(); ++k)
-      if (!(residual.fields[k] <= problem.fields[k].tolerance)) return false;
-    return residual.force <= std::max(options.force_tolerance, factor * floor.force) &&
-           residual.moment <= std::max(options.moment_tolerance, factor * floor.moment);
-  };
-  if (options.noise_factor > 0.0) {
-    const Eigen::VectorXd noise = forces_of_noise<dim>(discretisation, problem.continuum, trial_);
-    if (noise.size() > 0 && within(noise, options.noise_factor)) return Balance::within_noise;
-  }
-  // The stresses of such strains round so much that any imbalance would pass.
-  if (last_chance && !has_gone_astray() &&
-      within(forces_of_rounding<dim>(discretisation, problem.continuum, trial_, iterate.displacement), 1.0)) {
-    return Balance::within_rounding;
-  }
-  return Balance::none;
 }
 
 template <int dim>

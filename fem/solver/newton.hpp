@@ -180,6 +180,8 @@ class Newton {
   void turn_predictor(const Iterate& iterate, Correction& change) const;
   /// Whether the last evaluation strained a point by more than 1, skew strain included.
   [[nodiscard]] bool has_gone_astray() const;
+  /// Whether an increment takes a node so far from the body that forces are lost in rounding.
+  [[nodiscard]] bool is_out_of_sight(const Eigen::VectorXd& increment) const;
   void remember(const Iterate& iterate);
   [[nodiscard]] std::string residual_text(const Residual& residual) const;
   void move(Iterate& iterate, const Correction& change, double fraction, StepReport& report);
@@ -189,6 +191,7 @@ class Newton {
   void commit(const Iterate& iterate, Balance balance, StepReport& report);
   void add_to_strain_and_work(std::size_t point);
 
+  double body_size_;  ///< diagonal of the box around the mesh, m
   TangentMatrix<dim> tangent_;
   LinearSolver linear_solver_;
   Eigen::VectorXd scaling_;  ///< of the equations (equation_scaling.hpp); empty without fields

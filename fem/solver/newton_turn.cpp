@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Micro-rotations that follow a large turn, and those that have gone astray.
+// Micro-rotations that follow a large turn.
 #include <algorithm>
 #include <cmath>
 
@@ -56,20 +56,7 @@ void Newton<dim>::turn_predictor(const Iterate& iterate, Correction& change) con
   constraints.add_free((volumes.array() > 0.0).select(sums.cwiseQuotient(volumes), 0.0), change.displacement);
 }
 
-template <int dim>
-bool Newton<dim>::has_gone_astray() const {
-  return std::any_of(increments_.begin(), increments_.end(), [](const Increment<dim>& increment) {
-    return stretch_and_turn(increment)
-               .stretch.strain()
-               .template head<Cosserat<dim>::stresses>()
-               .cwiseAbs()
-               .maxCoeff() > 1.0;
-  });
-}
-
 template void Newton<2>::turn_predictor(const Iterate&, Correction&) const;
 template void Newton<3>::turn_predictor(const Iterate&, Correction&) const;
-template bool Newton<2>::has_gone_astray() const;
-template bool Newton<3>::has_gone_astray() const;
 
 }  // namespace polargrain::fem
