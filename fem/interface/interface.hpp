@@ -59,8 +59,8 @@ struct InterfacePointResult {
 };
 
 /// Friction between two sides of a curve (in space a surface): an interface of zero thickness. Small deformation.
-/// Its faces come and go with the elements beside them. A face that comes with fill is free of stress; one that a stage places into
-/// the ground carries the stress that the ground had there.
+/// Its faces come and go with the elements beside them. A face that comes with fill is free of stress; one that is there from the
+/// start, or that a stage places into the ground, carries the stress that the ground has there.
 /// Its law knows effective stresses. Water between the sides pushes them apart (interface_water.cpp).
 /// An open point keeps kOpenStiffness of its stiffness in the tangent alone, so that a body that only the interface holds
 /// does not make it singular.
@@ -79,6 +79,7 @@ class Interface : public Contribution<dim> {
   [[nodiscard]] std::vector<std::pair<int, int>> tied_nodes(int stage) const override;
   void set_stage(int stage, const std::vector<char>& there) override;
   void begin_stage(const StageBegin<dim>& now) override;
+  void begin_at_rest(const StageBegin<dim>& now) override;
   [[nodiscard]] bool is_active(std::size_t e) const override { return elements_[e].active; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
@@ -155,6 +156,9 @@ class Interface : public Contribution<dim> {
   static void add_water_tangent(const Element& element, Eigen::MatrixXd& tangent);
   /// Stress vector of the ground at the points of faces that are born in it, along the axes of the mesh.
   void carry_stress_of_ground(const StageBegin<dim>& now, const std::vector<std::size_t>& born);
+  void carry_nodal_forces(const StageBegin<dim>& now, const std::vector<std::size_t>& born);
+  /// The stress of the elements beside a face. Not nodal forces: at a corner several interfaces share them.
+  void carry_stress_of_points(const StageBegin<dim>& now, const std::vector<std::size_t>& born);
 
   InterfaceSettings settings_;
   std::vector<Element> elements_;

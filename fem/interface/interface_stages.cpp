@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Interfaces in stages of construction: faces that come, go, and are cut into the ground.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +12,43 @@
 #include "fem/solver/discretisation.hpp"
 
 namespace polargrain::fem {
+namespace {
+
+/// Stress of an element at a place, drawn on linearly from its points. Nothing where it has no stress: a wall tells nothing of the
+/// ground.
+template <int dim>
+std::optional<typename Cosserat<dim>::Vector> stress_at(const StageBegin<dim>& now, std::size_t element,
+                                                        const typename Cosserat<dim>::Place& place) {
+  using Place = typename Cosserat<dim>::Place;
+  using Stress = typename Cosserat<dim>::Vector;
+  const std::size_t first = now.discretisation.first_point(element);
+  const std::size_t last = now.discretisation.first_point(element + 1);
+  double volume = 0.0;
+  Place centre = Place::Zero();
+  Stress mean = Stress::Zero();
+  for (std::size_t i = first; i < last; ++i) {
+    const auto& point = now.discretisation.point(i);
+    volume += point.volume;
+    centre += point.volume * point.position;
+    mean += point.volume * now.committed[i].stress;
+  }
+  if (mean.isZero(0.0)) return {};
+  centre /= volume;
+  mean /= volume;
+  if (last - first <= static_cast<std::size_t>(dim)) return mean;  // too few for a slope
+  Eigen::Matrix<double, dim, dim> spread = Eigen::Matrix<double, dim, dim>::Zero();
+  Eigen::Matrix<double, dim, Cosserat<dim>::components> slopes =
+      Eigen::Matrix<double, dim, Cosserat<dim>::components>::Zero();
+  for (std::size_t i = first; i < last; ++i) {
+    const auto& point = now.discretisation.point(i);
+    const Place arm = point.position - centre;
+    spread += point.volume * arm * arm.transpose();
+    slopes += point.volume * arm * now.committed[i].stress.transpose();
+  }
+  return mean + slopes.transpose() * spread.inverse() * (place - centre);
+}
+
+}  // namespace
 
 template <int dim>
 void Interface<dim>::forget(Point& point) {
@@ -60,77 +98,95 @@ void Interface<dim>::begin_stage(const StageBegin<dim>& now) {
   if (settings_.parts_ground && this->life.begin == now.stage) carry_stress_of_ground(now, born);
 }
 
+template <int dim>
+void Interface<dim>::begin_at_rest(const StageBegin<dim>& now) {
+  std::vector<std::size_t> there;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_[e].active) there.push_back(e);
+  carry_stress_of_points(now, there);
+}
+
 // In the plane the points lie at the nodes, so the stress vectors follow from the nodal forces that the ground on side a needs to
-// stay as it is: nothing moves. In space they are those of the elements beside the face, and what they leave out of balance is let
-// go along the stage.
+// stay as it is: nothing moves. In space they follow from the points of the elements beside the face, and the imbalance that is left
+// is let go along the stage.
 template <int dim>
 void Interface<dim>::carry_stress_of_ground(const StageBegin<dim>& now,
                                             const std::vector<std::size_t>& born) {
-  using Place = typename Cosserat<dim>::Place;
   if constexpr (dim == 2) {
-    std::map<int, double> area;
-    std::map<int, Place> water;  // pushes nodes: the forces of the ground are total ones
-    for (const std::size_t e : born) {
-      const Eigen::VectorXd values = now.nodal(elements_[e].entries);
-      for (const Point& point : elements_[e].points)
-        for (std::size_t a = 0; a < elements_[e].face.nodes_a.size(); ++a) {
-          const int node = elements_[e].face.nodes_a[a];
-          const double share = point.geometry.shape(static_cast<Eigen::Index>(a)) * point.geometry.area;
-          area[node] += share;
-          Place& pushed = water.try_emplace(node, Place::Zero()).first->second;
-          pushed +=
-              share * pressure_at(elements_[e], point, values) * point.geometry.axes.row(dim - 1).transpose();
-        }
-    }
-    const auto stress_at = [&](int node) -> std::optional<Place> {
-      if (settings_.single_nodes.contains(node)) return {};
-      Place force;
-      for (int i = 0; i < dim; ++i) {
-        const int entry = entry_of<dim>(node, static_cast<Dof>(i));
-        if (now.given[static_cast<std::size_t>(entry)] != 0) return {};
-        force(i) = -now.unbalanced(entry);
-      }
-      return Place((force + water.at(node)) / area.at(node));
-    };
-    for (const std::size_t e : born) {
-      Element& element = elements_[e];
-      const std::vector<int>& nodes = element.face.nodes_a;
-      std::vector<std::optional<Place>> stresses;
-      for (const int node : nodes) stresses.push_back(stress_at(node));
-      for (Point& point : element.points) {
-        Place stress = Place::Zero();
-        for (std::size_t a = 0; a < nodes.size(); ++a) {
-          const double share = point.geometry.shape(static_cast<Eigen::Index>(a));
-          if (share == 0.0) continue;
-          std::optional<Place> here = stresses[a];
-          // A node that is held, or a toe: the nearest node of the face that tells.
-          for (std::size_t other = nodes.size(); !here && other-- > 0;) here = stresses[other];
-          if (here) stress += share * *here;
-        }
-        point.committed.initial_traction = point.geometry.axes * stress;
-      }
-    }
+    carry_nodal_forces(now, born);
   } else {
-    for (const std::size_t e : born) {
-      Element& element = elements_[e];
-      typename Cosserat<dim>::Vector mean = Cosserat<dim>::Vector::Zero();
-      double volume = 0.0;
+    carry_stress_of_points(now, born);
+  }
+}
+
+template <int dim>
+void Interface<dim>::carry_nodal_forces(const StageBegin<dim>& now, const std::vector<std::size_t>& born) {
+  using Place = typename Cosserat<dim>::Place;
+  std::map<int, double> area;
+  std::map<int, Place> water;  // pushes nodes: the forces of the ground are total ones
+  for (const std::size_t e : born) {
+    const Eigen::VectorXd values = now.nodal(elements_[e].entries);
+    for (const Point& point : elements_[e].points)
+      for (std::size_t a = 0; a < elements_[e].face.nodes_a.size(); ++a) {
+        const int node = elements_[e].face.nodes_a[a];
+        const double share = point.geometry.shape(static_cast<Eigen::Index>(a)) * point.geometry.area;
+        area[node] += share;
+        Place& pushed = water.try_emplace(node, Place::Zero()).first->second;
+        pushed +=
+            share * pressure_at(elements_[e], point, values) * point.geometry.axes.row(dim - 1).transpose();
+      }
+  }
+  const auto stress_at = [&](int node) -> std::optional<Place> {
+    if (settings_.single_nodes.contains(node)) return {};
+    Place force;
+    for (int i = 0; i < dim; ++i) {
+      const int entry = entry_of<dim>(node, static_cast<Dof>(i));
+      if (now.given[static_cast<std::size_t>(entry)] != 0) return {};
+      force(i) = -now.unbalanced(entry);
+    }
+    return Place((force + water.at(node)) / area.at(node));
+  };
+  for (const std::size_t e : born) {
+    Element& element = elements_[e];
+    const std::vector<int>& nodes = element.face.nodes_a;
+    std::vector<std::optional<Place>> stresses;
+    for (const int node : nodes) stresses.push_back(stress_at(node));
+    for (Point& point : element.points) {
+      Place stress = Place::Zero();
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        const double share = point.geometry.shape(static_cast<Eigen::Index>(a));
+        if (share == 0.0) continue;
+        std::optional<Place> here = stresses[a];
+        // A node that is held, or a toe: the nearest node of the face that tells.
+        for (std::size_t other = nodes.size(); !here && other-- > 0;) here = stresses[other];
+        if (here) stress += share * *here;
+      }
+      point.committed.initial_traction = point.geometry.axes * stress;
+    }
+  }
+}
+
+template <int dim>
+void Interface<dim>::carry_stress_of_points(const StageBegin<dim>& now,
+                                            const std::vector<std::size_t>& born) {
+  using Place = typename Cosserat<dim>::Place;
+  for (const std::size_t e : born) {
+    Element& element = elements_[e];
+    for (Point& point : element.points) {
+      typename Cosserat<dim>::Vector sum = Cosserat<dim>::Vector::Zero();
+      double count = 0.0;
       for (const int neighbour : element.face.neighbours) {
-        const auto number = static_cast<std::size_t>(neighbour);
-        for (std::size_t i = now.discretisation.first_point(number);
-             i < now.discretisation.first_point(number + 1); ++i) {
-          mean += now.discretisation.point(i).volume * now.committed[i].stress;
-          volume += now.discretisation.point(i).volume;
-        }
+        const auto found = stress_at<dim>(now, static_cast<std::size_t>(neighbour), point.geometry.place);
+        if (!found) continue;
+        sum += *found;
+        count += 1.0;
       }
-      mean /= volume;
-      for (Point& point : element.points) {
-        Place stress = Place::Zero();
-        for (int i = 0; i < dim; ++i)
-          for (int j = 0; j < dim; ++j)
-            stress(i) += mean(Cosserat<dim>::stress_place(j, i)) * point.geometry.axes(dim - 1, j);
-        point.committed.initial_traction = point.geometry.axes * stress;
-      }
+      if (count == 0.0) continue;
+      Place stress = Place::Zero();
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          stress(i) += sum(Cosserat<dim>::stress_place(j, i)) / count * point.geometry.axes(dim - 1, j);
+      point.committed.initial_traction = point.geometry.axes * stress;
     }
   }
 }
@@ -145,5 +201,7 @@ template void Interface<2>::set_stage(int, const std::vector<char>&);
 template void Interface<3>::set_stage(int, const std::vector<char>&);
 template void Interface<2>::begin_stage(const StageBegin<2>&);
 template void Interface<3>::begin_stage(const StageBegin<3>&);
+template void Interface<2>::begin_at_rest(const StageBegin<2>&);
+template void Interface<3>::begin_at_rest(const StageBegin<3>&);
 
 }  // namespace polargrain::fem

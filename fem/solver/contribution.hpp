@@ -116,6 +116,9 @@ class Contribution {
   }
   /// The same at the beginning of the stage: elements that come are born at the nodal values of the moment.
   virtual void begin_stage(const StageBegin<dim>& now) { set_stage(now.stage, now.there); }
+  /// A run begins, and from no other run's end: for what begins with the stress of the ground beside it. Its committed state is
+  /// that of an evaluation without an increment; it is evaluated again behind this.
+  virtual void begin_at_rest(const StageBegin<dim>& now) { (void)now; }
   /// Whether an element has forces since set_stage or begin_stage.
   [[nodiscard]] virtual bool is_active(std::size_t element) const {
     (void)element;

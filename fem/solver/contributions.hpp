@@ -26,6 +26,9 @@ class Contributions {
   void begin_stage(const StageBegin<dim>& now) {
     for (const auto& contribution : all_) contribution->begin_stage(now);
   }
+  void begin_at_rest(const StageBegin<dim>& now) {
+    for (const auto& contribution : all_) contribution->begin_at_rest(now);
+  }
   [[nodiscard]] bool is_empty() const { return all_.empty(); }
   void prepare(const NodalStep& step);
   /// Overwrites the forces. @returns why one of them cannot, with its name; empty when all can

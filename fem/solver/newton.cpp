@@ -129,16 +129,10 @@ Attempt Newton<dim>::evaluate_initial_state(StepReport& report) {
       return {false, std::move(message)};
     }
   }
-  if (!contributions.is_empty()) {
-    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(state.displacement.size());
-    contributions.learn(discretisation, trial_);
-    if (std::string message = contribute(state.time, nothing); !message.empty()) {
-      materials.revert();
-      contributions.revert();
-      return {false, "the initial state is not usable: " + message};
-    }
-    contributions.commit();
-    state.contributed = contributed_.internal;
+  if (const std::string message = contribute_at_rest(trial_); !message.empty()) {
+    materials.revert();
+    contributions.revert();
+    return {false, "the initial state is not usable: " + message};
   }
   // The increments were zero, so the initial state itself is committed.
   materials.commit();

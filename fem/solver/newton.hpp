@@ -58,6 +58,8 @@ class Newton {
 
   /// Evaluates all materials with increments of zero and commits their answer as the initial state.
   [[nodiscard]] Attempt evaluate_initial_state(StepReport& report);
+  /// Behind that, where no other run was before: contributions begin with the stress of the ground beside them.
+  [[nodiscard]] Attempt begin_at_rest();
   /// Residual of the committed state against the loads of its own time; fixes the reference force.
   [[nodiscard]] Residual initial_residual();
   /// Holds back the imbalance of the committed state until steps release it (StepGoal::released).
@@ -158,8 +160,10 @@ class Newton {
   void evaluate(Iterate& iterate, StepReport& report);
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();
-  /// Lets the contributions of a stage come and go, from the state of the stage before.
-  void begin_contributions(int stage);
+  /// Lets the contributions of a stage come and go, from the state of the stage before. @param at_rest the run begins with it
+  void begin_contributions(int stage, bool at_rest);
+  /// Evaluates the contributions at the committed state and commits them. @returns why one of them cannot
+  [[nodiscard]] std::string contribute_at_rest(std::span<const Response<dim>> responses);
   /// Evaluates the contributions for a step from the committed state. @returns why one of them cannot
   [[nodiscard]] std::string contribute(double time, const Eigen::VectorXd& increment);
   void find_increments(const Eigen::VectorXd& displacement_increment);

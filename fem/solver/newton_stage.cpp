@@ -27,7 +27,7 @@ void Newton<dim>::enter_stage() {
 template <int dim>
 void Newton<dim>::begin_stage(int stage) {
   state.offsets = Constraints<dim>::new_offsets(problem, state, stage);
-  begin_contributions(stage);
+  begin_contributions(stage, false);
   state.stage = stage;
   enter_stage();
   if (problem.deformation == Deformation::large) {
@@ -46,28 +46,42 @@ void Newton<dim>::begin_stage(int stage) {
   if (options.reference_force == 0.0)
     state.reference_force = std::max(state.reference_force, loads.largest_force());
   state.next_step = 0.0;
-  if (!contributions.is_empty()) {
-    contributions.learn(discretisation, state.responses);
-    if (const std::string message = contribute(state.time, Eigen::VectorXd::Zero(state.displacement.size()));
-        !message.empty())
-      throw RunError(
-          fmt::format("stage '{}': {}", problem.stages.at(static_cast<std::size_t>(stage)), message));
-    contributions.commit();
-    state.contributed = contributed_.internal;
-  }
+  if (const std::string message = contribute_at_rest(state.responses); !message.empty())
+    throw RunError(
+        fmt::format("stage '{}': {}", problem.stages.at(static_cast<std::size_t>(stage)), message));
   withhold_imbalance();
 }
 
 template <int dim>
-void Newton<dim>::begin_contributions(int stage) {
+Attempt Newton<dim>::begin_at_rest() {
+  begin_contributions(state.stage, true);
+  const std::string message = contribute_at_rest(state.responses);
+  return {message.empty(), message.empty() ? "" : "the initial state is not usable: " + message};
+}
+
+template <int dim>
+std::string Newton<dim>::contribute_at_rest(std::span<const Response<dim>> responses) {
+  if (contributions.is_empty()) return {};
+  contributions.learn(discretisation, responses);
+  if (std::string message = contribute(state.time, Eigen::VectorXd::Zero(state.displacement.size()));
+      !message.empty())
+    return message;
+  contributions.commit();
+  state.contributed = contributed_.internal;
+  return {};
+}
+
+template <int dim>
+void Newton<dim>::begin_contributions(int stage, bool at_rest) {
   if (contributions.is_empty()) return;
   const Eigen::VectorXd unbalanced = loads.at(state.time) - committed_internal_forces();
   std::vector<char> given(static_cast<std::size_t>(unbalanced.size()), 0);
   for (std::size_t entry = 0; entry < given.size(); ++entry)
     given[entry] = constraints.is_free(entry) ? 0 : 1;
   const std::vector<char> there = elements_in_stage(problem, stage);
-  contributions.begin_stage(
-      {stage, there, state.displacement, unbalanced, given, discretisation, state.responses});
+  const StageBegin<dim> now{stage, there,          state.displacement, unbalanced,
+                            given, discretisation, state.responses};
+  at_rest ? contributions.begin_at_rest(now) : contributions.begin_stage(now);
 }
 
 template <int dim>
@@ -112,13 +126,17 @@ void Newton<dim>::count_supports_from_here() {
 
 template void Newton<2>::enter_stage();
 template void Newton<2>::begin_stage(int);
-template void Newton<2>::begin_contributions(int);
+template Attempt Newton<2>::begin_at_rest();
+template void Newton<2>::begin_contributions(int, bool);
+template std::string Newton<2>::contribute_at_rest(std::span<const Response<2>>);
 template void Newton<2>::save_stage(ArchiveWriter&) const;
 template void Newton<2>::restore_stage(ArchiveReader&);
 template void Newton<2>::count_supports_from_here();
 template void Newton<3>::enter_stage();
 template void Newton<3>::begin_stage(int);
-template void Newton<3>::begin_contributions(int);
+template Attempt Newton<3>::begin_at_rest();
+template void Newton<3>::begin_contributions(int, bool);
+template std::string Newton<3>::contribute_at_rest(std::span<const Response<3>>);
 template void Newton<3>::save_stage(ArchiveWriter&) const;
 template void Newton<3>::restore_stage(ArchiveReader&);
 template void Newton<3>::count_supports_from_here();

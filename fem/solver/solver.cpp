@@ -43,9 +43,11 @@ void Solver<dim>::Implementation::tell_cut(double tried, const std::string& reas
 }
 
 template <int dim>
-std::optional<Residual> Solver<dim>::Implementation::start(StepReport& report) {
+std::optional<Residual> Solver<dim>::Implementation::start(StepReport& report, bool at_rest) {
   report.time = state.time;
-  if (const Attempt begun = evaluate_initial_state(report); !begun.converged) {
+  Attempt begun = evaluate_initial_state(report);
+  if (begun.converged && at_rest) begun = begin_at_rest();
+  if (!begun.converged) {
     report.message = begun.reason;
     return {};
   }
@@ -210,7 +212,7 @@ StepReport Solver<dim>::equilibrate() {
   Implementation& self = *implementation_;
   self.materials.expect({.once = false});
   StepReport report;
-  const std::optional<Residual> residual = self.start(report);
+  const std::optional<Residual> residual = self.start(report, true);
   if (!residual) return report;
   report.converged = self.is_balanced(*residual);
   return report.converged ? report : self.let_go(std::move(report), self.most_of_start());

@@ -144,7 +144,7 @@ StepReport Solver<dim>::begin_explicit() {
   self.refuse_explicit();
   self.materials.expect({.once = true});
   StepReport report;
-  if (!self.start(report)) return report;
+  if (!self.start(report, true)) return report;
   self.withhold_imbalance();
   self.materials.settle();
   report.converged = true;
@@ -156,7 +156,7 @@ StepReport Solver<dim>::begin_automatic(int most_iterations, const ExplicitOptio
   Implementation& self = *implementation_;
   self.materials.expect({.once = false});
   StepReport report;
-  const std::optional<Residual> residual = self.start(report);
+  const std::optional<Residual> residual = self.start(report, true);
   if (!residual) return report;
   // Of the tangents at rest: tangents of later states may be far softer than the next one.
   self.state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
@@ -284,7 +284,7 @@ StepReport Solver<dim>::begin_real_time(const ExplicitOptions& options) {
   SolverState<dim>& state = self.state;
   self.materials.expect({.once = false});
   StepReport report;
-  const std::optional<Residual> residual = self.start(report);
+  const std::optional<Residual> residual = self.start(report, true);
   if (!residual) return report;
   const std::vector<Response<dim>> at_rest = state.responses;
   report.converged = self.is_balanced(*residual);

@@ -19,6 +19,7 @@ struct Solver<dim>::Implementation : Newton<dim> {
   using Newton<dim>::best_residual;
   using Newton<dim>::constraints;
   using Newton<dim>::evaluate_initial_state;
+  using Newton<dim>::begin_at_rest;
   using Newton<dim>::excess;
   using Newton<dim>::initial_residual;
   using Newton<dim>::observer;
@@ -85,9 +86,9 @@ struct Solver<dim>::Implementation : Newton<dim> {
   /// A way was cut: counted and told. @param tried, next times, as Observer::cut has them
   void tell_cut(double tried, const std::string& reason, double next, StepReport& report);
 
-  /// Evaluates the initial state. @returns its residual, which is in the report too; nothing, with a message there, where a
-  /// material cannot begin
-  std::optional<Residual> start(StepReport& report);
+  /// Evaluates the initial state. @param at_rest no other run was before (Newton::begin_at_rest)
+  /// @returns its residual, which is in the report too; nothing, with a message there, where a material cannot begin
+  std::optional<Residual> start(StepReport& report, bool at_rest);
 
   /// The outcome of a jump.
   struct Passing {

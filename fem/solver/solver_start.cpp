@@ -180,7 +180,7 @@ StartReport Solver<dim>::start_from(ArchiveReader& archive, const std::vector<st
   self.move_to_committed();
   self.materials.expect({.once = false});
   const Eigen::VectorXd before = self.state.displacement;
-  const std::optional<Residual> residual = self.start(report.step);
+  const std::optional<Residual> residual = self.start(report.step, false);
   if (!residual) return report;
   report.imbalance = residual->force;
   report.step.converged = self.excess(*residual) <= 1.0;
