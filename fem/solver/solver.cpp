@@ -31,6 +31,14 @@ double volumetric(const typename Cosserat<dim>::Vector& strain) {
   return sum;
 }
 
+/// The largest change of a strain at any point.
+template <class Strain>
+double largest_change(const std::vector<Strain>& before, const std::vector<Strain>& now) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
+  return largest;
+}
+
 }  // namespace
 
 template <int dim>
@@ -113,6 +121,7 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
   // Growth is slower than cutting, or a step that is just too long would be tried every other time.
   Substeps way(1.5, state.next_step);
   JumpWatch jumps;
+  const std::vector<typename Cosserat<dim>::Vector> strain_before = state.strain;
   const auto given_up = [&](std::string why) {
     report.message = std::move(why);
     report.time = state.time;
@@ -154,6 +163,23 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
       return given_up(fmt::format("the step was cut {} times in a row and still fails: {}{}",
                                   way.cuts_in_a_row(), result.reason, jumps.statement()));
     way.failed(result.step_factor);
+    // Near the load that a body can bear, ever shorter parts go and fail in turn, and each that goes strains it on. At the very end
+    // of a way back to zero parts may be as short, since fields are balanced against what is left of them.
+    constexpr double kLeastShare = 1e-5;
+    constexpr double kNearlyThere = 1e-3;
+    constexpr int kManyCuts = 10;
+    if (report.cuts > kManyCuts && this->contributions.longest_step() == HUGE_VAL &&
+        ((way.next() < kLeastShare && 1.0 - way.done() > kNearlyThere) ||
+         largest_change(strain_before, state.strain) > options.largest_strain)) {
+      last_trouble.jumps = false;
+      last_trouble.no_part_helps = true;
+      state.next_step = 0.0;
+      return given_up(fmt::format(
+          "no balance beyond time {:.6g}, {:.4g} % of the way of this step: even {:.0e} of it fails ({}). Where a load grows, "
+          "the body bears no more than what it has there: move a boundary in the place of the load, or let 'measure' or "
+          "'arc_length' control the steps",
+          state.time, 100.0 * way.done(), way.next(), result.reason));
+    }
     state.next_step = way.next();
     const auto time_of = [&](const StepGoal& of) { return of.controls_time() ? of.time : state.time; };
     tell_cut(time_of(goal), result.reason, time_of(goal_at(way.end(), way.share())), report);

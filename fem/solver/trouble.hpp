@@ -26,7 +26,8 @@ struct Trouble {
   double least_force_residual = 0.0;  ///< of all iterations of the attempt, relative; 0: no iteration
   double first_force_residual = 0.0;  ///< after the predictor
   double last_force_residual = 0.0;
-  double force_noise = 0.0;  ///< the residual of the noise of the stresses
+  double force_noise = 0.0;    ///< the residual of the noise of the stresses
+  bool no_part_helps = false;  ///< even the least part of the step fails, as at a limit load
   bool jumps = false;  ///< the attempts since the last substep show a jump of the stresses (jump_watch.hpp)
 
   [[nodiscard]] bool is_empty() const { return nodes.empty() && points.empty(); }

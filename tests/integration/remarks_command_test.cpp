@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/csv_table.hpp"
 #include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
@@ -140,6 +141,52 @@ TEST(Remarks, StepZeroHasAnAdviceOfItsOwn) {
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.errors.find("step 0 brings the stress at time zero"), std::string::npos) << run.errors;
   EXPECT_EQ(run.errors.find("worth trying below 'steps'"), std::string::npos) << run.errors;
+}
+
+// A footing on clay bears 5.14 c = 51.4 kPa, somewhat more on a coarse mesh; 80 kPa are asked for. Ever shorter parts of a step went
+// and failed in turn, for 10,000 times, and the body sank by kilometres.
+TEST(Advice, ALoadThatTheBodyCannotBearEndsTheRun) {
+  for (const bool in_space : {false, true}) {
+    const Scratch scratch("limit_load");
+    const std::string foot = in_space ? "top_patch" : "foot";
+    const std::string mesh =
+        in_space ? "box: {size: [2 m, 0.25 m, 1 m], elements: [8, 1, 4], patch: [0.5 m, 0.25 m, 1 m]}"
+                 : "rectangle: {size: [2 m, 1 m], elements: [8, 4], lines: {foot: [0, 1 m, 0.5 m, 1 m]}}";
+    write(
+        scratch.path() / "case.yaml",
+        "title: A footing beyond its limit\n"
+        "continuum: cauchy\n"
+        "mesh: {" +
+            mesh +
+            "}\n"
+            "materials: {clay: {model: elastoplastic, E: 10 MPa, nu: 0.3, friction_angle: 0 deg, dilatancy_angle: 0 deg, "
+            "cohesion: 10 kPa" +
+            (in_space ? ", match: plane_strain" : "") +
+            "}}\n"
+            "regions: {" +
+            (in_space ? "patch: clay, rest: clay" : "all: clay") +
+            "}\n"
+            "boundary:\n  - {on: bottom, fix: [u1, u2" +
+            (in_space ? ", u3" : "") +
+            "]}\n"
+            "  - {on: [left, right], fix: [u1]}\n" +
+            (in_space ? "  - {on: [front, back], fix: [u2]}\n" : "") + "  - {on: " + foot +
+            ", pressure: [[0, 0], [1, 80 kPa]]}\n"
+            "steps: {count: 10, tolerance: 1e-5}\n"
+            "monitors: {sunk: {on: " +
+            foot + ", displacement: " + (in_space ? "u3" : "u2") + "}}\n");
+    const Outcome run = run_in(scratch.path(), kProgram + " run case.yaml -o results");
+    EXPECT_EQ(run.status, 1);
+    EXPECT_NE(run.errors.find("the body bears no more than what it has there"), std::string::npos)
+        << run.errors;
+    EXPECT_EQ(run.errors.find("worth trying", run.errors.find("did not converge")), std::string::npos)
+        << run.errors;
+    const CsvTable history(scratch.path() / "results/history.csv");
+    const double load = 80.0 * history.numbers("time").back();
+    EXPECT_GT(load, 51.0);
+    EXPECT_LT(load, 56.0);
+    EXPECT_GT(history.numbers("sunk").back(), -2.0);  // strained by 1 in elements of 0.25 m
+  }
 }
 
 }  // namespace
