@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "fem/solver/loads.hpp"
@@ -96,11 +97,32 @@ void QuietBoundary<dim>::join(const Constraints<dim>& constraints) {
 }
 
 template <int dim>
-std::vector<std::size_t> QuietBoundary<dim>::entries() const {
+std::vector<std::size_t> QuietBoundary<dim>::entries(const Problem<dim>& problem) const {
+  std::set<std::size_t> held;
+  for (const PrescribedDof<dim>& item : problem.prescribed) {
+    if (std::ranges::find(problem.quiet, item.on) != problem.quiet.end()) continue;
+    for (const int node : problem.mesh.nodes_on(item.on))
+      held.insert(entry_of<dim>(static_cast<std::size_t>(node), item.dof));
+  }
   std::vector<std::size_t> all;
   for (const auto& [node, dashpot] : dashpots_)
-    for (int i = 0; i < dim; ++i) all.push_back(static_cast<std::size_t>(entry_of<dim>(node) + i));
+    for (std::size_t i = 0; i < dim; ++i)
+      if (const std::size_t entry = entry_of<dim>(static_cast<std::size_t>(node)) + i; !held.contains(entry))
+        all.push_back(entry);
   return all;
+}
+
+template <int dim>
+void QuietBoundary<dim>::add_forces(const Constraints<dim>& constraints, const Eigen::VectorXd& velocity,
+                                    Eigen::VectorXd& forces) const {
+  for (const auto& [node, dashpot] : dashpots_) {
+    typename Cosserat<dim>::Place speed = Cosserat<dim>::Place::Zero();
+    const auto first = static_cast<std::size_t>(entry_of<dim>(node));
+    for (std::size_t i = 0; i < dim; ++i)
+      if (const int equation = constraints.equation(first + i); equation >= 0)
+        speed(static_cast<Eigen::Index>(i)) = velocity(equation);
+    forces.template segment<dim>(static_cast<Eigen::Index>(first)) -= dashpot * speed;
+  }
 }
 
 template <int dim>

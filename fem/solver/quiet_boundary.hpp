@@ -36,8 +36,11 @@ class QuietBoundary {
   /// Joins the dashpots of nodes that are tied to each other: they move by the same equations.
   void join(const Constraints<dim>& constraints);
 
-  /// Entries of nodal vectors: displacements of its nodes.
-  [[nodiscard]] std::vector<std::size_t> entries() const;
+  /// Entries of nodal vectors: displacements of its nodes, but those that supports of other places hold or move.
+  [[nodiscard]] std::vector<std::size_t> entries(const Problem<dim>& problem) const;
+  /// Adds the nodal forces of the dashpots on the body. @param velocity in the order of the equations
+  void add_forces(const Constraints<dim>& constraints, const Eigen::VectorXd& velocity,
+                  Eigen::VectorXd& forces) const;
 
   /// The velocities half a step on, at the nodes of the boundary; other nodes keep their velocities.
   /// @param velocity before, and @param next the same after a step without dashpots, in the order of the equations

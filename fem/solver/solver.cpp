@@ -386,6 +386,8 @@ template <int dim>
 typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::string>& on) const {
   const Eigen::VectorXd supplied =
       state().reactions.size() > 0 ? state().reactions : internal_forces() - external_forces();
+  // A quiet boundary pushes on nodes that are free; elsewhere these have no reaction.
+  const Eigen::VectorXd& quiet = state().reactions.size() > 0 ? state().reactions : state().held;
   typename Cosserat<dim>::NodeValues sum = Cosserat<dim>::NodeValues::Zero();
   std::vector<char> is_on(problem().mesh.nodes.size(), 0);
   for (const int node : problem().mesh.nodes_on(on)) {
@@ -394,6 +396,8 @@ typename Cosserat<dim>::NodeValues Solver<dim>::reaction(const std::vector<std::
       const int entry = entry_of<dim>(node, dof);
       if (!implementation_->constraints.is_free(static_cast<std::size_t>(entry)))
         sum(place_of<dim>(dof)) += supplied(entry);
+      else if (quiet.size() > 0)
+        sum(place_of<dim>(dof)) += quiet(entry);
     }
   }
   const auto mechanics = static_cast<std::size_t>(implementation_->constraints.places().mechanics());

@@ -59,8 +59,9 @@ struct SolverOptions {
 
 /// How explicit steps are taken (docs/theory/explicit.md).
 struct ExplicitOptions {
-  double safety = 0.6;            ///< a step over the critical one; stiffness may grow by 1 / safety^2
-  double rotation_damping = 1.0;  ///< share of the speed of a micro-rotation that a step takes away
+  double safety = 0.6;  ///< a step over the critical one; stiffness may grow by 1 / safety^2
+  double rotation_damping =
+      1.0;  ///< share of the speed of a micro-rotation that a step takes away; not in real time
   /// Steps over which nodes at rest come to their speed. 0: as many as a wave needs through the mesh there and back; such a
   /// ramp hardly excites the slowest wave.
   int ramp = 0;
@@ -69,7 +70,7 @@ struct ExplicitOptions {
   /// Force residual that the nodes come to at the end of the row, their boundaries held; 0: they go on as they are.
   double rest = 0.0;
   int most_rest_steps = 2000;  ///< for that
-  double mass_damping = 0.0;   ///< 1/s, in real time: forces of -mass_damping * mass * velocity
+  double mass_damping = 0.0;  ///< 1/s, in real time: forces of -mass_damping * mass * velocity, moments alike
 };
 
 /// Energies of steps in real time, J (in the plane per m of thickness), since their begin.
@@ -77,7 +78,7 @@ struct Energies {
   double kinetic = 0.0;
   double internal = 0.0;  ///< work of the stresses
   double external = 0.0;  ///< work of loads and supports
-  double damped = 0.0;    ///< by ExplicitOptions, rotation_damping included
+  double damped = 0.0;    ///< by ExplicitOptions::mass_damping, and of micro-rotations
   double absorbed = 0.0;  ///< by quiet boundaries
 
   /// External energy that the others do not account for, over the largest of all. 0 but for rounding in small deformation.
@@ -182,6 +183,7 @@ struct SolverState {
   // Of steps in real time.
   double seconds = 0.0;          ///< that a step may have; 0: steps have no real time
   Eigen::VectorXd held;          ///< nodal forces by which quiet boundaries held the start
+  Eigen::VectorXd given_mass;    ///< nodal, of displacements that the case moves; zero at all others
   std::vector<double> dashpots;  ///< QuietBoundary::values
   Energies energies;             ///< but the kinetic one; works count from their values at the begin
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/error.hpp"
@@ -19,7 +20,7 @@ template <int dim>
 class ExplicitRow {
  public:
   /// @param solver, options, quiet, report must outlive this object @param quiet null: no quiet boundary
-  /// @param seconds of a step; 1 where steps have no real time and elements the shape for which the masses were chosen
+  /// @param seconds of a step; without real time 1, where elements have the shape for which the masses were chosen
   ExplicitRow(Newton<dim>& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet,
               double seconds, StepReport& report)
       : solver_(solver),
@@ -27,7 +28,8 @@ class ExplicitRow {
         quiet_(quiet),
         seconds_(seconds),
         report_(report),
-        damping_(damping_of_steps(solver.problem, solver.constraints, options, seconds)),
+        damping_(damping_of_steps(solver.problem, solver.constraints, options,
+                                  solver.state.seconds > 0.0 ? std::optional(seconds) : std::nullopt)),
         forces_(solver.constraints.restrict_to_free(solver.unbalanced())) {}
 
   /// One step. @returns whether it could be taken; the report says why not
@@ -78,6 +80,9 @@ class ExplicitRow {
     solver_.state.velocity.setZero();
     return true;
   }
+
+  /// At the end of the last step.
+  [[nodiscard]] Eigen::VectorXd velocity() const { return 0.5 * (solver_.state.velocity + next().velocity); }
 
   /// With the velocities of half a step ago.
   [[nodiscard]] double kinetic_energy() const {
@@ -256,7 +261,9 @@ StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitO
   RowOfForces<dim> at_rest(self.constraints, 1, {});
   at_rest.add(self.last_supplied());
   const RowOfForces<dim>& last = comes_to_rest ? at_rest : forces;
-  reached.reaction_difference = last.difference(external_forces());
+  // Rest ends the waves. Points that yielded and unload as they end keep what that has changed.
+  reached.reaction_difference =
+      std::max(forces.difference(external_forces()), last.difference(external_forces()));
   reached.nodes_unbalanced = mean.force;
   report.force_residual = mean.force;
   report.moment_residual = mean.moment;
@@ -272,7 +279,7 @@ int Solver<dim>::steps_of_wave() const {
 template <int dim>
 void Solver<dim>::Implementation::release_quiet_boundary() {
   quiet.emplace(state.dashpots);
-  constraints.release(quiet->entries());
+  constraints.release(quiet->entries(this->problem));
   quiet->join(constraints);
   this->loads.hold(state.held);
 }
@@ -296,11 +303,15 @@ StepReport Solver<dim>::begin_real_time(const ExplicitOptions& options) {
   state.dashpots = quiet.values();
   state.held = Eigen::VectorXd::Zero(state.displacement.size());
   const Eigen::VectorXd supplied = internal_forces() - external_forces();
-  for (const std::size_t entry : quiet.entries())
+  for (const std::size_t entry : quiet.entries(self.problem))
     if (!self.constraints.is_free(entry))
       state.held(static_cast<Eigen::Index>(entry)) = supplied(static_cast<Eigen::Index>(entry));
   self.release_quiet_boundary();
   state.mass = self.constraints.restrict_to_free(true_masses.masses);
+  state.given_mass = Eigen::VectorXd::Zero(state.displacement.size());
+  for (Eigen::Index entry = 0; entry < self.constraints.places().mechanics(); ++entry)
+    if (!is_rotation(dof_at<dim>(entry)) && !self.constraints.is_free(static_cast<std::size_t>(entry)))
+      state.given_mass(entry) = true_masses.masses(entry);
   state.energies = {.internal = state.internal_work, .external = state.external_work};
   return report;
 }
@@ -331,7 +342,28 @@ StepReport Solver<dim>::advance_real_time(double time, const ExplicitOptions& op
                         fmt::format("step {} of {}, at {:.6g} s", at, pace.steps(), pace.time(at)));
   }
   report.energies = row.energies();
-  return self.end_row(std::move(report), forces.reactions());
+  Eigen::VectorXd reactions = forces.reactions() + state.held;
+  self.quiet->add_forces(self.constraints, row.velocity(), reactions);
+  self.add_inertia_of_given(seconds, reactions, report.energies);
+  return self.end_row(std::move(report), reactions);
+}
+
+// Differences to the back, of second order: behind its table a motion may go on otherwise.
+template <int dim>
+void Solver<dim>::Implementation::add_inertia_of_given(double seconds, Eigen::VectorXd& reactions,
+                                                       Energies& energies) const {
+  std::array<Eigen::VectorXd, 4> given;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    given[k] = state.displacement;
+    constraints.apply(state.time - static_cast<double>(k) * seconds, given[k]);
+  }
+  const Eigen::VectorXd velocity = (1.5 * given[0] - 2.0 * given[1] + 0.5 * given[2]) / seconds;
+  const Eigen::VectorXd acceleration =
+      (2.0 * given[0] - 5.0 * given[1] + 4.0 * given[2] - given[3]) / (seconds * seconds);
+  reactions += state.given_mass.cwiseProduct(acceleration);
+  const double kinetic = 0.5 * velocity.cwiseAbs2().dot(state.given_mass);
+  energies.kinetic += kinetic;
+  energies.external += kinetic;
 }
 
 double Energies::error() const {
@@ -342,6 +374,8 @@ double Energies::error() const {
 
 template void Solver<2>::Implementation::release_quiet_boundary();
 template void Solver<3>::Implementation::release_quiet_boundary();
+template void Solver<2>::Implementation::add_inertia_of_given(double, Eigen::VectorXd&, Energies&) const;
+template void Solver<3>::Implementation::add_inertia_of_given(double, Eigen::VectorXd&, Energies&) const;
 template StepReport Solver<2>::begin_real_time(const ExplicitOptions&);
 template StepReport Solver<2>::advance_real_time(double, const ExplicitOptions&);
 template StepReport Solver<3>::begin_real_time(const ExplicitOptions&);

@@ -78,6 +78,9 @@ struct Solver<dim>::Implementation : Newton<dim> {
   void tell_quarters(int step, int steps, const Residual& residual) const;
   /// Behind a row of `steps`: how much of a ramp of so many steps is behind. @param comes_to_rest a new ramp follows
   void count_ramp(int steps, int ramp, bool comes_to_rest);
+  /// In real time nodes that the case moves have mass too: adds its inertia to the reactions and its energy to what is put in and to
+  /// the kinetic one. @param seconds of the last steps
+  void add_inertia_of_given(double seconds, Eigen::VectorXd& reactions, Energies& energies) const;
   /// The end of a row of explicit steps: boxes are read out, and the report says that it was reached.
   StepReport end_row(StepReport report, const Eigen::VectorXd& reactions);
   /// A row that could not go on, for the reason in the report. @param where the step of it

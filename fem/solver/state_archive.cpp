@@ -38,6 +38,7 @@ void write_state(ArchiveWriter& archive, const SolverState<dim>& state) {
                                                energies.damped, energies.absorbed};
   archive.write("seconds_and_energies", std::span<const double>(dynamics));
   archive.write("held", values_of(state.held));
+  archive.write("given_mass", values_of(state.given_mass));
   archive.write("dashpots", std::span<const double>(state.dashpots));
   std::vector<double> strain;
   for (const typename Cosserat<dim>::Vector& point : state.strain)
@@ -72,6 +73,7 @@ SolverState<dim> read_state(ArchiveReader& archive, const FieldPlaces<dim>& plac
   state.energies = {
       .internal = dynamics[1], .external = dynamics[2], .damped = dynamics[3], .absorbed = dynamics[4]};
   state.held = vector_of(archive.doubles("held"));
+  state.given_mass = vector_of(archive.doubles("given_mass"));
   state.dashpots = archive.doubles("dashpots");
   const std::vector<double> strain = read_lists(archive, "strain", points, Cosserat<dim>::components);
   state.strain.resize(points);
