@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstdlib>
 #include <functional>
+#include <set>
 
 #include "common/csv_table.hpp"
 #include "coupler/case/data_files.hpp"
@@ -63,10 +66,39 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
   return true;
 }
 
+/// Refuses a line of names that is a row of numbers, or that names another unit or quantity.
+void check_names_of_motion(const CsvTable& table) {
+  static constexpr const char* kExpected =
+      "expected two columns with their names in the first line: time (s) and acceleration (m/s2)";
+  static const std::array<std::set<std::string>, 2> kOthers{
+      std::set<std::string>{"ms", "min", "h", "frequency", "hz", "period"},
+      std::set<std::string>{"g", "mg", "gal", "gals", "cm", "mm", "ft", "in", "velocity", "vel", "speed",
+                            "displacement", "disp"}};
+  if (table.names().size() != 2) table.fail(table.line_of_names(), kExpected);
+  for (std::size_t column = 0; column < 2; ++column) {
+    const std::string& name = table.names()[column];
+    char* end = nullptr;
+    static_cast<void>(std::strtod(name.c_str(), &end));
+    if (end != name.c_str() && *end == '\0')
+      table.fail(table.line_of_names(), fmt::format("'{}' is a number; {}", name, kExpected));
+    std::string word;
+    for (const char letter : name + " ") {
+      if (std::isalpha(static_cast<unsigned char>(letter)) != 0) {
+        word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+        continue;
+      }
+      if (kOthers[column].contains(word))
+        table.fail(table.line_of_names(),
+                   fmt::format("'{}' is {} ({}); {}", name,
+                               column == 0 ? "no time in s" : "no acceleration in m/s2", word, kExpected));
+      word.clear();
+    }
+  }
+}
+
 /// A table of time (s) and acceleration (m/s2) in a CSV file of two columns.
 fem::TimeTable accelerations_of(const CsvTable& table) {
-  if (table.names().size() != 2)
-    table.fail(table.line_of_names(), "expected two columns: time (s) and acceleration (m/s2)");
+  check_names_of_motion(table);
   std::vector<fem::TimeTable::Point> points;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     points.push_back({table.number(row, 0), table.number(row, 1)});

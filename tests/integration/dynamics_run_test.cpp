@@ -228,7 +228,17 @@ TEST_F(DynamicsRun, MistakesAreFaults) {
   expect_in(errors_of(dense, "  - {on: left, accelerate: {u1: nowhere.csv}}\n", real),
             "there is no file nowhere.csv");
   write(scratch_.path() / "push.csv", "time,acceleration\n0,0\n0,1\n");
-  expect_in(errors_of(dense, "  - {on: left, accelerate: {u1: push.csv}}\n", real), "the times must rise");
+  const std::string pushed = "  - {on: left, accelerate: {u1: push.csv}}\n";
+  expect_in(errors_of(dense, pushed, real), "the times must rise");
+  for (const auto& [names, part] : std::vector<std::pair<std::string, std::string>>{
+           {"0,1", "'0' is a number"},
+           {"time (s),acceleration (g)", "'acceleration (g)' is no acceleration in m/s2 (g)"},
+           {"time,velocity", "no acceleration in m/s2 (velocity)"},
+           {"t [ms],a [m/s2]", "'t [ms]' is no time in s (ms)"}}) {
+    write(scratch_.path() / "push.csv", names + "\n1,1\n2,1\n");
+    expect_in(errors_of(dense, pushed, real), part);
+  }
+  expect_in(errors_of(dense, held, real + ", mass_damping: 5 %"), "not a damping ratio");
 }
 
 }  // namespace

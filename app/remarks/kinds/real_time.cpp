@@ -81,6 +81,22 @@ void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
          place.fault(fmt::format("boundary: the motion of '{}' lasts {:.4g} s, and the run ends at {:.4g} s",
                                  place.text, last, *end)),
          fmt::format("steps: duration: {:.4g} s; or check the unit of the file's times: s", last)});
+  // Mean acceleration of each interval; where it ends the base keeps its speed.
+  double speed = 0.0;
+  double most = 0.0;
+  for (std::size_t row = 1; row < table.rows(); ++row) {
+    speed += 0.5 * (table.number(row, 1) + table.number(row - 1, 1)) *
+             (table.number(row, 0) - table.number(row - 1, 0));
+    most = std::max(most, std::abs(speed));
+  }
+  if (last < *end * (1.0 - kLostMotion) && std::abs(speed) > kLostMotion * most)
+    remarks.push_back(
+        {Rank::doubtful, 2.0,
+         place.fault(
+             fmt::format("boundary: the motion of '{}' ends at {:.4g} s with {:.3g} mm/s, and the base "
+                         "keeps that speed up to {:.4g} s",
+                         place.text, last, 1e3 * speed, *end)),
+         "let the accelerations of the file add up to no speed (a baseline correction), or end the run there"});
   if (largest > kMostAcceleration)
     remarks.push_back(
         {Rank::wrong, largest / kMostAcceleration,
