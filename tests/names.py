@@ -41,7 +41,8 @@ def hidden_name(declaration):
         return found[1]
     if found := re.match(r"(?!using)[^=(]*[ &*](\w+)\((.*)\)(?: noexcept)?$", plain):
         types = re.sub(r"<[^<>]*>", "", re.sub(r"<[^<>]*>", "", found[2]))
-        kinds = [re.sub(r"\s*\w+$", "", kind.split("=")[0].strip()) for kind in types.split(",")]
+        # Without namespaces: a type may be written with and without.
+        kinds = [re.sub(r"\s*\w+$|\w+::", "", kind.split("=")[0].strip()) for kind in types.split(",")]
         return f"{found[1]}({', '.join(kinds)})" if not plain.startswith("TEST") else None
     return None
 

@@ -71,7 +71,8 @@ Body body_of(const fem::Mesh<dim>& mesh) {
     least = least.cwiseMin(node);
     largest = largest.cwiseMax(node);
   }
-  Body body{least.template head<2>(), largest.template head<2>(), {}, 0.0, {}};
+  Body body{least.template head<2>(), largest.template head<2>(), {}, 0.0, {}, least(dim - 1),
+            largest(dim - 1)};
   for (int i = 0; i < dim; ++i) body.sides.push_back(largest(i) - least(i));
   const auto side_of = [](double size) { return dim == 2 ? std::sqrt(size) : std::cbrt(size); };
   double sum = 0.0;

@@ -17,6 +17,8 @@ struct Body {
   std::vector<double> elements;    ///< square root of the area of each, cube root of the volume in space
   double mean_element = 0.0;       ///< side of an element of the mean area or volume, m
   std::vector<double> sides;       ///< of the box around it, along each axis
+  double bottom = 0.0;             ///< its lowest and highest point along the last axis
+  double top = 0.0;
 
   [[nodiscard]] Eigen::Vector2d size() const { return largest - least; }
   [[nodiscard]] double smaller_side() const { return *std::ranges::min_element(sides); }

@@ -27,10 +27,10 @@ struct Kind {
 /// The kinds that look at loads and stresses at time zero, one by one.
 constexpr Kind kAtTimeZero[] = {
     {loads_at_start, Bodies::plane, true}, {loads_at_start_in_space, Bodies::space, true},
-    {weight_in_boxes, Bodies::plane},      {load_on_held, Bodies::plane},
-    {plain_loads, Bodies::plane},          {tension, Bodies::plane},
-    {ground_stress, Bodies::plane},        {weight, Bodies::both},
-    {free_sides, Bodies::plane},           {stiffness_of_laws, Bodies::plane}};
+    {weight_in_boxes, Bodies::plane},      {load_on_held, Bodies::both},
+    {plain_loads, Bodies::both},           {tension, Bodies::plane},
+    {ground_stress, Bodies::both},         {weight, Bodies::both},
+    {free_sides, Bodies::plane},           {stiffness_of_laws, Bodies::both}};
 
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
 constexpr Kind kBalance[] = {{balance_at_start, Bodies::plane, true}};
@@ -52,13 +52,13 @@ constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {tolerances, Bodies::plane},
                                   {softening_cauchy, Bodies::both},
                                   {strength_of_laws, Bodies::both},
-                                  {monitors, Bodies::plane},
-                                  {measures, Bodies::plane},
+                                  {monitors, Bodies::both},
+                                  {measures, Bodies::both},
                                   {formulas, Bodies::plane},
                                   {output, Bodies::both},
                                   {cost, Bodies::both},
                                   {moduli, Bodies::both},
-                                  {node_forces, Bodies::plane},
+                                  {node_forces, Bodies::both},
                                   {weight_at_once, Bodies::plane, true},
                                   {pulled_apart, Bodies::plane},
                                   {carried_along, Bodies::plane},
@@ -68,11 +68,15 @@ constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {places_of_monitors, Bodies::plane},
                                   {ends_of_profiles, Bodies::both},
                                   {structures, Bodies::plane},
-                                  {weight_of_parts, Bodies::plane},
+                                  {weight_of_parts, Bodies::both},
                                   {loads_of_stages, Bodies::both},
                                   {densities, Bodies::both},
                                   {motions, Bodies::both},
                                   {pore_water, Bodies::both},
+                                  {drains_dug_away, Bodies::both},
+                                  {loads_behind_walls, Bodies::both},
+                                  {polygons_of_cylinders, Bodies::space},
+                                  {loads_twice, Bodies::both},
                                   {end_of_run_before, Bodies::both}};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {

@@ -8,24 +8,37 @@
 
 namespace polargrain::app {
 
+namespace {
+
+/// Without the supports and loads that begin later; nothing where there are no stages.
+template <int dim>
+std::optional<fem::Problem<dim>> first_stage_of(const fem::Problem<dim>& problem) {
+  if (problem.stages.size() < 2) return {};
+  fem::Problem<dim> first = problem;
+  const auto comes_later = [](const auto& item) { return item.life.begin > 0; };
+  std::erase_if(first.prescribed, comes_later);
+  std::erase_if(first.boundary_loads, comes_later);
+  std::erase_if(first.node_loads, comes_later);
+  std::erase_if(first.body_loads, comes_later);
+  return first;
+}
+
+}  // namespace
+
 Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings)
     : case_(the_case),
       document_(document),
       body_(the_case.with_problem([](const auto& problem) { return body_of(problem.mesh); })) {
-  if (case_.problem.stages.size() > 1) {
-    at_start_ = case_.problem;
-    const auto comes_later = [](const auto& item) { return item.life.begin > 0; };
-    std::erase_if(at_start_->prescribed, comes_later);
-    std::erase_if(at_start_->boundary_loads, comes_later);
-    std::erase_if(at_start_->node_loads, comes_later);
-    std::erase_if(at_start_->body_loads, comes_later);
-  }
+  at_start_ = first_stage_of(case_.problem);
+  if (case_.space) space_at_start_ = first_stage_of(*case_.space);
   region_of_element_.resize(body_.elements.size());
   for (const auto& [name, material] : case_.regions) {
     SceneRegion region{name, material};
     region.cell = case_.materials.at(material)->grains();
-    const auto life = case_.problem.lifetimes.find(name);
-    region.comes_later = life != case_.problem.lifetimes.end() && life->second.begin > 0;
+    region.comes_later = with_problem([&](const auto& problem) {
+      const auto life = problem.lifetimes.find(name);
+      return life != problem.lifetimes.end() && life->second.begin > 0;
+    });
     if (const auto found = packings.find(material); found != packings.end()) region.packing = &found->second;
     region.elements = with_problem([&](const auto& problem) { return problem.mesh.regions.at(name); });
     for (const int element : region.elements)

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/remarks/body.hpp"
@@ -39,7 +40,8 @@ class Scene {
   /// Calls visit(problem) with the problem of the plane or of space.
   template <class Visit>
   decltype(auto) with_problem(Visit visit) const {
-    return case_.space ? visit(*case_.space) : visit(problem());
+    return case_.space ? visit(space_at_start_ ? *space_at_start_ : std::as_const(*case_.space))
+                       : visit(problem());
   }
   [[nodiscard]] bool is_classical() const;
   /// The side of the body that a movement strains: of one along the last axis that along it; of another, which may shear the height
@@ -98,6 +100,7 @@ class Scene {
 
   const coupler::Case& case_;
   std::optional<fem::Problem<2>> at_start_;
+  std::optional<fem::Problem<3>> space_at_start_;
   const coupler::Entry& document_;
   Body body_;
   std::vector<SceneRegion> regions_;

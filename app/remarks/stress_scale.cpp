@@ -4,23 +4,45 @@
 #include <algorithm>
 
 namespace polargrain::app {
+namespace {
+
+/// Largest normal stress at the start of a region of a law, at its first node; 0 where nothing gives one.
+double stress_at_start(const Scene& scene, const SceneRegion& region, const fem::Problem<2>& problem) {
+  const int node = problem.mesh.elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
+  const auto stress = scene.initial_stress(region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
+  return stress ? stress->head<3>().cwiseAbs().maxCoeff() : 0.0;
+}
+
+double stress_at_start(const Scene& scene, const SceneRegion& region, const fem::Problem<3>& problem) {
+  const int node = problem.mesh.elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
+  double largest =
+      scene.quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure).value_or(0.0);
+  for (const fem::InitialStress<3>& given : problem.initial_stresses) {
+    if (!given.region.empty() && given.region != region.name) continue;
+    const Cosserat<3>::Vector stress = given.stress(problem.mesh.nodes[static_cast<std::size_t>(node)]);
+    for (int i = 0; i < 3; ++i)
+      largest = std::max(largest, std::abs(stress(Cosserat<3>::stress_place(i, i))));
+  }
+  return largest;
+}
+
+}  // namespace
 
 double stress_scale(const Scene& scene) {
-  double scale = 0.0;
-  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
-    for (const fem::TimeTable* const table : {&load.pressure, &load.traction[0], &load.traction[1]})
-      scale = std::max(scale, table->largest_magnitude());
-  for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
-    scale = std::max(scale, load.density(scene.body().least).norm() * load.factor.largest_magnitude() *
-                                scene.body().size().y());
-  for (const SceneRegion& region : scene.regions())
-    if (region.cell == nullptr && !region.elements.empty()) {
-      const int node = scene.mesh().elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
-      if (const auto stress =
-              scene.initial_stress(region, scene.mesh().nodes[static_cast<std::size_t>(node)]))
-        scale = std::max(scale, stress->head<3>().cwiseAbs().maxCoeff());
+  return scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    double scale = 0.0;
+    for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads) {
+      scale = std::max(scale, load.pressure.largest_magnitude());
+      for (const fem::TimeTable& along : load.traction) scale = std::max(scale, along.largest_magnitude());
     }
-  return scale;
+    for (const fem::BodyLoad<dim>& load : problem.body_loads)
+      scale = std::max(scale, load.density(problem.mesh.nodes.front()).norm() *
+                                  load.factor.largest_magnitude() * (scene.body().top - scene.body().bottom));
+    for (const SceneRegion& region : scene.regions())
+      if (region.cell == nullptr && !region.elements.empty())
+        scale = std::max(scale, stress_at_start(scene, region, problem));
+    return scale;
+  });
 }
 
 }  // namespace polargrain::app

@@ -167,9 +167,62 @@ INSTANTIATE_TEST_SUITE_P(
                                "the table ends at time 1, and stage 'traffic' begins at time 2"}),
     [](const auto& info) { return info.param.name; });
 
+/// The same block, at rest under its weight and a surcharge.
+const std::string kBlockAtRest =
+    replaced(replaced(kBlock, "pressure: [[0, 0], [1, 30 kPa]]", "pressure: [[0, 10 kPa], [1, 30 kPa]]"),
+             "  - {force: [0, 0, -18 kN/m3], factor: [[0, 0], [1, 1]]}\n",
+             "  - {unit_weight: 18 kN/m3}\n"
+             "initial_stress: [{surface: 2 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}]\n");
+
+INSTANTIATE_TEST_SUITE_P(
+    InSpaceAsInThePlane, CarelessFeatures,
+    ::testing::Values(
+        Careless{"SurfaceAboveTheMesh", kBlockAtRest, "surface: 2 m", "surface: 3 m",
+                 "the surface is at 3 m, and the highest point of the mesh at 2 m"},
+        Careless{"RatioBeyondStrength", kBlockAtRest, "K0: 0.5", "K0: 12", "K0 of 12 is beyond"},
+        Careless{"PressureWithoutUnit", kBlock, "[[0, 0], [1, 30 kPa]]", "[[0, 0], [1, 50]]",
+                 "'50' has no unit and is 50 Pa"},
+        Careless{"AWeightTwice", kBlockAtRest, "  - {unit_weight: 18 kN/m3}\n",
+                 "  - {unit_weight: 18 kN/m3}\n  - {unit_weight: 18 kN/m3, region: all}\n",
+                 "region 'all' has the same force of 18 kN/m3 twice"},
+        Careless{"APressureTwice", kBlock, "body:", "  - {on: top, pressure: [[0, 0], [1, 30 kPa]]}\nbody:",
+                 "4 sides carry the same pressure, of up to 30 kPa, twice", Rank::doubtful},
+        Careless{"PressureOnAHeldFace", kBlock, "{on: top, pressure", "{on: top, fix: [u3], pressure",
+                 "the pressure on 'top' has no effect"},
+        Careless{"SoftAsFoam", kBlock, "E: 40 MPa", "E: 400 kPa", "that alone is an elastic strain of 9 %"},
+        Careless{"AForceOnEachNode", kBlock, "pressure: [[0, 0], [1, 30 kPa]]",
+                 "node_force: {u3: [[0, 0], [1, -1 kN]]}",
+                 "each of the 21 nodes of 'top' takes a force of 1 kN: 21 kN", Rank::doubtful},
+        Careless{"ReactionOfAFreeFace", kBlock, "base: {on: bottom", "base: {on: top",
+                 "u3 is free at all of its nodes"},
+        Careless{"CompressionConeInPlaneStrain", kBlock, "{on: [left, right], fix", "{on: left, fix",
+                 "both ends along 2 are held: in plane strain this cone has", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+/// A cylinder between smooth plates.
+const std::string kCylinder = R"(title: A cylinder is compressed
+continuum: cauchy
+mesh: {element: H8, cylinder: {radius: 5 cm, height: 20 cm, elements: [8, 2, 6]}}
+materials:
+  sand: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 1 kPa}
+regions: {all: sand}
+boundary:
+  - {on: bottom, fix: [u3]}
+  - {on: bottom_axis, fix: [u1, u2]}
+  - {on: bottom_side_right, fix: [u2]}
+  - {on: top, move: {u3: -4 mm}}
+  - {on: side, pressure: 100 kPa}
+initial_stress: [{stress: [-100 kPa, -100 kPa, -100 kPa, 0, 0, 0]}]
+steps: {count: 20, tolerance: 1e-5}
+monitors: {force: {on: top, reaction: u3}}
+output: {table: [force]}
+)";
+
 INSTANTIATE_TEST_SUITE_P(
     SpaceAndTime, CarelessFeatures,
-    ::testing::Values(Careless{"WeightAlongTheSecondAxis", kBlock, "[0, 0, -18 kN/m3]", "[0, -18 kN/m3, 0]",
+    ::testing::Values(Careless{"APolygonForACircle", kCylinder, "elements: [8, 2, 6]", "elements: [4, 2, 6]",
+                               "is a polygon of 16 sides, 2.6 % smaller than the circle", Rank::doubtful},
+                      Careless{"WeightAlongTheSecondAxis", kBlock, "[0, 0, -18 kN/m3]", "[0, -18 kN/m3, 0]",
                                "and 3 points up: nothing pulls the body down"},
                       Careless{"WeightOfADensity", kBlock, "-18 kN/m3]", "-1800]", "a weight of 1.8 kN/m3"},
                       Careless{"PoissonInSpace", kBlock, "nu: 0.3", "nu: 0.03", "nu is 0.03", Rank::doubtful},
@@ -229,9 +282,48 @@ monitors: {base: {on: bottom, reaction: u2}}
 output: {table: [base]}
 )";
 
+const std::string kPit = R"(title: A layer of wet ground is dug away
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4], regions: {layer: [0, 3 m, 4 m, 4 m]}, lines: {floor: [0, 3 m, 4 m, 3 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {layer: clay, rest: clay}
+water: {permeability: 1e-8 m/s, level: 4 m, unit_weight: 10 kN/m3}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, drained: true}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5}]
+steps:
+  tolerance: 1e-6
+  stages:
+    - {name: dig, remove: layer, until: 1 d, count: 10, boundary: [{on: floor, water_level: 3 m}]}
+    - {name: wait, until: 90 d, count: 10}
+monitors: {heave: {on: bottom, reaction: u2}}
+output: {table: [heave]}
+)";
+
+/// The sea behind a rigid wall.
+const std::string kQuay = replaced(kSea, "boundary:\n  - {on: [left, right], fix: [u1]}",
+                                   "interfaces: {quay: {on: left, friction: 20 deg}}\nboundary:\n"
+                                   "  - {on: right, fix: [u1]}\n  - {on: quay, fix: [u1, u2]}");
+
 INSTANTIATE_TEST_SUITE_P(
     Water, CarelessFeatures,
     ::testing::Values(
+        Careless{"AFloorThatIsClosed", kPit, ", boundary: [{on: floor, water_level: 3 m}]", "",
+                 "stage 'dig' removes the ground at 'top', whose water had a given pressure", Rank::doubtful},
+        Careless{"TheSeaBetweenWallAndGround", kQuay, "{on: top, free_water: 10 m}",
+                 "{on: [top, left], free_water: 10 m}",
+                 "'free_water' at 'left' presses on the ground, between it and 'quay'", Rank::wrong},
+        Careless{
+            "ABoundOfAFlowThatIsNone",
+            replaced(replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
+                              "  - {on: right, flux: 0 m/s}\n", ""),
+                     "  - {on: left, drained: true}\n", ""),
+            "water: {permeability: 1e-8 m/s}",
+            "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7, pressure_change: 1 kPa, shortest_step: 1 s}",
+            "'pressure_change' does nothing: all ground is undrained", Rank::doubtful},
         Careless{"ADrainOfUndrainedGround",
                  replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
                           "  - {on: right, flux: 0 m/s}\n", ""),
@@ -247,6 +339,10 @@ INSTANTIATE_TEST_SUITE_P(
                  Rank::doubtful},
         Careless{"TheSeaIsNotInTheStress", kSea, ", surcharge: 60 kPa", "",
                  "water stands 6 m above the surface and weighs 60 kPa, and the surcharge is 0 kPa",
+                 Rank::wrong},
+        Careless{"TheSeaOfOrdinaryWeightIsNotInTheStress",
+                 replaced(kSea, ", unit_weight: 10 kN/m3}\n", "}\n"), ", surcharge: 60 kPa", "",
+                 "water stands 6 m above the surface and weighs 58.86 kPa, and the surcharge is 0 kPa",
                  Rank::wrong},
         Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
                  "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
@@ -325,6 +421,19 @@ INSTANTIATE_TEST_SUITE_P(
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
         Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
                  "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
+        Careless{"DugAndDrained", kPit, "", ""}, Careless{"TheSeaAtAQuay", kQuay, "", ""},
+        Careless{"ABlockAtRest", kBlockAtRest, "", ""},
+        Careless{
+            "ALoadOfAStage", replaced(kBlockAtRest, "[[0, 10 kPa], [1, 30 kPa]]", "10 kPa"),
+            "steps: {count: 5, tolerance: 1e-5}",
+            "steps: {tolerance: 1e-5, stages: [{name: rest, count: 1}, {name: load, count: 2, boundary: [{on: top, "
+            "pressure: 20 kPa}]}]}"},
+        Careless{"PlaneStrainThatIsSaid", replaced(kBlock, "{on: [left, right], fix", "{on: left, fix"),
+                 "dilatancy_angle: 2 deg", "dilatancy_angle: 2 deg, match: plane_strain"},
+        Careless{"ARoundCylinder", kCylinder, "", ""},
+        Careless{"ACurvedCylinder", kCylinder,
+                 "H8, cylinder: {radius: 5 cm, height: 20 cm, elements: [8, 2, 6]}",
+                 "H20R, cylinder: {radius: 5 cm, height: 20 cm, elements: [2, 1, 4]}"},
         Careless{"FillOnASheet", kFillOnASheet, "", ""}, Careless{"BelowTheSea", kSea, "", ""},
         Careless{"AFooting", kFooting, "", ""},
         Careless{"ALineAcrossAHole", kBank, kReadAlong,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/remarks/kinds.hpp"
+#include "fem/water/pore_water.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -32,7 +33,7 @@ void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
   const auto surface = number(item, "surface", Dimension::length);
   const auto weight = number(item, "unit_weight", Dimension::unit_weight);
   if (!k0 || !surface || !weight) return;
-  const double depth = *surface - scene.body().least.y();
+  const double depth = *surface - scene.body().bottom;
   const double vertical =
       *weight * std::max(depth, 0.0) + number(item, "surcharge", Dimension::pressure).value_or(0.0);
   const Entry* const of_region = item.find("region");
@@ -62,25 +63,28 @@ void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
   }
 }
 
-/// Whether loads on the highest edges stand, at time zero, for ground above the mesh of this weight.
+/// Whether loads on the highest sides stand, at time zero, for ground above the mesh of this weight.
 bool carries_ground_above(const Scene& scene, double weight) {
-  const double slack = 1e-6 * scene.body().size().y();
-  double load_there = 0.0;
-  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads) {
-    const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), load.on);
-    if (std::ranges::any_of(edges, [&](const OutlineEdge& edge) {
-          return edge.centre.y() > scene.body().largest.y() - slack;
-        }))
-      load_there += load.pressure.at(0.0) - load.traction[1].at(0.0);
-  }
+  const double lowest = scene.body().top - 1e-6 * (scene.body().top - scene.body().bottom);
+  const double load_there = scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    double sum = 0.0;
+    for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads)
+      if (std::ranges::any_of(problem.mesh.boundaries.at(load.on), [&](const fem::BoundarySide& side) {
+            return std::ranges::all_of(problem.mesh.side_nodes(side), [&](int node) {
+              return problem.mesh.nodes[static_cast<std::size_t>(node)](dim - 1) > lowest;
+            });
+          }))
+        sum += load.pressure.at(0.0) - load.traction[dim - 1].at(0.0);
+    return sum;
+  });
   return std::abs(load_there - weight) <= 0.3 * weight;
 }
 
 void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
   const auto surface = number(item, "surface", Dimension::length);
   if (!surface) return;
-  const double height = scene.body().size().y();
-  const double over = *surface - scene.body().largest.y();
+  const double height = scene.body().top - scene.body().bottom;
+  const double over = *surface - scene.body().top;
   if (std::abs(over) <= 0.02 * height) return;
   const double above = over * number(item, "unit_weight", Dimension::unit_weight).value_or(0.0) +
                        number(item, "surcharge", Dimension::pressure).value_or(0.0);
@@ -90,7 +94,7 @@ void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
       {std::abs(over) > 0.2 * height ? Rank::wrong : Rank::doubtful, 1.0 + std::abs(over) / height,
        item.find("surface")->fault(fmt::format(
            "initial_stress: the surface is at {:.4g} m, and the highest point of the mesh at {:.4g} m: {}",
-           *surface, scene.body().largest.y(),
+           *surface, scene.body().top,
            over > 0.0 ? "the ground above the mesh has no load in its place"
                       : "the ground above the surface is in tension")),
        "give the height of the mesh's surface; for ground above it a surcharge, and a pressure on the surface"});
@@ -100,9 +104,10 @@ void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
 void look_at_water_above(const Scene& scene, const Entry& item, Remarks& remarks) {
   const auto surface = number(item, "surface", Dimension::length);
   const auto level = scene.quantity({"water", "level"}, Dimension::length);
-  const auto weight = scene.quantity({"water", "unit_weight"}, Dimension::unit_weight);
-  if (!surface || !level || !weight || *level <= *surface) return;
-  const double water = *weight * (*level - *surface);
+  const double weight = scene.quantity({"water", "unit_weight"}, Dimension::unit_weight)
+                            .value_or(fem::PoreWaterOptions{}.unit_weight);
+  if (!surface || !level || *level <= *surface) return;
+  const double water = weight * (*level - *surface);
   const double carried = number(item, "surcharge", Dimension::pressure).value_or(0.0);
   if (carried >= 0.95 * water) return;
   remarks.push_back(
@@ -116,7 +121,7 @@ void look_at_water_above(const Scene& scene, const Entry& item, Remarks& remarks
 
 void look_at_components(const Entry& item, Remarks& remarks) {
   const Entry* const stress = item.find("stress");
-  if (stress == nullptr || stress->items.size() != 4) return;
+  if (stress == nullptr || (stress->items.size() != 4 && stress->items.size() != 6)) return;
   double s[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < 3; ++i)
     s[i] = coupler::parse_quantity(stress->items[static_cast<std::size_t>(i)].text, Dimension::pressure)
@@ -136,7 +141,7 @@ void look_at_components(const Entry& item, Remarks& remarks) {
              "ground carries hardly any tension",
              1e-3 * s[0], 1e-3 * s[1], 1e-3 * s[2])),
          "write all three with a minus: stress: [-100 kPa, -100 kPa, -100 kPa, 0]"});
-  else if (s[2] == 0.0 && (s[0] != 0.0 || s[1] != 0.0))
+  else if (stress->items.size() == 4 && s[2] == 0.0 && (s[0] != 0.0 || s[1] != 0.0))
     remarks.push_back(
         {Rank::wrong, 10.0,
          stress->fault(

@@ -7,9 +7,11 @@
 #include <numbers>
 #include <set>
 
+#include "app/remarks/held_in_space.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
 #include "app/remarks/stress_scale.hpp"
+#include "fem/material/cone_matching.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -74,7 +76,38 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
   }
 }
 
+namespace {
+
+/// The cone that triaxial compression gives is far stronger in plane strain.
+void look_at_plane_strain(const Scene& scene, Remarks& remarks) {
+  if (!scene.the_case().space) return;
+  const int axis = axis_of_plane_strain(*scene.the_case().space);
+  if (axis < 0) return;
+  for (const SceneRegion& region : scene.regions()) {
+    const auto friction = largest_value(scene, region, "friction_angle", coupler::Dimension::angle);
+    if (region.cell != nullptr || !friction || !(*friction > 0.0) ||
+        scene.find({"materials", region.material, "match"}) != nullptr)
+      continue;
+    const auto dilatancy = largest_value(scene, region, "dilatancy_angle", coupler::Dimension::angle);
+    const double degrees = *friction / kDegreeOfFriction;
+    const auto there = fem::plane_strain_from_cone(fem::matched_cone(
+        {degrees, dilatancy.value_or(0.0) / kDegreeOfFriction, 0.0}, fem::ConeMatch::triaxial_compression));
+    remarks.push_back(
+        {Rank::doubtful, there ? there->friction_angle / degrees : 10.0,
+         scene.place({"materials", region.material, "friction_angle"})
+             .fault(fmt::format(
+                 "material '{}': {:.3g} deg hold in triaxial compression, the default in space, and both ends along {} are held: in "
+                 "plane strain this cone has {}",
+                 region.material, degrees, axis + 1,
+                 there ? fmt::format("{:.3g} deg", there->friction_angle) : std::string("no limit"))),
+         "match: plane_strain; or say 'match: triaxial_compression' if it is meant"});
+  }
+}
+
+}  // namespace
+
 void strength_of_laws(const Scene& scene, Remarks& remarks) {
+  look_at_plane_strain(scene, remarks);
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell != nullptr) continue;
     if (const auto poisson = scene.quantity({"materials", region.material, "nu"}, coupler::Dimension::number);
@@ -156,17 +189,19 @@ void plain_loads(const Scene& scene, Remarks& remarks) {
     if (const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure))
       scale = std::max(scale, std::min(kOfModulus * *young, kMost));
   }
-  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads) {
-    look_at_plain(fmt::format("boundary: pressure on '{}'", load.on),
-                  scene.boundary_value(load.on, "pressure"), load.pressure.largest_magnitude(), scale,
-                  remarks);
-    const coupler::Entry* const traction = scene.boundary_value(load.on, "traction");
-    if (traction == nullptr) continue;
-    look_at_plain(fmt::format("boundary: traction along 1 on '{}'", load.on), traction->find("u1"),
-                  load.traction[0].largest_magnitude(), scale, remarks);
-    look_at_plain(fmt::format("boundary: traction along 2 on '{}'", load.on), traction->find("u2"),
-                  load.traction[1].largest_magnitude(), scale, remarks);
-  }
+  scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads) {
+      look_at_plain(fmt::format("boundary: pressure on '{}'", load.on),
+                    scene.boundary_value(load.on, "pressure"), load.pressure.largest_magnitude(), scale,
+                    remarks);
+      const coupler::Entry* const traction = scene.boundary_value(load.on, "traction");
+      if (traction == nullptr) continue;
+      for (std::size_t i = 0; i < dim; ++i)
+        look_at_plain(fmt::format("boundary: traction along {} on '{}'", i + 1, load.on),
+                      traction->find(fmt::format("u{}", i + 1)), load.traction[i].largest_magnitude(), scale,
+                      remarks);
+    }
+  });
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/remarks/held_in_space.hpp"
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 #include "fem/element/kinematics.hpp"
@@ -16,36 +17,6 @@ namespace {
 
 constexpr double kSlackInSpace = 0.02;  // of the pressure: packings are at rest to 1e-3
 constexpr double kFarInSpace = 0.3;
-
-/// By node: which displacements are prescribed.
-std::vector<std::array<bool, 3>> held_nodes_in_space(const fem::Problem<3>& problem) {
-  std::vector<std::array<bool, 3>> held(problem.mesh.nodes.size(), {false, false, false});
-  for (const fem::PrescribedDof<3>& item : problem.prescribed) {
-    if (fem::is_rotation(item.dof) || !problem.mesh.has_nodes_on(item.on)) continue;
-    for (const int node : problem.mesh.nodes_on(item.on))
-      held[static_cast<std::size_t>(node)][static_cast<std::size_t>(fem::axis_of(item.dof))] = true;
-  }
-  return held;
-}
-
-/// Normal of a flat face by its first three corners; its sign does not matter here.
-Eigen::Vector3d normal_of(const fem::Mesh<3>& mesh, const std::vector<int>& nodes) {
-  const auto at = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(nodes[k])]; };
-  return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
-}
-
-/// Whether the displacement along the normal of a face is prescribed at all of its nodes.
-bool is_held(const fem::Mesh<3>& mesh, const std::vector<int>& nodes,
-             const std::vector<std::array<bool, 3>>& held) {
-  constexpr double kAlong = 1e-6;
-  const Eigen::Vector3d normal = normal_of(mesh, nodes);
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (std::abs(normal(static_cast<Eigen::Index>(i))) < kAlong) continue;
-    if (!std::ranges::all_of(nodes, [&](int node) { return held[static_cast<std::size_t>(node)][i]; }))
-      return false;
-  }
-  return true;
-}
 
 /// Pressure of the loads on each face at time zero, Pa, by element and side. Nothing: a traction acts too, or ties do.
 std::map<std::pair<int, int>, double> pressures_at_start(const fem::Problem<3>& problem) {

@@ -10,19 +10,16 @@
 namespace polargrain::app {
 namespace {
 
-const char* name_of(fem::Dof dof) {
-  return dof == fem::Dof::u1 ? "u1" : dof == fem::Dof::u2 ? "u2" : "w";
-}
-
 /// Nodes at which a degree of freedom is prescribed, and those that move all the same: the value is not zero, or the boundary quiet.
 struct Given {
   std::set<int> held;
   std::set<int> moved;
 };
 
-Given given(const fem::Problem<2>& problem, fem::Dof dof) {
+template <int dim>
+Given given(const fem::Problem<dim>& problem, fem::Dof dof) {
   Given nodes;
-  for (const fem::PrescribedDof<2>& item : problem.prescribed) {
+  for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
     if (item.dof != dof) continue;
     for (const int node : problem.mesh.nodes_on(item.on)) {
       nodes.held.insert(node);
@@ -31,18 +28,23 @@ Given given(const fem::Problem<2>& problem, fem::Dof dof) {
   }
   // In real time they are let go once the start is balanced.
   for (const std::string& boundary : problem.quiet)
-    for (const int node : problem.mesh.nodes_on(boundary)) nodes.moved.insert(node);
+    for (const int node : problem.mesh.nodes_on(boundary)) {
+      nodes.held.insert(node);
+      nodes.moved.insert(node);
+    }
   return nodes;
 }
 
-void look_at_reaction(const Scene& scene, const coupler::Monitor& monitor, Remarks& remarks) {
-  const Given nodes = given(scene.the_case().problem, monitor.dof);
-  const std::vector<int> on = scene.mesh().nodes_on(monitor.on);
+template <int dim>
+void look_at_reaction(const Scene& scene, const fem::Problem<dim>& problem, const coupler::Monitor& monitor,
+                      Remarks& remarks) {
+  const Given nodes = given(problem, monitor.dof);
+  const std::vector<int> on = problem.mesh.nodes_on(monitor.on);
   const auto held = std::ranges::count_if(on, [&](int node) { return nodes.held.contains(node); });
   // Ends of a boundary are held by its neighbours.
-  if (2 * held >= static_cast<std::ptrdiff_t>(on.size()) || !scene.problem().ties.empty()) return;
+  if (2 * held >= static_cast<std::ptrdiff_t>(on.size()) || !problem.ties.empty()) return;
   const coupler::Entry& place = scene.place({"monitors", monitor.name});
-  const std::string dof = name_of(monitor.dof);
+  const auto dof = fem::name_of<dim>(monitor.dof);
   const std::string seen =
       held == 0
           ? fmt::format(
@@ -55,9 +57,11 @@ void look_at_reaction(const Scene& scene, const coupler::Monitor& monitor, Remar
                      "read the reaction on the boundary that is held or moved along it"});
 }
 
-void look_at_displacement(const Scene& scene, const coupler::Monitor& monitor, Remarks& remarks) {
-  const Given nodes = given(scene.the_case().problem, monitor.dof);
-  const std::vector<int> on = scene.mesh().nodes_on(monitor.on);
+template <int dim>
+void look_at_displacement(const Scene& scene, const fem::Problem<dim>& problem,
+                          const coupler::Monitor& monitor, Remarks& remarks) {
+  const Given nodes = given(problem, monitor.dof);
+  const std::vector<int> on = problem.mesh.nodes_on(monitor.on);
   const bool stays = std::ranges::all_of(
       on, [&](int node) { return nodes.held.contains(node) && !nodes.moved.contains(node); });
   if (!stays) return;
@@ -67,23 +71,28 @@ void look_at_displacement(const Scene& scene, const coupler::Monitor& monitor, R
            .fault(fmt::format(
                "monitor '{}': {} is fixed at all of its nodes: the displacement stays zero, and so does a strain "
                "made of it",
-               monitor.name, name_of(monitor.dof))),
+               monitor.name, fem::name_of<dim>(monitor.dof))),
        "read the displacement of the boundary that moves"});
 }
 
 }  // namespace
 
 void monitors(const Scene& scene, Remarks& remarks) {
-  for (const coupler::Monitor& monitor : scene.the_case().monitors) {
-    if (monitor.kind == coupler::Monitor::Kind::reaction) look_at_reaction(scene, monitor, remarks);
-    if (monitor.kind == coupler::Monitor::Kind::displacement) look_at_displacement(scene, monitor, remarks);
-  }
+  scene.the_case().with_problem([&](const auto& problem) {
+    for (const coupler::Monitor& monitor : scene.the_case().monitors) {
+      if (monitor.kind == coupler::Monitor::Kind::reaction)
+        look_at_reaction(scene, problem, monitor, remarks);
+      if (monitor.kind == coupler::Monitor::Kind::displacement)
+        look_at_displacement(scene, problem, monitor, remarks);
+    }
+  });
 }
 
 void measures(const Scene& scene, Remarks& remarks) {
   for (const coupler::StepTarget& target : scene.the_case().plan) {
     if (target.control != coupler::StepTarget::Control::measure || target.measure.terms.empty()) continue;
-    const Given nodes = given(scene.problem(), target.measure.terms.front().dof);
+    const Given nodes = scene.with_problem(
+        [&](const auto& problem) { return given(problem, target.measure.terms.front().dof); });
     const bool free = std::ranges::any_of(target.measure.terms,
                                           [&](const auto& term) { return !nodes.held.contains(term.node); });
     const bool moved = std::ranges::any_of(target.measure.terms,

@@ -67,7 +67,7 @@ void look_at_force(const Scene& scene, const Monitor& monitor, Remarks& remarks)
                      fmt::format("write 'reaction: {}'", displacement_name(other))});
 }
 
-void look_at_displacement(const Scene& scene, const Monitor& monitor, Remarks& remarks) {
+void look_at_place_of_displacement(const Scene& scene, const Monitor& monitor, Remarks& remarks) {
   const std::string& on = monitor.on.front();
   const int axis = fem::axis_of(monitor.dof);
   const char* const dof = displacement_name(monitor.dof);
@@ -123,7 +123,7 @@ void places_of_monitors(const Scene& scene, Remarks& remarks) {
     if (monitor.kind == Monitor::Kind::reaction)
       look_at_force(scene, monitor, remarks);
     else
-      look_at_displacement(scene, monitor, remarks);
+      look_at_place_of_displacement(scene, monitor, remarks);
   }
 }
 

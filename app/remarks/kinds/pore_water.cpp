@@ -92,6 +92,18 @@ class Look {
               look_at_undrained(item, key, *value, dry);
   }
 
+  /// Bounds of the steps of a flow, while no water flows.
+  void at_bounds_of_flow() {
+    if (flows()) return;
+    for (const char* const key : {"pressure_change", "shortest_step"})
+      if (scene_.find({"water", key}) != nullptr)
+        return add(
+            Rank::doubtful, 1.0, {"water", key},
+            fmt::format("water: '{}' does nothing: all ground is undrained, and no time passes for the water",
+                        key),
+            "leave it out; or give 'permeability' in the place of 'undrained: true'");
+  }
+
   /// A flux into nodes whose pressure is given goes straight out again there.
   void at_fluxes() {
     std::set<int> given;
@@ -308,6 +320,7 @@ void pore_water(const Scene& scene, Remarks& remarks) {
     Look<dim> at(scene, problem, *water, remarks);
     at.at_drains();
     at.at_undrained();
+    at.at_bounds_of_flow();
     at.at_fluxes();
     at.at_bare_walls();
     at.at_weight();

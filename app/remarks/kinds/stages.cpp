@@ -13,11 +13,13 @@ using coupler::Entry;
 
 /// Weight of a region at its full value, N/m^3, downwards positive, in whatever stage.
 double largest_weight_on(const Scene& scene, const SceneRegion& region) {
-  double weight = 0.0;
-  for (const fem::BodyLoad<2>& load : scene.the_case().problem.body_loads)
-    if (load.region.empty() || load.region == region.name)
-      weight -= load.factor.largest_magnitude() * load.density(scene.body().least).y();
-  return weight;
+  return scene.the_case().with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    double weight = 0.0;
+    for (const fem::BodyLoad<dim>& load : problem.body_loads)
+      if (load.region.empty() || load.region == region.name)
+        weight -= load.factor.largest_magnitude() * load.density(problem.mesh.nodes.front())(dim - 1);
+    return weight;
+  });
 }
 
 /// Where a case of stages writes down that a region comes.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "app/remarks/kinds.hpp"
@@ -54,6 +56,17 @@ void last_point(const coupler::Entry& entry, double& last, const coupler::Entry*
   for (const coupler::Entry::Member& member : entry.members) last_point(member.value, last, at);
 }
 
+/// The first single value of a movement, which is reached at time 1.
+const coupler::Entry* single_movement(const Scene& scene) {
+  const coupler::Entry* const boundary = scene.find({"boundary"});
+  if (boundary == nullptr) return nullptr;
+  for (const coupler::Entry& item : boundary->items)
+    if (const coupler::Entry* const moved = item.find("move"))
+      for (const coupler::Entry::Member& member : moved->members)
+        if (member.value.kind == coupler::Entry::Kind::scalar) return &member.value;
+  return nullptr;
+}
+
 /// Ways of a load there and back, in its unit: as it is given, and as the ends of steps see it.
 struct Ways {
   double given = 0.0;
@@ -102,6 +115,8 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
   const coupler::Entry* at = nullptr;
   for (const char* const key : {"boundary", "body"})
     if (const coupler::Entry* const entry = scene.find({key})) last_point(*entry, last, at);
+  if (const coupler::Entry* const single = single_movement(scene); single != nullptr && last < 1.0)
+    std::tie(last, at) = std::pair(1.0, single);
   if (at != nullptr && last > *end * (1.0 + 1e-9))
     remarks.push_back(
         {Rank::doubtful, last / std::max(*end, 1e-9),
@@ -116,7 +131,9 @@ void idle_steps(const Scene& scene, Remarks& remarks) {
   if (scene.the_case().real_time) return;  // a body goes on by itself
   const auto end = scene.end_time();
   // Where parts come or go, and where water flows, that is what changes.
-  if (!end || scene.problem().stages.size() > 1 || scene.find({"water"}) != nullptr) return;
+  if (!end || scene.the_case().with_problem([](const auto& problem) { return problem.stages.size(); }) > 1 ||
+      scene.find({"water"}) != nullptr)
+    return;
   // Step by step: whole cycles of a load end where they began. A pause before a further change is meant.
   double from = 0.0;
   int idle = 0;  // since the last change
