@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "common/error.hpp"
+#include "common/prefixed_archive.hpp"
 #include "coupler/case/parts.hpp"
 #include "coupler/case/quantity.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "fem/solver/end_of_run.hpp"
 #include "fem/solver/stabilisation.hpp"
 
 namespace polargrain::coupler {
@@ -161,6 +165,34 @@ void check_body(const Entry& start, const RunBefore& before, CaseParts& parts) {
   });
 }
 
+/// Ground that was removed has no state at the end.
+void check_regions_there(const Entry& start, Checkpoint& end, const std::string& run, CaseParts& parts) {
+  const auto& numbers = end.state.all_integers();
+  const auto space = numbers.find("solver/body/dimension");
+  if (space == numbers.end() || space->second != std::vector<std::int64_t>{parts.result.dimension()} ||
+      !numbers.contains("solver/body/elements") || !numbers.contains("solver/body/materials_of_regions"))
+    return;
+  const std::vector<std::string> known = regions_of(end.identity);
+  parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    PrefixedReader archive(end.state, "solver/body/");
+    const fem::EndOfRun<dim> body = fem::read_end<dim>(archive);
+    std::set<std::size_t> left;
+    for (std::size_t e = 0; e < body.there.size(); ++e)
+      if (body.there[e] != 0) left.insert(body.region_of_element[e]);
+    for (const auto& [region, unused] : problem.materials) {
+      const auto life = problem.lifetimes.find(region);
+      const auto number = static_cast<std::size_t>(std::ranges::find(known, region) - known.begin());
+      if ((life != problem.lifetimes.end() && life->second.begin > 0) || number == known.size() ||
+          left.contains(number))
+        continue;
+      parts.faults.push_back(start.fault(fmt::format(
+          "start_from: region '{}' had been removed at the end of '{}', so it has no state there; leave it out of the mesh, or "
+          "'place' it in a stage",
+          region, run)));
+    }
+  });
+}
+
 }  // namespace
 
 void read_start(Section& top, CaseParts& parts) {
@@ -190,7 +222,7 @@ void read_start(Section& top, CaseParts& parts) {
   });
   if (!parts.faults.empty()) return;
   try {
-    const Checkpoint end = read_checkpoint(directory / "checkpoint.h5");
+    Checkpoint end = read_checkpoint(directory / "checkpoint.h5");
     if (end.step < 1) fault(fmt::format("'{}' has taken no step yet; run it to its end", name));
     const auto spread = end.identity.values.find("continuum.spread");
     if (spread != end.identity.values.end() &&
@@ -202,10 +234,13 @@ void read_start(Section& top, CaseParts& parts) {
     check_water(start, end.identity, now, name, parts);
     parts.result.run_before = run_before_of(end, name, parts.result.dimension());
     check_body(start, *parts.result.run_before, parts);
+    if (parts.faults.empty()) check_regions_there(start, end, name, parts);
     check_mesh(start, end, name, parts);
     if (parts.faults.empty()) check_structures(start, end, name, parts);
   } catch (const InputError& of_file) {
     fault(of_file.what());
+  } catch (const RunError& of_body) {
+    fault(fmt::format("'{}': {}", name, of_body.what()));
   }
 }
 

@@ -26,6 +26,12 @@ std::string block(const std::string& load, const std::string& more = "") {
          more;
 }
 
+std::string replaced_in(std::string text, const std::string& good, const std::string& bad) {
+  const std::size_t place = text.find(good);
+  EXPECT_NE(place, std::string::npos) << good;
+  return place == std::string::npos ? text : text.replace(place, good.size(), bad);
+}
+
 class StartFromCommand : public ::testing::Test {
  protected:
   StartFromCommand() : scratch_("start_from_command") {
@@ -70,6 +76,27 @@ TEST_F(StartFromCommand, OtherStructuresAreAFault) {
       std::string::npos)
       << refused.out << refused.errors;
   EXPECT_EQ(second(low + ", " + up).status, 0);
+}
+
+TEST_F(StartFromCommand, GroundThatHasGoneIsAFault) {
+  const auto dug = [&](const std::string& load, const std::string& regions, const std::string& steps) {
+    std::string text = replaced_in(block(load), "elements: [2, 2]}",
+                                   "elements: [2, 2], regions: {cap: [0, 0.5 m, 1 m, 1 m]}}");
+    text = replaced_in(text, "regions: {all: soil}", "regions: {" + regions + "}");
+    text = replaced_in(text, ", {on: top, pressure: " + load + "}", "");
+    return replaced_in(text, "count: 4, ", steps);
+  };
+  const std::string dig = "stages: [{name: dig, remove: cap, count: 1}], ";
+  write(scratch_.path() / "first.yaml", dug("1 kPa", "cap: soil, rest: soil", dig));
+  write(scratch_.path() / "second.yaml",
+        dug("1 kPa", "cap: soil, rest: soil", "count: 1, ") + "start_from: first\n");
+  const Outcome first = program("run first.yaml -o first --quiet");
+  ASSERT_EQ(first.status, 0) << first.errors;
+  const Outcome refused = program("check second.yaml");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE((refused.out + refused.errors).find("region 'cap' had been removed at the end of 'first'"),
+            std::string::npos)
+      << refused.out << refused.errors;
 }
 
 TEST_F(StartFromCommand, ARunThatFailedIsRemarked) {
