@@ -5,6 +5,7 @@
 #   bed.sh PROGRAM STRANGE_WORKER RENAME_KILLER CLOCK_STEPS [reduced]      status 77: nothing of it is allowed here
 set -u
 program=$(realpath "$1") stranger=$(realpath "$2") killer=$(realpath "$3") clock=$(realpath "$4") reduced=${5:-}
+ports=$(realpath "$(dirname "$0")/../support/free_ports.py")
 work=$(mktemp -d)
 space=pg$$
 failures=0 skipped=0 begun=$SECONDS
@@ -119,16 +120,16 @@ async def main():
     await (await asyncio.start_server(serve, "127.0.0.1", port)).serve_forever()
 asyncio.run(main())
 RELAY
-port=$((20000 + RANDOM % 20000))
 line() {  # NAME DELAY LOSS RATE (s, share, bytes/s): two guests alone, on a line like that
-  start python3 relay.py $((port + 1)) $port "$2" "$3" "$4"
+  local port
+  port=$("$ports" 2)
+  start python3 relay.py $((port + 1)) "$port" "$2" "$3" "$4"
   local relay=$!
   more="-w 0 --listen tcp://127.0.0.1:$port --keys keys" run "$1" "$program"
   url=tcp://127.0.0.1:$((port + 1))
   guest "$program"; guest "$program"
   wait $coordinator; same "$1"
   kill $relay
-  port=$((port + 2))
 }
 line delay 0.003 0 0
 if [ -z "$reduced" ]; then
@@ -137,7 +138,7 @@ if [ -z "$reduced" ]; then
 fi
 
 # ---- keys and guests, on this machine
-url=tcp://127.0.0.1:$port
+url=tcp://127.0.0.1:$("$ports")
 more="-w 1 --listen $url --keys keys" run revoked "$program"
 guest "$program"; key=other guest "$program"
 await revoked "step 3"

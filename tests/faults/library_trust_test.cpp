@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/faults/checkpoint_runs.hpp"
+#include "tests/support/free_port.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -104,7 +105,7 @@ TEST_F(LibraryTrust, LocalWorkersTrustWhatTheCoordinatorDoesAndItsContentIsPartO
 // The coordinator trusts the library, the guest does not: it is the guest's machine.
 TEST_F(LibraryTrust, AGuestRefusesOnItsOwn) {
   ASSERT_EQ(polargrain("keys keys").status, 0);
-  const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
+  const std::string url = "tcp://127.0.0.1:" + std::to_string(free_port());
   const std::string worker = "env -C '" + scratch_.path().string() + "' " POLARGRAIN " worker --connect " +
                              url + " --key keys/worker.key";
   const std::string run = "run case.yaml -w 0 --quiet --trust-scripts --listen " + url + " --keys keys -o ";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/faults/checkpoint_runs.hpp"
+#include "tests/support/free_port.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -136,7 +137,7 @@ TEST_F(ScriptTrust, SpecificationsOfPackingsAreHeldToTheSame) {
 TEST_F(ScriptTrust, AGuestRefusesOnItsOwn) {
   set_script("bad.in");
   ASSERT_EQ(polargrain("keys keys").status, 0);
-  const std::string url = "tcp://127.0.0.1:" + std::to_string(20000 + getpid() % 20000);
+  const std::string url = "tcp://127.0.0.1:" + std::to_string(free_port());
   Beside guest("env -C '" + folder_.string() + "' " POLARGRAIN " worker --connect " + url +
                " --key keys/worker.key >/dev/null 2>&1");
   Beside second("env -C '" + folder_.string() + "' " POLARGRAIN " worker --connect " + url +

@@ -10,6 +10,7 @@
 set -euo pipefail
 polargrain=$(realpath "$1")
 case_file=$(realpath "$2")
+ports=$(realpath "$(dirname "$0")/../support/free_ports.py")
 shift 2
 settings=("$@")
 skip() { echo "skipped: $*"; exit 77; }
@@ -34,19 +35,7 @@ mkdir state spool munge
 chmod 755 "$base" && chmod 711 munge
 dd if=/dev/urandom of=munge.key bs=128 count=1 status=none
 chmod 400 munge.key
-# Three free ports in a row, below those that the system gives away.
-port=$(python3 -c '
-import random, socket
-while True:
-    port = random.randrange(20000, 32000)
-    try:
-        for k in range(3):
-            with socket.socket() as one:
-                one.bind(("127.0.0.1", port + k))
-        break
-    except OSError:
-        pass
-print(port)')
+port=$("$ports" 3)
 cat >slurm.conf <<EOF
 ClusterName=polargrain
 SlurmctldHost=$(hostname)(127.0.0.1)

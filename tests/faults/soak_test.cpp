@@ -13,13 +13,14 @@
 
 #include "tests/faults/fake_case.hpp"
 #include "tests/faults/killer.hpp"
+#include "tests/support/free_port.hpp"
 
 namespace polargrain::testing {
 namespace {
 
 class SoakTest : public FakeCaseTest {
  protected:
-  [[nodiscard]] int port() const { return 20000 + static_cast<int>(getpid()) % 12000; }
+  const int port_ = free_port();
   /// A key for every few guests: one that is shut out ends nothing but its own.
   static constexpr int kKeys = 60;
   [[nodiscard]] std::string guest(const std::string& program, const std::string& way,
@@ -27,7 +28,7 @@ class SoakTest : public FakeCaseTest {
     const std::string key = 'g' + std::to_string(which / 64 % kKeys) + ".key";
     const std::string log = (scratch_.path() / "guests.log").string();
     return program + ' ' + way + " --key '" + (scratch_.path() / "keys" / key).string() +
-           "' --connect tcp://127.0.0.1:" + std::to_string(port()) + " >> '" + log + "' 2>&1";
+           "' --connect tcp://127.0.0.1:" + std::to_string(port_) + " >> '" + log + "' 2>&1";
   }
 };
 
@@ -60,9 +61,9 @@ TEST_F(SoakTest, FaultsAtRandomChangeNoByteAndTakeNoMemory) {
   write(scratch_.path() / "fake.in", "sleep_milliseconds 1\n");
   for (int k = 0; k < kKeys; ++k)
     ASSERT_EQ(run_in(scratch_.path(), FAKE_POLARGRAIN " keys keys --worker g" + std::to_string(k)).status, 0);
-  const std::string start = "env -C '" + scratch_.path().string() + "' " + command(steps, settings) +
-                            " -o soak -w 3 --checkpoint-minutes 0.01 --keys keys --listen tcp://127.0.0.1:" +
-                            std::to_string(port());
+  const std::string start =
+      "env -C '" + scratch_.path().string() + "' " + command(steps, settings) +
+      " -o soak -w 3 --checkpoint-minutes 0.01 --keys keys --listen tcp://127.0.0.1:" + std::to_string(port_);
 
   std::mt19937_64 random(20261122);
   std::map<std::string, int> faults;

@@ -17,10 +17,12 @@ import os
 import pathlib
 import re
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from free_ports import free_ports
 
 PRELUDE = r"""set -euo pipefail
 fail() { echo "FAILED: $*" >&2; exit 1; }
@@ -75,13 +77,6 @@ def quoted(text):
     return "'" + text.replace("'", "'\\''") + "'"
 
 
-def free_port():
-    """Pages show one port; tests beside each other take others."""
-    with socket.socket() as some:
-        some.bind(("127.0.0.1", 0))
-        return some.getsockname()[1]
-
-
 def main():
     program, engine, package, source, page = (pathlib.Path(name).resolve() for name in sys.argv[1:6])
     commands, count = script(page.read_text(encoding="utf-8"))
@@ -97,8 +92,9 @@ def main():
         work = pathlib.Path(folder) / "work"
         work.mkdir()
         environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "POLARGRAIN_DATA": str(source), "PYTHONPATH": str(package)}
-        # A session of its own, so that what a page starts in the background ends with it.
-        running = subprocess.Popen(["bash", "-c", commands.replace(":5570", f":{free_port()}")], cwd=work, env=environment, start_new_session=True)
+        # Pages show one port; tests beside each other take others. A session of its own, so that what a page starts in
+        # the background ends with it.
+        running = subprocess.Popen(["bash", "-c", commands.replace(":5570", f":{free_ports()}")], cwd=work, env=environment, start_new_session=True)
         signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended by SIGTERM"))
         try:
             status = running.wait()
