@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/element/kinematics.hpp"
+#include "fem/mesh/box_around.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -64,13 +65,7 @@ double size_of(const fem::Mesh<3>& mesh, int element) {
 
 template <int dim>
 Body body_of(const fem::Mesh<dim>& mesh) {
-  using Place = typename Cosserat<dim>::Place;
-  Place least = mesh.nodes.front();
-  Place largest = least;
-  for (const Place& node : mesh.nodes) {
-    least = least.cwiseMin(node);
-    largest = largest.cwiseMax(node);
-  }
+  const auto [least, largest] = fem::box_around(mesh);
   Body body{least.template head<2>(), largest.template head<2>(), {}, 0.0, {}, least(dim - 1),
             largest(dim - 1)};
   for (int i = 0; i < dim; ++i) body.sides.push_back(largest(i) - least(i));

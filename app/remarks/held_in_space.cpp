@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/element/dofs.hpp"
+#include "fem/mesh/box_around.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -17,10 +18,11 @@ Eigen::Vector3d normal_of(const fem::Mesh<3>& mesh, const std::vector<int>& node
 
 }  // namespace
 
-std::vector<std::array<bool, 3>> held_nodes_in_space(const fem::Problem<3>& problem) {
+std::vector<std::array<bool, 3>> held_nodes_in_space(const fem::Problem<3>& problem, Movers movers) {
   std::vector<std::array<bool, 3>> held(problem.mesh.nodes.size(), {false, false, false});
   for (const fem::PrescribedDof<3>& item : problem.prescribed) {
     if (fem::is_rotation(item.dof) || !problem.mesh.has_nodes_on(item.on)) continue;
+    if (movers == Movers::left_out && item.value.largest_magnitude() > 0.0) continue;
     for (const int node : problem.mesh.nodes_on(item.on))
       held[static_cast<std::size_t>(node)][static_cast<std::size_t>(fem::axis_of(item.dof))] = true;
   }
@@ -40,16 +42,8 @@ bool is_held(const fem::Mesh<3>& mesh, const std::vector<int>& nodes,
 }
 
 int axis_of_plane_strain(const fem::Problem<3>& problem) {
-  fem::Problem<3> supports = problem;
-  std::erase_if(supports.prescribed,
-                [](const fem::PrescribedDof<3>& item) { return item.value.largest_magnitude() > 0.0; });
-  const auto held = held_nodes_in_space(supports);
-  Eigen::Vector3d least = problem.mesh.nodes.front();
-  Eigen::Vector3d largest = least;
-  for (const Eigen::Vector3d& node : problem.mesh.nodes) {
-    least = least.cwiseMin(node);
-    largest = largest.cwiseMax(node);
-  }
+  const auto held = held_nodes_in_space(problem, Movers::left_out);
+  const auto [least, largest] = fem::box_around(problem.mesh);
   int found = -1;
   for (int i = 0; i < 3; ++i) {
     const double slack = 1e-6 * (largest(i) - least(i));

@@ -7,8 +7,12 @@
 
 namespace polargrain::app {
 
+/// Whether displacements that are prescribed to move count as held.
+enum class Movers { held, left_out };
+
 /// By node of a body in space: which displacements are prescribed.
-std::vector<std::array<bool, 3>> held_nodes_in_space(const fem::Problem<3>& problem);
+std::vector<std::array<bool, 3>> held_nodes_in_space(const fem::Problem<3>& problem,
+                                                     Movers movers = Movers::held);
 
 /// Whether the displacement along the normal of a face is prescribed at all of its nodes.
 bool is_held(const fem::Mesh<3>& mesh, const std::vector<int>& nodes,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "common/error.hpp"
@@ -12,7 +13,9 @@
 #include "coupler/case/parts.hpp"
 #include "coupler/case/quantity.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "fem/mesh/box_around.hpp"
 #include "fem/solver/end_of_run.hpp"
+#include "fem/solver/later_regions.hpp"
 #include "fem/solver/stabilisation.hpp"
 
 namespace polargrain::coupler {
@@ -37,11 +40,8 @@ void check_materials(const Entry& start, const CaseIdentity& before, const CaseI
     };
     const std::string key = "materials." + material + ".";
     const std::string model = value_of(now.values, key + "model");
-    const bool comes_later = parts.result.with_problem([&](const auto& problem) {
-      const auto life = problem.lifetimes.find(region);
-      return life != problem.lifetimes.end() && life->second.begin > 0;
-    });
-    if (comes_later) continue;
+    if (parts.result.with_problem([&](const auto& problem) { return fem::comes_later(problem, region); }))
+      continue;
     if (std::ranges::find(known, region) == known.end()) {
       fault(fmt::format(
           "'{}' has no region of this name; it has {}. Give the region a name of that run, or 'place' "
@@ -83,41 +83,39 @@ void check_water(const Entry& start, const CaseIdentity& before, const CaseIdent
                         run)));
 }
 
-RunBefore run_before_of(const Checkpoint& end, const std::string& name, int dimension) {
+/// The body at the end of a run. A checkpoint without one gives nothing.
+/// @throws RunError where it is damaged
+template <int dim>
+std::optional<fem::EndOfRun<dim>> body_at_end(Checkpoint& end) {
+  if (!end.state.all_integers().contains("solver/body/dimension")) return {};
+  PrefixedReader archive(end.state, "solver/body/");
+  return fem::read_end<dim>(archive);
+}
+
+template <int dim>
+RunBefore run_before_of(const Checkpoint& end, const std::string& name,
+                        const std::optional<fem::EndOfRun<dim>>& body) {
   RunBefore before;
   before.name = name;
   for (const std::string key : {"continuum", "continuum.kind"})
     if (const auto value = end.identity.values.find(key); value != end.identity.values.end())
       before.continuum = value->second == "cauchy" ? fem::Continuum::cauchy : fem::Continuum::cosserat;
-  const auto nodes = end.state.all_doubles().find("solver/body/nodes");
-  const auto space = end.state.all_integers().find("solver/body/dimension");
-  if (nodes == end.state.all_doubles().end() || space == end.state.all_integers().end() ||
-      space->second != std::vector<std::int64_t>{dimension})
-    return before;
-  const auto axes = static_cast<std::size_t>(dimension);
-  before.least.assign(axes, HUGE_VAL);
-  before.largest.assign(axes, -HUGE_VAL);
-  for (std::size_t k = 0; k < nodes->second.size(); ++k) {
-    before.least[k % axes] = std::min(before.least[k % axes], nodes->second[k]);
-    before.largest[k % axes] = std::max(before.largest[k % axes], nodes->second[k]);
-  }
+  if (!body || body->mesh.nodes.empty()) return before;
+  const auto box = fem::box_around(body->mesh);
+  before.least.assign(box.least.begin(), box.least.end());
+  before.largest.assign(box.largest.begin(), box.largest.end());
   return before;
 }
 
 /// States of structures and water go over on the same mesh alone (fem::Solver::start_from).
-void check_mesh(const Entry& start, const Checkpoint& end, const std::string& run, CaseParts& parts) {
-  const auto nodes = end.state.all_doubles().find("solver/body/nodes");
-  if (nodes == end.state.all_doubles().end()) return;
-  parts.result.with_problem([&](const auto& problem) {
-    std::vector<double> here;
-    for (const auto& node : problem.mesh.nodes) here.insert(here.end(), node.begin(), node.end());
-    if (problem.contributions.empty() || here == nodes->second) return;
-    parts.faults.push_back(start.fault(fmt::format(
-        "start_from: '{}' has another mesh, of {} nodes, and this one has {}; {} can be taken over on the same mesh alone: use "
-        "its mesh, or 'place' what is new in a stage",
-        run, nodes->second.size() / static_cast<std::size_t>(parts.result.dimension()),
-        problem.mesh.nodes.size(), problem.contributions.front()->name())));
-  });
+template <int dim>
+void check_mesh(const Entry& start, const fem::Mesh<dim>& before, const fem::Problem<dim>& problem,
+                const std::string& run, CaseParts& parts) {
+  if (problem.contributions.empty() || problem.mesh.nodes == before.nodes) return;
+  parts.faults.push_back(start.fault(fmt::format(
+      "start_from: '{}' has another mesh, of {} nodes, and this one has {}; {} can be taken over on the same mesh alone: use "
+      "its mesh, or 'place' what is new in a stage",
+      run, before.nodes.size(), problem.mesh.nodes.size(), problem.contributions.front()->name())));
 }
 
 /// States of structures go over one by one, in their order.
@@ -144,53 +142,53 @@ void check_structures(const Entry& start, const Checkpoint& end, const std::stri
 }
 
 /// Ground that the other run does not have has no state to begin with.
-void check_body(const Entry& start, const RunBefore& before, CaseParts& parts) {
+template <int dim>
+void check_body(const Entry& start, const RunBefore& before, const fem::Problem<dim>& problem,
+                CaseParts& parts) {
   if (before.least.empty()) return;
-  parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
-    const std::vector<char> used = fem::nodes_of_elements(problem.mesh, fem::elements_in_stage(problem, 0));
-    constexpr double kRounding = 1e-6;
-    for (std::size_t node = 0; node < used.size(); ++node) {
-      if (used[node] == 0) continue;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
-        const double x = problem.mesh.nodes[node](static_cast<Eigen::Index>(i));
-        const double slack = kRounding * (before.largest[i] - before.least[i]);
-        if (x >= before.least[i] - slack && x <= before.largest[i] + slack) continue;
-        parts.faults.push_back(start.fault(fmt::format(
-            "start_from: the body in '{}' reaches from x{} = {:.4g} m to {:.4g} m, and this one has a node at {:.4g} m, where "
-            "that run has no state to give; keep to its body, or 'place' new ground in a stage",
-            before.name, i + 1, before.least[i], before.largest[i], x)));
-        return;
-      }
+  const std::vector<char> used = fem::nodes_of_elements(problem.mesh, fem::elements_in_stage(problem, 0));
+  constexpr double kRounding = 1e-6;
+  for (std::size_t node = 0; node < used.size(); ++node) {
+    if (used[node] == 0) continue;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
+      const double x = problem.mesh.nodes[node](static_cast<Eigen::Index>(i));
+      const double slack = kRounding * (before.largest[i] - before.least[i]);
+      if (x >= before.least[i] - slack && x <= before.largest[i] + slack) continue;
+      parts.faults.push_back(start.fault(fmt::format(
+          "start_from: the body in '{}' reaches from x{} = {:.4g} m to {:.4g} m, and this one has a node at {:.4g} m, where "
+          "that run has no state to give; keep to its body, or 'place' new ground in a stage",
+          before.name, i + 1, before.least[i], before.largest[i], x)));
+      return;
     }
-  });
+  }
 }
 
 /// Ground that was removed has no state at the end.
-void check_regions_there(const Entry& start, Checkpoint& end, const std::string& run, CaseParts& parts) {
-  const auto& numbers = end.state.all_integers();
-  const auto space = numbers.find("solver/body/dimension");
-  if (space == numbers.end() || space->second != std::vector<std::int64_t>{parts.result.dimension()} ||
-      !numbers.contains("solver/body/elements") || !numbers.contains("solver/body/materials_of_regions"))
-    return;
-  const std::vector<std::string> known = regions_of(end.identity);
-  parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
-    PrefixedReader archive(end.state, "solver/body/");
-    const fem::EndOfRun<dim> body = fem::read_end<dim>(archive);
-    std::set<std::size_t> left;
-    for (std::size_t e = 0; e < body.there.size(); ++e)
-      if (body.there[e] != 0) left.insert(body.region_of_element[e]);
-    for (const auto& [region, unused] : problem.materials) {
-      const auto life = problem.lifetimes.find(region);
-      const auto number = static_cast<std::size_t>(std::ranges::find(known, region) - known.begin());
-      if ((life != problem.lifetimes.end() && life->second.begin > 0) || number == known.size() ||
-          left.contains(number))
-        continue;
-      parts.faults.push_back(start.fault(fmt::format(
-          "start_from: region '{}' had been removed at the end of '{}', so it has no state there; leave it out of the mesh, or "
-          "'place' it in a stage",
-          region, run)));
-    }
-  });
+template <int dim>
+void check_regions_there(const Entry& start, const fem::EndOfRun<dim>& body, const fem::Problem<dim>& problem,
+                         const std::vector<std::string>& known, const std::string& run, CaseParts& parts) {
+  std::set<std::size_t> left;
+  for (std::size_t e = 0; e < body.there.size(); ++e)
+    if (body.there[e] != 0) left.insert(body.region_of_element[e]);
+  for (const auto& [region, unused] : problem.materials) {
+    const auto number = static_cast<std::size_t>(std::ranges::find(known, region) - known.begin());
+    if (number == known.size() || left.contains(number) || fem::comes_later(problem, region)) continue;
+    parts.faults.push_back(start.fault(fmt::format(
+        "start_from: region '{}' had been removed at the end of '{}', so it has no state there; leave it out of the mesh, or "
+        "'place' it in a stage",
+        region, run)));
+  }
+}
+
+template <int dim>
+void check_problem(const Entry& start, Checkpoint& end, const fem::Problem<dim>& problem,
+                   const std::string& run, CaseParts& parts) {
+  const std::optional<fem::EndOfRun<dim>> body = body_at_end<dim>(end);
+  const RunBefore& before = parts.result.run_before.emplace(run_before_of(end, run, body));
+  check_body(start, before, problem, parts);
+  if (!body) return;
+  if (parts.faults.empty()) check_regions_there(start, *body, problem, regions_of(end.identity), run, parts);
+  check_mesh(start, body->mesh, problem, run, parts);
 }
 
 }  // namespace
@@ -232,10 +230,7 @@ void read_start(Section& top, CaseParts& parts) {
     const CaseIdentity now = identity_of(top.entry(), parts.directory);
     check_materials(start, end.identity, now, name, parts);
     check_water(start, end.identity, now, name, parts);
-    parts.result.run_before = run_before_of(end, name, parts.result.dimension());
-    check_body(start, *parts.result.run_before, parts);
-    if (parts.faults.empty()) check_regions_there(start, end, name, parts);
-    check_mesh(start, end, name, parts);
+    parts.result.with_problem([&](const auto& problem) { check_problem(start, end, problem, name, parts); });
     if (parts.faults.empty()) check_structures(start, end, name, parts);
   } catch (const InputError& of_file) {
     fault(of_file.what());

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/seconds.hpp"
 #include "fem/material/rotation.hpp"
+#include "fem/mesh/box_around.hpp"
 #include "fem/solver/equation_scaling.hpp"
 #include "fem/solver/free_rotations.hpp"
 #include "fem/solver/residual_floor.hpp"
@@ -65,17 +66,6 @@ double mean_element_size(const Discretisation<dim>& discretisation) {
   return dim == 2 ? std::sqrt(mean) : power(mean, 1.0 / 3.0);
 }
 
-template <int dim>
-double size_of_box(const Mesh<dim>& mesh) {
-  typename Cosserat<dim>::Place least = mesh.nodes.front();
-  typename Cosserat<dim>::Place largest = least;
-  for (const auto& node : mesh.nodes) {
-    least = least.cwiseMin(node);
-    largest = largest.cwiseMax(node);
-  }
-  return (largest - least).norm();
-}
-
 }  // namespace
 
 template <int dim>
@@ -90,7 +80,7 @@ Newton<dim>::Newton(Problem<dim> problem_in, const SolverOptions& options_in)
       reference_length(options.reference_length > 0.0
                            ? options.reference_length
                            : materials.moment_length(mean_element_size(discretisation))),
-      body_size_(size_of_box(problem.mesh)),
+      body_size_(box_around(problem.mesh).sides().norm()),
       tangent_(discretisation, constraints, problem.contributions),
       linear_solver_(coarse_space<dim>(problem.mesh, constraints)),
       anderson_(options.acceleration_depth, reference_length, dim, constraints.places().mechanics()),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "fem/mesh/box_around.hpp"
 #include "fem/solver/newton.hpp"
 
 namespace polargrain::fem {
@@ -44,14 +45,9 @@ Eigen::VectorXd Newton<dim>::last_supplied() const {
 
 template <int dim>
 int Newton<dim>::steps_of_wave() const {
-  using Place = typename Cosserat<dim>::Place;
-  Place least = problem.mesh.nodes.front();
-  Place most = least;
   double mass = 0.0;
   int entries = 0;
   for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node) {
-    least = least.cwiseMin(problem.mesh.nodes[node]);
-    most = most.cwiseMax(problem.mesh.nodes[node]);
     for (std::size_t i = 0; i < dim; ++i) {
       const std::size_t entry = entry_of<dim>(node) + i;
       if (!constraints.is_free(entry)) continue;
@@ -67,7 +63,7 @@ int Newton<dim>::steps_of_wave() const {
   // The nodes that are held have mass too.
   const double all = mass * static_cast<double>(problem.mesh.nodes.size()) / entries;
   const double speed = std::sqrt(modulus / all);  // of modulus / volume over mass / volume
-  return static_cast<int>(std::ceil(2.0 * (most - least).maxCoeff() / speed));
+  return static_cast<int>(std::ceil(2.0 * box_around(problem.mesh).sides().maxCoeff() / speed));
 }
 
 template <int dim>

@@ -9,6 +9,7 @@
 #include "common/packed_values.hpp"
 #include "common/prefixed_archive.hpp"
 #include "fem/solver/end_of_run.hpp"
+#include "fem/solver/later_regions.hpp"
 #include "fem/solver/recovery.hpp"
 #include "fem/solver/solver_implementation.hpp"
 
@@ -22,8 +23,7 @@ std::vector<std::optional<std::size_t>> regions_there(const Problem<dim>& proble
   std::vector<std::optional<std::size_t>> numbers;
   for (const auto& [region, unused] : problem.materials) {
     std::optional<std::size_t>& number = numbers.emplace_back();
-    const auto life = problem.lifetimes.find(region);
-    if (life != problem.lifetimes.end() && life->second.begin > 0) continue;
+    if (comes_later(problem, region)) continue;
     const auto found = std::ranges::find(regions_of_end, region);
     if (found == regions_of_end.end())
       throw RunError(

@@ -119,5 +119,20 @@ TEST_F(StartFromCommand, ProfilesOfAnEarlierRunAreGone) {
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00004.csv"));
 }
 
+// Found before the run begins.
+TEST_F(StartFromCommand, APlaneHasNoStateForSpace) {
+  ASSERT_EQ(program("run first.yaml -o first --quiet").status, 0);
+  write(
+      scratch_.path() / "second.yaml",
+      "title: a block in space\ncontinuum: cauchy\nmesh: {box: {size: [1 m, 1 m, 1 m], elements: [1, 1, 1]}}\n"
+      "materials: {soil: {model: elastic, E: 10 MPa, nu: 0.25}}\nregions: {all: soil}\n"
+      "boundary: [{on: bottom, fix: [u1, u2, u3]}]\nsteps: {count: 1}\nstart_from: first\n");
+  const Outcome refused = program("check second.yaml");
+  EXPECT_EQ(refused.status, 2) << refused.out;
+  EXPECT_NE((refused.out + refused.errors).find("'first': its body is of another dimension"),
+            std::string::npos)
+      << refused.out << refused.errors;
+}
+
 }  // namespace
 }  // namespace polargrain::testing

@@ -2,9 +2,9 @@
 // Values at places, along lines, and the start from another run as a case file has them: faults with line and remedy.
 #include <gtest/gtest.h>
 
-#include <array>
-
+#include "common/prefixed_archive.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "fem/solver/end_of_run.hpp"
 #include "tests/support/edited_case.hpp"
 
 namespace polargrain::coupler {
@@ -91,10 +91,14 @@ TEST_F(ProfilesCase, SpreadSlipsTakeNoRunOver) {
 // The block measures 2 m x 1 m.
 TEST_F(ProfilesCase, TheBodyOfTheRunBeforeIsCompared) {
   const auto keep_body = [&](double width, double height) {
+    fem::EndOfRun<2> body;
+    body.mesh.nodes = {{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}};
+    body.mesh.elements = {{&fem::element_type<2>("Q4"), {0, 1, 2, 3}}};
+    body.region_of_element = body.material_of_region = {0};
+    body.there = {1};
     end_.state = {};
-    end_.state.write("solver/body/nodes", std::span<const double>(std::vector<double>{
-                                              0.0, 0.0, width, 0.0, width, height, 0.0, height}));
-    end_.state.write("solver/body/dimension", std::span<const std::int64_t>(std::array<std::int64_t, 1>{2}));
+    PrefixedWriter archive(end_.state, "solver/body/");
+    fem::write_end(archive, body);
     keep();
   };
   keep_body(2.0, 1.0);
