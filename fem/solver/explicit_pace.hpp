@@ -63,21 +63,24 @@ class ExplicitPace {
   int steps_ = 1;
 };
 
-/// The share of the velocity of each unknown that a step takes away: in real time mass_damping times the step, and a little of
-/// micro-rotations; else ExplicitOptions::rotation_damping of these.
+/// Shares that a step takes away, by unknown.
+struct DampingOfSteps {
+  Eigen::VectorXd speed;  ///< of the velocity: in real time ExplicitOptions::mass_damping times the step
+  Eigen::VectorXd lag;    ///< of the speed of a micro-rotation over the spin of the continuum there
+};
+
 /// @param seconds of a step in real time; nothing: it has no real time
 template <int dim>
-Eigen::VectorXd damping_of_steps(const Problem<dim>& problem, const Constraints<dim>& constraints,
-                                 const ExplicitOptions& options, std::optional<double> seconds) {
-  // Without any, micro-rotations swing up in a body that collapses. A column of which a hundredth is taken in each step hardly
-  // feels it; it would be damped by some per cent if all were.
+DampingOfSteps damping_of_steps(const Problem<dim>& problem, const Constraints<dim>& constraints,
+                                const ExplicitOptions& options, std::optional<double> seconds) {
+  // Without any, micro-rotations swing up in a body that collapses.
   constexpr double kInRealTime = 0.01;
-  const double of_time = seconds ? options.mass_damping * *seconds : 0.0;
-  const double of_rotations = seconds ? of_time + kInRealTime : options.rotation_damping;
-  Eigen::VectorXd damping = Eigen::VectorXd::Zero(constraints.unknowns());
+  DampingOfSteps damping{
+      Eigen::VectorXd::Constant(constraints.unknowns(), seconds ? options.mass_damping * *seconds : 0.0),
+      Eigen::VectorXd::Zero(constraints.unknowns())};
   for (std::size_t entry = 0; entry < entry_of<dim>(problem.mesh.nodes.size()); ++entry)
-    if (constraints.is_free(entry))
-      damping(constraints.equation(entry)) = is_rotation(dof_at<dim>(entry)) ? of_rotations : of_time;
+    if (constraints.is_free(entry) && is_rotation(dof_at<dim>(entry)))
+      damping.lag(constraints.equation(entry)) = seconds ? kInRealTime : options.rotation_damping;
   return damping;
 }
 

@@ -61,7 +61,7 @@ struct SolverOptions {
 struct ExplicitOptions {
   double safety = 0.6;  ///< a step over the critical one; stiffness may grow by 1 / safety^2
   double rotation_damping =
-      1.0;  ///< share of the speed of a micro-rotation that a step takes away; not in real time
+      1.0;  ///< share of the speed of a micro-rotation over the continuum's spin that a step takes away; not in real time
   /// Steps over which nodes at rest come to their speed. 0: as many as a wave needs through the mesh there and back; such a
   /// ramp hardly excites the slowest wave.
   int ramp = 0;

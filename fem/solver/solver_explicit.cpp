@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "fem/solver/explicit_pace.hpp"
+#include "fem/solver/nodal_spin.hpp"
 #include "fem/solver/solver_implementation.hpp"
 
 namespace polargrain::fem {
@@ -30,6 +31,8 @@ class ExplicitRow {
         report_(report),
         damping_(damping_of_steps(solver.problem, solver.constraints, options,
                                   solver.state.seconds > 0.0 ? std::optional(seconds) : std::nullopt)),
+        spin_(solver.state.velocity.isZero(0.0) ? Eigen::VectorXd::Zero(solver.constraints.unknowns())
+                                                : spin_of_last_step()),
         forces_(solver.constraints.restrict_to_free(solver.unbalanced())) {}
 
   /// One step. @returns whether it could be taken; the report says why not
@@ -46,6 +49,7 @@ class ExplicitRow {
       return false;
     }
     ++report_.explicit_steps;
+    spin_ = spin_of_last_step();
     forces_ = solver_.constraints.restrict_to_free(solver_.last_unbalanced());
     return true;
   }
@@ -117,19 +121,30 @@ class ExplicitRow {
     const Eigen::VectorXd& velocity = solver_.state.velocity;
     const Eigen::VectorXd& mass = solver_.state.mass;
     Step step;
-    step.velocity =
-        ((1.0 - 0.5 * damping_.array()) * velocity.array() + seconds_ * forces_.array() / mass.array()) /
-        (1.0 + 0.5 * damping_.array());
+    const Eigen::VectorXd damping = damping_.speed + damping_.lag;
+    const Eigen::VectorXd pull = damping_.lag.cwiseProduct(spin_);
+    step.velocity = ((1.0 - 0.5 * damping.array()) * velocity.array() +
+                     seconds_ * forces_.array() / mass.array() + pull.array()) /
+                    (1.0 + 0.5 * damping.array());
     if (quiet_ != nullptr) {
       const auto energy = quiet_->apply(solver_.constraints, velocity,
-                                        mass + 0.5 * damping_.cwiseProduct(mass), seconds_, step.velocity);
+                                        mass + 0.5 * damping.cwiseProduct(mass), seconds_, step.velocity);
       step.absorbed = energy.over_step;
       step.absorbed_first_half = energy.first_half;
     }
-    const Eigen::VectorXd force = 0.5 * damping_.cwiseProduct(mass).cwiseProduct(velocity + step.velocity);
+    const Eigen::VectorXd force =
+        mass.cwiseProduct(0.5 * damping.cwiseProduct(velocity + step.velocity) - pull);
     step.damped = 0.5 * force.dot(velocity + step.velocity);
     step.damped_first_half = 0.5 * force.dot(velocity);
     return step;
+  }
+
+  /// Spin of the continuum at the micro-rotations, over the time of a step: moments on them that hinder lag alone leave a body
+  /// that turns as it is.
+  [[nodiscard]] Eigen::VectorXd spin_of_last_step() const {
+    return nodal_spin(solver_.problem, solver_.discretisation, solver_.constraints,
+                      solver_.state.last_increment) /
+           seconds_;
   }
 
   Newton<dim>& solver_;
@@ -137,8 +152,9 @@ class ExplicitRow {
   const QuietBoundary<dim>* quiet_;
   double seconds_;
   StepReport& report_;
-  Eigen::VectorXd damping_;  ///< share of the velocity that a step takes away
-  Eigen::VectorXd forces_;   ///< out of balance, in the order of the equations
+  DampingOfSteps damping_;
+  Eigen::VectorXd spin_;    ///< see spin_of_last_step
+  Eigen::VectorXd forces_;  ///< out of balance, in the order of the equations
 };
 
 }  // namespace

@@ -153,6 +153,31 @@ TEST(dynamics, a_column_swings_with_its_period) {
   }
 }
 
+// Bent and let go, a beam turns as it swings. Micro-rotations that turn with it are not damped.
+TEST(dynamics, a_beam_of_micro_rotations_swings_on) {
+  Problem<2> problem = body({{1.0, 0.1}, {8, 1}}, "Q8R", Continuum::cosserat);
+  problem.prescribed = {{"left", Dof::u1, kZeroOfDynamics, {}}, {"left", Dof::u2, kZeroOfDynamics, {}}};
+  BoundaryLoad<2> force{.on = "right"};
+  force.traction[1] = TimeTable({{0.0, 100.0}, {1e-6, 0.0}});
+  problem.boundary_loads = {force};
+  Solver<2> solver(std::move(problem), {});
+  ASSERT_TRUE(solver.begin_real_time().converged);
+  const double stored = 0.5 * 100.0 * 0.1 * solver.mean_displacement("right")(1);
+  double least = 0.0;
+  double largest = 0.0;
+  constexpr int kLooks = 200;
+  for (int look = 1; look <= kLooks; ++look) {
+    const StepReport report = solver.advance_real_time(3.0 * look / kLooks);
+    ASSERT_TRUE(report.converged);
+    EXPECT_LT(report.energies.error(), kEnergy);
+    least = std::min(least, report.energies.damped);
+    largest = std::max(largest, report.energies.damped);
+  }
+  std::cout << "[figure] energy of a beam that is damped in 3 s, %: " << 100.0 * largest / stored << '\n';
+  EXPECT_LT(largest, 0.03 * stored);
+  EXPECT_GT(least, -1e-3 * stored);
+}
+
 /// Energy that a pulse leaves behind in a body, over that which it brought in.
 double left_behind(Problem<2> problem, double until) {
   Solver<2> solver(std::move(problem), {});

@@ -140,7 +140,7 @@ TEST(explicit_rate, keeps_the_error_that_is_allowed) {
       std::cout << "[figure] allowed " << allowed << ", from " << start << " steps a row: speed " << row.speed
                 << ", estimate " << row.quasi_static.error() << ", error " << largest << '\n';
       EXPECT_LT(largest, allowed);
-      EXPECT_LT(row.quasi_static.error(), 1.5 * allowed);
+      EXPECT_LT(row.quasi_static.error(), 2.0 * allowed);  // of one row
     }
   }
 }
@@ -397,6 +397,39 @@ TEST(explicit_steps, stay_stable_where_elements_are_squeezed) {
   }
   std::cout << "[figure] explicit steps of a row: " << first << ", then " << last << '\n';
   EXPECT_GT(last, 1.25 * first);
+}
+
+// Turned by 28 degrees under pressures that follow it, and pressed on its top: the work of all forces is that of its stresses.
+// Micro-rotations turn with the body; damped in space, they would hold it back.
+TEST(explicit_steps, turn_a_body_without_drag) {
+  const auto turned = [] {
+    Problem<2> problem;
+    problem.mesh = rectangle({{1.0, 1.0}, {2, 2}});
+    problem.deformation = Deformation::large;
+    problem.materials["all"] = elastic();
+    problem.prescribed = {{"bottom_left", Dof::u1, TimeTable::constant(0.0), {}},
+                          {"bottom_left", Dof::u2, TimeTable::constant(0.0), {}},
+                          {"bottom_right", Dof::u1, TimeTable::ramp(-0.117), {}},
+                          {"bottom_right", Dof::u2, TimeTable::ramp(0.46947), {}}};
+    for (const char* const side : {"left", "right", "bottom"})
+      problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::constant(kPressure)});
+    problem.boundary_loads.push_back(
+        {.on = "top", .pressure = TimeTable({{0.0, kPressure}, {1.0, 2.0 * kPressure}})});
+    return problem;
+  };
+  Solver<2> balanced(turned(), {});
+  ASSERT_TRUE(balanced.equilibrate().converged);
+  for (int step = 1; step <= 20; ++step) ASSERT_TRUE(balanced.advance(step / 20.0).converged);
+  Solver<2> solver(turned(), {});
+  ASSERT_TRUE(solver.begin_explicit().converged);
+  for (int step = 1; step <= 20; ++step) ASSERT_TRUE(solver.advance_explicit(step / 20.0, 800, {}).converged);
+  const double work = balanced.state().external_work;
+  std::cout << "[figure] work of a body that is turned in explicit steps over that in balance: external "
+            << solver.state().external_work / work << ", internal " << solver.state().internal_work / work
+            << '\n';
+  // The inertia of the chosen masses is left.
+  EXPECT_NEAR(solver.state().external_work / work, 1.0, 0.1);
+  EXPECT_NEAR(solver.state().internal_work / work, 1.0, 0.1);
 }
 
 }  // namespace
