@@ -9,6 +9,7 @@
 #include "common/packed_values.hpp"
 #include "fem/element/corner_shape.hpp"
 #include "fem/element/dofs.hpp"
+#include "fem/solver/later_regions.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -198,6 +199,7 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
     change_ = std::max(change_, change.cwiseAbs().maxCoeff());
     least_pressure_ = std::min(least_pressure_, (start + change).minCoeff());
   }
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(outflow_.size());
   for (const UnitFlux& flux : fluxes_) {
     if (!stands(flux.element)) continue;
     const double brought =
@@ -205,10 +207,11 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
     for (std::size_t k = 0; k < flux.entries.size(); ++k) {
       forces.internal(flux.entries[k]) += brought * flux.values[k];
       forces.parts(flux.entries[k]) += std::abs(brought * flux.values[k]);
+      given(flux.entries[k] - first_entry_) += brought * flux.values[k];
     }
   }
-  // The rows of free pressures vanish, with what interfaces have added before.
-  trial_outflow_ = outflow_ + forces.internal.segment(first_entry_, outflow_.size());
+  // The rows of free pressures vanish, with what interfaces have added before. A given flux goes through the boundary too.
+  trial_outflow_ = outflow_ + forces.internal.segment(first_entry_, outflow_.size()) - given;
   return {};
 }
 
@@ -349,8 +352,7 @@ std::vector<std::string> PoreWater<dim>::faults(const Problem<dim>& problem) con
       messages.push_back(fmt::format("the mesh has no region '{}'", region));
       continue;
     }
-    if (const auto life = problem.lifetimes.find(region);
-        life != problem.lifetimes.end() && life->second.begin > 0)
+    if (comes_later(problem, region))
       messages.push_back(fmt::format(
           "'{}' comes in a later stage and is then dry; name the regions with water, without it", region));
     bool twice = false;
