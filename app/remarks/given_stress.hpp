@@ -9,8 +9,9 @@ namespace polargrain::app {
 
 /// The stress that `initial_stress` of the case gives a place of a region, if it gives one. Where boxes measure K0,
 /// across with an estimate of it.
-std::optional<Vector7> given_stress(const Scene& scene, const std::string& region,
-                                    const Eigen::Vector2d& place);
+template <int dim>
+std::optional<typename Cosserat<dim>::Vector> given_stress(const Scene& scene, const std::string& region,
+                                                           const typename Cosserat<dim>::Place& place);
 
 /// Whether it gives the region a stress.
 bool has_given_stress(const Scene& scene, const std::string& region);

@@ -19,6 +19,7 @@ void tension(const Scene& scene, Remarks& remarks);
 void ground_stress(const Scene& scene, Remarks& remarks);
 void weight(const Scene& scene, Remarks& remarks);
 void free_sides(const Scene& scene, Remarks& remarks);
+void free_sides_in_space(const Scene& scene, Remarks& remarks);
 void structures(const Scene& scene, Remarks& remarks);
 void weight_of_parts(const Scene& scene, Remarks& remarks);
 void loads_of_stages(const Scene& scene, Remarks& remarks);

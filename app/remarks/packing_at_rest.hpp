@@ -23,6 +23,16 @@ struct PackingAtRest {
   }
 };
 
+/// The forces of a stress of the engine, in the plane or in space.
+template <int dim>
+typename Cosserat<dim>::Vector stress_in(const Vector7& of_engine) {
+  typename Cosserat<dim>::Vector stress = Cosserat<dim>::Vector::Zero();
+  for (int i = 0; i < 3; ++i) stress(Cosserat<dim>::stress_place(i, i)) = of_engine(i);
+  stress(Cosserat<dim>::stress_place(0, 1)) = of_engine(k12);
+  stress(Cosserat<dim>::stress_place(1, 0)) = of_engine(k21);
+  return stress;
+}
+
 /// By name of the material; those without cells are not there.
 using PackingsAtRest = std::map<std::string, PackingAtRest>;
 

@@ -30,16 +30,17 @@ constexpr Kind kAtTimeZero[] = {
     {weight_in_boxes, Bodies::plane},      {load_on_held, Bodies::both},
     {plain_loads, Bodies::both},           {tension, Bodies::plane},
     {ground_stress, Bodies::both},         {weight, Bodies::both},
-    {free_sides, Bodies::plane},           {stiffness_of_laws, Bodies::both}};
+    {free_sides, Bodies::plane},           {free_sides_in_space, Bodies::space},
+    {stiffness_of_laws, Bodies::both},     {loads_twice, Bodies::both}};
 
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
-constexpr Kind kBalance[] = {{balance_at_start, Bodies::plane, true}};
+constexpr Kind kBalance[] = {{balance_at_start, Bodies::both, true}};
 
 constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {times_of_loads, Bodies::both},
                                   {idle_steps, Bodies::both},
                                   {missed_turns, Bodies::both},
-                                  {open_seams, Bodies::plane},
+                                  {open_seams, Bodies::both},
                                   {steps_of_strain, Bodies::both},
                                   {internal_length, Bodies::both},
                                   {plastic_length, Bodies::both},
@@ -65,7 +66,7 @@ constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {held_sides, Bodies::plane},
                                   {narrow_plates, Bodies::plane},
                                   {shape_of_elements, Bodies::plane},
-                                  {places_of_monitors, Bodies::plane},
+                                  {places_of_monitors, Bodies::both},
                                   {ends_of_profiles, Bodies::both},
                                   {structures, Bodies::plane},
                                   {weight_of_parts, Bodies::both},
@@ -76,7 +77,6 @@ constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {drains_dug_away, Bodies::both},
                                   {loads_behind_walls, Bodies::both},
                                   {polygons_of_cylinders, Bodies::space},
-                                  {loads_twice, Bodies::both},
                                   {end_of_run_before, Bodies::both}};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
@@ -85,6 +85,28 @@ void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) 
   for (const Kind& kind : kinds) {
     const bool is_of_body = kind.bodies == here || kind.bodies == Bodies::both;
     if (is_of_body && !(is_wet && kind.of_dry_ground)) kind.look(scene, remarks);
+  }
+}
+
+/// Kinds that later stages may have too, by their supports and loads.
+constexpr Kind kInEachStage[] = {{load_on_held, Bodies::both}, {plain_loads, Bodies::both},
+                                 {weight, Bodies::both},       {movement, Bodies::both},
+                                 {node_forces, Bodies::both},  {loads_twice, Bodies::both}};
+
+/// An item that stays through several stages is told once.
+void look_at_later_stages(const Scene& scene, Remarks& remarks) {
+  const int stages =
+      scene.with_problem([](const auto& problem) { return static_cast<int>(problem.stages.size()); });
+  for (int stage = 1; stage < stages; ++stage) {
+    Remarks later;
+    look_by(kInEachStage, scene.in_stage(stage), later);
+    for (Remark& remark : later) {
+      const auto is_known = [&](const Remark& known) {
+        return known.at.message == remark.at.message ||
+               (known.at.line == remark.at.line && known.remedy == remark.remedy);
+      };
+      if (std::ranges::none_of(remarks, is_known)) remarks.push_back(std::move(remark));
+    }
   }
 }
 
@@ -101,6 +123,7 @@ Remarks remarks_on(const Scene& scene) {
     if (remarks.empty()) look_by(kBalance, scene, remarks);
   }
   look_by(kOtherRemarks, scene, remarks);
+  look_at_later_stages(scene, remarks);
   // Regions of one material have its remarks alike.
   std::set<std::string> told;
   std::erase_if(remarks, [&](const Remark& remark) { return !told.insert(remark.at.text()).second; });

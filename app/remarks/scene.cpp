@@ -5,22 +5,36 @@
 #include <cmath>
 
 #include "app/remarks/given_stress.hpp"
+#include "fem/solver/later_regions.hpp"
 
 namespace polargrain::app {
 
 namespace {
 
-/// Without the supports and loads that begin later; nothing where there are no stages.
+/// With the supports and loads of a stage alone; nothing where there are no stages.
 template <int dim>
-std::optional<fem::Problem<dim>> first_stage_of(const fem::Problem<dim>& problem) {
+std::optional<fem::Problem<dim>> problem_in_stage(const fem::Problem<dim>& problem, int stage) {
   if (problem.stages.size() < 2) return {};
-  fem::Problem<dim> first = problem;
-  const auto comes_later = [](const auto& item) { return item.life.begin > 0; };
-  std::erase_if(first.prescribed, comes_later);
-  std::erase_if(first.boundary_loads, comes_later);
-  std::erase_if(first.node_loads, comes_later);
-  std::erase_if(first.body_loads, comes_later);
-  return first;
+  fem::Problem<dim> there = problem;
+  const auto is_away = [stage](const auto& item) { return !item.life.holds(stage); };
+  std::erase_if(there.prescribed, is_away);
+  std::erase_if(there.boundary_loads, is_away);
+  std::erase_if(there.node_loads, is_away);
+  std::erase_if(there.body_loads, is_away);
+  return there;
+}
+
+/// The value of `key` in the first of these items that is on `name` and has it.
+const coupler::Entry* value_among(const coupler::Entry& items, const std::string& name,
+                                  const std::string& key) {
+  for (const coupler::Entry& item : items.items) {
+    const coupler::Entry* const on = item.find("on");
+    const coupler::Entry* const value = item.find(key);
+    if (on == nullptr || value == nullptr) continue;
+    const auto is_name = [&](const coupler::Entry& word) { return word.text == name; };
+    if (is_name(*on) || std::ranges::any_of(on->items, is_name)) return value;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -29,22 +43,27 @@ Scene::Scene(const coupler::Case& the_case, const coupler::Entry& document, cons
     : case_(the_case),
       document_(document),
       body_(the_case.with_problem([](const auto& problem) { return body_of(problem.mesh); })) {
-  at_start_ = first_stage_of(case_.problem);
-  if (case_.space) space_at_start_ = first_stage_of(*case_.space);
+  in_stage_ = problem_in_stage(case_.problem, 0);
+  if (case_.space) space_in_stage_ = problem_in_stage(*case_.space, 0);
   region_of_element_.resize(body_.elements.size());
   for (const auto& [name, material] : case_.regions) {
     SceneRegion region{name, material};
     region.cell = case_.materials.at(material)->grains();
-    region.comes_later = with_problem([&](const auto& problem) {
-      const auto life = problem.lifetimes.find(name);
-      return life != problem.lifetimes.end() && life->second.begin > 0;
-    });
+    region.comes_later = with_problem([&](const auto& problem) { return fem::comes_later(problem, name); });
     if (const auto found = packings.find(material); found != packings.end()) region.packing = &found->second;
     region.elements = with_problem([&](const auto& problem) { return problem.mesh.regions.at(name); });
     for (const int element : region.elements)
       region_of_element_[static_cast<std::size_t>(element)] = regions_.size();
     regions_.push_back(std::move(region));
   }
+}
+
+Scene Scene::in_stage(int stage) const {
+  Scene later = *this;
+  later.stage_ = stage;
+  later.in_stage_ = problem_in_stage(case_.problem, stage);
+  if (case_.space) later.space_in_stage_ = problem_in_stage(*case_.space, stage);
+  return later;
 }
 
 const coupler::Entry* Scene::find(const Path& path) const {
@@ -73,16 +92,12 @@ const coupler::Entry& Scene::place(const Path& path) const {
 }
 
 const coupler::Entry* Scene::boundary_value(const std::string& name, const std::string& key) const {
-  const coupler::Entry* const boundary = document_.find("boundary");
-  if (boundary == nullptr) return nullptr;
-  for (const coupler::Entry& item : boundary->items) {
-    const coupler::Entry* const on = item.find("on");
-    const coupler::Entry* const value = item.find(key);
-    if (on == nullptr || value == nullptr) continue;
-    const auto is_name = [&](const coupler::Entry& word) { return word.text == name; };
-    if (is_name(*on) || std::ranges::any_of(on->items, is_name)) return value;
-  }
-  return nullptr;
+  if (const coupler::Entry* const stages = find({"steps", "stages"}))
+    for (int stage = std::min(stage_ + 1, static_cast<int>(stages->items.size())); stage-- > 0;)
+      if (const coupler::Entry* const items = stages->items[static_cast<std::size_t>(stage)].find("boundary"))
+        if (const coupler::Entry* const value = value_among(*items, name, key)) return value;
+  const coupler::Entry* const items = document_.find("boundary");
+  return items != nullptr ? value_among(*items, name, key) : nullptr;
 }
 
 Scene::StressAtStart Scene::stress_at_start() const {
@@ -100,21 +115,24 @@ double Scene::pressure_of(const SceneRegion& region) {
   return region.cell != nullptr ? region.cell->packing.pressure : 0.0;
 }
 
-std::optional<Vector7> Scene::initial_stress(const SceneRegion& region,
-                                             const Eigen::Vector2d& position) const {
+template <int dim>
+std::optional<typename Cosserat<dim>::Vector> Scene::initial_stress(
+    const SceneRegion& region, const Eigen::Matrix<double, dim, 1>& position) const {
   if (region.comes_later) return {};
-  if (const auto given = given_stress(*this, region.name, position)) return given;
-  Vector7 stress = Vector7::Zero();
-  if (region.packing != nullptr) return region.packing->stress;
-  if (region.cell != nullptr) {
-    for (const int i : {k11, k22, k33}) stress(i) = -region.cell->packing.pressure;
-    return stress;
-  }
-  const auto confining = quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure);
-  if (!confining || *confining == 0.0) return {};
-  for (const int i : {k11, k22, k33}) stress(i) = -*confining;
+  if (const auto given = given_stress<dim>(*this, region.name, position)) return given;
+  if (region.packing != nullptr) return stress_in<dim>(region.packing->stress);
+  const double pressure =
+      region.cell != nullptr
+          ? region.cell->packing.pressure
+          : quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure).value_or(0.0);
+  if (region.cell == nullptr && pressure == 0.0) return {};
+  typename Cosserat<dim>::Vector stress = Cosserat<dim>::Vector::Zero();
+  for (int i = 0; i < 3; ++i) stress(Cosserat<dim>::stress_place(i, i)) = -pressure;
   return stress;
 }
+
+template std::optional<Vector7> Scene::initial_stress<2>(const SceneRegion&, const Eigen::Vector2d&) const;
+template std::optional<Vector18> Scene::initial_stress<3>(const SceneRegion&, const Eigen::Vector3d&) const;
 
 std::optional<double> Scene::end_time() const {
   double end = 0.0;
@@ -162,8 +180,8 @@ double Scene::reached(const fem::TimeTable& movement) const {
 
 double Scene::largest_movement() const {
   double largest = growth_of_measures();
-  with_problem([&](const auto& problem) {
-    for (const auto& item : problem.prescribed)
+  case_.with_problem([&](const auto& of_all_stages) {
+    for (const auto& item : of_all_stages.prescribed)
       if (!fem::is_rotation(item.dof)) largest = std::max(largest, reached(item.value));
   });
   return largest;

@@ -32,16 +32,27 @@ class Scene {
   /// All must outlive the scene. @param document of the case, settings applied
   Scene(const coupler::Case& the_case, const coupler::Entry& document, const PackingsAtRest& packings);
 
+  /// The same with the supports and loads of a later stage. @param stage from 0
+  [[nodiscard]] Scene in_stage(int stage) const;
+  [[nodiscard]] int stage() const { return stage_; }
+
   [[nodiscard]] const coupler::Case& the_case() const { return case_; }
   [[nodiscard]] int dimension() const { return case_.dimension(); }
-  /// Of a case of the plane. Where parts come and go: without the supports and loads that begin in a later stage.
-  [[nodiscard]] const fem::Problem<2>& problem() const { return at_start_ ? *at_start_ : case_.problem; }
+  /// Of a case of the plane. Where parts come and go: with the supports and loads of the stage alone.
+  [[nodiscard]] const fem::Problem<2>& problem() const { return in_stage_ ? *in_stage_ : case_.problem; }
   [[nodiscard]] const fem::Mesh<2>& mesh() const { return case_.problem.mesh; }
+  /// The same of a case of either kind.
+  template <int dim>
+  [[nodiscard]] const fem::Problem<dim>& problem_of() const {
+    if constexpr (dim == 2)
+      return problem();
+    else
+      return space_in_stage_ ? *space_in_stage_ : *case_.space;
+  }
   /// Calls visit(problem) with the problem of the plane or of space.
   template <class Visit>
   decltype(auto) with_problem(Visit visit) const {
-    return case_.space ? visit(space_at_start_ ? *space_at_start_ : std::as_const(*case_.space))
-                       : visit(problem());
+    return case_.space ? visit(problem_of<3>()) : visit(problem_of<2>());
   }
   [[nodiscard]] bool is_classical() const;
   /// The side of the body that a movement strains: of one along the last axis that along it; of another, which may shear the height
@@ -61,7 +72,8 @@ class Scene {
   [[nodiscard]] std::optional<double> quantity(const Path& path, coupler::Dimension dimension) const;
   /// The entry, or the nearest above it that is there: where a remark points.
   [[nodiscard]] const coupler::Entry& place(const Path& path) const;
-  /// The value of `key` in the first item of `boundary` that is on `name` and has it; null where no item has it.
+  /// The value of `key` in the first item of `boundary` that is on `name` and has it, of the stage before those of earlier ones;
+  /// null where no item has it.
   [[nodiscard]] const coupler::Entry* boundary_value(const std::string& name, const std::string& key) const;
 
   /// Where the stress at time zero comes from.
@@ -76,8 +88,9 @@ class Scene {
   /// Pressure of the grains of a region, Pa: as the engine found it, else as the packing records it; 0 without cells.
   [[nodiscard]] static double pressure_of(const SceneRegion& region);
   /// Stress at time zero; nothing where neither grains nor the case give one, and where the region comes later.
-  [[nodiscard]] std::optional<Vector7> initial_stress(const SceneRegion& region,
-                                                      const Eigen::Vector2d& position) const;
+  template <int dim>
+  [[nodiscard]] std::optional<typename Cosserat<dim>::Vector> initial_stress(
+      const SceneRegion& region, const Eigen::Matrix<double, dim, 1>& position) const;
   /// Time at which the last step ends; nothing where that is not known before.
   [[nodiscard]] std::optional<double> end_time() const;
   /// Growth of all measures that control steps, m; 0: loading times alone control them.
@@ -99,8 +112,9 @@ class Scene {
   [[nodiscard]] double strain_between(double before, double after) const;
 
   const coupler::Case& case_;
-  std::optional<fem::Problem<2>> at_start_;
-  std::optional<fem::Problem<3>> space_at_start_;
+  int stage_ = 0;
+  std::optional<fem::Problem<2>> in_stage_;
+  std::optional<fem::Problem<3>> space_in_stage_;
   const coupler::Entry& document_;
   Body body_;
   std::vector<SceneRegion> regions_;

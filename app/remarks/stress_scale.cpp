@@ -7,22 +7,13 @@ namespace polargrain::app {
 namespace {
 
 /// Largest normal stress at the start of a region of a law, at its first node; 0 where nothing gives one.
-double stress_at_start(const Scene& scene, const SceneRegion& region, const fem::Problem<2>& problem) {
+template <int dim>
+double stress_at_start(const Scene& scene, const SceneRegion& region, const fem::Problem<dim>& problem) {
   const int node = problem.mesh.elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
-  const auto stress = scene.initial_stress(region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
-  return stress ? stress->head<3>().cwiseAbs().maxCoeff() : 0.0;
-}
-
-double stress_at_start(const Scene& scene, const SceneRegion& region, const fem::Problem<3>& problem) {
-  const int node = problem.mesh.elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
-  double largest =
-      scene.quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure).value_or(0.0);
-  for (const fem::InitialStress<3>& given : problem.initial_stresses) {
-    if (!given.region.empty() && given.region != region.name) continue;
-    const Cosserat<3>::Vector stress = given.stress(problem.mesh.nodes[static_cast<std::size_t>(node)]);
-    for (int i = 0; i < 3; ++i)
-      largest = std::max(largest, std::abs(stress(Cosserat<3>::stress_place(i, i))));
-  }
+  const auto stress = scene.initial_stress<dim>(region, problem.mesh.nodes[static_cast<std::size_t>(node)]);
+  double largest = 0.0;
+  for (int i = 0; stress && i < 3; ++i)
+    largest = std::max(largest, std::abs((*stress)(Cosserat<dim>::stress_place(i, i))));
   return largest;
 }
 

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Scenes with one thing wrong each, and odd ones that are right: interfaces, beams, anchors, stages, bodies in space, real time.
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "app/picture/case_picture.hpp"
-#include "app/picture/symbols.hpp"
-#include "app/remarks/scene.hpp"
-#include "coupler/case/document_kind.hpp"
-#include "tests/support/careless_scenes.hpp"
+// Scenes with one thing wrong each, and odd ones that are right: interfaces, beams, anchors, stages, profiles, spread slips.
+#include "tests/support/careless_features.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -80,50 +72,6 @@ monitors: {base: {on: bottom, reaction: u2}}
 output: {table: [base]}
 )";
 
-const std::string kColumn = R"(title: A column shaken at its base
-continuum: cauchy
-mesh: {rectangle: {size: [1 m, 10 m], elements: [1, 20]}}
-materials:
-  soil: {model: elastic, E: 40 MPa, nu: 0.3, density: 2000 kg/m3}
-regions: {all: soil}
-boundary:
-  - {on: bottom, fix: [u1, u2]}
-  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}
-  - {on: [left, right], fix: [u2]}
-  - {on: left, tie: right}
-steps: {method: explicit, time: real, duration: 2 s, count: 200, mass_damping: 3}
-monitors:
-  top: {on: top, displacement: u1}
-output: {every: 50, table: [top]}
-)";
-
-const std::string kBlock = R"(title: A block of ground under its weight and a load
-continuum: cauchy
-mesh: {box: {size: [4 m, 4 m, 2 m], elements: [2, 2, 1]}}
-materials:
-  soil: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 15 kPa}
-regions: {all: soil}
-boundary:
-  - {on: bottom, fix: [u1, u2, u3]}
-  - {on: [left, right], fix: [u1]}
-  - {on: [front, back], fix: [u2]}
-  - {on: top, pressure: [[0, 0], [1, 30 kPa]]}
-body:
-  - {force: [0, 0, -18 kN/m3], factor: [[0, 0], [1, 1]]}
-steps: {count: 5, tolerance: 1e-5}
-monitors: {base: {on: bottom, reaction: u3}}
-output: {table: [base]}
-)";
-
-bool is_told_of_features(const app::Remarks& remarks, const std::string& message, Rank rank) {
-  return std::ranges::any_of(remarks, [&](const app::Remark& remark) {
-    return remark.rank == rank && remark.at.line > 0 && !remark.remedy.empty() &&
-           remark.at.message.find(message) != std::string::npos;
-  });
-}
-
-class CarelessFeatures : public ::testing::TestWithParam<Careless> {};
-
 TEST_P(CarelessFeatures, IsTold) {
   const app::Remarks remarks = remarks_of(GetParam());
   EXPECT_TRUE(is_told_of_features(remarks, GetParam().message, GetParam().rank))
@@ -162,197 +110,19 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Careless{"BankWithoutWeight", kBank, "body: [{unit_weight: 18 kN/m3}]",
                                "body: [{unit_weight: 18 kN/m3, region: rest}]",
                                "region 'bank' comes without a weight, and other ground has 18 kN/m3"},
+                      Careless{"PressureOfAStageWithoutUnit", kBank, "pressure: 10 kPa}", "pressure: 10}",
+                               "'10' has no unit and is 10 Pa"},
+                      Careless{"ForcesOfAStageOnNodes", kBank, "pressure: 10 kPa}",
+                               "node_force: {u2: -1 kN/m}}", "nodes of 'top' takes a force of 1 kN/m",
+                               Rank::doubtful},
+                      Careless{"PressureOfAStageOnAHeldSide", kBank, "{on: top, pressure: 10 kPa}",
+                               "{on: right, pressure: 10 kPa}", "the pressure on 'right' has no effect"},
+                      Careless{"PressureOfAStageTwice", kBank, "[{on: top, pressure: 10 kPa}]",
+                               "[{on: top, pressure: 10 kPa}, {on: top, pressure: 10 kPa}]",
+                               "carry the same pressure, of up to 10 kPa, twice", Rank::doubtful},
                       Careless{"TableThatIsOver", kBank, "pressure: 10 kPa",
                                "pressure: [[0, 0], [1, 10 kPa]]",
                                "the table ends at time 1, and stage 'traffic' begins at time 2"}),
-    [](const auto& info) { return info.param.name; });
-
-/// The same block, at rest under its weight and a surcharge.
-const std::string kBlockAtRest =
-    replaced(replaced(kBlock, "pressure: [[0, 0], [1, 30 kPa]]", "pressure: [[0, 10 kPa], [1, 30 kPa]]"),
-             "  - {force: [0, 0, -18 kN/m3], factor: [[0, 0], [1, 1]]}\n",
-             "  - {unit_weight: 18 kN/m3}\n"
-             "initial_stress: [{surface: 2 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}]\n");
-
-INSTANTIATE_TEST_SUITE_P(
-    InSpaceAsInThePlane, CarelessFeatures,
-    ::testing::Values(
-        Careless{"SurfaceAboveTheMesh", kBlockAtRest, "surface: 2 m", "surface: 3 m",
-                 "the surface is at 3 m, and the highest point of the mesh at 2 m"},
-        Careless{"RatioBeyondStrength", kBlockAtRest, "K0: 0.5", "K0: 12", "K0 of 12 is beyond"},
-        Careless{"PressureWithoutUnit", kBlock, "[[0, 0], [1, 30 kPa]]", "[[0, 0], [1, 50]]",
-                 "'50' has no unit and is 50 Pa"},
-        Careless{"AWeightTwice", kBlockAtRest, "  - {unit_weight: 18 kN/m3}\n",
-                 "  - {unit_weight: 18 kN/m3}\n  - {unit_weight: 18 kN/m3, region: all}\n",
-                 "region 'all' has the same force of 18 kN/m3 twice"},
-        Careless{"APressureTwice", kBlock, "body:", "  - {on: top, pressure: [[0, 0], [1, 30 kPa]]}\nbody:",
-                 "4 sides carry the same pressure, of up to 30 kPa, twice", Rank::doubtful},
-        Careless{"PressureOnAHeldFace", kBlock, "{on: top, pressure", "{on: top, fix: [u3], pressure",
-                 "the pressure on 'top' has no effect"},
-        Careless{"SoftAsFoam", kBlock, "E: 40 MPa", "E: 400 kPa", "that alone is an elastic strain of 9 %"},
-        Careless{"AForceOnEachNode", kBlock, "pressure: [[0, 0], [1, 30 kPa]]",
-                 "node_force: {u3: [[0, 0], [1, -1 kN]]}",
-                 "each of the 21 nodes of 'top' takes a force of 1 kN: 21 kN", Rank::doubtful},
-        Careless{"ReactionOfAFreeFace", kBlock, "base: {on: bottom", "base: {on: top",
-                 "u3 is free at all of its nodes"},
-        Careless{"CompressionConeInPlaneStrain", kBlock, "{on: [left, right], fix", "{on: left, fix",
-                 "both ends along 2 are held: in plane strain this cone has", Rank::doubtful}),
-    [](const auto& info) { return info.param.name; });
-
-/// A cylinder between smooth plates.
-const std::string kCylinder = R"(title: A cylinder is compressed
-continuum: cauchy
-mesh: {element: H8, cylinder: {radius: 5 cm, height: 20 cm, elements: [8, 2, 6]}}
-materials:
-  sand: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 1 kPa}
-regions: {all: sand}
-boundary:
-  - {on: bottom, fix: [u3]}
-  - {on: bottom_axis, fix: [u1, u2]}
-  - {on: bottom_side_right, fix: [u2]}
-  - {on: top, move: {u3: -4 mm}}
-  - {on: side, pressure: 100 kPa}
-initial_stress: [{stress: [-100 kPa, -100 kPa, -100 kPa, 0, 0, 0]}]
-steps: {count: 20, tolerance: 1e-5}
-monitors: {force: {on: top, reaction: u3}}
-output: {table: [force]}
-)";
-
-INSTANTIATE_TEST_SUITE_P(
-    SpaceAndTime, CarelessFeatures,
-    ::testing::Values(Careless{"APolygonForACircle", kCylinder, "elements: [8, 2, 6]", "elements: [4, 2, 6]",
-                               "is a polygon of 16 sides, 2.6 % smaller than the circle", Rank::doubtful},
-                      Careless{"WeightAlongTheSecondAxis", kBlock, "[0, 0, -18 kN/m3]", "[0, -18 kN/m3, 0]",
-                               "and 3 points up: nothing pulls the body down"},
-                      Careless{"WeightOfADensity", kBlock, "-18 kN/m3]", "-1800]", "a weight of 1.8 kN/m3"},
-                      Careless{"PoissonInSpace", kBlock, "nu: 0.3", "nu: 0.03", "nu is 0.03", Rank::doubtful},
-                      Careless{"DensityInTons", kColumn, "density: 2000 kg/m3", "density: 2.0",
-                               "a density of 2 kg/m3"}),
-    [](const auto& info) { return info.param.name; });
-
-/// Half of a strip footing 2 m wide, its edge in the middle of the surface.
-const std::string kWet = R"(title: Clay between two curtains under a load
-continuum: cauchy
-mesh: {rectangle: {size: [4 m, 2 m], elements: [8, 4], regions: {right: [2 m, 0, 4 m, 2 m]}, lines: {line: [2 m, 0, 2 m, 2 m]}}}
-materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
-regions: {right: clay, rest: clay}
-water: {permeability: 1e-8 m/s}
-interfaces: {curtain: {on: line, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: leaky, resistance: 1e8 s}}
-boundary:
-  - {on: [left, right], fix: [u1]}
-  - {on: bottom, fix: [u1, u2]}
-  - {on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}
-  - {on: left, drained: true}
-  - {on: right, flux: 0 m/s}
-steps: {duration: 9 d, count: 90, tolerance: 1e-8}
-monitors: {settled: {on: top, displacement: u2}}
-output: {table: [settled]}
-)";
-
-const std::string kSea = R"(title: Ground below the sea
-continuum: cauchy
-mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4]}}
-materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
-regions: {all: clay}
-water: {permeability: 1e-8 m/s, level: 10 m, unit_weight: 10 kN/m3}
-boundary:
-  - {on: [left, right], fix: [u1]}
-  - {on: bottom, fix: [u1, u2]}
-  - {on: top, free_water: 10 m}
-body: [{unit_weight: 20 kN/m3}]
-initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 60 kPa}]
-steps: {duration: 60 d, count: 10, first: 1 h, tolerance: 1e-6}
-monitors: {settlement: {on: top, displacement: u2}}
-output: {table: [settlement]}
-)";
-
-const std::string kFillOnASheet = R"(title: Fill comes on a sheet
-continuum: cauchy
-mesh: {rectangle: {size: [4 m, 2 m], elements: [4, 4], regions: {fill: [0, 1 m, 4 m, 2 m]}, lines: {seam: [0, 1 m, 4 m, 1 m]}}}
-materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
-regions: {fill: clay, rest: clay}
-interfaces: {sheet: {on: seam, friction: 20 deg}}
-boundary:
-  - {on: bottom, fix: [u1, u2]}
-  - {on: [left, right], fix: [u1]}
-body: [{unit_weight: 20 kN/m3}]
-initial_stress: [{surface: 1 m, unit_weight: 20 kN/m3, K0: 0.5, region: rest}]
-steps: {tolerance: 1e-6, stages: [{name: rest, count: 1}, {name: fill, place: fill, count: 2}]}
-monitors: {base: {on: bottom, reaction: u2}}
-output: {table: [base]}
-)";
-
-const std::string kPit = R"(title: A layer of wet ground is dug away
-continuum: cauchy
-mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4], regions: {layer: [0, 3 m, 4 m, 4 m]}, lines: {floor: [0, 3 m, 4 m, 3 m]}}}
-materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
-regions: {layer: clay, rest: clay}
-water: {permeability: 1e-8 m/s, level: 4 m, unit_weight: 10 kN/m3}
-boundary:
-  - {on: [left, right], fix: [u1]}
-  - {on: bottom, fix: [u1, u2]}
-  - {on: top, drained: true}
-body: [{unit_weight: 20 kN/m3}]
-initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5}]
-steps:
-  tolerance: 1e-6
-  stages:
-    - {name: dig, remove: layer, until: 1 d, count: 10, boundary: [{on: floor, water_level: 3 m}]}
-    - {name: wait, until: 90 d, count: 10}
-monitors: {heave: {on: bottom, reaction: u2}}
-output: {table: [heave]}
-)";
-
-/// The sea behind a rigid wall.
-const std::string kQuay = replaced(kSea, "boundary:\n  - {on: [left, right], fix: [u1]}",
-                                   "interfaces: {quay: {on: left, friction: 20 deg}}\nboundary:\n"
-                                   "  - {on: right, fix: [u1]}\n  - {on: quay, fix: [u1, u2]}");
-
-INSTANTIATE_TEST_SUITE_P(
-    Water, CarelessFeatures,
-    ::testing::Values(
-        Careless{"AFloorThatIsClosed", kPit, ", boundary: [{on: floor, water_level: 3 m}]", "",
-                 "stage 'dig' removes the ground at 'top', whose water had a given pressure", Rank::doubtful},
-        Careless{"TheSeaBetweenWallAndGround", kQuay, "{on: top, free_water: 10 m}",
-                 "{on: [top, left], free_water: 10 m}",
-                 "'free_water' at 'left' presses on the ground, between it and 'quay'", Rank::wrong},
-        Careless{
-            "ABoundOfAFlowThatIsNone",
-            replaced(replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
-                              "  - {on: right, flux: 0 m/s}\n", ""),
-                     "  - {on: left, drained: true}\n", ""),
-            "water: {permeability: 1e-8 m/s}",
-            "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7, pressure_change: 1 kPa, shortest_step: 1 s}",
-            "'pressure_change' does nothing: all ground is undrained", Rank::doubtful},
-        Careless{"ADrainOfUndrainedGround",
-                 replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
-                          "  - {on: right, flux: 0 m/s}\n", ""),
-                 "water: {permeability: 1e-8 m/s}",
-                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
-                 "'drained' at 'left' does nothing: all 4 elements there are undrained", Rank::wrong},
-        Careless{"ALeakOfUndrainedGround",
-                 replaced(replaced(kWet, "  - {on: left, drained: true}\n", ""),
-                          "  - {on: right, flux: 0 m/s}\n", ""),
-                 "water: {permeability: 1e-8 m/s}",
-                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
-                 "interface 'curtain': it leaks with a resistance of 1e+08 s, and all ground is undrained",
-                 Rank::doubtful},
-        Careless{"TheSeaIsNotInTheStress", kSea, ", surcharge: 60 kPa", "",
-                 "water stands 6 m above the surface and weighs 60 kPa, and the surcharge is 0 kPa",
-                 Rank::wrong},
-        Careless{"TheSeaOfOrdinaryWeightIsNotInTheStress",
-                 replaced(kSea, ", unit_weight: 10 kN/m3}\n", "}\n"), ", surcharge: 60 kPa", "",
-                 "water stands 6 m above the surface and weighs 58.86 kPa, and the surcharge is 0 kPa",
-                 Rank::wrong},
-        Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
-                 "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
-                 Rank::wrong},
-        Careless{
-            "ALeakWhoseFrontIsBare", kWet, "steps: {duration: 9 d, count: 90, tolerance: 1e-8}",
-            "steps: {tolerance: 1e-8, stages: [{name: load, until: 1 d, count: 10}, {name: dig, remove: right, until: 9 d, "
-            "count: 80}]}",
-            "4 of its faces have ground on one side alone in stage 'dig': there it is closed",
-            Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
 const std::string kFooting = R"(title: A strip footing on clay
@@ -399,8 +169,6 @@ INSTANTIATE_TEST_SUITE_P(
                  "50 of its 51 points have no values", Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
-class OddFeatures : public ::testing::TestWithParam<Careless> {};
-
 TEST_P(OddFeatures, StayWithoutARemark) {
   const app::Remarks remarks = remarks_of(GetParam());
   EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
@@ -410,7 +178,6 @@ INSTANTIATE_TEST_SUITE_P(
     All, OddFeatures,
     ::testing::Values(
         Careless{"Wall", kWall, "", ""}, Careless{"Sheet", kSheet, "", ""}, Careless{"Bank", kBank, "", ""},
-        Careless{"Block", kBlock, "", ""}, Careless{"FreeVibration", kColumn, "", ""},
         Careless{"SmoothInterface", kWall,
                  "friction: 20 deg, normal_stiffness: 1 GPa/m, shear_stiffness: 100 MPa/m", "friction: 0"},
         Careless{"InterfaceAsRoughAsTheGround", kWall, "friction: 20 deg", "friction: 30 deg"},
@@ -421,26 +188,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
         Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
                  "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
-        Careless{"DugAndDrained", kPit, "", ""}, Careless{"TheSeaAtAQuay", kQuay, "", ""},
-        Careless{"ABlockAtRest", kBlockAtRest, "", ""},
-        Careless{
-            "ALoadOfAStage", replaced(kBlockAtRest, "[[0, 10 kPa], [1, 30 kPa]]", "10 kPa"),
-            "steps: {count: 5, tolerance: 1e-5}",
-            "steps: {tolerance: 1e-5, stages: [{name: rest, count: 1}, {name: load, count: 2, boundary: [{on: top, "
-            "pressure: 20 kPa}]}]}"},
-        Careless{"PlaneStrainThatIsSaid", replaced(kBlock, "{on: [left, right], fix", "{on: left, fix"),
-                 "dilatancy_angle: 2 deg", "dilatancy_angle: 2 deg, match: plane_strain"},
-        Careless{"ARoundCylinder", kCylinder, "", ""},
-        Careless{"ACurvedCylinder", kCylinder,
-                 "H8, cylinder: {radius: 5 cm, height: 20 cm, elements: [8, 2, 6]}",
-                 "H20R, cylinder: {radius: 5 cm, height: 20 cm, elements: [2, 1, 4]}"},
-        Careless{"FillOnASheet", kFillOnASheet, "", ""}, Careless{"BelowTheSea", kSea, "", ""},
         Careless{"AFooting", kFooting, "", ""},
         Careless{"ALineAcrossAHole", kBank, kReadAlong,
                  kReadAlong + "profiles: {slope: {from: [2 m, 9 m], to: [12 m, 12 m], values: [u2]}}\n"},
         Careless{"TrafficThatGoesAgain", kBank, "pressure: 10 kPa",
-                 "pressure: [[2, 0], [2.5, 10 kPa], [3, 0]]"},
-        Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
+                 "pressure: [[2, 0], [2.5, 10 kPa], [3, 0]]"}),
     [](const auto& info) { return info.param.name; });
 
 /// Slips that are spread over twice an element; the strength falls from 42 to 30 degrees.
@@ -483,46 +235,6 @@ INSTANTIATE_TEST_SUITE_P(SpreadSlips, OddFeatures,
                                                     "-16 mm", "-0.9 mm"}),
                          [](const auto& info) { return info.param.name; });
 
-/// On 2 s of the column on a base that moves after quake.csv.
-app::Remarks remarks_on_motion_of(const Scratch& scratch) {
-  write(scratch.path() / "case.yaml",
-        replaced(replaced(kColumn, "  - {on: bottom, fix: [u1, u2]}\n",
-                          "  - {on: bottom, fix: [u2], accelerate: {u1: quake.csv}}\n"),
-                 "  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}\n", ""));
-  return app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
-}
-
-/// A motion of `rows` rows 0.01 s apart, of this amplitude in m/s2. @returns the remarks on 2 s of it
-app::Remarks remarks_on_motion(int rows, double amplitude) {
-  const Scratch scratch("careless_motion");
-  std::string table = "time,acceleration\n";
-  for (int row = 0; row < rows; ++row)
-    table += fmt::format("{},{}\n", 0.01 * row, amplitude * std::sin(0.12 * row));
-  write(scratch.path() / "quake.csv", table);
-  return remarks_on_motion_of(scratch);
-}
-
-// The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
-TEST(Picture, ShowsFreeWater) {
-  const Scratch scratch("careless_picture");
-  const std::string closed = replaced(kWet, "  - {on: left, drained: true}\n", "");
-  write(scratch.path() / "case.yaml", replaced(replaced(closed, "water: {permeability: 1e-8 m/s}",
-                                                        "water: {permeability: 1e-8 m/s, level: 3 m}"),
-                                               "{on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}",
-                                               "{on: top, free_water: [[0 d, 3 m], [9 d, 4 m]]}"));
-  const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
-  const coupler::Entry document =
-      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
-  const app::PackingsAtRest packings;
-  const std::string page = app::case_picture(app::Scene(the_case, document, packings), {});
-  EXPECT_NE(page.find("free water to 3 m"), std::string::npos);
-  EXPECT_NE(page.find("free water to 4 m"), std::string::npos);
-  std::size_t signs = 0;
-  for (std::size_t at = page.find(app::kWater); at != std::string::npos; at = page.find(app::kWater, at + 1))
-    ++signs;
-  EXPECT_GE(signs, 11U);
-}
-
 TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
   const Scratch scratch("careless_start");
   write(scratch.path() / "case.yaml", kBank);
@@ -543,63 +255,6 @@ TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
   EXPECT_FALSE(told("couple stresses"));
   the_case.problem.continuum = fem::Continuum::cosserat;
   EXPECT_TRUE(told("'first' is of the classical continuum"));
-}
-
-TEST(RealTime, NeedsExplicitSteps) {
-  const Scratch scratch("careless_method");
-  for (const char* const method : {"", "method: newton, ", "method: automatic, "}) {
-    write(scratch.path() / "case.yaml", replaced(kColumn, "method: explicit, ", method));
-    try {
-      (void)coupler::read_case(scratch.path() / "case.yaml");
-      ADD_FAILURE() << method;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.faults().front().line, 12);
-      EXPECT_EQ(error.faults().front().message,
-                "steps: time: real time has explicit steps alone; write 'method: explicit'");
-    }
-  }
-}
-
-TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
-  const Scratch scratch("careless_quiet");
-  write(scratch.path() / "case.yaml",
-        replaced(replaced(kColumn, "{on: bottom, fix: [u1, u2]}", "{on: bottom, fix: [u1, u2], quiet: true}"),
-                 "monitors:\n", "monitors:\n  base: {on: bottom, displacement: u1}\n"));
-  const app::Remarks remarks =
-      app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
-  EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
-}
-
-TEST(Motions, ThatGoOnBehindTheRunAreTold) {
-  const app::Remarks remarks = remarks_on_motion(501, 1.0);
-  EXPECT_TRUE(is_told_of_features(remarks, "the motion of 'quake.csv' lasts 5 s, and the run ends at 2 s",
-                                  Rank::wrong))
-      << app::text_of(remarks, true);
-}
-
-TEST(Motions, InCentimetresAreTold) {
-  const app::Remarks remarks = remarks_on_motion(201, 100.0);
-  EXPECT_TRUE(is_told_of_features(remarks, "m/s2, 10 times gravity", Rank::wrong))
-      << app::text_of(remarks, true);
-}
-
-/// Every second row has another sign: 50 Hz. Shear waves of sqrt(15.4 MPa / 2000 kg/m3) = 87.7 m/s are 1.75 m long then, and
-/// elements have 0.707 m.
-TEST(Motions, TooFastForTheElementsAreTold) {
-  const Scratch scratch("careless_noise");
-  std::string table = "time,acceleration\n";
-  for (int row = 0; row <= 200; ++row) table += fmt::format("{},{}\n", 0.01 * row, row % 2 == 0 ? 1.0 : -1.0);
-  write(scratch.path() / "quake.csv", table);
-  const app::Remarks remarks = remarks_on_motion_of(scratch);
-  EXPECT_TRUE(is_told_of_features(
-      remarks, "has 50 Hz in the mean, whose shear wave is 1.75 m long in region 'all': 2.5 elements",
-      Rank::doubtful))
-      << app::text_of(remarks, true);
-}
-
-TEST(Motions, AsLongAsTheRunAreRight) {
-  const app::Remarks remarks = remarks_on_motion(201, 1.0);
-  EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
 }
 
 }  // namespace

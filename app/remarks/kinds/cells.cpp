@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/remarks/few_grains.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
 
@@ -45,27 +46,35 @@ double largest_diameter(const Packing& packing) {
 
 }  // namespace
 
+std::optional<Remark> remark_on_grains(const Packing& packing, const coupler::Entry& place,
+                                       const std::string& whose, int least) {
+  const auto count = static_cast<double>(packing.grains.size());
+  if (const double ratio = width_of_box(packing) / largest_diameter(packing); ratio < kNarrowBox)
+    return Remark{
+        Rank::wrong, kNarrowBox / ratio,
+        place.fault(fmt::format(
+            "{}: the box of grains is {:.2g} of its largest grains wide (at least {:g}): a grain meets its own image, and "
+            "the box has a strength of its own",
+            whose, ratio, kNarrowBox)),
+        "make the packing of more grains: 100 and more discs, 300 and more spheres"};
+  if (count < least)
+    return Remark{
+        Rank::doubtful, least / count,
+        place.fault(fmt::format(
+            "{}: a box has {} grains; the stress of so few scatters by some {:.0f} % from box to box", whose,
+            packing.grains.size(), 100.0 / std::sqrt(count))),
+        "make the packing of 100 grains or more (grains: of its specification)"};
+  return {};
+}
+
 void few_grains(const Scene& scene, Remarks& remarks) {
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell == nullptr) continue;
     const Packing& packing = region.cell->packing;
-    const auto count = static_cast<double>(packing.grains.size());
     const coupler::Entry& place = scene.place({"materials", region.material, "packing"});
-    if (const double ratio = width_of_box(packing) / largest_diameter(packing); ratio < kNarrowBox)
-      remarks.push_back(
-          {Rank::wrong, kNarrowBox / ratio,
-           place.fault(fmt::format(
-               "material '{}': the box of grains is {:.2g} of its largest grains wide (at least {:g}): a grain meets "
-               "its own image, and the box has a strength of its own",
-               region.material, ratio, kNarrowBox)),
-           "make the packing of more grains: 100 and more discs, 300 and more spheres"});
-    else if (count < kFewGrains)
-      remarks.push_back(
-          {Rank::doubtful, kFewGrains / count,
-           place.fault(fmt::format(
-               "material '{}': a box has {} grains; the stress of so few scatters by some {:.0f} % from box to box",
-               region.material, packing.grains.size(), 100.0 / std::sqrt(count))),
-           "make the packing of 100 grains or more (grains: of its specification)"});
+    if (auto remark =
+            remark_on_grains(packing, place, fmt::format("material '{}'", region.material), kFewGrains))
+      remarks.push_back(std::move(*remark));
   }
 }
 

@@ -173,7 +173,9 @@ void look_at_weight(const Scene& scene, const fem::Problem<dim>& problem, Remark
     const fem::BodyLoad<dim>& load = problem.body_loads[k];
     const Eigen::Matrix<double, dim, 1> force =
         load.factor.largest_magnitude() * load.density(problem.mesh.nodes.front()).template head<dim>();
-    const Entry& place = list != nullptr && k < list->items.size() ? list->items[k] : scene.place({"body"});
+    // A later stage has no longer all items of this list, and others of its own.
+    const bool is_listed = scene.stage() == 0 && list != nullptr && k < list->items.size();
+    const Entry& place = is_listed ? list->items[k] : scene.place({scene.stage() == 0 ? "body" : "steps"});
     const double up = force(dim - 1);
     if (up > 0.0 || (up == 0.0 && force.norm() > 0.0 && problem.body_loads.size() == 1)) {
       std::vector<std::string> along;

@@ -106,7 +106,7 @@ std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
   for (const OutlineEdge& edge : edges) {
     const Held here = held_along({edge}, held);
     const SceneRegion& region = scene.region_of(edge.element);
-    const std::optional<Vector7> stress = scene.initial_stress(region, edge.centre);
+    const std::optional<Vector7> stress = scene.initial_stress<2>(region, edge.centre);
     if (!stress || (here.all[0] && here.all[1])) continue;
     const Eigen::Vector2d& n = edge.normal;
     const Vector7& s = *stress;

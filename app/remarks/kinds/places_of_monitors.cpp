@@ -3,128 +3,181 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "app/remarks/held_in_space.hpp"
 #include "app/remarks/kinds.hpp"
+#include "fem/mesh/box_around.hpp"
 
 namespace polargrain::app {
 namespace {
 
 using coupler::Monitor;
 
-const char* displacement_name(fem::Dof dof) {
-  return dof == fem::Dof::u1 ? "u1" : "u2";
+std::string displacement_name(int axis) {
+  return fmt::format("u{}", axis + 1);
 }
 
-bool moves(const Scene& scene, const std::string& on, fem::Dof dof) {
-  return std::ranges::any_of(scene.problem().prescribed, [&](const fem::PrescribedDof<2>& item) {
-    return item.on == on && item.dof == dof && item.value.largest_magnitude() > 0.0;
-  });
+bool is_along(fem::Dof dof, int axis) {
+  return !fem::is_rotation(dof) && fem::axis_of(dof) == axis;
 }
 
-/// Where a straight boundary lies across an axis: at the lower or the upper end of the body, or not at an end at all.
+std::vector<std::array<bool, 2>> held_in(const fem::Problem<2>& problem) {
+  return held_nodes(problem);
+}
+std::vector<std::array<bool, 3>> held_in(const fem::Problem<3>& problem) {
+  return held_nodes_in_space(problem);
+}
+
+/// Where a flat boundary lies across an axis: at the lower or the upper end of the body, or not at an end at all.
 enum class End { none, lower, upper };
-End end_of(const Scene& scene, const std::string& boundary, int axis) {
-  if (!scene.mesh().boundaries.contains(boundary)) return End::none;
-  const double slack = 1e-6 * scene.body().size()(axis);
-  const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), boundary);
-  const auto all_at = [&](double place) {
-    return std::ranges::all_of(
-        edges, [&](const OutlineEdge& edge) { return std::abs(edge.centre(axis) - place) < slack; });
-  };
-  if (edges.empty()) return End::none;
-  if (all_at(scene.body().least(axis))) return End::lower;
-  return all_at(scene.body().largest(axis)) ? End::upper : End::none;
-}
 
-/// Whether a boundary runs along an axis from one end of the body to the other.
-bool runs_along(const Scene& scene, const std::string& boundary, int axis) {
-  const int across = 1 - axis;
-  if (end_of(scene, boundary, across) == End::none) return false;
-  double length = 0.0;
-  for (const OutlineEdge& edge : edges_of(scene.mesh(), boundary)) length += edge.length;
-  return length > 0.9 * scene.body().size()(axis);
-}
+template <int dim>
+class Places {
+ public:
+  Places(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks)
+      : scene_(scene), problem_(problem), box_(fem::box_around(problem.mesh)), remarks_(remarks) {}
 
-bool reads(const Scene& scene, Monitor::Kind kind, fem::Dof dof, auto&& is_there) {
-  return std::ranges::any_of(scene.the_case().monitors, [&](const Monitor& monitor) {
-    return monitor.kind == kind && monitor.dof == dof && std::ranges::any_of(monitor.on, is_there);
-  });
-}
-
-/// The force along another axis than the one that its boundary is moved along.
-void look_at_force(const Scene& scene, const Monitor& monitor, Remarks& remarks) {
-  const fem::Dof other = monitor.dof == fem::Dof::u1 ? fem::Dof::u2 : fem::Dof::u1;
-  const std::string& on = monitor.on.front();
-  if (moves(scene, on, monitor.dof) || !moves(scene, on, other)) return;
-  if (reads(scene, Monitor::Kind::reaction, other, [](const std::string&) { return true; })) return;
-  remarks.push_back({Rank::doubtful, 10.0,
-                     scene.place({"monitors", monitor.name})
-                         .fault(fmt::format(
-                             "monitor '{}': '{}' is moved along {}, and no monitor reads the force along it: "
-                             "this one is along {}",
-                             monitor.name, on, displacement_name(other), displacement_name(monitor.dof))),
-                     fmt::format("write 'reaction: {}'", displacement_name(other))});
-}
-
-void look_at_place_of_displacement(const Scene& scene, const Monitor& monitor, Remarks& remarks) {
-  const std::string& on = monitor.on.front();
-  const int axis = fem::axis_of(monitor.dof);
-  const char* const dof = displacement_name(monitor.dof);
-  const coupler::Entry& place = scene.place({"monitors", monitor.name});
-  // The mean along a side, from an end that is held to one that moves.
-  for (const auto& [name, edges] : scene.mesh().boundaries) {
-    if (!moves(scene, name, monitor.dof) || end_of(scene, name, axis) == End::none) continue;
-    if (!runs_along(scene, on, axis) || moves(scene, on, monitor.dof)) continue;
-    remarks.push_back({Rank::doubtful, 2.0,
-                       place.fault(fmt::format(
-                           "monitor '{}': the mean of {} along '{}', from one end of the body to the other; "
-                           "'{}', which is moved, goes about twice as far",
-                           monitor.name, dof, on, name)),
-                       fmt::format("write 'on: {}'", name)});
-    return;
+  /// The force along another axis than the one that its boundary is moved along.
+  void look_at_force(const Monitor& monitor) {
+    const int axis = fem::axis_of(monitor.dof);
+    const std::string& on = monitor.on.front();
+    if (moves(on, axis)) return;
+    for (int other = 0; other < dim; ++other) {
+      if (!moves(on, other) || reads(Monitor::Kind::reaction, other, [](const std::string&) { return true; }))
+        continue;
+      remarks_.push_back(
+          {Rank::doubtful, 10.0,
+           place_of(monitor).fault(fmt::format(
+               "monitor '{}': '{}' is moved along {}, and no monitor reads the force along it: this one is along {}",
+               monitor.name, on, displacement_name(other), displacement_name(axis))),
+           fmt::format("write 'reaction: {}'", displacement_name(other))});
+      return;
+    }
   }
-  // One of two sides that are both free to go.
-  const End end = end_of(scene, on, axis);
-  if (end == End::none) return;
-  const auto held = held_nodes(scene.problem());
-  const auto is_opposite = [&](const std::string& name) {
-    const End there = end_of(scene, name, axis);
-    return there != End::none && there != end;
-  };
-  if (reads(scene, Monitor::Kind::displacement, monitor.dof, is_opposite)) return;
-  for (const auto& [name, edges] : scene.mesh().boundaries) {
-    if (!is_opposite(name)) continue;
-    const std::vector<OutlineEdge> outline = edges_of(scene.mesh(), name);
-    const bool any_held = std::ranges::any_of(outline, [&](const OutlineEdge& edge) {
-      return std::ranges::all_of(edge.nodes, [&](int node) {
-        return held[static_cast<std::size_t>(node)][static_cast<std::size_t>(axis)];
-      });
+
+  void look_at_displacement(const Monitor& monitor) {
+    if (!look_at_mean(monitor)) look_at_opposite(monitor);
+  }
+
+ private:
+  [[nodiscard]] const coupler::Entry& place_of(const Monitor& monitor) const {
+    return scene_.place({"monitors", monitor.name});
+  }
+
+  [[nodiscard]] bool moves(const std::string& on, int axis) const {
+    return std::ranges::any_of(problem_.prescribed, [&](const fem::PrescribedDof<dim>& item) {
+      return item.on == on && is_along(item.dof, axis) && item.value.largest_magnitude() > 0.0;
     });
-    if (any_held) continue;
-    remarks.push_back({Rank::doubtful, 2.0,
-                       place.fault(fmt::format(
-                           "monitor '{}': {} of '{}' alone, and '{}' opposite is free too: a strain made of "
-                           "it is about half",
-                           monitor.name, dof, on, name)),
-                       fmt::format("add a monitor of '{}', and take the difference", name)});
-    return;
+  }
+
+  [[nodiscard]] bool reads(Monitor::Kind kind, int axis, auto&& is_there) const {
+    return std::ranges::any_of(scene_.the_case().monitors, [&](const Monitor& monitor) {
+      return monitor.kind == kind && is_along(monitor.dof, axis) && std::ranges::any_of(monitor.on, is_there);
+    });
+  }
+
+  [[nodiscard]] const typename Cosserat<dim>::Place& at(int node) const {
+    return problem_.mesh.nodes[static_cast<std::size_t>(node)];
+  }
+
+  [[nodiscard]] End end_of(const std::string& boundary, int axis) const {
+    if (!problem_.mesh.boundaries.contains(boundary)) return End::none;
+    const std::vector<int> nodes = problem_.mesh.nodes_on(boundary);
+    const double slack = 1e-6 * box_.sides()(axis);
+    const auto all_at = [&](double end) {
+      return std::ranges::all_of(nodes, [&](int node) { return std::abs(at(node)(axis) - end) < slack; });
+    };
+    if (nodes.empty()) return End::none;
+    if (all_at(box_.least(axis))) return End::lower;
+    return all_at(box_.largest(axis)) ? End::upper : End::none;
+  }
+
+  /// Whether a boundary at an end across another axis runs along this one from one end of the body to the other.
+  [[nodiscard]] bool runs_along(const std::string& boundary, int axis) const {
+    bool is_at_end = false;
+    for (int across = 0; across < dim; ++across)
+      is_at_end = is_at_end || (across != axis && end_of(boundary, across) != End::none);
+    if (!is_at_end) return false;
+    double least = HUGE_VAL;
+    double largest = -HUGE_VAL;
+    for (const int node : problem_.mesh.nodes_on(boundary)) {
+      least = std::min(least, at(node)(axis));
+      largest = std::max(largest, at(node)(axis));
+    }
+    return largest - least > 0.9 * box_.sides()(axis);
+  }
+
+  /// The mean along a side, from an end that is held to one that moves. @returns whether it is told
+  bool look_at_mean(const Monitor& monitor) {
+    const std::string& on = monitor.on.front();
+    const int axis = fem::axis_of(monitor.dof);
+    if (!runs_along(on, axis) || moves(on, axis)) return false;
+    for (const auto& [name, sides] : problem_.mesh.boundaries) {
+      if (!moves(name, axis) || end_of(name, axis) == End::none) continue;
+      remarks_.push_back(
+          {Rank::doubtful, 2.0,
+           place_of(monitor).fault(fmt::format(
+               "monitor '{}': the mean of {} along '{}', from one end of the body to the other; '{}', which is moved, "
+               "goes about twice as far",
+               monitor.name, displacement_name(axis), on, name)),
+           fmt::format("write 'on: {}'", name)});
+      return true;
+    }
+    return false;
+  }
+
+  /// One of two sides that are both free to go.
+  void look_at_opposite(const Monitor& monitor) {
+    const std::string& on = monitor.on.front();
+    const int axis = fem::axis_of(monitor.dof);
+    const End end = end_of(on, axis);
+    if (end == End::none) return;
+    const auto is_opposite = [&](const std::string& name) {
+      const End there = end_of(name, axis);
+      return there != End::none && there != end;
+    };
+    if (reads(Monitor::Kind::displacement, axis, is_opposite)) return;
+    const auto nodes = held_in(problem_);
+    const auto is_held = [&](const fem::BoundarySide& side) {
+      return std::ranges::all_of(problem_.mesh.side_nodes(side), [&](int node) {
+        return nodes[static_cast<std::size_t>(node)][static_cast<std::size_t>(axis)];
+      });
+    };
+    for (const auto& [name, sides] : problem_.mesh.boundaries) {
+      if (!is_opposite(name) || std::ranges::any_of(sides, is_held)) continue;
+      remarks_.push_back(
+          {Rank::doubtful, 2.0,
+           place_of(monitor).fault(fmt::format(
+               "monitor '{}': {} of '{}' alone, and '{}' opposite is free too: a strain made of it is about half",
+               monitor.name, displacement_name(axis), on, name)),
+           fmt::format("add a monitor of '{}', and take the difference", name)});
+      return;
+    }
+  }
+
+  const Scene& scene_;
+  const fem::Problem<dim>& problem_;
+  fem::BoxAround<dim> box_;
+  Remarks& remarks_;
+};
+
+template <int dim>
+void look_at_places(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
+  if (!problem.ties.empty()) return;
+  Places<dim> places(scene, problem, remarks);
+  for (const Monitor& monitor : scene.the_case().monitors) {
+    if (monitor.on.size() != 1 || fem::is_rotation(monitor.dof)) continue;
+    if (monitor.kind == Monitor::Kind::reaction) places.look_at_force(monitor);
+    if (monitor.kind == Monitor::Kind::displacement) places.look_at_displacement(monitor);
   }
 }
 
 }  // namespace
 
 void places_of_monitors(const Scene& scene, Remarks& remarks) {
-  if (!scene.problem().ties.empty()) return;
-  for (const Monitor& monitor : scene.the_case().monitors) {
-    if (monitor.kind == Monitor::Kind::formula || monitor.kind == Monitor::Kind::water ||
-        monitor.dof == fem::Dof::w || monitor.on.size() != 1)
-      continue;
-    if (monitor.kind == Monitor::Kind::reaction)
-      look_at_force(scene, monitor, remarks);
-    else
-      look_at_place_of_displacement(scene, monitor, remarks);
-  }
+  scene.with_problem([&](const auto& problem) { look_at_places(scene, problem, remarks); });
 }
 
 }  // namespace polargrain::app

@@ -63,7 +63,7 @@ double elastic_strain_of(const Scene& scene, const SceneRegion& region) {
   if (!is_strong(scene, region)) return 0.0;
   const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure);
   const auto poisson = scene.quantity({"materials", region.material, "nu"}, coupler::Dimension::number);
-  const auto stress = scene.initial_stress(region, 0.5 * (scene.body().least + scene.body().largest));
+  const auto stress = scene.initial_stress<2>(region, 0.5 * (scene.body().least + scene.body().largest));
   if (!young || !poisson || !stress || *young <= 0.0) return 0.0;
   return -0.5 * ((*stress)(k11) + (*stress)(k22)) * (1.0 + *poisson) / *young;
 }

@@ -32,7 +32,7 @@ void weight_at_once(const Scene& scene, Remarks& remarks) {
     const double weight = weight_on(scene, region);
     const int node = scene.mesh().elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
     if (weight <= 0.0 ||
-        scene.initial_stress(region, scene.mesh().nodes[static_cast<std::size_t>(node)]).has_value())
+        scene.initial_stress<2>(region, scene.mesh().nodes[static_cast<std::size_t>(node)]).has_value())
       continue;
     remarks.push_back(
         {Rank::doubtful, 1.0,

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bodies in space with one thing wrong each, and odd ones that are right.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "tests/support/careless_features.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+using app::Rank;
+
+const std::string kBlock = R"(title: A block of ground under its weight and a load
+continuum: cauchy
+mesh: {box: {size: [4 m, 4 m, 2 m], elements: [2, 2, 1]}}
+materials:
+  soil: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 15 kPa}
+regions: {all: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2, u3]}
+  - {on: [left, right], fix: [u1]}
+  - {on: [front, back], fix: [u2]}
+  - {on: top, pressure: [[0, 0], [1, 30 kPa]]}
+body:
+  - {force: [0, 0, -18 kN/m3], factor: [[0, 0], [1, 1]]}
+steps: {count: 5, tolerance: 1e-5}
+monitors: {base: {on: bottom, reaction: u3}}
+output: {table: [base]}
+)";
+
+/// The same block, at rest under its weight and a surcharge.
+const std::string kBlockAtRest =
+    replaced(replaced(kBlock, "pressure: [[0, 0], [1, 30 kPa]]", "pressure: [[0, 10 kPa], [1, 30 kPa]]"),
+             "  - {force: [0, 0, -18 kN/m3], factor: [[0, 0], [1, 1]]}\n",
+             "  - {unit_weight: 18 kN/m3}\n"
+             "initial_stress: [{surface: 2 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}]\n");
+
+const std::string kRollers = "  - {on: [left, right], fix: [u1]}\n";
+const std::string kRollersAndPressure =
+    "  - {on: left, fix: [u1]}\n  - {on: right, pressure: [[0, 0], [1, 10 kPa]]}\n";
+
+const std::string kBlockInPlaneStrain =
+    replaced(kBlock, "dilatancy_angle: 2 deg", "dilatancy_angle: 2 deg, match: plane_strain");
+
+/// A rough plate presses the block.
+const std::string kPressed =
+    replaced(replaced(kBlock, "pressure: [[0, 0], [1, 30 kPa]]", "fix: [u1, u2], move: {u3: -5 mm}"),
+             "monitors: {base: {on: bottom, reaction: u3}}\noutput: {table: [base]}",
+             "monitors: {force: {on: top, reaction: u3}, way: {on: top, displacement: u3}}");
+
+INSTANTIATE_TEST_SUITE_P(
+    InSpaceAsInThePlane, CarelessFeatures,
+    ::testing::Values(
+        Careless{"SurfaceAboveTheMesh", kBlockAtRest, "surface: 2 m", "surface: 3 m",
+                 "the surface is at 3 m, and the highest point of the mesh at 2 m"},
+        Careless{"RatioBeyondStrength", kBlockAtRest, "K0: 0.5", "K0: 12", "K0 of 12 is beyond"},
+        Careless{"PressureWithoutUnit", kBlock, "[[0, 0], [1, 30 kPa]]", "[[0, 0], [1, 50]]",
+                 "'50' has no unit and is 50 Pa"},
+        Careless{"AWeightTwice", kBlockAtRest, "  - {unit_weight: 18 kN/m3}\n",
+                 "  - {unit_weight: 18 kN/m3}\n  - {unit_weight: 18 kN/m3, region: all}\n",
+                 "region 'all' has the same force of 18 kN/m3 twice"},
+        Careless{"APressureTwice", kBlock, "body:", "  - {on: top, pressure: [[0, 0], [1, 30 kPa]]}\nbody:",
+                 "4 sides carry the same pressure, of up to 30 kPa, twice", Rank::doubtful},
+        Careless{"PressureOnAHeldFace", kBlock, "{on: top, pressure", "{on: top, fix: [u3], pressure",
+                 "the pressure on 'top' has no effect"},
+        Careless{"SoftAsFoam", kBlock, "E: 40 MPa", "E: 400 kPa", "that alone is an elastic strain of 9 %"},
+        Careless{"AForceOnEachNode", kBlock, "pressure: [[0, 0], [1, 30 kPa]]",
+                 "node_force: {u3: [[0, 0], [1, -1 kN]]}",
+                 "each of the 21 nodes of 'top' takes a force of 1 kN: 21 kN", Rank::doubtful},
+        Careless{"ReactionOfAFreeFace", kBlock, "base: {on: bottom", "base: {on: top",
+                 "u3 is free at all of its nodes"},
+        Careless{"CompressionConeInPlaneStrain", kBlock, kRollers, kRollersAndPressure,
+                 "both ends along 2 are held: in plane strain this cone has", Rank::doubtful},
+        Careless{"ASideThatNobodyHolds", kBlockInPlaneStrain, "{on: [front, back], fix: [u2]}",
+                 "{on: back, fix: [u2]}",
+                 "its lower end along 2 is free over the whole height (2 m) under weight"},
+        Careless{"TwoSidesThatNobodyHolds", kBlockInPlaneStrain, "  - {on: [left, right], fix: [u1]}\n", "",
+                 "both ends of the mesh along 1 are free over the whole height (2 m) under weight"},
+        Careless{"ALoadTheStressDoesNotHave", kBlockAtRest, "[[0, 10 kPa], [1, 30 kPa]]",
+                 "[[0, 60 kPa], [1, 70 kPa]]", "loads and stress at time zero are out of balance by",
+                 Rank::doubtful},
+        Careless{"AMeanAlongASide", kPressed, "{on: top, displacement: u3}", "{on: left, displacement: u3}",
+                 "the mean of u3 along 'left', from one end of the body to the other; 'top', which is moved",
+                 Rank::doubtful},
+        Careless{"AForceAcross", kPressed, "{on: top, reaction: u3}", "{on: top, reaction: u1}",
+                 "'top' is moved along u3, and no monitor reads the force along it: this one is along u1",
+                 Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+/// A cylinder between smooth plates.
+const std::string kCylinder = R"(title: A cylinder is compressed
+continuum: cauchy
+mesh: {element: H8, cylinder: {radius: 5 cm, height: 20 cm, elements: [8, 2, 6]}}
+materials:
+  sand: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 1 kPa}
+regions: {all: sand}
+boundary:
+  - {on: bottom, fix: [u3]}
+  - {on: bottom_axis, fix: [u1, u2]}
+  - {on: bottom_side_right, fix: [u2]}
+  - {on: top, move: {u3: -4 mm}}
+  - {on: side, pressure: 100 kPa}
+initial_stress: [{stress: [-100 kPa, -100 kPa, -100 kPa, 0, 0, 0]}]
+steps: {count: 20, tolerance: 1e-5}
+monitors: {force: {on: top, reaction: u3}}
+output: {table: [force]}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Space, CarelessFeatures,
+    ::testing::Values(Careless{"APolygonForACircle", kCylinder, "elements: [8, 2, 6]", "elements: [4, 2, 6]",
+                               "is a polygon of 16 sides, 2.6 % smaller than the circle", Rank::doubtful},
+                      Careless{"WeightAlongTheSecondAxis", kBlock, "[0, 0, -18 kN/m3]", "[0, -18 kN/m3, 0]",
+                               "and 3 points up: nothing pulls the body down"},
+                      Careless{"WeightOfADensity", kBlock, "-18 kN/m3]", "-1800]", "a weight of 1.8 kN/m3"},
+                      Careless{"PoissonInSpace", kBlock, "nu: 0.3", "nu: 0.03", "nu is 0.03",
+                               Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Space, OddFeatures,
+    ::testing::Values(
+        Careless{"Block", kBlock, "", ""}, Careless{"ABlockAtRest", kBlockAtRest, "", ""},
+        Careless{
+            "ALoadOfAStage", replaced(kBlockAtRest, "[[0, 10 kPa], [1, 30 kPa]]", "10 kPa"),
+            "steps: {count: 5, tolerance: 1e-5}",
+            "steps: {tolerance: 1e-5, stages: [{name: rest, count: 1}, {name: load, count: 2, boundary: [{on: top, "
+            "pressure: 20 kPa}]}]}"},
+        Careless{"PlaneStrainThatIsSaid", replaced(kBlock, kRollers, kRollersAndPressure),
+                 "dilatancy_angle: 2 deg", "dilatancy_angle: 2 deg, match: plane_strain"},
+        Careless{"ARoundCylinder", kCylinder, "", ""},
+        Careless{"ACurvedCylinder", kCylinder,
+                 "H8, cylinder: {radius: 5 cm, height: 20 cm, elements: [8, 2, 6]}",
+                 "H20R, cylinder: {radius: 5 cm, height: 20 cm, elements: [2, 1, 4]}"},
+        Careless{"ARoughPlate", kPressed, "", ""},
+        Careless{"AColumnThatStandsFree", replaced(kBlockInPlaneStrain, kRollers, ""),
+                 "size: [4 m, 4 m, 2 m]", "size: [2 m, 2 m, 4 m]"},
+        Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
+    [](const auto& info) { return info.param.name; });
+
+/// The block, cut across in the middle: both halves have nodes of their own there.
+TEST(Seams, InSpaceAreTold) {
+  const Scratch scratch("careless_seam");
+  write(scratch.path() / "case.yaml", kBlock);
+  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  fem::Mesh<3>& mesh = the_case.space->mesh;
+  std::map<int, int> copies;
+  for (fem::Element<3>& element : mesh.elements) {
+    const auto is_right = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)].x() > 2.1; };
+    if (std::ranges::none_of(element.nodes, is_right)) continue;
+    for (int& node : element.nodes) {
+      const Eigen::Vector3d place = mesh.nodes[static_cast<std::size_t>(node)];
+      if (std::abs(place.x() - 2.0) > 1e-9) continue;
+      const auto [copy, is_new] = copies.emplace(node, static_cast<int>(mesh.nodes.size()));
+      if (is_new) mesh.nodes.push_back(place);
+      node = copy->second;
+    }
+  }
+  const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
+  EXPECT_TRUE(is_told_of_features(
+      remarks, fmt::format("mesh: {} pairs of nodes lie at one place each", copies.size()), Rank::wrong))
+      << app::text_of(remarks, true);
+}
+
+}  // namespace
+}  // namespace polargrain::testing

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scenes of ground and water with one thing wrong each, and odd ones that are right.
+#include "app/picture/case_picture.hpp"
+#include "app/picture/symbols.hpp"
+#include "app/remarks/scene.hpp"
+#include "coupler/case/document_kind.hpp"
+#include "tests/support/careless_features.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+using app::Rank;
+
+/// Half of a strip footing 2 m wide, its edge in the middle of the surface.
+const std::string kWet = R"(title: Clay between two curtains under a load
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [8, 4], regions: {right: [2 m, 0, 4 m, 2 m]}, lines: {line: [2 m, 0, 2 m, 2 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {right: clay, rest: clay}
+water: {permeability: 1e-8 m/s}
+interfaces: {curtain: {on: line, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa, water: leaky, resistance: 1e8 s}}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}
+  - {on: left, drained: true}
+  - {on: right, flux: 0 m/s}
+steps: {duration: 9 d, count: 90, tolerance: 1e-8}
+monitors: {settled: {on: top, displacement: u2}}
+output: {table: [settled]}
+)";
+
+const std::string kSea = R"(title: Ground below the sea
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4]}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {all: clay}
+water: {permeability: 1e-8 m/s, level: 10 m, unit_weight: 10 kN/m3}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, free_water: 10 m}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 60 kPa}]
+steps: {duration: 60 d, count: 10, first: 1 h, tolerance: 1e-6}
+monitors: {settlement: {on: top, displacement: u2}}
+output: {table: [settlement]}
+)";
+
+const std::string kFillOnASheet = R"(title: Fill comes on a sheet
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [4, 4], regions: {fill: [0, 1 m, 4 m, 2 m]}, lines: {seam: [0, 1 m, 4 m, 1 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {fill: clay, rest: clay}
+interfaces: {sheet: {on: seam, friction: 20 deg}}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: [left, right], fix: [u1]}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 1 m, unit_weight: 20 kN/m3, K0: 0.5, region: rest}]
+steps: {tolerance: 1e-6, stages: [{name: rest, count: 1}, {name: fill, place: fill, count: 2}]}
+monitors: {base: {on: bottom, reaction: u2}}
+output: {table: [base]}
+)";
+
+const std::string kPit = R"(title: A layer of wet ground is dug away
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4], regions: {layer: [0, 3 m, 4 m, 4 m]}, lines: {floor: [0, 3 m, 4 m, 3 m]}}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {layer: clay, rest: clay}
+water: {permeability: 1e-8 m/s, level: 4 m, unit_weight: 10 kN/m3}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, drained: true}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5}]
+steps:
+  tolerance: 1e-6
+  stages:
+    - {name: dig, remove: layer, until: 1 d, count: 10, boundary: [{on: floor, water_level: 3 m}]}
+    - {name: wait, until: 90 d, count: 10}
+monitors: {heave: {on: bottom, reaction: u2}}
+output: {table: [heave]}
+)";
+
+/// The sea behind a rigid wall.
+const std::string kQuay = replaced(kSea, "boundary:\n  - {on: [left, right], fix: [u1]}",
+                                   "interfaces: {quay: {on: left, friction: 20 deg}}\nboundary:\n"
+                                   "  - {on: right, fix: [u1]}\n  - {on: quay, fix: [u1, u2]}");
+
+INSTANTIATE_TEST_SUITE_P(
+    Water, CarelessFeatures,
+    ::testing::Values(
+        Careless{"AFloorThatIsClosed", kPit, ", boundary: [{on: floor, water_level: 3 m}]", "",
+                 "stage 'dig' removes the ground at 'top', whose water had a given pressure", Rank::doubtful},
+        Careless{"TheSeaBetweenWallAndGround", kQuay, "{on: top, free_water: 10 m}",
+                 "{on: [top, left], free_water: 10 m}",
+                 "'free_water' at 'left' presses on the ground, between it and 'quay'", Rank::wrong},
+        Careless{
+            "ABoundOfAFlowThatIsNone",
+            replaced(replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
+                              "  - {on: right, flux: 0 m/s}\n", ""),
+                     "  - {on: left, drained: true}\n", ""),
+            "water: {permeability: 1e-8 m/s}",
+            "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7, pressure_change: 1 kPa, shortest_step: 1 s}",
+            "'pressure_change' does nothing: all ground is undrained", Rank::doubtful},
+        Careless{"ADrainOfUndrainedGround",
+                 replaced(replaced(kWet, "water: leaky, resistance: 1e8 s", "water: impervious"),
+                          "  - {on: right, flux: 0 m/s}\n", ""),
+                 "water: {permeability: 1e-8 m/s}",
+                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
+                 "'drained' at 'left' does nothing: all 4 elements there are undrained", Rank::wrong},
+        Careless{"ALeakOfUndrainedGround",
+                 replaced(replaced(kWet, "  - {on: left, drained: true}\n", ""),
+                          "  - {on: right, flux: 0 m/s}\n", ""),
+                 "water: {permeability: 1e-8 m/s}",
+                 "water: {undrained: true, bulk_modulus: 200 MPa, void_ratio: 0.7}",
+                 "interface 'curtain': it leaks with a resistance of 1e+08 s, and all ground is undrained",
+                 Rank::doubtful},
+        Careless{"TheSeaIsNotInTheStress", kSea, ", surcharge: 60 kPa", "",
+                 "water stands 6 m above the surface and weighs 60 kPa, and the surcharge is 0 kPa",
+                 Rank::wrong},
+        Careless{"TheSeaOfOrdinaryWeightIsNotInTheStress",
+                 replaced(kSea, ", unit_weight: 10 kN/m3}\n", "}\n"), ", surcharge: 60 kPa", "",
+                 "water stands 6 m above the surface and weighs 58.86 kPa, and the surcharge is 0 kPa",
+                 Rank::wrong},
+        Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
+                 "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
+                 Rank::wrong},
+        Careless{
+            "ALeakWhoseFrontIsBare", kWet, "steps: {duration: 9 d, count: 90, tolerance: 1e-8}",
+            "steps: {tolerance: 1e-8, stages: [{name: load, until: 1 d, count: 10}, {name: dig, remove: right, until: 9 d, "
+            "count: 80}]}",
+            "4 of its faces have ground on one side alone in stage 'dig': there it is closed",
+            Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Water, OddFeatures,
+                         ::testing::Values(Careless{"DugAndDrained", kPit, "", ""},
+                                           Careless{"TheSeaAtAQuay", kQuay, "", ""},
+                                           Careless{"FillOnASheet", kFillOnASheet, "", ""},
+                                           Careless{"BelowTheSea", kSea, "", ""}),
+                         [](const auto& info) { return info.param.name; });
+
+// The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
+TEST(Picture, ShowsFreeWater) {
+  const Scratch scratch("careless_picture");
+  const std::string closed = replaced(kWet, "  - {on: left, drained: true}\n", "");
+  write(scratch.path() / "case.yaml", replaced(replaced(closed, "water: {permeability: 1e-8 m/s}",
+                                                        "water: {permeability: 1e-8 m/s, level: 3 m}"),
+                                               "{on: top, pressure: [[0 d, 0], [9 d, 20 kPa]]}",
+                                               "{on: top, free_water: [[0 d, 3 m], [9 d, 4 m]]}"));
+  const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  const coupler::Entry document =
+      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
+  const app::PackingsAtRest packings;
+  const std::string page = app::case_picture(app::Scene(the_case, document, packings), {});
+  EXPECT_NE(page.find("free water to 3 m"), std::string::npos);
+  EXPECT_NE(page.find("free water to 4 m"), std::string::npos);
+  std::size_t signs = 0;
+  for (std::size_t at = page.find(app::kWater); at != std::string::npos; at = page.find(app::kWater, at + 1))
+    ++signs;
+  EXPECT_GE(signs, 11U);
+}
+
+}  // namespace
+}  // namespace polargrain::testing
