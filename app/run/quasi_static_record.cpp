@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace polargrain::app {
@@ -49,6 +50,38 @@ std::string remedy_of(const std::string& name, const std::string& slower) {
         "`damping` of the material",
         slower);
   return fmt::format("{} below `steps`, or allow more by `error`", slower);
+}
+
+/// Whether a boundary is moved: it then says where the body is.
+bool moves_a_boundary(const coupler::Case& the_case) {
+  return the_case.with_problem([](const auto& problem) {
+    return std::ranges::any_of(problem.prescribed,
+                               [](const auto& item) { return item.value.largest_magnitude() > 0.0; });
+  });
+}
+
+/// Rows that were to end at rest and did not.
+std::optional<std::string> remark_on_rest(const coupler::Case& the_case, const RunRecord& record) {
+  const int most = the_case.explicit_options.most_rest_steps;
+  const auto is_restless = [most](const CommittedStep& step) { return step.report.rest_steps >= most; };
+  const auto count = std::ranges::count_if(record.steps, is_restless);
+  if (count == 0) return {};
+  const auto first = std::ranges::find_if(record.steps, is_restless);
+  return fmt::format(
+      "explicit steps: {} row{} did not come to rest in {} steps, the first in step {}: their values are of a body that "
+      "still moves; where loads have grown, it bears no more: move a boundary in the place of a load",
+      count, count == 1 ? "" : "s", most, first->step);
+}
+
+/// Under loads alone nodes are behind the place of their balance, and forces say little of how far.
+std::optional<std::string> remark_on_loads_alone(const coupler::Case& the_case, const RunRecord& record) {
+  const bool is_given_by_forces =
+      the_case.is_explicit() && !the_case.real_time && !moves_a_boundary(the_case);
+  const bool has_rows = std::ranges::any_of(
+      record.steps, [](const CommittedStep& step) { return step.report.explicit_steps > 0; });
+  if (!has_rows || !is_given_by_forces || the_case.explicit_options.rest > 0.0) return {};
+  return "explicit steps: no boundary is moved, and the error is of forces: displacements are behind those of balance, "
+         "without bound where the body bears no more; write `rest_at_output: yes`, or move a boundary";
 }
 
 }  // namespace
@@ -105,6 +138,8 @@ std::string quasi_static_text(const coupler::Case& the_case, const RunRecord& re
 
 std::vector<std::string> quasi_static_remarks(const coupler::Case& the_case, const RunRecord& record) {
   std::vector<std::string> remarks;
+  for (const auto& remark : {remark_on_rest(the_case, record), remark_on_loads_alone(the_case, record)})
+    if (remark) remarks.push_back(*remark);
   const char* const slower = the_case.gives_explicit_steps ? "double `explicit_steps`" : "halve `pace`";
   for (const QuasiStaticMeasure& measure : quasi_static_measures(the_case, record)) {
     if (measure.steps_beyond == 0) continue;
