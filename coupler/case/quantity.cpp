@@ -22,7 +22,7 @@ struct Unit {
   bool listed = true;  ///< in messages; other names of a unit are taken and not listed
 };
 
-constexpr std::array<Unit, 51> kUnits{{
+constexpr std::array<Unit, 52> kUnits{{
     {Dimension::number, "%", 1e-2},
     {Dimension::length, "m", 1.0},
     {Dimension::length, "mm", 1e-3},
@@ -74,12 +74,18 @@ constexpr std::array<Unit, 51> kUnits{{
     {Dimension::flow, "mm/s", 1e-3},
     {Dimension::flow, "m/d", 1.0 / kDay},
     {Dimension::flow, "m/a", 1.0 / kYear},
+    {Dimension::rate, "1/s", 1.0},
 }};
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// A formula divides by a monitor named d or s.
+bool is_of_formulas(const Unit& unit) {
+  return unit.dimension != Dimension::flow && unit.dimension != Dimension::rate;
 }
 
 std::string units_of(Dimension dimension) {
@@ -119,6 +125,8 @@ std::string expectation(Dimension dimension) {
       return "a force per volume in N/m3, or with one of the units " + units;
     case Dimension::density:
       return "a density in kg/m3, or with one of the units " + units;
+    case Dimension::rate:
+      return "a rate in 1/s";
     case Dimension::number:
       break;
   }
@@ -172,7 +180,7 @@ std::string_view si_unit(Dimension dimension) {
 std::string all_units() {
   std::string list;
   for (const Unit& unit : kUnits) {
-    if (!unit.listed || unit.dimension == Dimension::flow) continue;
+    if (!unit.listed || !is_of_formulas(unit)) continue;
     if (!list.empty()) list += ", ";
     list += unit.name;
   }
@@ -182,7 +190,7 @@ std::string all_units() {
 std::optional<UnitAhead> unit_ahead(std::string_view text) {
   std::optional<UnitAhead> longest;
   for (const Unit& unit : kUnits) {
-    if (unit.dimension == Dimension::flow) continue;  // a formula divides by a monitor named d or s
+    if (!is_of_formulas(unit)) continue;
     if (!text.starts_with(unit.name) || (longest && longest->length >= unit.name.size())) continue;
     const char next = text.size() > unit.name.size() ? text[unit.name.size()] : ' ';
     const bool goes_on = std::isalnum(static_cast<unsigned char>(next)) != 0 || next == '_';

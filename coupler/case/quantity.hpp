@@ -20,7 +20,8 @@ enum class Dimension {
   density,
   bedding,  ///< stress over a displacement, of an interface
   duration,
-  flow  ///< volume of water per area and time: a permeability, a flux
+  flow,  ///< volume of water per area and time: a permeability, a flux
+  rate   ///< a share per time
 };
 
 /// "a pressure in Pa, or with one of the units Pa, kPa, MPa, GPa": for messages.
@@ -40,7 +41,7 @@ double largest_of(Dimension dimension);
 /// "Pa": the unit of a number written without one; empty for Dimension::number.
 std::string_view si_unit(Dimension dimension);
 
-/// The unit of any dimension but `flow` that `text` begins with and that no letter or digit follows: the longest, so that "kN/m3" is
+/// The unit of any dimension but `flow` and `rate` that `text` begins with and that no letter or digit follows: the longest, so that "kN/m3" is
 /// not taken for kN.
 struct UnitAhead {
   std::size_t length;  ///< characters

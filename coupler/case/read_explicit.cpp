@@ -100,14 +100,12 @@ namespace {
 void read_real_time(Section& steps, CaseParts& parts) {
   Case& result = parts.result;
   result.real_time = true;
-  // 1/s: no dimension of a case has that unit.
   result.explicit_options.mass_damping =
-      steps.quantity_or("mass_damping", Dimension::number, Limit::not_negative, 0.0);
+      steps.quantity_or("mass_damping", Dimension::rate, Limit::not_negative, 0.0);
   if (const Entry* const damping = steps.find("mass_damping");
       damping != nullptr && damping->text.find('%') != std::string::npos)
-    steps.fault(
-        "mass_damping",
-        "mass_damping: a number per second, not a damping ratio; the ratio D at the frequency f is 4 pi f D");
+    steps.fault("mass_damping",
+                "mass_damping: not a damping ratio; the ratio D at the frequency f is 4 pi f D");
   for (const char* const key : {"pace", "explicit_steps", "dem_steps", "error", "rest_at_output"})
     if (steps.find(key) != nullptr)
       steps.fault(key,

@@ -71,9 +71,9 @@ void check_names_of_motion(const CsvTable& table) {
   static constexpr const char* kExpected =
       "expected two columns with their names in the first line: time (s) and acceleration (m/s2)";
   static const std::array<std::set<std::string>, 2> kOthers{
-      std::set<std::string>{"ms", "min", "h", "frequency", "hz", "period"},
+      std::set<std::string>{"ms", "min", "h", "frequency", "hz", "period", "acceleration", "acc"},
       std::set<std::string>{"g", "mg", "gal", "gals", "cm", "mm", "ft", "in", "velocity", "vel", "speed",
-                            "displacement", "disp"}};
+                            "displacement", "disp", "time"}};
   if (table.names().size() != 2) table.fail(table.line_of_names(), kExpected);
   for (std::size_t column = 0; column < 2; ++column) {
     const std::string& name = table.names()[column];

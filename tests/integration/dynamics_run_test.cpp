@@ -234,11 +234,13 @@ TEST_F(DynamicsRun, MistakesAreFaults) {
            {"0,1", "'0' is a number"},
            {"time (s),acceleration (g)", "'acceleration (g)' is no acceleration in m/s2 (g)"},
            {"time,velocity", "no acceleration in m/s2 (velocity)"},
+           {"acceleration,time", "no time in s (acceleration)"},
            {"t [ms],a [m/s2]", "'t [ms]' is no time in s (ms)"}}) {
     write(scratch_.path() / "push.csv", names + "\n1,1\n2,1\n");
     expect_in(errors_of(dense, pushed, real), part);
   }
   expect_in(errors_of(dense, held, real + ", mass_damping: 5 %"), "not a damping ratio");
+  expect_in(errors_of(dense, held, real + ", mass_damping: five"), "mass_damping: expected a rate in 1/s");
 }
 
 }  // namespace
