@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 namespace polargrain {
 
@@ -45,6 +46,20 @@ std::string why_no_output(const std::filesystem::path& file) {
     return fmt::format("there is no folder {}", folder.string());
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     return fmt::format("cannot be written: {}: {}", folder.string(), std::strerror(errno));
+  return {};
+}
+
+std::string why_not_over(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs) {
+  for (const std::filesystem::path& input : inputs) {
+    std::error_code error;  // of a file that does not exist: it is not the other one
+    if (!std::filesystem::equivalent(output, input, error) || error) continue;
+    const auto plain = [](const std::filesystem::path& file) {
+      return std::filesystem::absolute(file).lexically_normal();
+    };
+    const std::string name = plain(input) == plain(output) ? "this file" : input.string();
+    return fmt::format("the command reads {}, and would write over it; name another file", name);
+  }
   return {};
 }
 

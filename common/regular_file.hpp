@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace polargrain {
 
@@ -12,5 +13,10 @@ std::string why_no_input(const std::filesystem::path& file);
 /// Why write_file() could not write a file, in words that follow its name; empty when nothing is known that hinders it. For work
 /// that takes hours and writes at its end.
 std::string why_no_output(const std::filesystem::path& file);
+
+/// Why a command must not write a file, in words that follow its name: it is one of the files that the command reads, whatever
+/// names and links lead to it. Another file gives an empty text. @param inputs may name files that do not exist
+std::string why_not_over(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace polargrain

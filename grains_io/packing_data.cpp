@@ -37,7 +37,7 @@ std::string packing_data(const Packing& packing) {
   lean -= std::round(lean.y() / length_y) * Eigen::Vector2d(tilt, length_y);
   lean.x() -= length_x * std::round(lean.x() / length_x);
   tilt -= length_x * std::round(tilt / length_x);
-  std::string text = fmt::format("packing of polargrain: grains of one type, density is mass over {}\n\n",
+  std::string text = fmt::format("{}grains of one type, density is mass over {}\n\n", kPackingDataHead,
                                  space ? "volume" : "area (dimension 2: unit thickness)");
   text += fmt::format("{} atoms\n1 atom types\n\n", packing.grains.size());
   text += fmt::format("0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n", length_x, length_y,

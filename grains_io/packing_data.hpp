@@ -6,6 +6,9 @@
 
 namespace polargrain {
 
+/// The words that such a file begins with.
+inline constexpr const char* kPackingDataHead = "packing of polargrain: ";
+
 /// A packing as the text of a LIGGGHTS data file (read_data, atom_style granular): the box with its tilt, the
 /// first base vector along x, one atom type, and for each grain the density that gives it its own mass in the
 /// engine: mass over area in a plane packing, to be read with `dimension 2` (the engine's discs have unit

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "app/commands/pack.hpp"
 #include "app/commands/worker.hpp"
+#include "coupler/case/document_kind.hpp"
 
 namespace polargrain::app {
 
@@ -23,6 +25,22 @@ struct Command {
   /// Whether its output is the answer asked for, so that standard output must take it, or only a comfort.
   bool is_answer = true;
 };
+
+// ---- outputs
+
+/// The files that a case or a specification is read with (coupler::files_named_in), itself the first.
+/// @throws InputError as coupler::load_document_of
+std::vector<std::filesystem::path> files_read_with(coupler::DocumentKind kind,
+                                                   const std::filesystem::path& file,
+                                                   const std::vector<std::string>& settings);
+/// Refuses a file that cannot be written or that is one of `inputs`, before the command works.
+/// @param option "-o", for the message @param output empty: the command writes nothing @throws InputError
+void check_output(const std::string& option, const std::filesystem::path& output,
+                  const std::vector<std::filesystem::path>& inputs);
+
+/// Refuses the places of files of a run (is_of_a_run). @param option as above @throws InputError
+void check_beside_run(const std::string& option, const std::filesystem::path& output,
+                      const std::filesystem::path& directory);
 
 // ---- options shared by several commands
 

@@ -7,6 +7,11 @@
 #include <thread>
 
 #include "app/commands/command.hpp"
+#include "app/run/result_directory.hpp"
+#include "common/error.hpp"
+#include "common/plain_text.hpp"
+#include "common/regular_file.hpp"
+#include "coupler/case/case_identity.hpp"
 #include "coupler/case/data_files.hpp"
 
 namespace polargrain::app {
@@ -17,6 +22,46 @@ std::string brought_along(const std::string& name) {
   if (std::filesystem::exists(name, error) || error) return name;
   const auto file = coupler::find_data_file(name, {});
   return file ? file->string() : name;
+}
+
+std::vector<std::filesystem::path> files_read_with(coupler::DocumentKind kind,
+                                                   const std::filesystem::path& file,
+                                                   const std::vector<std::string>& settings) {
+  std::vector<std::filesystem::path> files{file};
+  const std::vector<std::filesystem::path> named =
+      coupler::files_named_in(coupler::load_document_of(kind, file, settings), file.parent_path());
+  files.insert(files.end(), named.begin(), named.end());
+  return files;
+}
+
+namespace {
+
+/// Whether it would replace a case or a script, perhaps of another command.
+bool is_written_by_hand(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::string ending = file.extension().string();
+  return (ending == ".yaml" || ending == ".yml" || ending == ".in") && std::filesystem::exists(file, error);
+}
+
+}  // namespace
+
+void check_output(const std::string& option, const std::filesystem::path& output,
+                  const std::vector<std::filesystem::path>& inputs) {
+  if (output.empty()) return;
+  std::string reason = why_not_over(output, inputs);
+  if (reason.empty() && is_written_by_hand(output))
+    reason = "there is such a file, of a kind that is written by hand; name another file";
+  if (reason.empty()) reason = why_no_output(output);
+  if (!reason.empty())
+    throw InputError({"", 0, fmt::format("{} {}: {}", option, plain_text(output.string()), reason)});
+}
+
+void check_beside_run(const std::string& option, const std::filesystem::path& output,
+                      const std::filesystem::path& directory) {
+  if (output.empty() || !is_of_a_run(output, directory)) return;
+  throw InputError({"", 0,
+                    fmt::format("{} {}: this is the place of a result of the run; give another name", option,
+                                plain_text(output.string()))});
 }
 
 void add_case(CLI::App& command, std::filesystem::path& file) {

@@ -62,6 +62,9 @@ int grains(const GrainsOptions& options, const WorkerEngine& engine) {
   check_points(options, paths);
   const std::set<int> steps = chosen_steps(options, paths);
   const fs::path output = options.output.empty() ? options.directory / kGrainsFolder : options.output;
+  if (!options.output.empty() &&
+      fs::weakly_canonical(output) != fs::weakly_canonical(options.directory / kGrainsFolder))
+    check_beside_run("-o", output, options.directory);
   fs::create_directories(output);
   for (const std::size_t point : options.points)
     fs::create_directories((output / grains_file(point, 0)).parent_path());

@@ -17,6 +17,7 @@
 #include "app/commands/csv_file.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
+#include "common/plain_text.hpp"
 #include "common/plane_in_space.hpp"
 #include "common/record_table.hpp"
 #include "common/standard_streams.hpp"
@@ -158,6 +159,22 @@ coupler::Case case_for(const PointOptions& options) {
   return coupler::read_case(options.case_file, settings, options.scripts);
 }
 
+/// A replay has files of usual names: cell.in, README.md. @throws InputError
+void check_outputs(const PointOptions& options) {
+  std::vector<std::filesystem::path> inputs =
+      files_read_with(coupler::DocumentKind::problem, options.case_file, options.settings);
+  inputs.push_back(options.path_file);
+  check_output("-o", options.output, inputs);
+  std::error_code error;  // of a folder that does not exist yet
+  const bool has_files = std::filesystem::is_directory(options.replay, error) &&
+                         !std::filesystem::is_empty(options.replay, error);
+  if (has_files && !std::filesystem::exists(options.replay / "in.replay", error))
+    throw InputError(
+        {"", 0,
+         fmt::format("--replay {}: the folder has files in it and no earlier replay; name a new one",
+                     plain_text(options.replay.string()))});
+}
+
 }  // namespace
 
 std::vector<Increment<2>> read_path(const std::filesystem::path& file) {
@@ -193,6 +210,7 @@ std::vector<Increment<2>> read_path(const std::filesystem::path& file) {
 
 int point(const PointOptions& options) {
   const coupler::Case the_case = case_for(options);
+  check_outputs(options);
   const std::vector<Increment<2>> path = path_for(the_case, options.path_file);
   const auto recipe = the_case.materials.find(options.material);
   if (recipe == the_case.materials.end()) {

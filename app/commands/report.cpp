@@ -28,6 +28,14 @@ struct ReportOptions {
 
 constexpr int kRefreshSeconds = 5;
 
+/// @throws InputError where the page would stand in the place of a result or of the case
+void check_page_file(const std::filesystem::path& file, const RunResult& result) {
+  check_beside_run("-o", file, result.directory);
+  const nlohmann::ordered_json::json_pointer place("/case");
+  if (!result.summary.contains(place) || !result.summary.at(place).is_string()) return;
+  check_output("-o", file, {result.summary.at(place).get<std::string>()});
+}
+
 /// @returns whether one of the runs is still at work
 bool write_report(const ReportOptions& options, const std::filesystem::path& file) {
   std::vector<RunResult> results;
@@ -35,6 +43,7 @@ bool write_report(const ReportOptions& options, const std::filesystem::path& fil
   for (const std::filesystem::path& directory : options.directories) {
     results.push_back(read_result(directory));
     at_work = at_work || results.back().is_at_work;
+    check_page_file(file, results.back());
   }
   ReportContent content = options.content;
   content.refresh_seconds = options.live && at_work ? kRefreshSeconds : 0;

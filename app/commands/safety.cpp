@@ -29,7 +29,13 @@ Command add_safety(CLI::App& program, const Grains& grains) {
   command.add_option("-o,--output", options->file, "Write a table of the trials")->type_name("FILE.csv");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);
-  return {&command, [options] { return safety(*options); }};
+  return {&command, [options] {
+            // Before a search that takes long.
+            check_output(
+                "-o", options->file,
+                files_read_with(coupler::DocumentKind::problem, options->case_file, options->settings));
+            return safety(*options);
+          }};
 }
 
 }  // namespace polargrain::app

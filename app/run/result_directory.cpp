@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -86,19 +88,31 @@ fs::path make_rescue_directory(const fs::path& directory) try {
 
 namespace {
 
+/// The log last: it tells that the directory is ours, should its removal be interrupted.
+constexpr std::array kNamesOfARun{
+    kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "points.pvd",
+    "summary.json",        "sample.h5",   "fields",    "profiles",   kCellPathsFolder,
+    kGrainsFolder,         "logs",        "replay",    "run.log"};
+
 void clear(const fs::path& directory) {
   if (fs::exists(directory / kCheckpointFile)) {
     fs::rename(directory / kCheckpointFile, directory / kOldCheckpointFile);
   }
-  // The log last: it tells that the directory is ours, should this be interrupted.
-  for (const char* file : {kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "points.pvd",
-                           "summary.json", "sample.h5", "report.html", "fields", "profiles", kCellPathsFolder,
-                           kGrainsFolder, "logs", "replay", "run.log"}) {
-    fs::remove_all(directory / file);
-  }
+  fs::remove_all(directory / "report.html");
+  for (const char* file : kNamesOfARun) fs::remove_all(directory / file);
 }
 
 }  // namespace
+
+bool is_of_a_run(const fs::path& file, const fs::path& directory) {
+  std::error_code error;  // of links that lead round in circles: who opens the file says so
+  const fs::path place = fs::weakly_canonical(fs::absolute(file, error), error);
+  const fs::path inside =
+      place.lexically_relative(fs::weakly_canonical(fs::absolute(directory, error), error));
+  if (error || inside.empty()) return false;
+  const std::string name = inside.begin()->string();
+  return name == kCheckpointFile || name == kOldCheckpointFile || std::ranges::count(kNamesOfARun, name) > 0;
+}
 
 std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& directory, bool resume) try {
   const std::string name = directory.string();

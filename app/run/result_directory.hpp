@@ -47,6 +47,10 @@ class DirectoryLock {
 [[nodiscard]] std::unique_ptr<DirectoryLock> prepare_result_directory(const std::filesystem::path& directory,
                                                                       bool resume);
 
+/// Whether a file is, or would be, one of those that a run writes into its result directory and erases there at its next start;
+/// report.html and the files of `band` are not of them.
+bool is_of_a_run(const std::filesystem::path& file, const std::filesystem::path& directory);
+
 /// A place for the rest of a run whose directory was removed: its name again, or, when something else has that
 /// name by now, NAME.rescued. @throws RunError when it cannot be made
 std::filesystem::path make_rescue_directory(const std::filesystem::path& directory);

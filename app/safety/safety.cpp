@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/commands/csv_file.hpp"
+#include "app/remarks/remarks.hpp"
 #include "app/run/take_step.hpp"
 #include "common/error.hpp"
 #include "common/memory_archive.hpp"
@@ -163,6 +164,9 @@ Safety factor_of_safety(const coupler::Case& the_case, const SafetyOptions& opti
 
 int safety(const SafetyOptions& options) {
   const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
+  // A case that says another thing than is meant has another factor.
+  if (const Remarks remarks = remarks_on(the_case, options.settings, {}); !remarks.empty())
+    tell(stderr, "{}", text_of(remarks, false));
   const Safety found = factor_of_safety(the_case, options);
   tell(stdout, "{}\n{:>10}  {:>7}  {:>16}  {:>10}\n", the_case.title, "factor", "stands", "displacement, m",
        "iterations");

@@ -40,6 +40,21 @@ void collect(const Entry& entry, const std::string& key, const std::filesystem::
     identity.files[key] = name_of_content(*file, key);
 }
 
+void collect_files(const Entry& entry, const std::string& key, const std::filesystem::path& directory,
+                   std::vector<std::filesystem::path>& files) {
+  for (const Entry::Member& member : entry.members) collect_files(member.value, member.key, directory, files);
+  for (const Entry& item : entry.items) collect_files(item, key, directory, files);
+  if (entry.kind != Entry::Kind::scalar) return;
+  const auto file = find_data_file(entry.text, directory);
+  if (!file) return;
+  if (key == "script") {
+    const std::vector<std::filesystem::path> parts = files_of_script(*file);
+    files.insert(files.end(), parts.begin(), parts.end());
+    return;
+  }
+  files.insert(files.end(), {*file, length_file_of(*file), interface_file_of(*file)});
+}
+
 bool matters(const std::string& key) {
   return key != "title" && key != "output.checkpoint_minutes" && key.rfind("workers.", 0) != 0 &&
          key.rfind("output.table", 0) != 0 && key.rfind("output.grains", 0) != 0;
@@ -68,6 +83,13 @@ CaseIdentity identity_of(const Entry& document, const std::filesystem::path& dir
           name_of_content(interface_file_of(*file), "");
   }
   return identity;
+}
+
+std::vector<std::filesystem::path> files_named_in(const Entry& document,
+                                                  const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  collect_files(document, "", directory, files);
+  return files;
 }
 
 std::vector<std::string> regions_of(const CaseIdentity& identity) {

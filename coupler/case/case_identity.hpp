@@ -19,6 +19,11 @@ struct CaseIdentity {
 /// @param directory where the files of the case are looked for (data_files.hpp)
 CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory);
 
+/// The files that a document is read with: those that its values name, files that a script includes, and what is measured of a
+/// packing, beside it, which need not exist. @param directory as above
+std::vector<std::filesystem::path> files_named_in(const Entry& document,
+                                                  const std::filesystem::path& directory);
+
 /// Names of the regions of a case, in their order.
 std::vector<std::string> regions_of(const CaseIdentity& identity);
 

@@ -83,6 +83,12 @@ std::string text_of_script(const fs::path& file) {
   return put_together(file, files);
 }
 
+std::vector<fs::path> files_of_script(const fs::path& file) {
+  std::vector<fs::path> files;
+  put_together(file, files);
+  return files;
+}
+
 CellScript read_cell_script(const std::string& key, Section& section, Faults& faults,
                             const CaseFiles& files) {
   const std::string name = section.text(key, "the path of a LIGGGHTS input script for cells");

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "coupler/case/section.hpp"
 #include "grains_io/script.hpp"
@@ -25,6 +26,9 @@ struct CaseFiles {
 /// The text of a script with the included files in their place (paths from the including file), marked with the origin of each
 /// part (kScriptMark); unchanged without an include. An include that cannot be read is left as it stands.
 std::string text_of_script(const std::filesystem::path& file);
+
+/// A script and the files that it includes.
+std::vector<std::filesystem::path> files_of_script(const std::filesystem::path& file);
 
 /// A script of cells as a case or a specification names it.
 struct CellScript {

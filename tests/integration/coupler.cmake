@@ -13,7 +13,7 @@ add_dependencies(coupler_pool_test fake_worker)
 add_executable(fake_polargrain integration/fake_polargrain.cpp)
 target_link_libraries(fake_polargrain PRIVATE polargrain_app polargrain_fake_engine)
 
-polargrain_test(coupler_bad_input_test integration integration/coupler_bad_input_test.cpp LIBS polargrain_options)
+polargrain_test(coupler_bad_input_test integration integration/coupler_bad_input_test.cpp integration/kept_files_test.cpp LIBS polargrain_options)
 target_compile_definitions(coupler_bad_input_test PRIVATE FAKE_POLARGRAIN="$<TARGET_FILE:fake_polargrain>")
 add_dependencies(coupler_bad_input_test fake_polargrain)
 

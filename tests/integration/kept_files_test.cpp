@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// No command writes over a file that it reads: what a user types by mistake costs no work.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/integration/command.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+class KeptFiles : public ::testing::Test {
+ protected:
+  KeptFiles() : scratch_(::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    write(at("case.yaml"),
+          "title: a block\n"
+          "mesh: {rectangle: {size: [1 m, 1 m], elements: [1, 1]}}\n"
+          "materials:\n"
+          "  soil: {model: elastoplastic, E: 20 MPa, nu: 0.3, Gc: 10 MPa, lc: 5 mm, friction_angle: 30 deg,\n"
+          "         dilatancy_angle: 0 deg, cohesion: 10 kPa}\n"
+          "regions: {all: soil}\n"
+          "boundary:\n"
+          "  - {on: bottom, fix: [u1, u2]}\n"
+          "  - {on: top, pressure: 1 kPa}\n"
+          "steps: {count: 1}\n"
+          "output: {every: 1}\n");
+    write(at("path.csv"), "h22\n-1e-5\n");
+    write(at("cell.in"), "young 100e6\n");
+    write(at("packing.yaml"),
+          "grains: 60\nsizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\nthickness: 100 mm\n"
+          "script: cell.in\npressure: 100 kPa\nfriction: 0\nseed: 5\n");
+    write(at("grains.csv"), "# cell xx=1 xy=0 yx=0 yy=1 z=0.1\nid,x,y,r,mass,Izz\n1,0.5,0.5,0.4,1,0.08\n");
+  }
+  [[nodiscard]] std::filesystem::path at(const std::string& name) const { return scratch_.path() / name; }
+  [[nodiscard]] Outcome polargrain(const std::string& arguments) const {
+    return run_in(scratch_.path(), FAKE_POLARGRAIN " " + arguments);
+  }
+  /// Every file below the folder of the test with its content.
+  [[nodiscard]] std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch_.path()))
+      if (entry.is_regular_file()) contents[entry.path().string()] = content(entry.path());
+    return contents;
+  }
+  /// The command is refused with these words among others, and no file is touched.
+  void expect_refused(const std::string& arguments, const std::string& words) const {
+    const auto before = files();
+    const Outcome outcome = polargrain(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.errors;
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << arguments << "\n" << outcome.errors;
+    EXPECT_TRUE(files() == before) << arguments << " has changed a file";
+  }
+  Scratch scratch_;
+};
+
+TEST_F(KeptFiles, ATableIsNotWrittenOverTheCase) {
+  expect_refused("safety case.yaml -o case.yaml", "-o case.yaml: the command reads this file");
+  expect_refused("safety case.yaml -o .", "-o .: is a directory");
+  expect_refused("point case.yaml soil path.csv -o case.yaml", "-o case.yaml: the command reads this file");
+  expect_refused("point case.yaml soil path.csv -o ./path.csv", "-o ./path.csv: the command reads this file");
+  std::filesystem::create_symlink("case.yaml", at("link.csv"));
+  expect_refused("point case.yaml soil path.csv -o link.csv", "-o link.csv: the command reads case.yaml");
+  expect_refused("check case.yaml --picture case.yaml", "--picture case.yaml: the command reads this file");
+}
+
+TEST_F(KeptFiles, AnOlderTableIsWrittenAnew) {
+  write(at("out.csv"), "an older table\n");
+  const Outcome outcome = polargrain("point case.yaml soil path.csv -o out.csv");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(content(at("out.csv")).find("increment,s11"), std::string::npos);
+}
+
+TEST_F(KeptFiles, APackingIsNotWrittenOverWhatItIsMadeFrom) {
+  ASSERT_EQ(polargrain("pack packing.yaml -o packing.h5 --quiet").status, 0);
+  expect_refused(
+      "pack --export packing.yaml packing.h5",
+      "--export packing.yaml: this file is there and is no exported packing; name another file to write. "
+      "The packing comes first: polargrain pack packing.h5 --export FILE.data");
+  expect_refused("pack packing.h5 --export packing.h5", "the command reads this file");
+  expect_refused("pack --settle packing.h5 cell.in -o packing.h5 --set pressure=100e3",
+                 "-o packing.h5: the command reads this file");
+  for (int times = 0; times < 2; ++times)
+    EXPECT_EQ(polargrain("pack packing.h5 --export packing.data").status, 0) << "an older export is replaced";
+}
+
+TEST_F(KeptFiles, APageIsNotWrittenOverAResult) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  for (const std::string name : {"history.csv", "summary.json", "fields/page.html"})
+    expect_refused("report out -o out/" + name,
+                   "-o out/" + name + ": this is the place of a result of the run");
+  expect_refused("report out -o case.yaml", "the command reads ");
+  write(at("other.yaml"), "title: another case\n");
+  expect_refused("report out -o other.yaml", "of a kind that is written by hand");
+  for (int times = 0; times < 2; ++times)
+    EXPECT_EQ(polargrain("report out -o out/page.html").status, 0) << "an older page is replaced";
+  EXPECT_EQ(polargrain("report out").status, 0);
+}
+
+TEST_F(KeptFiles, TestsAreNotWrittenOverTheirPackings) {
+  expect_refused("element --test biaxial --pressure 100kPa grains.csv cell.in -o grains",
+                 "-o grains.csv: the command reads this file");
+}
+
+TEST_F(KeptFiles, ACalibrationIsNotWrittenOverItsScript) {
+  write(at("best.in"), "variable stiffness index 1e8\nyoung ${stiffness}\n");
+  write(at("lab.csv"), "axial_strain,s22_Pa\n0,-100e3\n0.01,-900e3\n");
+  write(
+      at("spec.yaml"),
+      "packing: grains.csv\nscript: best.in\nparameters:\n  stiffness: {bounds: [5e7, 5e8], start: 9e7}\ntests:\n"
+      "  one: {test: biaxial, pressure: 100 kPa, axial_strain: 1 %, rows: 5}\n"
+      "targets:\n  - {column: s22_Pa, error: 500}\n");
+  expect_refused("calibrate lab.csv spec.yaml -o .", "best.in: the command reads ");
+}
+
+TEST_F(KeptFiles, AReplayIsNotWrittenIntoAFolderOfTheUsersOwn) {
+  expect_refused("point case.yaml soil path.csv --replay .",
+                 "--replay .: the folder has files in it and no earlier replay; name a new one");
+}
+
+TEST_F(KeptFiles, ARunDoesNotEraseAFileOfItsCase) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  std::filesystem::create_directories(at("out/profiles"));
+  write(at("out/profiles/quake.csv"), "time,acceleration\n0,0\n1,0\n");
+  std::string text = content(at("case.yaml"));
+  text.replace(text.find("a block"), 7, "out/profiles/quake.csv");  // any value that names a file
+  write(at("case.yaml"), text);
+  expect_refused("run case.yaml -o out",
+                 "out/profiles/quake.csv lies in the result directory of this run, which would erase it");
+}
+
+}  // namespace
+}  // namespace polargrain::testing
