@@ -23,6 +23,38 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// Programs of tables begin a file with these bytes, which say that it is UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// "semicolons" or "tabs" where these part the names of columns. Nothing where commas do, or where there is one name.
+std::string_view other_separators(std::string_view names) {
+  std::string unquoted;
+  bool is_quoted = false;
+  for (const char letter : names) {
+    if (letter == '"') is_quoted = !is_quoted;
+    if (!is_quoted) unquoted += letter;
+  }
+  if (unquoted.find(',') != std::string::npos) return {};
+  if (unquoted.find(';') != std::string::npos) return "semicolons";
+  return unquoted.find('\t') != std::string::npos ? "tabs" : std::string_view();
+}
+
+/// Whether cells are whole numbers, or parts of numbers that a decimal comma has parted.
+bool are_figures(const std::vector<std::string>& cells) {
+  return std::ranges::all_of(cells, [](const std::string& cell) {
+    return !cell.empty() && cell.find_first_not_of("0123456789+-eE") == std::string::npos;
+  });
+}
+
+constexpr const char* kWritePoints = "decimals are written with a point, 0.5 and not 0,5";
+
+/// The remedy for a cell that is no number, in words that follow. A cell of no known kind has an empty one.
+std::string remedy_for(const std::string& cell) {
+  const bool has_comma =
+      std::ranges::count(cell, ',') == 1 && cell.find_first_of("0123456789") != std::string::npos;
+  return has_comma ? fmt::format("; {}", kWritePoints) : "";
+}
+
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults) : file_(file) {
@@ -31,10 +63,16 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults
   std::string line;
   std::vector<Fault> ragged;
   for (int number = 1; std::getline(stream, line); ++number) {
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (trimmed(line).empty()) continue;
     if (line.front() == '#') {
       comments_.push_back(line);
     } else if (names_.empty()) {
+      if (const std::string_view others = other_separators(trimmed(line)); !others.empty())
+        fail(number,
+             fmt::format("columns are parted by commas, and decimals have a point; this file has {}: export "
+                         "it with commas",
+                         others));
       names_ = cells_of(line, number);
       line_of_names_ = number;
     } else {
@@ -45,10 +83,12 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::vector<Fault>* faults
         ragged.push_back(
             {file_.string(), number,
              plain_text(fmt::format(
-                 "a value for each of {} ('{}', line {}) was expected, and {} here",
+                 "a value for each of {} ('{}', line {}) was expected, and {} here{}",
                  names_.size() == 1 ? std::string("one column") : fmt::format("{} columns", names_.size()),
                  fmt::join(names_, ","), line_of_names_,
-                 cells.size() == 1 ? std::string("one is") : fmt::format("{} are", cells.size())))});
+                 cells.size() == 1 ? std::string("one is") : fmt::format("{} are", cells.size()),
+                 cells.size() > names_.size() && are_figures(cells) ? fmt::format("; {}", kWritePoints)
+                                                                    : ""))});
       }
     }
   }
@@ -110,7 +150,8 @@ std::optional<double> CsvTable::value(std::size_t row, std::size_t column) const
 double CsvTable::number(std::size_t row, std::size_t column) const {
   const std::optional<double> found = value(row, column);
   if (!found || !std::isfinite(*found))
-    fail(line_of(row), fmt::format("'{}' in column '{}' is not a number", cell(row, column), names_[column]));
+    fail(line_of(row), fmt::format("'{}' in column '{}' is not a number{}", cell(row, column), names_[column],
+                                   remedy_for(cell(row, column))));
   return *found;
 }
 

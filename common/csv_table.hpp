@@ -10,7 +10,7 @@
 namespace polargrain {
 
 /// A CSV file: the names of the columns, then rows with a cell for each. Cells may be quoted as RFC 4180 says, but hold
-/// no line ends. Spaces around cells do not count, nor do empty lines and those that begin with '#'.
+/// no line ends. Spaces around cells do not count, nor do empty lines, those that begin with '#', and a byte order mark of UTF-8.
 class CsvTable {
  public:
   /// @param faults gets a fault for each row that has not a cell for each column, and the table is without it; null:

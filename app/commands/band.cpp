@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <charconv>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -47,6 +49,45 @@ double positive_length(const std::string& option, const std::string& text) {
   return *length;
 }
 
+/// The parts of a name that ends in a number, such as step-00012: the text before it, and the number. Other names give nothing.
+std::optional<std::pair<std::string, long>> numbered(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
+  const std::size_t place = name.find_last_not_of("0123456789") + 1;
+  long number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + place, end, number);
+  if (place == name.size() || error != std::errc{} || stop != end) return std::nullopt;
+  return std::pair{name.substr(0, place), number};
+}
+
+/// Two fields of one series of images: exchanged, they give every strain the wrong sign.
+/// @throws InputError where the first is the later one
+void check_order(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto first = numbered(from);
+  const auto last = numbered(to);
+  if (!first || !last || first->first != last->first || from.parent_path() != to.parent_path() ||
+      first->second <= last->second)
+    return;
+  throw InputError(
+      {from.string(), 0,
+       fmt::format("by its number this field is later than {0}, and all strains would change their sign; "
+                   "name the earlier one first: polargrain band {0} {1}",
+                   plain_text(to.string()), plain_text(from.string()))});
+}
+
+/// A body of this size is rare among those whose images are compared; in mm or pixels all are larger, m.
+constexpr double kLargeBody = 10.0;
+
+/// Lengths in mm or pixels, printed as m, look right.
+void tell_unit(const BandMeasurement& measured, const BandCommandOptions& options) {
+  if (measured.kind != FrameKind::images || options.has_unit || measured.extent <= kLargeBody) return;
+  tell(
+      stderr,
+      "warning: the places span {:.4g} m, as 1 in the fields counts as 1 m: give the length of 1 with --unit, such as "
+      "--unit 1mm\n",
+      measured.extent);
+}
+
 /// The increments between frames a window apart, and how each deforms.
 struct Increments {
   std::vector<double> strains;  ///< middle of each
@@ -62,11 +103,19 @@ void write_samples(const std::filesystem::path& file, const Samples& samples) {
   fem::write_file(file, text);
 }
 
+/// The larger side of the rectangle around all places, m.
+double extent_of(const Samples& samples) {
+  Eigen::AlignedBox2d box;
+  for (const Sample& sample : samples) box.extend(sample.position);
+  return samples.empty() ? 0.0 : box.sizes().maxCoeff();
+}
+
 /// The measures of an increment, without those of its frames.
 BandMeasurement measured_in(const Samples& samples, const BandCommandOptions& options) {
   if (!options.fields.empty()) write_samples(options.fields, samples);
   BandMeasurement measured;
   measured.places = samples.size();
+  measured.extent = extent_of(samples);
   measured.search = find_band(samples, {options.contrast});
   if (const std::optional<Band>& found = measured.search.band) {
     measured.rotation = means(samples, *found, &Sample::rotation);
@@ -136,7 +185,11 @@ std::pair<std::size_t, std::size_t> increment_of(const Frames& frames, const Ban
   const double last_strain = frames.axial_strains().back();
   const std::size_t to = frames.nearest(options.to >= 0.0 ? options.to : last_strain);
   const std::size_t from = frames.nearest(options.from >= 0.0 ? options.from : 2.0 / 3.0 * last_strain);
-  if (from >= to)
+  if (from > to)
+    throw InputError({"", 0,
+                      fmt::format("--from {} lies behind --to {}: the increment would end before it begins",
+                                  frames.axial_strains()[from], frames.axial_strains()[to])});
+  if (from == to)
     throw InputError({"", 0,
                       fmt::format("--from {} and --to {} are one frame; the frames go from {:.4g} to {:.4g}",
                                   options.from, options.to, frames.axial_strains().front(), last_strain)});
@@ -162,6 +215,7 @@ BandMeasurement measure_band(const BandCommandOptions& options) {
 
 BandMeasurement measure_band_of_fields(const BandCommandOptions& options) {
   const std::filesystem::path& last = options.places.back();
+  if (options.places.size() > 1) check_order(options.places.front(), last);
   std::optional<DisplacementField> first;
   if (options.places.size() > 1) first = read_displacement_field(options.places.front(), options.units);
   const FieldIncrement increment =
@@ -184,6 +238,18 @@ BandMeasurement measure_band_of_fields(const BandCommandOptions& options) {
   return measured;
 }
 
+namespace {
+
+/// The fields of image correlation of a result directory. One of a run has no such fields.
+std::vector<std::filesystem::path> displacement_files(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& [step, file] : polargrain::band::frame_files(directory / "displacements", ".csv"))
+    files.push_back(file);
+  return files;
+}
+
+}  // namespace
+
 int band(const BandCommandOptions& options) {
   const bool of_fields = std::ranges::none_of(options.places, [](const std::filesystem::path& place) {
     std::error_code error;  // links that lead round in circles are no directory either
@@ -194,12 +260,19 @@ int band(const BandCommandOptions& options) {
                       "one result directory was expected, or one or two CSV files of displacements"});
   // A name that ends otherwise is meant as a directory, which does not exist.
   const bool is_csv = of_fields && options.places.front().extension() == ".csv";
+  if (is_csv) {
+    check_output("--fields", options.fields, options.places);
+  } else {
+    check_beside_run("--fields", options.fields, options.places.front());
+    check_output("--fields", options.fields, displacement_files(options.places.front()));
+  }
   if (!is_csv) {
     const Frames frames(options.places.front(), options.strain_column, options.units, options.neighbourhood);
     if (frames.kind() == FrameKind::elements && polargrain::band::is_of_space(frames.file(0)))
       return band_in_space(frames, options);
   }
   const BandMeasurement measured = is_csv ? measure_band_of_fields(options) : measure_band(options);
+  tell_unit(measured, options);
   constexpr const char* kPlaces[] = {"integration points", "grains", "places of the images"};
   std::string where = options.places.front().string();
   if (measured.begin) {
@@ -269,7 +342,8 @@ Command add_band(CLI::App& program, const Grains&) {
   command.add_option("--fields", options->fields, "Write the samples of the increment as CSV")
       ->type_name("FILE");
   return {&command, [options, lengths] {
-            if (!lengths->first.empty()) options->units.length = positive_length("--unit", lengths->first);
+            options->has_unit = !lengths->first.empty();
+            if (options->has_unit) options->units.length = positive_length("--unit", lengths->first);
             if (!lengths->second.empty())
               options->neighbourhood = positive_length("--neighbourhood", lengths->second);
             return band(*options);

@@ -22,6 +22,7 @@ struct BandCommandOptions {
   double contrast = 2.0;                       ///< least peak over background of a band
   bool current = false;                        ///< positions at the start of the increment, not of the test
   polargrain::band::FieldUnits units = {};     ///< of fields of image correlation
+  bool has_unit = false;                       ///< the user has given the length of 1 in these fields
   double neighbourhood = 0.0;         ///< radius that strains are taken from, m; 0: 2.5 mean distances
   std::filesystem::path fields = {};  ///< CSV of the samples of the increment; empty: not written
 };
@@ -32,6 +33,7 @@ struct BandMeasurement {
   std::optional<double> end;    ///< and ends with
   std::size_t places = 0;
   std::size_t missing = 0;  ///< places of images without a displacement
+  double extent = 0.0;      ///< larger side of the rectangle around the places, m
   polargrain::band::FrameKind kind = polargrain::band::FrameKind::elements;
   polargrain::band::BandSearch search = {};
   std::optional<double>

@@ -225,6 +225,30 @@ TEST(BandCommand, NamesWhatIsWrongWithFieldsOfImages) {
       << apart.errors;
 }
 
+TEST(BandCommand, RefusesFieldsThatAreExchanged) {
+  const Scratch scratch("band_exchanged");
+  write(scratch.path() / "step-9.csv", correlation(0.001, false));
+  write(scratch.path() / "step-10.csv", correlation(0.005, false));
+  const std::string band = std::string(POLARGRAIN) + " band ";
+  const Outcome exchanged = run_in(scratch.path(), band + "step-10.csv step-9.csv");
+  EXPECT_EQ(exchanged.status, 2);
+  EXPECT_NE(exchanged.errors.find("step-10.csv: by its number this field is later than step-9.csv"),
+            std::string::npos)
+      << exchanged.errors;
+  EXPECT_EQ(run_in(scratch.path(), band + "step-9.csv step-10.csv").status, 0);
+  const Outcome over = run_in(scratch.path(), band + "step-9.csv --fields step-9.csv");
+  EXPECT_EQ(over.status, 2);
+  EXPECT_EQ(content(scratch.path() / "step-9.csv"), correlation(0.001, false));
+}
+
+TEST(BandCommand, TellsOfFieldsWithoutAUnit) {
+  const Scratch scratch("band_unit");
+  write(scratch.path() / "pixels.csv", correlation(0.004, true));
+  const std::string band = std::string(POLARGRAIN) + " band pixels.csv --y-down ";
+  EXPECT_NE(run_in(scratch.path(), band).errors.find("give the length of 1 with --unit"), std::string::npos);
+  EXPECT_EQ(run_in(scratch.path(), band + "--unit 0.1mm").errors, "");
+}
+
 TEST(BandCommand, ReadsTheFieldsOfARun) {
   const Scratch scratch("band_fields");
   write(scratch.path() / "case.yaml", R"(title: elastic
@@ -270,6 +294,8 @@ TEST(BandCommand, NamesWhatIsWrong) {
   write_grains(scratch.path() / "run");
   EXPECT_NE(errors("run --strain nothing").find("there is no column 'nothing'"), std::string::npos);
   EXPECT_NE(errors("run --from 0.05 --to 0.05").find("one frame"), std::string::npos);
+  EXPECT_NE(errors("run --from 0.05 --to 0.02").find("--from 0.05 lies behind --to 0.02"), std::string::npos);
+  EXPECT_NE(errors("run --fields run/history.csv").find("the place of a result"), std::string::npos);
   write(scratch.path() / "run/grains/step-0000600.dump", "ITEM: ATOMS id x y f_turned\n1 2 x 4\n");
   EXPECT_NE(errors("run").find("step-0000600.dump:2: 'x' is no number"), std::string::npos) << errors("run");
   write(scratch.path() / "run/history.csv", "step,axial_strain\n100,0.01\n");

@@ -59,8 +59,10 @@ TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(fault("a,b\n1,2\n"), "none");
   EXPECT_EQ(fault("a,b\n1,2\n3\n"),
             "3: a value for each of 2 columns ('a,b', line 1) was expected, and one is here");
-  EXPECT_EQ(fault("a,b\n1,2,3\n"),
-            "2: a value for each of 2 columns ('a,b', line 1) was expected, and 3 are here");
+  EXPECT_EQ(
+      fault("a,b\n1,2,3\n"),
+      "2: a value for each of 2 columns ('a,b', line 1) was expected, and 3 are here; decimals are written "
+      "with a point, 0.5 and not 0,5");
   EXPECT_EQ(fault("a,b\n1,two\n"), "2: 'two' in column 'b' is not a number");
   EXPECT_EQ(fault("a,b\n1,\n"), "2: '' in column 'b' is not a number");
   EXPECT_EQ(fault("a,b\n1,nan\n"), "2: 'nan' in column 'b' is not a number");
@@ -70,6 +72,26 @@ TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(fault("a,b\n1,\"2\"3\n"), "2: a comma was expected behind a quoted value");
   EXPECT_EQ(fault("# nothing\n"), "0: is empty; a line with the names of the columns was expected");
   EXPECT_THROW(CsvTable("/nowhere/table.csv"), InputError);
+}
+
+TEST_F(CsvTableTest, SkipsTheByteOrderMark) {
+  const CsvTable read = table(
+      "\xEF\xBB\xBF"
+      "a,b\n1,2\n");
+  EXPECT_EQ(read.names(), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(table("\xEF\xBB\xBF# of what\na,b\n1,2\n").comments(), (std::vector<std::string>{"# of what"}));
+}
+
+TEST_F(CsvTableTest, NamesTheRemedyForOtherSeparators) {
+  EXPECT_EQ(
+      fault("# of what\na;b\n0,5;1,5\n"),
+      "2: columns are parted by commas, and decimals have a point; this file has semicolons: export it with "
+      "commas");
+  EXPECT_EQ(fault("\"a\";\"b\"\n1;2\n").substr(0, 11), "1: columns ");
+  EXPECT_NE(fault("a\tb\n1\t2\n").find("this file has tabs"), std::string::npos);
+  EXPECT_EQ(fault("a,b,\"c; d\"\n1,2,3\n"), "none");
+  EXPECT_EQ(fault("a,b\n1,\"0,5\"\n"),
+            "2: '0,5' in column 'b' is not a number; decimals are written with a point, 0.5 and not 0,5");
 }
 
 }  // namespace
